@@ -1,0 +1,88 @@
+//! Arrays with one entry per corner of a cell.
+
+use std::fmt::Debug;
+use std::hash::Hash;
+use std::ops::{Index, IndexMut};
+
+/// An array of `D + 1` numbers: the corners of a cell, or what lies opposite each of them.
+pub trait Corners:
+    Copy
+    + Debug
+    + Eq
+    + Hash
+    + Ord
+    + Index<usize, Output = u32>
+    + IndexMut<usize>
+    + AsRef<[u32]>
+    + AsMut<[u32]>
+    + Send
+    + Sync
+    + 'static
+{
+    /// `D + 1`.
+    const N: usize;
+    /// What makes a cell start where it does not straddle cache lines.
+    type Alignment: Copy + Debug + Send + Sync;
+    /// The array with `x` everywhere.
+    fn filled(x: u32) -> Self;
+
+    /// The array with `x` at index `i`.
+    #[inline(always)]
+    fn with(mut self, i: usize, x: u32) -> Self {
+        self[i] = x;
+        self
+    }
+
+    /// The corners of the reflected cell: of the opposite orientation, entry `keep` where it was.
+    fn reflected(self, keep: usize) -> Self;
+
+    /// The corners in an order of the same orientation that has entry `i` last.
+    fn rotated_to_last(self, i: usize) -> Self;
+}
+
+/// Alignment of a 3D cell: its own 32 bytes.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub struct Align32;
+
+impl Corners for [u32; 3] {
+    const N: usize = 3;
+    type Alignment = u32;
+
+    #[inline(always)]
+    fn filled(x: u32) -> Self {
+        [x; 3]
+    }
+
+    fn reflected(mut self, keep: usize) -> Self {
+        self.swap((keep + 1) % 3, (keep + 2) % 3);
+        self
+    }
+
+    fn rotated_to_last(self, i: usize) -> Self {
+        [self[(i + 1) % 3], self[(i + 2) % 3], self[i]]
+    }
+}
+
+impl Corners for [u32; 4] {
+    const N: usize = 4;
+    type Alignment = Align32;
+
+    #[inline(always)]
+    fn filled(x: u32) -> Self {
+        [x; 4]
+    }
+
+    fn reflected(mut self, keep: usize) -> Self {
+        self.swap((keep + 1) % 4, (keep + 2) % 4);
+        self
+    }
+
+    fn rotated_to_last(mut self, i: usize) -> Self {
+        if i != 3 {
+            self.swap(i, 3);
+            self.swap((i + 1) % 3, (i + 2) % 3);
+        }
+        self
+    }
+}

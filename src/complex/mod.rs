@@ -1,0 +1,293 @@
+//! Combinatorics alone: cells, their neighbours, the ghost vertex. Knows no coordinates.
+//!
+//! A complex is a closed pseudo-manifold: the *ghost* (infinite) vertex [`INFINITE`] completes the convex hull,
+//! so that every facet has exactly two cells. A *ghost cell* has the ghost vertex as its last corner.
+//!
+//! Invariants, for every live cell `c` and index `i`:
+//! - neighbours are mutual: if `neighbour(c, i)` is facet `j` of `d`, then `neighbour(d, j)` is facet `i` of `c`;
+//! - the two cells have the same corners but for the ones opposite the facet;
+//! - only the last corner may be [`INFINITE`].
+//!
+//! A neighbour is stored with the index of the shared facet seen from the other side, in the two low bits:
+//! crossing a facet costs no search. That bounds the number of cells by [`MAX_CELLS`].
+
+mod corners;
+mod flips;
+
+use std::fmt;
+
+pub use corners::Corners;
+
+use crate::error::{Error, Result};
+
+/// The ghost vertex: index 0 of the sites.
+pub const INFINITE: u32 = 0;
+/// No cell, no site.
+pub const NONE: u32 = u32::MAX;
+/// Greatest number of cells: a little below 2^30, so that codes are left to name cells in the making.
+pub const MAX_CELLS: usize = (1 << 30) - 4096;
+
+/// A facet as seen from one of its two cells: the cell, and the index of the corner opposite the facet.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Facet(u32);
+
+impl Facet {
+    /// The facet of `cell` opposite corner `i`.
+    #[inline(always)]
+    pub fn new(cell: u32, i: usize) -> Self {
+        Facet(cell << 2 | i as u32)
+    }
+
+    /// The facet of which [`code`](Self::code) is the number.
+    #[inline(always)]
+    pub fn from_code(code: u32) -> Self {
+        Facet(code)
+    }
+
+    /// One number for cell and index.
+    #[inline(always)]
+    pub fn code(self) -> u32 {
+        self.0
+    }
+
+    /// The cell.
+    #[inline(always)]
+    pub fn cell(self) -> u32 {
+        self.0 >> 2
+    }
+
+    /// The index of the opposite corner.
+    #[inline(always)]
+    pub fn index(self) -> usize {
+        (self.0 & 3) as usize
+    }
+}
+
+impl fmt::Debug for Facet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.cell(), self.index())
+    }
+}
+
+/// A cell: its corners and, opposite each, the facet by which it touches its neighbour.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Cell<C: Corners> {
+    alignment: [C::Alignment; 0],
+    /// Sites at the corners.
+    pub corners: C,
+    /// Codes of the neighbours' facets.
+    neighbours: C,
+}
+
+impl<C: Corners> Cell<C> {
+    /// Whether the last corner is the ghost vertex.
+    #[inline(always)]
+    pub fn is_ghost(&self) -> bool {
+        self.corners[C::N - 1] == INFINITE
+    }
+
+    /// The facet opposite corner `i`, seen from the neighbour.
+    #[inline(always)]
+    pub fn neighbour(&self, i: usize) -> Facet {
+        Facet(self.neighbours[i])
+    }
+
+    /// Index of a corner that the cell is known to have.
+    #[inline(always)]
+    pub fn index_of(&self, site: u32) -> usize {
+        let mut at = 0;
+        for i in 1..C::N {
+            if self.corners[i] == site {
+                at = i;
+            }
+        }
+        debug_assert_eq!(self.corners[at], site);
+        at
+    }
+}
+
+/// A set of cells, glued along facets.
+#[derive(Debug)]
+pub struct Complex<C: Corners> {
+    cells: Vec<Cell<C>>,
+    /// One byte per cell for the traversals of the layers above; 0 between them.
+    marks: Vec<u8>,
+    free: Vec<u32>,
+    n_ghosts: usize,
+}
+
+impl<C: Corners> Default for Complex<C> {
+    fn default() -> Self {
+        Complex { cells: Vec::new(), marks: Vec::new(), free: Vec::new(), n_ghosts: 0 }
+    }
+}
+
+impl<C: Corners> Complex<C> {
+    /// Removes all cells; keeps the memory.
+    pub fn clear(&mut self) {
+        self.cells.clear();
+        self.marks.clear();
+        self.free.clear();
+        self.n_ghosts = 0;
+    }
+
+    /// Number of cells, ghost cells not counted.
+    pub fn n_finite(&self) -> usize {
+        self.cells.len() - self.free.len() - self.n_ghosts
+    }
+
+    /// Number of ghost cells: facets of the convex hull.
+    pub fn n_ghosts(&self) -> usize {
+        self.n_ghosts
+    }
+
+    /// One above the highest index of a cell.
+    pub fn n_slots(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// The cell of an index below [`n_slots`](Self::n_slots).
+    #[inline(always)]
+    pub fn cell(&self, cell: u32) -> &Cell<C> {
+        &self.cells[cell as usize]
+    }
+
+    /// Whether the index has no cell at present.
+    #[inline(always)]
+    pub fn is_free(&self, cell: u32) -> bool {
+        self.cells[cell as usize].corners[0] == NONE
+    }
+
+    /// Indices of all cells, ghost cells included.
+    pub fn live(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.cells.len() as u32).filter(|&c| !self.is_free(c))
+    }
+
+    /// Indices of the cells that are not ghosts.
+    pub fn finite(&self) -> impl Iterator<Item = u32> + '_ {
+        self.live().filter(|&c| !self.cell(c).is_ghost())
+    }
+
+    /// Mark of a cell.
+    #[inline(always)]
+    pub fn mark(&self, cell: u32) -> u8 {
+        self.marks[cell as usize]
+    }
+
+    /// Marks a cell.
+    #[inline(always)]
+    pub fn set_mark(&mut self, cell: u32, mark: u8) {
+        self.marks[cell as usize] = mark;
+    }
+
+    /// Makes sure that `n` more cells can be created without a failure.
+    #[inline(always)]
+    pub fn reserve(&mut self, n: usize) -> Result<()> {
+        if self.cells.capacity() - self.cells.len() + self.free.len() >= n {
+            return Ok(());
+        }
+        self.grow(n)
+    }
+
+    /// Room for `n` more cells at least, and for an eighth more than now, so that growing stays linear
+    /// without doubling a large array.
+    #[cold]
+    fn grow(&mut self, n: usize) -> Result<()> {
+        if self.cells.len() + n > MAX_CELLS {
+            return Err(Error::TooManyCells { limit: MAX_CELLS });
+        }
+        let more = n.max(self.cells.len() / 8).min(MAX_CELLS - self.cells.len());
+        let bytes = more * (size_of::<Cell<C>>() + 1);
+        self.cells.try_reserve_exact(more).map_err(|_| Error::OutOfMemory { bytes })?;
+        let spare = self.cells.capacity() - self.marks.len();
+        self.marks.try_reserve_exact(spare).map_err(|_| Error::OutOfMemory { bytes })
+    }
+
+    /// Creates a cell that has no neighbours yet.
+    #[inline(always)]
+    pub fn create(&mut self, corners: C) -> u32 {
+        match self.free.pop() {
+            Some(cell) => {
+                self.put(cell, corners);
+                cell
+            }
+            None => self.push(corners),
+        }
+    }
+
+    /// Creates a cell behind all others.
+    #[inline(always)]
+    fn push(&mut self, corners: C) -> u32 {
+        let cell = self.cells.len() as u32;
+        self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
+        self.cells.push(Cell { alignment: [], corners, neighbours: C::filled(NONE) });
+        self.marks.push(0);
+        cell
+    }
+
+    /// Puts new corners where a cell is free or to be replaced; its mark is cleared, its neighbours are not.
+    /// The caller has [retired](Self::retire) the old one.
+    #[inline(always)]
+    pub fn put(&mut self, cell: u32, corners: C) {
+        self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
+        self.cells[cell as usize].corners = corners;
+        self.marks[cell as usize] = 0;
+    }
+
+    /// Takes a cell out of the count of ghosts before [`put`](Self::put) or [`release`](Self::release).
+    #[inline(always)]
+    pub fn retire(&mut self, cell: u32) {
+        self.n_ghosts -= self.cells[cell as usize].is_ghost() as usize;
+    }
+
+    /// Frees the index of a retired cell.
+    #[inline(always)]
+    pub fn release(&mut self, cell: u32) {
+        self.cells[cell as usize].corners = C::filled(NONE);
+        self.marks[cell as usize] = 0;
+        self.free.push(cell);
+    }
+
+    /// Sets one side of a glueing; the caller sets the other.
+    #[inline(always)]
+    pub fn set_neighbour(&mut self, a: Facet, b: Facet) {
+        self.cells[a.cell() as usize].neighbours[a.index()] = b.0;
+    }
+
+    /// Glues two facets.
+    #[inline(always)]
+    pub fn glue(&mut self, a: Facet, b: Facet) {
+        self.cells[a.cell() as usize].neighbours[a.index()] = b.0;
+        self.cells[b.cell() as usize].neighbours[b.index()] = a.0;
+    }
+
+    /// Creates a single cell and the ghost cells around it.
+    pub fn start(&mut self, corners: C) -> Result<()> {
+        self.reserve(C::N + 1)?;
+        let last = C::N - 1;
+        let mut cells = vec![self.create(corners)];
+        for i in 0..C::N {
+            let mut ghost = corners.with(i, INFINITE);
+            if i == last {
+                ghost.as_mut().swap(0, 1);
+            } else {
+                ghost.as_mut().swap(i, last);
+            }
+            cells.push(self.create(ghost));
+        }
+        for (k, &a) in cells.iter().enumerate() {
+            for &b in &cells[..k] {
+                let differs = |x: u32, y: u32| (0..C::N).find(|&i| !self.cell(y).corners.as_ref().contains(&self.cell(x).corners[i]));
+                let (i, j) = (differs(a, b).expect("distinct cells"), differs(b, a).expect("distinct cells"));
+                self.glue(Facet::new(a, i), Facet::new(b, j));
+            }
+        }
+        Ok(())
+    }
+
+    /// Bytes held.
+    pub fn memory_bytes(&self) -> usize {
+        self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4
+    }
+}

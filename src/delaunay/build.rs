@@ -1,0 +1,124 @@
+//! All sites at once: the static triangulation.
+//!
+//! Sites along a Hilbert curve are inserted in rounds (see [`order`](super::order)), each by a walk from the site
+//! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean length of
+//! the walks tells when to sort again.
+
+use super::order::{hilbert_order, in_rounds};
+use super::{Delaunay, Dimension, Insertion, Site};
+use crate::complex::{Corners, INFINITE, NONE};
+use crate::error::{Error, Result};
+
+/// A vertex that is hidden by one of a lower id at the same place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Merge {
+    /// Its id.
+    pub hidden: u32,
+    /// The site at which it is.
+    pub site: u32,
+}
+
+/// Insertions between two calls of a monitor.
+const MONITORED: usize = 1024;
+
+impl<G: Dimension> Delaunay<G> {
+    /// Puts the live sites along a Hilbert curve, from index 1 on without gaps. All indices change and the cells
+    /// go: [`rebuild`](Self::rebuild) must follow.
+    pub fn sort_sites(&mut self) {
+        let live: Vec<Site<G>> = self.sites[1..].iter().filter(|s| s.is_live()).copied().collect();
+        let points: Vec<G::Point> = live.iter().map(|s| s.point).collect();
+        self.sites.truncate(1);
+        self.sites.extend(hilbert_order::<G>(&points).into_iter().map(|i| live[i as usize]));
+        self.free_sites.clear();
+        self.complex.clear();
+    }
+
+    /// Triangulates the live sites anew. Coincident sites are dropped in favour of the lowest id and reported.
+    /// `monitor` is called with the fraction done; if it returns `false`, the cells are left half made.
+    pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
+        self.tighten_filter();
+        self.flat.clear();
+        for s in in_rounds::<G>(self.live_sites()) {
+            if self.extend_basis(s) {
+                break;
+            }
+        }
+        if self.flat.basis.len() == G::D + 1 {
+            return self.triangulate(monitor);
+        }
+        self.complex.clear();
+        let mut merges = Vec::new();
+        for s in 1..self.sites.len() as u32 {
+            self.sites[s as usize].cell = NONE;
+            if !self.site(s).is_live() {
+                continue;
+            }
+            let q = self.site(s).point;
+            if let Some(t) = self.flat.enter(s, &q) {
+                // Without cells an id decides nothing but the name of the site.
+                let low = self.site(s).id.min(self.site(t).id);
+                merges.push(Merge { hidden: self.site(s).id.max(self.site(t).id), site: t });
+                self.sites[t as usize].id = low;
+                self.drop_site(s);
+            }
+        }
+        self.find_flat_basis(NONE);
+        Ok(merges)
+    }
+
+    /// Builds the cells of all live sites, from a basis of `D + 1` on.
+    pub(super) fn triangulate(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
+        if !monitor(0.0) {
+            return Err(Error::Cancelled);
+        }
+        let order = in_rounds::<G>(self.live_sites());
+        self.complex.clear();
+        // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
+        self.complex.reserve(order.len() * if G::D == 2 { 2 } else { 7 } + 64)?;
+        for site in &mut self.sites {
+            site.cell = NONE;
+        }
+        self.start()?;
+        let mut merges = Vec::new();
+        self.cavity.steps = 0;
+        for (done, &s) in order.iter().enumerate() {
+            if done % MONITORED == MONITORED - 1 && !monitor(done as f64 / order.len() as f64) {
+                return Err(Error::Cancelled);
+            }
+            if self.site(s).cell != NONE {
+                continue;
+            }
+            if let Insertion::Coincident(t) = self.insert_into_cells(s, self.recent)? {
+                let (id, at) = (self.site(s).id, self.site(t).id);
+                self.drop_site(s);
+                merges.push(Merge { hidden: id.max(at), site: t });
+                if id < at {
+                    self.rename_site(t, id)?;
+                }
+            }
+        }
+        Ok(merges)
+    }
+
+    /// The first cell, of the basis, and the ghost cells around it.
+    fn start(&mut self) -> Result<()> {
+        let mut corners = G::Corners::filled(0);
+        corners.as_mut().copy_from_slice(&self.flat.basis);
+        if G::orientation(&self.filter, &self.sites, &corners) < 0.0 {
+            corners.as_mut().swap(0, 1);
+        }
+        self.flat.clear();
+        self.complex.start(corners)?;
+        self.recent = 0;
+        for i in 0..G::Corners::N {
+            self.sites[corners[i] as usize].cell = 0;
+        }
+        self.sites[INFINITE as usize].cell = 1;
+        Ok(())
+    }
+
+    /// Mean number of cells crossed by the walk of an insertion, in the latest build.
+    pub fn mean_walk(&self) -> f64 {
+        self.cavity.steps as f64 / self.sites.len() as f64
+    }
+}

@@ -1,0 +1,194 @@
+//! The two dimensions in which deldrift works, as types.
+//!
+//! Everything above the predicates is written once, over [`Dimension`]: a point is an array of `D`
+//! coordinates, a cell an array of `D + 1` corners, and the two signs that decide everything are the
+//! orientation of `D + 1` points and the position of a point against the sphere through them.
+
+use std::cmp::Ordering;
+use std::fmt::Debug;
+use std::ops::{Index, IndexMut};
+
+use crate::complex::{Corners, INFINITE};
+use crate::delaunay::{Delaunay, Site};
+use crate::predicates::{self, StaticFilter};
+
+/// Coordinates of one point: `[f64; D]`.
+pub trait Coordinates:
+    Copy + Debug + Default + PartialEq + Index<usize, Output = f64> + IndexMut<usize> + AsRef<[f64]> + Send + Sync
+{
+}
+impl Coordinates for [f64; 2] {}
+impl Coordinates for [f64; 3] {}
+
+/// A dimension: its arrays and its predicates.
+///
+/// The predicates take sites (a place and the vertex id that breaks ties, see
+/// [`crate::predicates`]) by index. `INFINITE` must not be among the indices whose place is read.
+pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
+    /// Number of coordinates.
+    const D: usize;
+    /// `[f64; D]`.
+    type Point: Coordinates;
+    /// `[u32; D + 1]`: the corners of a cell, or its neighbours.
+    type Corners: Corners;
+    /// Error bounds for points inside the box.
+    fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
+    /// Sign of the orientation of the cell: positive in a valid finite cell.
+    fn orientation(f: &StaticFilter, sites: &[Site<Self>], v: &Self::Corners) -> f64;
+    /// Sign of the orientation of the cell after corner `i` has gone to `q`.
+    fn orientation_with(f: &StaticFilter, sites: &[Site<Self>], v: &Self::Corners, i: usize, q: &Self::Point)
+    -> f64;
+    /// Whether `q`, whose ties are broken as those of vertex `id`, is inside the sphere of a positively
+    /// oriented finite cell, symbolically perturbed.
+    fn is_in_sphere(f: &StaticFilter, sites: &[Site<Self>], v: &Self::Corners, q: &Self::Point, id: u32) -> bool;
+    /// Whether the points lie in one affine subspace of dimension `points.len() - 2`: two equal points,
+    /// three on a line, four in a plane.
+    fn is_dependent(f: &StaticFilter, points: &[Self::Point]) -> bool;
+    /// Whether the ray from `o` through `aim` crosses the facet opposite the last corner of `v`, of which `o` is on
+    /// the inner side; `None` if it meets its boundary.
+    fn is_crossed(
+        f: &StaticFilter,
+        sites: &[Site<Self>],
+        v: &Self::Corners,
+        o: &Self::Point,
+        aim: &Self::Point,
+    ) -> Option<bool>;
+    /// Compares the distances from `q` to `a` and to `b`, exactly.
+    fn compare_distance(q: &Self::Point, a: &Self::Point, b: &Self::Point) -> Ordering;
+    /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
+    /// change, in a dimension where flips can be stuck.
+    fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64>;
+}
+
+/// Two dimensions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Plane;
+
+/// Three dimensions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Space;
+
+impl Dimension for Plane {
+    const D: usize = 2;
+    type Point = [f64; 2];
+    type Corners = [u32; 3];
+
+    fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
+        StaticFilter::plane(*lower, *upper)
+    }
+
+    #[inline(always)]
+    fn orientation(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3]) -> f64 {
+        let [a, b, c] = v.map(|s| &sites[s as usize].point);
+        predicates::orient2d(f, a, b, c)
+    }
+
+    #[inline(always)]
+    fn orientation_with(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3], i: usize, q: &[f64; 2]) -> f64 {
+        // The last corner may be INFINITE, whose record at index 0 is a placeholder: it is replaced.
+        let mut p = v.map(|s| &sites[s as usize].point);
+        p[i] = q;
+        predicates::orient2d(f, p[0], p[1], p[2])
+    }
+
+    #[inline(always)]
+    fn is_in_sphere(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3], q: &[f64; 2], id: u32) -> bool {
+        debug_assert!(v[2] != INFINITE);
+        let [a, b, c] = v.map(|s| &sites[s as usize].point);
+        let sign = predicates::incircle(f, a, b, c, q);
+        if sign != 0.0 {
+            return sign > 0.0;
+        }
+        let [i, j, k] = v.map(|s| sites[s as usize].id);
+        predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id])
+    }
+
+    fn is_dependent(f: &StaticFilter, points: &[[f64; 2]]) -> bool {
+        match points {
+            [] | [_] => false,
+            [a, b] => a == b,
+            [a, b, c] => predicates::orient2d(f, a, b, c) == 0.0,
+            _ => true,
+        }
+    }
+
+    fn compare_distance(q: &[f64; 2], a: &[f64; 2], b: &[f64; 2]) -> Ordering {
+        predicates::compare_distance(q, a, b)
+    }
+
+    fn is_crossed(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3], o: &[f64; 2], aim: &[f64; 2]) -> Option<bool> {
+        let (a, b) = (&sites[v[0] as usize].point, &sites[v[1] as usize].point);
+        all_positive([predicates::orient2d(f, o, aim, a), predicates::orient2d(f, o, b, aim)])
+    }
+
+    fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64> {
+        Some(t.lawson())
+    }
+}
+
+impl Dimension for Space {
+    const D: usize = 3;
+    type Point = [f64; 3];
+    type Corners = [u32; 4];
+
+    fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
+        StaticFilter::space(*lower, *upper)
+    }
+
+    #[inline(always)]
+    fn orientation(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4]) -> f64 {
+        let [a, b, c, d] = v.map(|s| &sites[s as usize].point);
+        predicates::orient3d(f, a, b, c, d)
+    }
+
+    #[inline(always)]
+    fn orientation_with(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4], i: usize, q: &[f64; 3]) -> f64 {
+        let mut p = v.map(|s| &sites[s as usize].point);
+        p[i] = q;
+        predicates::orient3d(f, p[0], p[1], p[2], p[3])
+    }
+
+    #[inline(always)]
+    fn is_in_sphere(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4], q: &[f64; 3], id: u32) -> bool {
+        debug_assert!(v[3] != INFINITE);
+        let [a, b, c, d] = v.map(|s| &sites[s as usize].point);
+        let sign = predicates::insphere(f, a, b, c, d, q);
+        if sign != 0.0 {
+            return sign > 0.0;
+        }
+        let [i, j, k, l] = v.map(|s| sites[s as usize].id);
+        predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id])
+    }
+
+    fn is_dependent(f: &StaticFilter, points: &[[f64; 3]]) -> bool {
+        match points {
+            [] | [_] => false,
+            [a, b] => a == b,
+            [a, b, c] => predicates::is_collinear3(a, b, c),
+            [a, b, c, d] => predicates::orient3d(f, a, b, c, d) == 0.0,
+            _ => true,
+        }
+    }
+
+    fn compare_distance(q: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> Ordering {
+        predicates::compare_distance(q, a, b)
+    }
+
+    fn is_crossed(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4], o: &[f64; 3], aim: &[f64; 3]) -> Option<bool> {
+        let [a, b, c] = [0, 1, 2].map(|i| &sites[v[i] as usize].point);
+        let side = |x, y| predicates::orient3d(f, o, aim, x, y);
+        all_positive([side(a, b), side(b, c), side(c, a)])
+    }
+
+    fn flip_to_delaunay(_: &mut Delaunay<Self>) -> Option<u64> {
+        None
+    }
+}
+
+/// Whether all signs are positive; `None` if that hangs on a zero.
+fn all_positive<const K: usize>(signs: [f64; K]) -> Option<bool> {
+    if signs.iter().any(|&s| s < 0.0) {
+        return Some(false);
+    }
+    signs.iter().all(|&s| s > 0.0).then_some(true)
+}

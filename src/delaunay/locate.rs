@@ -1,0 +1,110 @@
+//! Point location: the visibility walk.
+//!
+//! From a cell the walk crosses the first facet that has the point strictly beyond it. In a Delaunay
+//! triangulation, ties broken by a perturbation included, such a walk cannot cycle (Edelsbrunner,
+//! 10.1007/BF02122779), so it needs no randomness. It ends in a cell whose closure holds the point, or in a
+//! ghost cell whose facet has the point strictly beyond it.
+
+use super::{Delaunay, Dimension};
+use crate::complex::{Corners, NONE};
+use crate::predicates::StaticFilter;
+
+/// Where a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// At this site.
+    Site(u32),
+    /// At no site, in the closure of this finite cell.
+    Cell(u32),
+    /// Strictly beyond the hull facet of this ghost cell.
+    Outside(u32),
+    /// At no site, and there are no cells.
+    NoCells,
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Cell where a walk to `q` from the cell `start` ends. `f` must hold for `q`. Counts its steps.
+    #[inline(always)]
+    pub(super) fn walk(&self, f: &StaticFilter, q: &G::Point, start: u32, steps: &mut u64) -> u32 {
+        let n = G::Corners::N;
+        let mut cell = start;
+        if self.complex.cell(cell).is_ghost() {
+            cell = self.complex.cell(cell).neighbour(Self::LAST).cell();
+        }
+        let mut entered = n;
+        'cells: loop {
+            let c = self.complex.cell(cell);
+            for i in 0..n {
+                if i != entered && G::orientation_with(f, &self.sites, &c.corners, i, q) < 0.0 {
+                    *steps += 1;
+                    let next = c.neighbour(i);
+                    cell = next.cell();
+                    if self.complex.cell(cell).is_ghost() {
+                        return cell;
+                    }
+                    entered = next.index();
+                    continue 'cells;
+                }
+            }
+            return cell;
+        }
+    }
+
+    /// The site of a finite cell that is at `q`.
+    #[inline(always)]
+    pub(super) fn corner_at(&self, cell: u32, q: &G::Point) -> Option<u32> {
+        let c = self.complex.cell(cell);
+        if c.is_ghost() {
+            return None;
+        }
+        (0..G::Corners::N).map(|i| c.corners[i]).find(|&s| self.site(s).point == *q)
+    }
+
+    /// Where a point lies; `near` is a cell to walk from, [`NONE`] for any.
+    pub fn locate(&self, q: &G::Point, near: u32) -> Place {
+        if !self.has_cells() {
+            return self.flat.site_at(q).map_or(Place::NoCells, Place::Site);
+        }
+        let filter = self.filter_for(q);
+        let start = if near == NONE { self.recent } else { near };
+        let cell = self.walk(&filter, q, start, &mut 0);
+        match self.corner_at(cell, q) {
+            Some(s) => Place::Site(s),
+            None if self.complex.cell(cell).is_ghost() => Place::Outside(cell),
+            None => Place::Cell(cell),
+        }
+    }
+
+    /// The static filter, widened where a point lies outside the box that it was made for.
+    fn filter_for(&self, q: &G::Point) -> StaticFilter {
+        if (0..G::D).all(|k| self.lower[k] <= q[k] && q[k] <= self.upper[k]) {
+            return self.filter;
+        }
+        let (mut lower, mut upper) = (self.lower, self.upper);
+        for k in 0..G::D {
+            lower[k] = lower[k].min(q[k]);
+            upper[k] = upper[k].max(q[k]);
+        }
+        G::filter(&lower, &upper)
+    }
+
+    /// Calls `visit` for each cell around a site, ghost cells included, with the index of the site in it.
+    pub fn for_star(&self, s: u32, mut visit: impl FnMut(u32, usize)) {
+        if !self.has_cells() {
+            return;
+        }
+        let mut star = vec![self.site(s).cell];
+        let mut seen = std::collections::HashSet::from([self.site(s).cell]);
+        while let Some(cell) = star.pop() {
+            let c = self.complex.cell(cell);
+            let at = c.index_of(s);
+            visit(cell, at);
+            for i in (0..G::Corners::N).filter(|&i| i != at) {
+                let next = c.neighbour(i).cell();
+                if seen.insert(next) {
+                    star.push(next);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! The kernel: a Delaunay triangulation of *sites* under insertion, removal and relocation.
+//!
+//! Written once for both dimensions, over [`Dimension`]. Ties between signs are broken by the ids of the sites
+//! (see [`crate::predicates`]), so the cells are a function of the live sites alone: whatever the order of
+//! insertions, removals and relocations, they are those of a fresh build.
+//!
+//! | file | what |
+//! |---|---|
+//! | `order` | Hilbert curve and insertion rounds |
+//! | `build` | all sites at once |
+//! | `locate` | the walk |
+//! | `cavity` | insertion: dig the conflict zone, fill it |
+//! | `remove` | removal: fill the star by gift wrapping |
+//! | `hub` | removal of a vertex with very many neighbours |
+//! | `relocate` | one site to a new place; flips |
+//! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
+//! | `validate` | the exact check of everything |
+//!
+//! **Ghost cells.** A ghost cell stands for what lies beyond a facet of the convex hull. A point is in conflict
+//! with it if it is strictly beyond the facet's hyperplane; if it is in the hyperplane, exactly if it is in
+//! conflict with the finite cell behind the facet: the affine dependency of the `D + 2` points does not involve
+//! that cell's opposite corner, so the perturbed sign is the one in the hyperplane.
+
+mod build;
+mod cavity;
+mod dimension;
+mod flat;
+mod hub;
+mod locate;
+pub mod order;
+mod relocate;
+mod remove;
+pub mod site;
+mod validate;
+
+pub use build::Merge;
+pub use cavity::Insertion;
+pub use dimension::{Coordinates, Dimension, Plane, Space};
+pub use locate::Place;
+pub use relocate::{Relocation, Shortcut};
+pub use site::Site;
+pub use validate::{Level, Violation};
+
+use crate::complex::{Complex, INFINITE};
+use crate::error::{Error, Result};
+use crate::predicates::StaticFilter;
+use cavity::Cavity;
+use flat::Flat;
+use remove::Hole;
+
+/// A Delaunay triangulation of sites.
+#[derive(Debug)]
+pub struct Delaunay<G: Dimension> {
+    sites: Vec<Site<G>>,
+    free_sites: Vec<u32>,
+    complex: Complex<G::Corners>,
+    filter: StaticFilter,
+    lower: G::Point,
+    upper: G::Point,
+    /// What stands in for cells while there are none.
+    flat: Flat<G>,
+    /// A live cell, near the latest change.
+    recent: u32,
+    cavity: Cavity<G>,
+    hole: Hole<G>,
+}
+
+impl<G: Dimension> Default for Delaunay<G> {
+    fn default() -> Self {
+        let origin = G::Point::default();
+        Delaunay {
+            sites: vec![Site::new(origin, INFINITE)],
+            free_sites: Vec::new(),
+            complex: Complex::default(),
+            filter: G::filter(&origin, &origin),
+            lower: origin,
+            upper: origin,
+            flat: Flat::default(),
+            recent: 0,
+            cavity: Cavity::default(),
+            hole: Hole::default(),
+        }
+    }
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Index of the last corner, the one that is infinite in a ghost cell.
+    const LAST: usize = G::D;
+
+    /// The cells.
+    pub fn complex(&self) -> &Complex<G::Corners> {
+        &self.complex
+    }
+
+    /// All sites by index; 0 is a placeholder, and free indices are not [live](Site::is_live).
+    pub fn sites(&self) -> &[Site<G>] {
+        &self.sites
+    }
+
+    /// The site of an index.
+    #[inline(always)]
+    pub fn site(&self, s: u32) -> &Site<G> {
+        &self.sites[s as usize]
+    }
+
+    /// Indices of the live sites.
+    pub fn live_sites(&self) -> impl Iterator<Item = u32> + Clone + '_ {
+        (1..self.sites.len() as u32).filter(|&s| self.sites[s as usize].is_live())
+    }
+
+    /// Whether there are cells.
+    #[inline(always)]
+    pub fn has_cells(&self) -> bool {
+        self.complex.n_slots() != 0
+    }
+
+    /// Adds a site that is in no cell yet: to be followed by [`rebuild`](Self::rebuild) or by the rest of an
+    /// insertion.
+    pub fn add_site(&mut self, point: G::Point, id: u32) -> Result<u32> {
+        let site = Site::new(point, id);
+        if let Some(s) = self.free_sites.pop() {
+            self.sites[s as usize] = site;
+            return Ok(s);
+        }
+        // Site indices end below the sentinel.
+        if self.sites.len() >= u32::MAX as usize {
+            return Err(Error::TooManyVertices { given: self.sites.len(), limit: u32::MAX as usize - 1 });
+        }
+        if self.sites.len() == self.sites.capacity() {
+            self.reserve_sites(1.max(self.sites.len() / 8))?;
+        }
+        self.sites.push(site);
+        Ok(self.sites.len() as u32 - 1)
+    }
+
+    /// Makes room for `n` more sites.
+    pub fn reserve_sites(&mut self, n: usize) -> Result<()> {
+        let bytes = n * size_of::<Site<G>>();
+        self.sites.try_reserve_exact(n).map_err(|_| Error::OutOfMemory { bytes })
+    }
+
+    /// Forgets a site that is in no cell: one whose insertion failed.
+    pub fn discard_site(&mut self, s: u32) {
+        self.drop_site(s);
+    }
+
+    fn drop_site(&mut self, s: u32) {
+        self.sites[s as usize].id = crate::complex::NONE;
+        self.free_sites.push(s);
+    }
+
+    /// Writes a place without any change to the cells; [`rebuild`](Self::rebuild) must follow.
+    #[inline(always)]
+    pub fn set_point(&mut self, s: u32, point: G::Point) {
+        self.sites[s as usize].point = point;
+    }
+
+    /// Makes the static filter valid for points in a box.
+    pub fn cover(&mut self, lower: &G::Point, upper: &G::Point) {
+        let mut grown = false;
+        for k in 0..G::D {
+            if lower[k] < self.lower[k] {
+                self.lower[k] = lower[k];
+                grown = true;
+            }
+            if upper[k] > self.upper[k] {
+                self.upper[k] = upper[k];
+                grown = true;
+            }
+        }
+        if grown {
+            self.filter = G::filter(&self.lower, &self.upper);
+        }
+    }
+
+    /// Makes the static filter as sharp as the places of the live sites allow.
+    pub fn tighten_filter(&mut self) {
+        let box_of_sites = order::bounding_box::<G>(self.sites[1..].iter().filter(|s| s.is_live()).map(|s| &s.point));
+        let (lower, upper) = box_of_sites.unwrap_or_default();
+        (self.lower, self.upper) = (lower, upper);
+        self.filter = G::filter(&lower, &upper);
+    }
+
+    /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
+    #[inline(always)]
+    fn is_in_conflict(&self, cell: u32, q: &G::Point, id: u32) -> bool {
+        let c = self.complex.cell(cell);
+        if c.is_ghost() {
+            return self.is_in_conflict_with_ghost(cell, q, id);
+        }
+        G::is_in_sphere(&self.filter, &self.sites, &c.corners, q, id)
+    }
+
+    #[inline(never)]
+    fn is_in_conflict_with_ghost(&self, cell: u32, q: &G::Point, id: u32) -> bool {
+        let c = self.complex.cell(cell);
+        let beyond = G::orientation_with(&self.filter, &self.sites, &c.corners, Self::LAST, q);
+        if beyond != 0.0 {
+            return beyond > 0.0;
+        }
+        let behind = self.complex.cell(c.neighbour(Self::LAST).cell());
+        G::is_in_sphere(&self.filter, &self.sites, &behind.corners, q, id)
+    }
+
+    /// Bytes held.
+    pub fn memory_bytes(&self) -> usize {
+        self.sites.capacity() * size_of::<Site<G>>()
+            + self.free_sites.capacity() * 4
+            + self.complex.memory_bytes()
+            + self.flat.memory_bytes()
+    }
+}

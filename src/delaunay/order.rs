@@ -1,0 +1,201 @@
+//! The order of sites in memory and the order of insertion.
+//!
+//! Sites are stored along a Hilbert curve, so that what is near in space is near in memory; they are inserted in
+//! rounds of growing size, each along the curve (a biased randomised insertion order: Amenta, Choi and Rote,
+//! 10.1145/777792.777824). The rounds make the expected cost linear in the output, the curve makes walks short.
+//! Rounds are drawn by a fixed hash of the position in the order: the same input gives the same order.
+//!
+//! Hilbert keys have only as many bits as the number of points warrants. Runs of points with one key, which only
+//! uneven densities have, are sorted again in their own bounding box, so that clusters within clusters are still
+//! visited along a curve.
+
+use crate::delaunay::Dimension;
+
+/// Lower and upper corner of the bounding box.
+pub fn bounding_box<'p, G: Dimension>(points: impl Iterator<Item = &'p G::Point>) -> Option<(G::Point, G::Point)>
+where
+    G::Point: 'p,
+{
+    let mut corners: Option<(G::Point, G::Point)> = None;
+    for p in points {
+        let (lower, upper) = corners.get_or_insert((*p, *p));
+        for k in 0..G::D {
+            lower[k] = lower[k].min(p[k]);
+            upper[k] = upper[k].max(p[k]);
+        }
+    }
+    corners
+}
+
+/// Indices of the points along a Hilbert curve.
+pub fn hilbert_order<G: Dimension>(points: &[G::Point]) -> Vec<u32> {
+    let mut keyed: Vec<(u64, u32)> = (0..points.len() as u32).map(|i| (0, i)).collect();
+    sort_in_box::<G>(points, &mut keyed);
+    keyed.into_iter().map(|(_, i)| i).collect()
+}
+
+/// Runs of one key up to this length stay unsorted: a walk through them is short anyway.
+const SHORT_RUN: usize = 8;
+
+fn sort_in_box<G: Dimension>(points: &[G::Point], keyed: &mut [(u64, u32)]) {
+    let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|&(_, i)| &points[i as usize])) else { return };
+    // Halved before the difference: an extent of the accepted range does not overflow, but stays exact enough.
+    let extent = (0..G::D).map(|k| upper[k] - lower[k]).fold(0.0, f64::max);
+    if extent == 0.0 {
+        return;
+    }
+    let per_axis = ((keyed.len() as f64).log2() / G::D as f64).ceil() as u32 + 4;
+    let bits = per_axis.clamp(4, 63 / G::D as u32);
+    let scale = ((1u64 << bits) - 1) as f64 / extent;
+    for (key, i) in keyed.iter_mut() {
+        let p = &points[*i as usize];
+        let mut cell = [0u32; 3];
+        for k in 0..G::D {
+            cell[k] = ((p[k] - lower[k]) * scale) as u32;
+        }
+        *key = if G::D == 2 { hilbert_key_2(cell[0], cell[1], bits) } else { hilbert_key_3(cell, bits) };
+    }
+    radsort::sort_by_key(keyed, |&(key, _)| key);
+    for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
+        if run.len() > SHORT_RUN {
+            sort_in_box::<G>(points, run);
+        }
+    }
+}
+
+/// Position along the plane's Hilbert curve of the cell `(x, y)` of a grid of `2^bits` cells a side.
+fn hilbert_key_2(mut x: u32, mut y: u32, bits: u32) -> u64 {
+    let mut key = 0u64;
+    for b in (0..bits).rev() {
+        let (rx, ry) = (x >> b & 1, y >> b & 1);
+        key = key << 2 | u64::from((3 * rx) ^ ry);
+        // Turn the quadrant so that its curve starts at its origin: swap the axes if ry is 0, mirrored if rx is 1.
+        let mirror = 0u32.wrapping_sub(rx & !ry & 1);
+        x ^= mirror;
+        y ^= mirror;
+        let swap = (x ^ y) & (ry.wrapping_sub(1));
+        x ^= swap;
+        y ^= swap;
+    }
+    key
+}
+
+/// Position along the space's Hilbert curve (Skilling's transform, 10.1063/1.1751381).
+fn hilbert_key_3(mut x: [u32; 3], bits: u32) -> u64 {
+    let mut q = 1u32 << (bits - 1);
+    while q > 1 {
+        let p = q - 1;
+        for i in 0..3 {
+            let set = 0u32.wrapping_sub((x[i] & q != 0) as u32);
+            let t = (x[0] ^ x[i]) & p & !set;
+            x[0] ^= (p & set) | t;
+            x[i] ^= t;
+        }
+        q >>= 1;
+    }
+    x[1] ^= x[0];
+    x[2] ^= x[1];
+    let mut t = 0;
+    let mut q = 1u32 << (bits - 1);
+    while q > 1 {
+        if x[2] & q != 0 {
+            t ^= q - 1;
+        }
+        q >>= 1;
+    }
+    let x = x.map(|v| v ^ t);
+    spread_3(x[0]) << 2 | spread_3(x[1]) << 1 | spread_3(x[2])
+}
+
+/// The low 21 bits, three places apart.
+fn spread_3(x: u32) -> u64 {
+    let mut x = u64::from(x) & 0x1f_ffff;
+    x = (x | x << 32) & 0x001f_0000_0000_ffff;
+    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+    (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+/// Splits `sites`, which is in storage order, into rounds, each `2^D` times as large as the one before in the mean;
+/// the order within a round stays.
+pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = u32> + Clone) -> Vec<u32> {
+    const ROUNDS: usize = 16;
+    let round = |s: u32| {
+        let hash = u64::from(s).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let hash = (hash ^ hash >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let level = (hash >> 32 | 1 << 31).trailing_zeros() as usize / G::D;
+        ROUNDS - 1 - level.min(ROUNDS - 1)
+    };
+    let mut starts = [0usize; ROUNDS + 1];
+    for s in sites.clone() {
+        starts[round(s) + 1] += 1;
+    }
+    for r in 0..ROUNDS {
+        starts[r + 1] += starts[r];
+    }
+    let mut order = vec![0; starts[ROUNDS]];
+    for s in sites {
+        let at = &mut starts[round(s)];
+        order[*at] = s;
+        *at += 1;
+    }
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::{Plane, Space};
+
+    /// On a full grid a Hilbert curve visits every cell once and steps to a neighbour each time.
+    #[test]
+    fn the_curve_steps_to_neighbours() {
+        for bits in 1..6 {
+            let side = 1u32 << bits;
+            let mut plane: Vec<_> = (0..side * side).map(|i| [i % side, i / side]).collect();
+            plane.sort_by_key(|c| hilbert_key_2(c[0], c[1], bits));
+            for w in plane.windows(2) {
+                assert_eq!(w[0][0].abs_diff(w[1][0]) + w[0][1].abs_diff(w[1][1]), 1, "{w:?}");
+            }
+            let mut space: Vec<_> = (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side]).collect();
+            space.sort_by_key(|&c| hilbert_key_3(c, bits));
+            for w in space.windows(2) {
+                assert_eq!((0..3).map(|k| w[0][k].abs_diff(w[1][k])).sum::<u32>(), 1, "{w:?}");
+            }
+        }
+    }
+
+    /// Tight clusters far apart keep short steps: the total length is that of visiting each cluster in turn.
+    #[test]
+    fn clusters_are_sorted_within() {
+        let mut points = Vec::new();
+        for cluster in 0..4 {
+            for i in 0..400 {
+                let (x, y) = ((i * 7 % 20) as f64, (i * 7 / 20 % 20) as f64);
+                points.push([f64::from(cluster) * 1e12 + x, y]);
+            }
+        }
+        let order = hilbert_order::<Plane>(&points);
+        let mut seen = order.clone();
+        seen.sort_unstable();
+        assert!(seen.iter().copied().eq(0..points.len() as u32));
+        let long = order.windows(2).filter(|w| (points[w[0] as usize][0] - points[w[1] as usize][0]).abs() > 1e6);
+        assert_eq!(long.count(), 3);
+        let step = |w: &[u32]| {
+            let (a, b) = (points[w[0] as usize], points[w[1] as usize]);
+            (a[0] - b[0]).abs().min(20.0) + (a[1] - b[1]).abs()
+        };
+        assert!(order.windows(2).map(step).sum::<f64>() < 4.0 * 400.0 * 4.0);
+    }
+
+    #[test]
+    fn rounds_are_a_permutation() {
+        let order = in_rounds::<Space>(5..5000);
+        let mut seen = order.clone();
+        seen.sort_unstable();
+        assert!(seen.iter().copied().eq(5..5000));
+        let falls = order.windows(2).filter(|w| w[1] < w[0]).count();
+        assert!((1..16).contains(&falls), "{falls} rounds");
+    }
+}

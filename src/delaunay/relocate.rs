@@ -1,0 +1,152 @@
+//! Relocation of one site.
+//!
+//! The report's *placement* is a walk from the old place, a removal and an insertion (section 3.1). It is avoided
+//! where it can be (section 3.2): if the star of the site stays positively oriented it still is a star, since the
+//! site stays inside its link, as seen from every facet of it. Then
+//! - if no certificate of the star fails, only the coordinates change;
+//! - in the plane, flips make the triangulation Delaunay again (Lawson), since it still is a triangulation.
+//!
+//! Neither is tried for a site on the convex hull, whose star has no link all around.
+//!
+//! The id of a site breaks ties, so a change of id is a relocation to the same place.
+
+use super::{Delaunay, Dimension, Insertion, Site};
+use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::error::Result;
+
+/// What a relocation did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relocation {
+    /// Only coordinates (or the id) changed.
+    InPlace,
+    /// That, and so many flips.
+    Flipped(u64),
+    /// The site was removed and inserted again.
+    Placed,
+    /// The site was removed, and its new place is that of this one; its index is free.
+    Coincident(u32),
+}
+
+/// Which shortcuts a relocation may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shortcut {
+    /// Only coordinates change if no certificate of the star fails.
+    Certificates,
+    /// In the plane, flips as well.
+    Flips,
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Moves a live site to `q`, where it represents vertex `id`.
+    pub fn relocate_site(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Result<Relocation> {
+        self.cover(q, q);
+        if self.has_cells() {
+            self.gather_star(s);
+            if let Some(done) = self.relocate_in_place(s, q, id, shortcut) {
+                return Ok(done);
+            }
+            self.remove_gathered(s)?;
+            if self.complex.n_finite() == 0 {
+                self.become_flat(s);
+            }
+        } else {
+            self.remove_flat(s);
+        }
+        self.sites[s as usize] = Site::new(*q, id);
+        match self.insert_site(s, NONE)? {
+            Insertion::New => Ok(Relocation::Placed),
+            Insertion::Coincident(t) => Ok(Relocation::Coincident(t)),
+        }
+    }
+
+    /// Gives a site the id of another vertex.
+    pub fn rename_site(&mut self, s: u32, id: u32) -> Result<()> {
+        let q = self.site(s).point;
+        self.relocate_site(s, &q, id, Shortcut::Certificates)?;
+        Ok(())
+    }
+
+    /// Relocates without a removal if the star allows it; otherwise changes nothing.
+    fn relocate_in_place(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Option<Relocation> {
+        let old = (self.site(s).point, self.site(s).id);
+        if self.hole.star.iter().any(|&(c, _)| self.complex.cell(c).is_ghost()) {
+            return None;
+        }
+        self.sites[s as usize].point = *q;
+        self.sites[s as usize].id = id;
+        if self.star_is_positive() {
+            if self.star_is_delaunay() {
+                return Some(Relocation::InPlace);
+            }
+            if shortcut == Shortcut::Flips {
+                if let Some(flips) = G::flip_to_delaunay(self) {
+                    return Some(Relocation::Flipped(flips));
+                }
+            }
+        }
+        self.sites[s as usize].point = old.0;
+        self.sites[s as usize].id = old.1;
+        None
+    }
+
+    fn star_is_positive(&self) -> bool {
+        self.hole.star.iter().all(|&(c, _)| {
+            let c = self.complex.cell(c);
+            G::orientation(&self.filter, &self.sites, &c.corners) > 0.0
+        })
+    }
+
+    /// Whether every bi-cell of the gathered star passes the empty-sphere test; each facet within is tested once.
+    fn star_is_delaunay(&self) -> bool {
+        self.hole.star.iter().all(|&(c, at)| {
+            let cell = self.complex.cell(c);
+            (0..G::Corners::N).all(|i| {
+                let across = cell.neighbour(i);
+                i != at as usize && across.cell() < c || self.is_locally_delaunay(Facet::new(c, i))
+            })
+        })
+    }
+
+    /// Whether the opposing vertices of a facet of a finite cell are outside the spheres of the opposite cells.
+    pub(super) fn is_locally_delaunay(&self, facet: Facet) -> bool {
+        let cell = self.complex.cell(facet.cell());
+        let across = cell.neighbour(facet.index());
+        let apex = self.complex.cell(across.cell()).corners[across.index()];
+        if apex == INFINITE {
+            return true;
+        }
+        let site = self.site(apex);
+        !G::is_in_sphere(&self.filter, &self.sites, &cell.corners, &site.point, site.id)
+    }
+}
+
+impl Delaunay<super::Plane> {
+    /// Lawson's flips, from the edges of the gathered star outwards.
+    pub(super) fn lawson(&mut self) -> u64 {
+        let mut edges: Vec<Facet> = std::mem::take(&mut self.hole.edges);
+        edges.clear();
+        for &(c, _) in &self.hole.star {
+            edges.extend((0..3).map(|i| Facet::new(c, i)));
+        }
+        let mut flips = 0;
+        while let Some(edge) = edges.pop() {
+            let (c, i) = (edge.cell(), edge.index());
+            if self.complex.cell(c).is_ghost() || self.is_locally_delaunay(edge) {
+                continue;
+            }
+            let across = self.complex.cell(c).neighbour(i);
+            let (d, j) = (across.cell(), across.index());
+            self.complex.flip(edge);
+            flips += 1;
+            for cell in [c, d] {
+                let corners = self.complex.cell(cell).corners;
+                for s in corners {
+                    self.sites[s as usize].cell = cell;
+                }
+            }
+            edges.extend([Facet::new(c, i), Facet::new(c, (i + 2) % 3), Facet::new(d, j), Facet::new(d, (j + 2) % 3)]);
+        }
+        self.hole.edges = edges;
+        flips
+    }
+}

@@ -1,0 +1,264 @@
+//! Removal: take the star away and fill the hole by gift wrapping.
+//!
+//! Every facet of the hole's frontier has exactly one cell of the new triangulation on its inner side, and the apex
+//! of that cell is one of the link's sites: the one whose sphere with the facet has no other link site inside.
+//! One pass over the link finds it, by keeping the best so far. A frontier facet with no link site on its inner
+//! side lies on the new convex hull and gets a ghost cell. Facets that hold the ghost vertex are never wrapped: each
+//! is met by the ghost cell of a finite facet.
+//!
+//! Cost: with `k` link sites, about `2k` cells in space and `k` in the plane, each after at most `k` in-sphere
+//! tests. For hubs ([`MAX_LINK`] sites and more) `hub` triangulates the link instead.
+//!
+//! Invariant: the complex is not touched before the whole filling is known.
+
+use super::{Delaunay, Dimension};
+use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE};
+use crate::error::Result;
+
+/// Link sites that the bit masks of facets can tell apart, the ghost vertex included.
+pub(super) const MAX_LINK: usize = 64;
+
+/// A facet of the frontier: its corners, with a hole at `at` for the corner of the cell on the inner side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap<C> {
+    pub(super) corners: C,
+    pub(super) at: usize,
+    /// The facet seen from the cell that exists.
+    pub(super) out: Facet,
+}
+
+/// Scratch memory of removals and of star checks.
+#[derive(Debug)]
+pub(super) struct Hole<G: Dimension> {
+    /// Cells of the star and the index of the site in each.
+    pub(super) star: Vec<(u32, u8)>,
+    /// The frontier at first: the link, seen from outside.
+    pub(super) link: Vec<Gap<G::Corners>>,
+    /// Sites of the link, the ghost vertex included.
+    pub(super) sites: Vec<u32>,
+    open: Vec<(u64, Gap<G::Corners>)>,
+    open_ghost: Vec<(u64, Facet)>,
+    /// New cells, and the gluing of their facets: a `Facet` whose cell counts from `NEW` is one of them.
+    made: Vec<(G::Corners, G::Corners)>,
+    made_at: Vec<u32>,
+    /// Edges that flips have yet to check.
+    pub(super) edges: Vec<Facet>,
+}
+
+impl<G: Dimension> Default for Hole<G> {
+    fn default() -> Self {
+        Hole {
+            star: Vec::new(),
+            link: Vec::new(),
+            sites: Vec::new(),
+            open: Vec::new(),
+            open_ghost: Vec::new(),
+            made: Vec::new(),
+            made_at: Vec::new(),
+            edges: Vec::new(),
+        }
+    }
+}
+
+/// Cells from here on are those of `made`, not yet in the complex.
+const NEW: u32 = MAX_CELLS as u32;
+
+impl<G: Dimension> Delaunay<G> {
+    /// Collects the star of a site and its link.
+    pub(super) fn gather_star(&mut self, s: u32) {
+        let hole = &mut self.hole;
+        hole.star.clear();
+        hole.link.clear();
+        let first = self.sites[s as usize].cell;
+        hole.star.push((first, self.complex.cell(first).index_of(s) as u8));
+        self.complex.set_mark(first, 1);
+        let mut next = 0;
+        while next < hole.star.len() {
+            let (c, at) = hole.star[next];
+            let at = at as usize;
+            next += 1;
+            let cell = *self.complex.cell(c);
+            for i in 0..G::Corners::N {
+                let out = cell.neighbour(i);
+                if i == at {
+                    hole.link.push(Gap { corners: cell.corners, at, out });
+                } else if self.complex.mark(out.cell()) == 0 {
+                    self.complex.set_mark(out.cell(), 1);
+                    hole.star.push((out.cell(), self.complex.cell(out.cell()).index_of(s) as u8));
+                }
+            }
+        }
+        for &(c, _) in &hole.star {
+            self.complex.set_mark(c, 0);
+        }
+    }
+
+    /// Lists the link's sites. Each gets its position in the list as a label, kept in its `cell` field.
+    fn label_link(&mut self) {
+        let hole = &mut self.hole;
+        hole.sites.clear();
+        for gap in &hole.link {
+            for i in (0..G::Corners::N).filter(|&i| i != gap.at) {
+                let site = &mut self.sites[gap.corners[i] as usize];
+                let l = site.cell as usize;
+                if l >= hole.sites.len() || hole.sites[l] != gap.corners[i] {
+                    site.cell = hole.sites.len() as u32;
+                    hole.sites.push(gap.corners[i]);
+                }
+            }
+        }
+    }
+
+    /// Gives the link's sites, whose `cell` fields hold labels, a cell of the star again.
+    fn restore_link_cells(&mut self) {
+        for &(c, at) in &self.hole.star {
+            let corners = self.complex.cell(c).corners;
+            for i in (0..G::Corners::N).filter(|&i| i != at as usize) {
+                self.sites[corners[i] as usize].cell = c;
+            }
+        }
+    }
+
+    /// Removes a live site.
+    pub fn remove_site(&mut self, s: u32) -> Result<()> {
+        if !self.has_cells() {
+            self.remove_flat(s);
+            self.drop_site(s);
+            return Ok(());
+        }
+        self.gather_star(s);
+        let removed = self.remove_gathered(s);
+        if removed.is_ok() {
+            self.drop_site(s);
+            if self.complex.n_finite() == 0 {
+                self.become_flat(s);
+            }
+        }
+        removed
+    }
+
+    /// Removes the site whose star has been gathered from the cells; the site stays live.
+    pub(super) fn remove_gathered(&mut self, s: u32) -> Result<()> {
+        self.complex.reserve(4 * self.hole.link.len())?;
+        self.label_link();
+        if self.hole.sites.len() > MAX_LINK {
+            self.restore_link_cells();
+            return self.remove_hub();
+        }
+        self.wrap();
+        self.replace_star();
+        self.sites[s as usize].cell = NONE;
+        Ok(())
+    }
+
+    /// Finds the cells that fill the hole.
+    fn wrap(&mut self) {
+        let mut hole = std::mem::take(&mut self.hole);
+        hole.open.clear();
+        hole.open_ghost.clear();
+        hole.made.clear();
+        let bit = |sites: &[super::Site<G>], v: u32| 1u64 << sites[v as usize].cell;
+        for gap in &hole.link {
+            let key = (0..G::Corners::N).filter(|&i| i != gap.at).map(|i| bit(&self.sites, gap.corners[i])).sum();
+            if gap.at != Self::LAST && gap.corners[Self::LAST] == INFINITE {
+                hole.open_ghost.push((key, gap.out));
+            } else {
+                hole.open.push((key, *gap));
+            }
+        }
+        while let Some((key, gap)) = hole.open.pop() {
+            let apex = self.wrap_apex(&hole.sites, key, &gap);
+            let k = NEW + hole.made.len() as u32;
+            let mut corners = gap.corners.with(gap.at, apex);
+            let mut at = gap.at;
+            if apex == INFINITE {
+                corners = corners.rotated_to_last(at);
+                at = Self::LAST;
+            }
+            hole.made.push((corners, G::Corners::filled(NONE)));
+            let made = &mut hole.made;
+            let mut glue = |a: Facet, b: Facet| {
+                for (x, y) in [(a, b), (b, a)] {
+                    if x.cell() >= NEW {
+                        made[(x.cell() - NEW) as usize].1[x.index()] = y.code();
+                    }
+                }
+            };
+            glue(Facet::new(k, at), gap.out);
+            // Outer cells learn of their new neighbours when the cells are put; within the hole both sides are new.
+            let whole = key | bit(&self.sites, apex);
+            for i in (0..G::Corners::N).filter(|&i| i != at) {
+                let key = whole & !bit(&self.sites, corners[i]);
+                let facet = Facet::new(k, i);
+                if apex == INFINITE {
+                    match hole.open_ghost.iter().position(|o| o.0 == key) {
+                        Some(o) => glue(facet, hole.open_ghost.swap_remove(o).1),
+                        None => hole.open_ghost.push((key, facet)),
+                    }
+                } else {
+                    match hole.open.iter().position(|o| o.0 == key) {
+                        Some(o) => glue(facet, hole.open.swap_remove(o).1.out),
+                        None => hole.open.push((key, Gap { corners: corners.reflected(i), at: i, out: facet })),
+                    }
+                }
+            }
+        }
+        debug_assert!(hole.open_ghost.is_empty());
+        self.hole = hole;
+    }
+
+    /// The corner of the new cell on the inner side of a finite frontier facet.
+    fn wrap_apex(&self, link: &[u32], key: u64, gap: &Gap<G::Corners>) -> u32 {
+        let mut best = INFINITE;
+        let mut cell = gap.corners;
+        for (label, &x) in link.iter().enumerate() {
+            if key >> label & 1 != 0 || x == INFINITE {
+                continue;
+            }
+            let site = self.site(x);
+            let is_closer = best == INFINITE
+                || G::is_in_sphere(&self.filter, &self.sites, &cell, &site.point, site.id);
+            if is_closer && G::orientation_with(&self.filter, &self.sites, &gap.corners, gap.at, &site.point) > 0.0 {
+                best = x;
+                cell[gap.at] = x;
+            }
+        }
+        best
+    }
+
+    /// Puts the cells of `made` in the place of the star.
+    fn replace_star(&mut self) {
+        let mut hole = std::mem::take(&mut self.hole);
+        hole.made_at.clear();
+        for &(c, _) in &hole.star {
+            self.complex.retire(c);
+        }
+        for &(c, _) in hole.star.iter().skip(hole.made.len()) {
+            self.complex.release(c);
+        }
+        for (k, (corners, _)) in hole.made.iter().enumerate() {
+            let cell = match hole.star.get(k) {
+                Some(&(c, _)) => {
+                    self.complex.put(c, *corners);
+                    c
+                }
+                None => self.complex.create(*corners),
+            };
+            hole.made_at.push(cell);
+        }
+        for (&cell, (corners, neighbours)) in hole.made_at.iter().zip(&hole.made) {
+            for i in 0..G::Corners::N {
+                let facet = Facet::from_code(neighbours[i]);
+                let across = if facet.cell() >= NEW {
+                    Facet::new(hole.made_at[(facet.cell() - NEW) as usize], facet.index())
+                } else {
+                    facet
+                };
+                self.complex.glue(Facet::new(cell, i), across);
+                self.sites[corners[i] as usize].cell = cell;
+            }
+        }
+        self.recent = hole.made_at[0];
+        self.hole = hole;
+    }
+}

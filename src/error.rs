@@ -1,0 +1,146 @@
+//! Why a call can fail. Every variant names the argument, the index in it and the offending value,
+//! because the caller's arrays are large and the message is often all that reaches a log.
+
+use std::fmt;
+
+/// The reason for which a call had no effect.
+///
+/// `argument` is the name of the parameter at fault as the C header spells it; `index` counts the
+/// entries (vertices, not coordinates) of that argument, and is 0 where it holds a single one.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coordinate is NaN or infinite.
+    NotFinite {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which point of it.
+        index: usize,
+        /// Which coordinate of the point: 0 for x, 1 for y, 2 for z.
+        axis: usize,
+        /// What was given.
+        value: f64,
+    },
+    /// A coordinate is neither zero nor of a magnitude for which signs are exact, see
+    /// [`crate::predicates::MIN_MAGNITUDE`] and [`crate::predicates::MAX_MAGNITUDE`].
+    OutOfRange {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which point of it.
+        index: usize,
+        /// Which coordinate of the point.
+        axis: usize,
+        /// What was given.
+        value: f64,
+    },
+    /// The id was never given to a vertex of this triangulation.
+    NoSuchVertex {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What was given.
+        vertex: u32,
+        /// How many ids have been given: valid ones are below it.
+        ids: usize,
+    },
+    /// The vertex has been removed.
+    RemovedVertex {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What was given.
+        vertex: u32,
+    },
+    /// A move is already staged for the vertex since the last commit.
+    DuplicateMove {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What was given.
+        vertex: u32,
+    },
+    /// An array that must have one entry per vertex has another length.
+    WrongCount {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Length given.
+        given: usize,
+        /// Length wanted.
+        wanted: usize,
+    },
+    /// Two vertices would be at the same place while
+    /// [`CoincidencePolicy::Reject`](crate::motion::CoincidencePolicy::Reject) is in force.
+    Coincident {
+        /// The lower id of the two.
+        vertex: u32,
+        /// The higher id of the two.
+        other: u32,
+    },
+    /// More vertices than ids of 32 bits can name.
+    TooManyVertices {
+        /// Number asked for.
+        given: usize,
+        /// Greatest number possible.
+        limit: usize,
+    },
+    /// More cells than 32-bit links can join (2^30).
+    TooManyCells {
+        /// Greatest number possible.
+        limit: usize,
+    },
+    /// Memory could not be had.
+    OutOfMemory {
+        /// Bytes of the request that failed.
+        bytes: usize,
+    },
+    /// The cancel callback asked to stop.
+    Cancelled,
+    /// Changes were asked for but are not recorded: set `track_changes` in the options.
+    ChangesNotTracked,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::NotFinite { argument, index, axis, value } => {
+                write!(f, "{argument}[{index}], coordinate {axis}, is {value}, which is not finite")
+            }
+            Error::OutOfRange { argument, index, axis, value } => write!(
+                f,
+                "{argument}[{index}], coordinate {axis}, is {value:e}: a coordinate must be 0 or have a magnitude from {:e} to {:e}",
+                crate::predicates::MIN_MAGNITUDE,
+                crate::predicates::MAX_MAGNITUDE
+            ),
+            Error::NoSuchVertex { argument, index, vertex, ids } => {
+                write!(f, "{argument}[{index}] is {vertex}, but only ids below {ids} have been given")
+            }
+            Error::RemovedVertex { argument, index, vertex } => {
+                write!(f, "{argument}[{index}] is {vertex}, a vertex that has been removed")
+            }
+            Error::DuplicateMove { argument, index, vertex } => {
+                write!(f, "{argument}[{index}] is {vertex}, a vertex whose move is already staged")
+            }
+            Error::WrongCount { argument, given, wanted } => {
+                write!(f, "{argument} is {given}, but must be {wanted}")
+            }
+            Error::Coincident { vertex, other } => {
+                write!(f, "vertices {vertex} and {other} are at the same place, which the options reject")
+            }
+            Error::TooManyVertices { given, limit } => {
+                write!(f, "{given} vertices are asked for, and {limit} is the limit")
+            }
+            Error::TooManyCells { limit } => write!(f, "the triangulation needs more than {limit} cells"),
+            Error::OutOfMemory { bytes } => write!(f, "no memory for {bytes} more bytes"),
+            Error::Cancelled => write!(f, "the cancel callback asked to stop"),
+            Error::ChangesNotTracked => write!(f, "changes are not recorded: set track_changes in the options"),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// The result of a call that has no effect when it fails.
+pub type Result<T> = std::result::Result<T, Error>;

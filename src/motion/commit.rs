@@ -1,0 +1,71 @@
+//! The commit: one timestamp, all or nothing.
+
+use super::cells::Baseline;
+use super::{Algorithm, CommitReport, MovingTriangulation};
+use crate::delaunay::{Dimension, Shortcut};
+use crate::error::Result;
+
+/// *Auto* rebuilds when more than one vertex in so many is staged: the cost of a placement in rebuilt vertices.
+const PLACEMENT_COST: usize = 5;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Makes the staged positions the next timestamp.
+    ///
+    /// On an error the triangulation is at the timestamp before, and the moves stay staged.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`](crate::Error::Cancelled), [`Error::Coincident`](crate::Error::Coincident) if the options
+    /// reject that, [`Error::TooManyCells`](crate::Error::TooManyCells),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
+        let baseline = self.options.track_changes.then(|| Baseline::of(self));
+        self.forget_views();
+        let mut report = CommitReport::default();
+        self.staging.applied = 0;
+        if let Err(error) = self.advance(&mut report) {
+            self.go_back()?;
+            return Err(error);
+        }
+        self.staging.clear();
+        self.baseline = baseline;
+        self.statistics.timestamp += 1;
+        self.count(report);
+        report.timestamp = self.statistics.timestamp;
+        report.coincident = self.statistics.coincident;
+        Ok(report)
+    }
+
+    /// Brings the staged vertices to their new positions.
+    fn advance(&mut self, report: &mut CommitReport) -> Result<()> {
+        match self.algorithm_for_commit() {
+            Algorithm::Placement => self.commit_by_placement(Shortcut::Certificates, report)?,
+            Algorithm::PlacementFlips => self.commit_by_placement(Shortcut::Flips, report)?,
+            Algorithm::Rebuilding | Algorithm::Auto => self.commit_by_rebuilding(0, report)?,
+        }
+        self.reject_coincidence()
+    }
+
+    fn algorithm_for_commit(&self) -> Algorithm {
+        match self.options.algorithm {
+            Algorithm::Auto if self.staging.vertices.len() * PLACEMENT_COST < self.n_present => {
+                Algorithm::PlacementFlips
+            }
+            Algorithm::Auto => Algorithm::Rebuilding,
+            chosen => chosen,
+        }
+    }
+
+    /// Puts the vertices whose moves were applied back where they were, and rebuilds.
+    fn go_back(&mut self) -> Result<()> {
+        self.spread_hidden()?;
+        for k in 0..self.staging.applied {
+            self.exchange_position(self.staging.vertices[k]);
+        }
+        self.rebuild_quietly()
+    }
+
+    /// Tells the monitor how far the work is; whether to go on.
+    pub(super) fn monitor(&mut self, fraction: f64) -> bool {
+        self.options.monitor.as_mut().is_none_or(|monitor| monitor(fraction))
+    }
+}

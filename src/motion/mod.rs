@@ -1,0 +1,213 @@
+//! Triangulations of moving points: staging, timestamps, and the algorithms of the report.
+//!
+//! A vertex has an id for life and a position at each timestamp. Relocations are staged; a commit makes all of them
+//! the next timestamp, by one of the algorithms:
+//!
+//! | file | report | what |
+//! |---|---|---|
+//! | `rebuilding` | section 1 | triangulate all positions anew |
+//! | `placement` | sections 3.1, 3.2 | relocate the vertices one at a time |
+//!
+//! Invariants between calls:
+//! - the cells are those of a fresh build of (positions, ids), whatever happened before;
+//! - the vertices at one place share a site; the lowest id represents it, the others are *hidden*;
+//! - a call that fails has no effect: the positions before it are set again and rebuilt, which by the first
+//!   invariant restores the cells.
+//!
+//! Memory per vertex: the kernel's, 4 bytes for the site of an id, and once moves are staged a position, a flag and
+//! an id.
+
+mod cells;
+mod coincidence;
+mod commit;
+mod options;
+mod placement;
+mod query;
+mod rebuilding;
+mod staging;
+
+use std::sync::OnceLock;
+
+pub use crate::delaunay::{Level, Violation};
+pub use cells::{CellsView, NO_CELL};
+pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options};
+pub use query::Location;
+
+use crate::complex::NONE;
+use crate::delaunay::{Delaunay, Dimension, Insertion, Shortcut};
+use crate::error::{Error, Result};
+use cells::{Baseline, Cells};
+use coincidence::Hidden;
+use staging::{Staging, check_position};
+
+/// Greatest number of vertex ids.
+pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
+
+/// A Delaunay triangulation whose vertices move.
+#[derive(Debug)]
+pub struct MovingTriangulation<G: Dimension> {
+    kernel: Delaunay<G>,
+    /// Site of each id; [`NONE`] once removed.
+    site_of: Vec<u32>,
+    hidden: Hidden,
+    n_present: usize,
+    staging: Staging<G>,
+    options: Options,
+    statistics: CommitReport,
+    /// Mean walk of the latest build in freshly sorted storage: the measure of lost locality.
+    sorted_walk: f64,
+    cells: OnceLock<Cells<G>>,
+    baseline: Option<Baseline<G>>,
+    changed: OnceLock<Vec<u32>>,
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Triangulates `positions`; vertex `i` is the `i`-th of them.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`], [`Error::Coincident`] if the options reject that.
+    pub fn new(positions: &[G::Point], options: Options) -> Result<Self> {
+        if positions.len() > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
+        }
+        let mut t = MovingTriangulation {
+            kernel: Delaunay::default(),
+            site_of: Vec::new(),
+            hidden: Hidden::default(),
+            n_present: positions.len(),
+            staging: Staging::default(),
+            options,
+            statistics: CommitReport::default(),
+            sorted_walk: 0.0,
+            cells: OnceLock::new(),
+            baseline: None,
+            changed: OnceLock::new(),
+        };
+        let bytes = positions.len() * size_of::<u32>();
+        t.site_of.try_reserve_exact(positions.len()).map_err(|_| Error::OutOfMemory { bytes })?;
+        t.kernel.reserve_sites(positions.len())?;
+        for (i, p) in positions.iter().enumerate() {
+            let p = check_position::<G>("positions", i, p)?;
+            t.site_of.push(t.kernel.add_site(p, i as u32)?);
+        }
+        t.sort_and_rebuild()?;
+        t.reject_coincidence()?;
+        t.statistics.coincident = t.hidden.count() as u64;
+        Ok(t)
+    }
+
+    /// Moves one vertex at once, whatever is staged for others.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
+    /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
+    pub fn relocate_vertex(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
+        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        let q = check_position::<G>("position", 0, position)?;
+        if self.staging.is_staged(vertex) {
+            return Err(Error::DuplicateMove { argument: "vertex", index: 0, vertex });
+        }
+        let old = self.kernel.site(s).point;
+        if old == q {
+            return Ok(());
+        }
+        self.reject_occupied(vertex, &q)?;
+        self.forget_views();
+        let mut report = CommitReport { moved: 1, ..CommitReport::default() };
+        if let Err(error) = self.relocate(vertex, &q, Shortcut::Flips, &mut report) {
+            self.spread_hidden()?;
+            self.kernel.set_point(self.site_of[vertex as usize], old);
+            self.rebuild_quietly()?;
+            return Err(error);
+        }
+        self.count(report);
+        Ok(())
+    }
+
+    /// Inserts a vertex; its id is one above the highest ever given.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
+    /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
+    pub fn insert_vertex(&mut self, position: &G::Point) -> Result<u32> {
+        let q = check_position::<G>("position", 0, position)?;
+        if self.site_of.len() >= MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: self.site_of.len() + 1, limit: MAX_VERTICES });
+        }
+        let id = self.site_of.len() as u32;
+        self.reject_occupied(id, &q)?;
+        self.forget_views();
+        let s = self.kernel.add_site(q, id)?;
+        self.site_of.push(s);
+        self.n_present += 1;
+        match self.kernel.insert_site(s, NONE) {
+            Ok(Insertion::New) => {}
+            // The new id is the highest of all, so it is the one to hide: nothing else changes.
+            Ok(Insertion::Coincident(t)) => self.hide(id, t)?,
+            Err(error) => {
+                self.site_of.pop();
+                self.n_present -= 1;
+                self.kernel.discard_site(s);
+                self.rebuild_quietly()?;
+                return Err(error);
+            }
+        }
+        self.staging.grow(self.site_of.len());
+        self.count(CommitReport::default());
+        Ok(id)
+    }
+
+    /// Removes a vertex and its staged move, if any. Its id is not given again.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
+    pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
+        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        self.forget_views();
+        let removed = if self.hidden.any_at(s) {
+            match self.hidden.leave(s, vertex, self.kernel.site(s).id) {
+                Some(next) => self.kernel.rename_site(s, next),
+                None => Ok(()),
+            }
+        } else {
+            self.kernel.remove_site(s)
+        };
+        self.site_of[vertex as usize] = NONE;
+        self.n_present -= 1;
+        self.staging.unstage(vertex);
+        self.count(CommitReport::default());
+        removed
+    }
+
+    /// The site of a vertex that must be present.
+    fn site_of_vertex(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
+        match self.site_of.get(vertex as usize) {
+            None => Err(Error::NoSuchVertex { argument, index, vertex, ids: self.site_of.len() }),
+            Some(&NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
+            Some(&s) => Ok(s),
+        }
+    }
+
+    /// Sorts the sites along a Hilbert curve and rebuilds.
+    fn sort_and_rebuild(&mut self) -> Result<()> {
+        self.kernel.sort_sites();
+        for s in self.kernel.live_sites() {
+            self.site_of[self.kernel.site(s).id as usize] = s;
+        }
+        self.rebuild()?;
+        self.sorted_walk = self.kernel.mean_walk();
+        Ok(())
+    }
+
+    /// Adds what was done to the sums.
+    fn count(&mut self, report: CommitReport) {
+        let sum = &mut self.statistics;
+        sum.moved += report.moved;
+        sum.unchanged += report.unchanged;
+        sum.placements += report.placements;
+        sum.flips += report.flips;
+        sum.rebuilds += report.rebuilds;
+        sum.coincident = self.hidden.count() as u64;
+    }
+}

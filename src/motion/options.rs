@@ -1,0 +1,80 @@
+//! What the caller chooses, and what a commit reports.
+
+use std::fmt;
+
+/// How [`commit_timestamp`](super::MovingTriangulation::commit_timestamp) brings the triangulation to the
+/// staged positions. Every algorithm gives exactly the same cells; they differ in cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Algorithm {
+    /// Chosen at each commit: placement by flips while few vertices move, rebuilding otherwise.
+    #[default]
+    Auto,
+    /// Build anew from all positions (report, section 1).
+    Rebuilding,
+    /// Relocate each vertex by a walk from its old place, a removal and an insertion (report, section 3.1).
+    /// Nothing but coordinates changes where no certificate of the star fails.
+    Placement,
+    /// As placement, but where the star stays positively oriented, flips repair it (report, section 3.2;
+    /// in 3D the same as placement).
+    PlacementFlips,
+}
+
+/// What happens when vertices come to lie at the same place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CoincidencePolicy {
+    /// The lowest id represents the place, the others are hidden until they move apart.
+    #[default]
+    Merge,
+    /// The call fails with [`Error::Coincident`](crate::Error::Coincident) and has no effect.
+    Reject,
+}
+
+/// Called now and then with the fraction of the work done, from 0 to 1; returning `false` cancels.
+pub type Monitor = Box<dyn FnMut(f64) -> bool + Send + Sync>;
+
+/// Options of a triangulation.
+#[derive(Default)]
+pub struct Options {
+    /// Algorithm of [`commit_timestamp`](super::MovingTriangulation::commit_timestamp).
+    pub algorithm: Algorithm,
+    /// Greatest number of threads; 0 lets the library choose.
+    pub threads: u32,
+    /// Coincident vertices.
+    pub coincidence: CoincidencePolicy,
+    /// Keep what [`changed_cells`](super::MovingTriangulation::changed_cells) needs.
+    pub track_changes: bool,
+    /// Progress and cancellation, of creation and of commits.
+    pub monitor: Option<Monitor>,
+}
+
+impl fmt::Debug for Options {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Options")
+            .field("algorithm", &self.algorithm)
+            .field("threads", &self.threads)
+            .field("coincidence", &self.coincidence)
+            .field("track_changes", &self.track_changes)
+            .field("monitor", &self.monitor.is_some())
+            .finish()
+    }
+}
+
+/// What one commit did; summed over all commits and immediate calls in
+/// [`statistics`](super::MovingTriangulation::statistics).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CommitReport {
+    /// Number of the timestamp reached: 0 at creation, one more at each commit.
+    pub timestamp: u64,
+    /// Vertices whose position differs from that of the timestamp before.
+    pub moved: u64,
+    /// Moved vertices for which only coordinates changed.
+    pub unchanged: u64,
+    /// Vertices removed and inserted again.
+    pub placements: u64,
+    /// Flips made.
+    pub flips: u64,
+    /// 1 if the triangulation was rebuilt (a sum in the statistics).
+    pub rebuilds: u64,
+    /// Hidden vertices at the end: those that are at the place of a vertex with a lower id.
+    pub coincident: u64,
+}

@@ -1,0 +1,83 @@
+//! *Placement* (report, section 3.1), with the improvements for small displacements of section 3.2.
+//!
+//! Vertices are relocated one at a time, in storage order, each by a walk from its old place. In between, some
+//! vertices are at their new and some at their old positions: two may meet that are never at the same place at a
+//! timestamp; they share a site for that while.
+
+use super::{CommitReport, MovingTriangulation};
+use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
+use crate::error::{Error, Result};
+
+/// Relocations between two calls of the monitor.
+const MONITORED: usize = 256;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Relocates the staged vertices one after the other.
+    pub(super) fn commit_by_placement(&mut self, shortcut: Shortcut, report: &mut CommitReport) -> Result<()> {
+        self.order_staged_by_site();
+        let n = self.staging.vertices.len();
+        for k in 0..n {
+            if !self.kernel.has_cells() {
+                // Nothing to walk in: what is left is placed at once.
+                return self.commit_by_rebuilding(k, report);
+            }
+            if k % MONITORED == 0 && !self.monitor(k as f64 / n as f64) {
+                self.staging.applied = k;
+                return Err(Error::Cancelled);
+            }
+            self.staging.applied = k + 1;
+            let v = self.staging.vertices[k];
+            let old = self.kernel.site(self.site_of[v as usize]).point;
+            let new = std::mem::replace(&mut self.staging.positions[v as usize], old);
+            if new != old {
+                report.moved += 1;
+                self.relocate(v, &new, shortcut, report)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Relocates a vertex; the maps of sites and hidden vertices follow.
+    pub(super) fn relocate(
+        &mut self,
+        vertex: u32,
+        q: &G::Point,
+        shortcut: Shortcut,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let s = self.site_of[vertex as usize];
+        if self.hidden.any_at(s) {
+            return self.relocate_from_shared(vertex, s, q, report);
+        }
+        match self.kernel.relocate_site(s, q, vertex, shortcut)? {
+            Relocation::InPlace => report.unchanged += 1,
+            Relocation::Flipped(flips) => report.flips += flips,
+            Relocation::Placed => report.placements += 1,
+            Relocation::Coincident(t) => {
+                report.placements += 1;
+                self.hide(vertex, t)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The vertex leaves others behind at the place: it gets a site of its own.
+    fn relocate_from_shared(&mut self, vertex: u32, s: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+        report.placements += 1;
+        let own = self.kernel.add_site(*q, vertex)?;
+        self.site_of[vertex as usize] = own;
+        if let Some(next) = self.hidden.leave(s, vertex, self.kernel.site(s).id) {
+            self.kernel.rename_site(s, next)?;
+        }
+        match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
+            Insertion::New => Ok(()),
+            Insertion::Coincident(t) => self.hide(vertex, t),
+        }
+    }
+
+    /// Puts the staged vertices in storage order if they are many, so that each starts near the one before.
+    fn order_staged_by_site(&mut self) {
+        let site_of = &self.site_of;
+        self.staging.vertices.sort_unstable_by_key(|&v| (site_of[v as usize], v));
+    }
+}

@@ -1,0 +1,206 @@
+//! Questions that change nothing. They may be asked from several threads at once.
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+
+use super::staging::check_position;
+use super::{Algorithm, CommitReport, Level, MovingTriangulation, Violation};
+use crate::complex::{INFINITE, NONE};
+use crate::delaunay::{Dimension, Place};
+use crate::error::Result;
+
+/// Where a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Location {
+    /// At the place of this vertex (the representative).
+    Vertex(u32),
+    /// In the closure of the cell of this index, at no vertex.
+    Cell(u32),
+    /// Outside the convex hull, beyond a facet of the cell of this index.
+    Outside(u32),
+    /// There are no cells: the points are fewer than `D + 1` or in one hyperplane.
+    NoCells,
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The algorithm of commits.
+    pub fn algorithm(&self) -> Algorithm {
+        self.options.algorithm
+    }
+
+    /// Changes the algorithm of later commits.
+    pub fn set_algorithm(&mut self, algorithm: Algorithm) {
+        self.options.algorithm = algorithm;
+    }
+
+    /// Vertices present, hidden ones included.
+    pub fn vertex_count(&self) -> usize {
+        self.n_present
+    }
+
+    /// Ids given so far; those below it are valid unless removed.
+    pub fn id_count(&self) -> usize {
+        self.site_of.len()
+    }
+
+    /// Whether the vertex is present.
+    pub fn is_present(&self, vertex: u32) -> bool {
+        self.site_of.get(vertex as usize).is_some_and(|&s| s != NONE)
+    }
+
+    /// Number of finite cells.
+    pub fn cell_count(&self) -> usize {
+        self.kernel.complex().n_finite()
+    }
+
+    /// Position of a vertex at the current timestamp; a staged one is not seen.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    pub fn position(&self, vertex: u32) -> Result<G::Point> {
+        Ok(self.kernel.site(self.site_of_vertex("vertex", 0, vertex)?).point)
+    }
+
+    /// Indices of the finite cells around the place of a vertex, in `out`, which is cleared first.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
+        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        let index_of = &self.cell_arrays().index_of;
+        out.clear();
+        self.kernel.for_star(s, |c, _| out.push(index_of[c as usize]));
+        out.retain(|&c| c != NONE);
+        out.sort_unstable();
+        Ok(())
+    }
+
+    /// Where a point lies.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
+    pub fn locate(&self, position: &G::Point) -> Result<Location> {
+        let q = check_position::<G>("position", 0, position)?;
+        let index_of = |c: u32| self.cell_arrays().index_of[c as usize];
+        Ok(match self.kernel.locate(&q, NONE) {
+            Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
+            Place::Cell(c) => Location::Cell(index_of(c)),
+            Place::Outside(c) => Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell())),
+            Place::NoCells => Location::NoCells,
+        })
+    }
+
+    /// The vertex nearest to a point, the lowest id among the nearest; `None` if there are no vertices. Distances
+    /// are compared exactly.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
+    pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<u32>> {
+        let q = check_position::<G>("position", 0, position)?;
+        let start = match self.kernel.locate(&q, NONE) {
+            Place::Site(s) => return Ok(Some(self.kernel.site(s).id)),
+            Place::NoCells => return Ok(self.nearest_of(&q, self.kernel.live_sites())),
+            Place::Cell(c) | Place::Outside(c) => self.kernel.complex().cell(c).corners[0],
+        };
+        // Some neighbour of a vertex that is not the nearest is nearer; the nearest ones are on an empty sphere
+        // around the point, so they are connected by edges.
+        let mut best = start;
+        let mut nearest = BTreeSet::from([start]);
+        let mut queue = vec![start];
+        while let Some(s) = queue.pop() {
+            if self.compare(&q, s, best) == Ordering::Greater {
+                continue;
+            }
+            let mut link = BTreeSet::new();
+            self.kernel.for_star(s, |c, _| link.extend(self.kernel.complex().cell(c).corners.as_ref()));
+            for &x in link.iter().filter(|&&x| x != INFINITE) {
+                match self.compare(&q, x, best) {
+                    Ordering::Less => {
+                        best = x;
+                        nearest = BTreeSet::from([x]);
+                        queue = vec![x];
+                    }
+                    Ordering::Equal => {
+                        if nearest.insert(x) {
+                            queue.push(x);
+                        }
+                    }
+                    Ordering::Greater => {}
+                }
+            }
+        }
+        Ok(nearest.iter().map(|&s| self.kernel.site(s).id).min())
+    }
+
+    fn compare(&self, q: &G::Point, a: u32, b: u32) -> Ordering {
+        G::compare_distance(q, &self.kernel.site(a).point, &self.kernel.site(b).point)
+    }
+
+    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = u32>) -> Option<u32> {
+        let mut best = sites.next()?;
+        for s in sites {
+            let order = self.compare(q, s, best);
+            if order == Ordering::Less || order == Ordering::Equal && self.kernel.site(s).id < self.kernel.site(best).id {
+                best = s;
+            }
+        }
+        Some(self.kernel.site(best).id)
+    }
+
+    /// The lowest id among the vertices at the place of this one.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    pub fn coincident_representative(&self, vertex: u32) -> Result<u32> {
+        Ok(self.kernel.site(self.site_of_vertex("vertex", 0, vertex)?).id)
+    }
+
+    /// Checks the triangulation: see [`Level`].
+    ///
+    /// # Errors
+    /// The first violation found.
+    pub fn validate(&self, level: Level) -> std::result::Result<(), Violation> {
+        self.kernel.validate(level)?;
+        self.check_sites()
+    }
+
+    /// Every vertex is at a site that it represents or where it is hidden.
+    fn check_sites(&self) -> std::result::Result<(), Violation> {
+        let violation = |message| Err(Violation { level: Level::Structure, message });
+        let mut hidden = 0;
+        for (v, &s) in self.site_of.iter().enumerate().filter(|(_, s)| **s != NONE) {
+            let site = self.kernel.site(s);
+            if !site.is_live() || site.id > v as u32 {
+                return violation(format!("vertex {v} is at a site of vertex {}", site.id));
+            }
+            hidden += usize::from(site.id != v as u32);
+        }
+        let sites = self.kernel.live_sites().count();
+        if hidden != self.hidden.count() || sites + hidden != self.n_present {
+            return violation(format!(
+                "{} vertices, but {sites} places with {hidden} hidden vertices ({} listed)",
+                self.n_present,
+                self.hidden.count()
+            ));
+        }
+        Ok(())
+    }
+
+    /// Sums over all commits and immediate calls; `timestamp` and `coincident` are those of now.
+    pub fn statistics(&self) -> CommitReport {
+        self.statistics
+    }
+
+    /// Timestamp reached: 0 at creation.
+    pub fn timestamp(&self) -> u64 {
+        self.statistics.timestamp
+    }
+
+    /// Bytes held, views included.
+    pub fn memory_bytes(&self) -> usize {
+        self.kernel.memory_bytes()
+            + self.site_of.capacity() * 4
+            + self.staging.memory_bytes()
+            + self.cells.get().map_or(0, |cells| cells.memory_bytes())
+    }
+}

@@ -1,0 +1,176 @@
+//! Positions that wait for the next commit.
+
+use super::MovingTriangulation;
+use crate::complex::NONE;
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::predicates::{MAX_MAGNITUDE, MIN_MAGNITUDE};
+
+/// Staged positions by vertex id. During and after a commit the entries of its vertices hold the positions
+/// *before* it: applying a move exchanges the two.
+#[derive(Debug)]
+pub(super) struct Staging<G: Dimension> {
+    pub(super) positions: Vec<G::Point>,
+    is_staged: Vec<bool>,
+    /// Staged vertices in the order of the calls.
+    pub(super) vertices: Vec<u32>,
+    /// How many of them are at their new positions, while a commit is under way.
+    pub(super) applied: usize,
+}
+
+impl<G: Dimension> Default for Staging<G> {
+    fn default() -> Self {
+        Staging { positions: Vec::new(), is_staged: Vec::new(), vertices: Vec::new(), applied: 0 }
+    }
+}
+
+impl<G: Dimension> Staging<G> {
+    pub(super) fn is_staged(&self, vertex: u32) -> bool {
+        self.is_staged.get(vertex as usize).copied().unwrap_or(false)
+    }
+
+    /// Follows the number of ids once there is something to follow.
+    pub(super) fn grow(&mut self, n_ids: usize) {
+        if !self.positions.is_empty() {
+            self.positions.resize(n_ids, G::Point::default());
+            self.is_staged.resize(n_ids, false);
+        }
+    }
+
+    /// Makes room for `more` moves of `n_ids` vertices.
+    fn reserve(&mut self, n_ids: usize, more: usize) -> Result<()> {
+        let bytes = n_ids * (size_of::<G::Point>() + 1) + more * size_of::<u32>();
+        let missing = n_ids - self.positions.len();
+        let reserved = self.positions.try_reserve_exact(missing).is_ok()
+            && self.is_staged.try_reserve_exact(missing).is_ok()
+            && self.vertices.try_reserve_exact(more).is_ok();
+        if !reserved {
+            return Err(Error::OutOfMemory { bytes });
+        }
+        self.positions.resize(n_ids, G::Point::default());
+        self.is_staged.resize(n_ids, false);
+        Ok(())
+    }
+
+    fn stage(&mut self, vertex: u32, position: G::Point) {
+        self.positions[vertex as usize] = position;
+        self.is_staged[vertex as usize] = true;
+        self.vertices.push(vertex);
+    }
+
+    /// Takes back all but the first `kept` moves.
+    fn truncate(&mut self, kept: usize) {
+        for &v in &self.vertices[kept..] {
+            self.is_staged[v as usize] = false;
+        }
+        self.vertices.truncate(kept);
+    }
+
+    /// Forgets all moves; returns how many there were.
+    pub(super) fn clear(&mut self) -> usize {
+        let n = self.vertices.len();
+        self.truncate(0);
+        n
+    }
+
+    /// Forgets the move of one vertex.
+    pub(super) fn unstage(&mut self, vertex: u32) {
+        if self.is_staged(vertex) {
+            self.is_staged[vertex as usize] = false;
+            self.vertices.retain(|&v| v != vertex);
+        }
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.positions.capacity() * size_of::<G::Point>() + self.is_staged.capacity() + self.vertices.capacity() * 4
+    }
+}
+
+/// A position with the sign of zeros made positive, so that equal places are equal bits.
+#[inline(always)]
+pub(super) fn check_position<G: Dimension>(argument: &'static str, index: usize, p: &G::Point) -> Result<G::Point> {
+    let mut checked = *p;
+    for axis in 0..G::D {
+        let value = p[axis];
+        checked[axis] = value + 0.0;
+        let magnitude = value.abs();
+        // The comparison is false for NaN.
+        if magnitude == 0.0 || (MIN_MAGNITUDE..=MAX_MAGNITUDE).contains(&magnitude) {
+            continue;
+        }
+        return Err(if value.is_finite() {
+            Error::OutOfRange { argument, index, axis, value }
+        } else {
+            Error::NotFinite { argument, index, axis, value }
+        });
+    }
+    Ok(checked)
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] if the lengths differ; [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
+    /// [`Error::DuplicateMove`] if a move of the vertex is staged already, [`Error::NotFinite`],
+    /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
+    pub fn move_vertices(&mut self, vertices: &[u32], positions: &[G::Point]) -> Result<()> {
+        if vertices.len() != positions.len() {
+            return Err(Error::WrongCount { argument: "count", given: positions.len(), wanted: vertices.len() });
+        }
+        self.staging.reserve(self.site_of.len(), vertices.len())?;
+        let before = self.staging.vertices.len();
+        for (index, (&vertex, position)) in vertices.iter().zip(positions).enumerate() {
+            if let Err(error) = self.stage("vertices", index, vertex, position) {
+                self.staging.truncate(before);
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Stages a move of every vertex. `positions` has one entry for each id ever given; those of removed vertices are
+    /// not read.
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] if `positions` has another length; otherwise as
+    /// [`move_vertices`](Self::move_vertices).
+    pub fn move_all(&mut self, positions: &[G::Point]) -> Result<()> {
+        if positions.len() != self.site_of.len() {
+            return Err(Error::WrongCount { argument: "count", given: positions.len(), wanted: self.site_of.len() });
+        }
+        self.staging.reserve(positions.len(), positions.len())?;
+        let before = self.staging.vertices.len();
+        for (index, position) in positions.iter().enumerate() {
+            if self.site_of[index] == NONE {
+                continue;
+            }
+            if let Err(error) = self.stage("vertices", index, index as u32, position) {
+                self.staging.truncate(before);
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn stage(&mut self, argument: &'static str, index: usize, vertex: u32, position: &G::Point) -> Result<()> {
+        self.site_of_vertex(argument, index, vertex)?;
+        if self.staging.is_staged[vertex as usize] {
+            return Err(Error::DuplicateMove { argument, index, vertex });
+        }
+        let position = check_position::<G>("positions", index, position)?;
+        self.staging.stage(vertex, position);
+        Ok(())
+    }
+
+    /// Forgets the staged moves; returns how many.
+    pub fn discard_moves(&mut self) -> usize {
+        self.staging.clear()
+    }
+
+    /// Number of staged moves.
+    pub fn staged_count(&self) -> usize {
+        self.staging.vertices.len()
+    }
+}
