@@ -207,23 +207,20 @@ impl<C: Corners> Complex<C> {
     /// Creates a cell that has no neighbours yet.
     #[inline(always)]
     pub fn create(&mut self, corners: C) -> u32 {
-        match self.free.pop() {
-            Some(cell) => {
-                self.put(cell, corners);
-                cell
-            }
-            None => self.push(corners),
-        }
+        let cell = self.create_blank();
+        self.put(cell, corners);
+        cell
     }
 
-    /// Creates a cell behind all others.
+    /// An index for a cell that is [put](Self::put) there next.
     #[inline(always)]
-    fn push(&mut self, corners: C) -> u32 {
-        let cell = self.cells.len() as u32;
-        self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
-        self.cells.push(Cell { alignment: [], corners, neighbours: C::filled(NONE) });
-        self.marks.push(0);
-        cell
+    pub fn create_blank(&mut self) -> u32 {
+        self.free.pop().unwrap_or_else(|| {
+            let cell = self.cells.len() as u32;
+            self.cells.push(Cell { alignment: [], corners: C::filled(NONE), neighbours: C::filled(NONE) });
+            self.marks.push(0);
+            cell
+        })
     }
 
     /// Puts new corners where a cell is free or to be replaced; its mark is cleared, its neighbours are not.
@@ -247,12 +244,6 @@ impl<C: Corners> Complex<C> {
         self.cells[cell as usize].corners = C::filled(NONE);
         self.marks[cell as usize] = 0;
         self.free.push(cell);
-    }
-
-    /// Sets one side of a glueing; the caller sets the other.
-    #[inline(always)]
-    pub fn set_neighbour(&mut self, a: Facet, b: Facet) {
-        self.cells[a.cell() as usize].neighbours[a.index()] = b.0;
     }
 
     /// Glues two facets.
@@ -289,5 +280,16 @@ impl<C: Corners> Complex<C> {
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4
+    }
+}
+
+impl Complex<[u32; 4]> {
+    /// Sets one side of the gluings of all facets but the first; the caller sets the others.
+    #[inline(always)]
+    pub fn set_last_neighbours(&mut self, cell: u32, across: [Facet; 3]) {
+        let neighbours = &mut self.cells[cell as usize].neighbours;
+        for (i, facet) in across.into_iter().enumerate() {
+            neighbours[i + 1] = facet.0;
+        }
     }
 }

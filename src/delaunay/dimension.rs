@@ -9,7 +9,8 @@ use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
 use crate::complex::{Corners, INFINITE};
-use crate::delaunay::{Delaunay, Site};
+use super::cavity::Cavity;
+use super::{Delaunay, Site, cavity_plane, cavity_space};
 use crate::predicates::{self, StaticFilter};
 
 /// Coordinates of one point: `[f64; D]`.
@@ -31,6 +32,8 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     type Point: Coordinates;
     /// `[u32; D + 1]`: the corners of a cell, or its neighbours.
     type Corners: Corners;
+    /// Scratch memory of [`glue`](Self::glue).
+    type Ridges: Debug + Default + Send + Sync;
     /// Error bounds for points inside the box.
     fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
     /// Sign of the orientation of the cell: positive in a valid finite cell.
@@ -55,6 +58,10 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     ) -> Option<bool>;
     /// Compares the distances from `q` to `a` and to `b`, exactly.
     fn compare_distance(q: &Self::Point, a: &Self::Point, b: &Self::Point) -> Ordering;
+    /// Finds the conflict zone of `q` and its rim, from the cell `start` in conflict.
+    fn dig(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &Self::Point, id: u32);
+    /// Joins the rim to the site: puts the new cells and glues them to each other and to what is outside.
+    fn glue(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>);
     /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
     /// change, in a dimension where flips can be stuck.
     fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64>;
@@ -72,6 +79,7 @@ impl Dimension for Plane {
     const D: usize = 2;
     type Point = [f64; 2];
     type Corners = [u32; 3];
+    type Ridges = ();
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
@@ -116,6 +124,16 @@ impl Dimension for Plane {
         predicates::compare_distance(q, a, b)
     }
 
+    #[inline(always)]
+    fn dig(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 2], id: u32) {
+        cavity_plane::dig(t, cavity, start, s, q, id);
+    }
+
+    #[inline(always)]
+    fn glue(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
+        cavity_plane::glue(t, cavity);
+    }
+
     fn is_crossed(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3], o: &[f64; 2], aim: &[f64; 2]) -> Option<bool> {
         let (a, b) = (&sites[v[0] as usize].point, &sites[v[1] as usize].point);
         all_positive([predicates::orient2d(f, o, aim, a), predicates::orient2d(f, o, b, aim)])
@@ -130,6 +148,7 @@ impl Dimension for Space {
     const D: usize = 3;
     type Point = [f64; 3];
     type Corners = [u32; 4];
+    type Ridges = cavity_space::Ridges;
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
         StaticFilter::space(*lower, *upper)
@@ -172,6 +191,16 @@ impl Dimension for Space {
 
     fn compare_distance(q: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> Ordering {
         predicates::compare_distance(q, a, b)
+    }
+
+    #[inline(always)]
+    fn dig(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 3], id: u32) {
+        cavity_space::dig(t, cavity, start, s, q, id);
+    }
+
+    #[inline(always)]
+    fn glue(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
+        cavity_space::glue(t, cavity);
     }
 
     fn is_crossed(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4], o: &[f64; 3], aim: &[f64; 3]) -> Option<bool> {

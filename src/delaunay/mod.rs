@@ -9,7 +9,7 @@
 //! | `order` | Hilbert curve and insertion rounds |
 //! | `build` | all sites at once |
 //! | `locate` | the walk |
-//! | `cavity` | insertion: dig the conflict zone, fill it |
+//! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
 //! | `remove` | removal: fill the star by gift wrapping |
 //! | `hub` | removal of a vertex with very many neighbours |
 //! | `relocate` | one site to a new place; flips |
@@ -23,6 +23,8 @@
 
 mod build;
 mod cavity;
+mod cavity_plane;
+mod cavity_space;
 mod dimension;
 mod flat;
 mod hub;

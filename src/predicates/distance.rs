@@ -1,0 +1,115 @@
+//! Exact comparison of distances, and collinearity in space.
+
+use robust::Coord;
+use std::cmp::Ordering;
+
+/// Compares the distances of `a` and of `b` from `q`, exactly, in dimension 1 to 3.
+#[inline(always)]
+pub fn compare_distance<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
+    let (to_a, to_b) = (squared_distance(q, a), squared_distance(q, b));
+    let difference = to_a - to_b;
+    // A rounded squared distance is a sum of D non-negative terms, each of relative error 3 u to first order
+    // (twice the difference's, and the product's), plus u for each of D − 1 sums: at most 5 u in all. The
+    // last subtraction keeps the sign. 6 u covers the higher orders and the rounding of this bound.
+    let bound = 6.0 * (f64::EPSILON / 2.0) * (to_a + to_b);
+    if difference > bound {
+        Ordering::Greater
+    } else if difference < -bound {
+        Ordering::Less
+    } else {
+        compare_distance_exactly(q, a, b)
+    }
+}
+
+/// Whether three points of space lie on a line, exactly: whether all three projections do.
+pub fn is_collinear3(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> bool {
+    [(0, 1), (1, 2), (2, 0)].into_iter().all(|(x, y)| {
+        let [a, b, c] = [a, b, c].map(|p| Coord { x: p[x], y: p[y] });
+        robust::orient2d(a, b, c) == 0.0
+    })
+}
+
+#[inline(always)]
+fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
+    let mut sum = 0.0;
+    for axis in 0..D {
+        let difference = p[axis] - q[axis];
+        sum += difference * difference;
+    }
+    sum
+}
+
+/// The sign of |q − a|² − |q − b|² = Σ a² − b² − 2qa + 2qb, every product being a sum of two doubles.
+#[cold]
+#[inline(never)]
+fn compare_distance_exactly<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
+    const { assert!(D <= 3, "a sum has room for the products of three axes") };
+    let mut sum = ExactSum::default();
+    for axis in 0..D {
+        let (q, a, b) = (q[axis], a[axis], b[axis]);
+        for (factor, other) in [(a, a), (-b, b), (-2.0 * q, a), (2.0 * q, b)] {
+            let (product, tail) = two_product(factor, other);
+            sum.add(tail);
+            sum.add(product);
+        }
+    }
+    sum.sign()
+}
+
+/// An exact sum of up to 24 numbers: a non-overlapping expansion, smallest component first.
+///
+/// (Shewchuk, *Adaptive precision floating-point arithmetic and fast robust geometric predicates*, 1997,
+/// Grow-Expansion with elimination of zeros.)
+#[derive(Default)]
+struct ExactSum {
+    components: [f64; 24],
+    length: usize,
+}
+
+impl ExactSum {
+    fn add(&mut self, term: f64) {
+        let mut carry = term;
+        let mut kept = 0;
+        for position in 0..self.length {
+            let (sum, tail) = two_sum(carry, self.components[position]);
+            carry = sum;
+            if tail != 0.0 {
+                self.components[kept] = tail;
+                kept += 1;
+            }
+        }
+        if carry != 0.0 {
+            self.components[kept] = carry;
+            kept += 1;
+        }
+        self.length = kept;
+    }
+
+    /// The largest component exceeds the sum of the others.
+    fn sign(&self) -> Ordering {
+        self.components[..self.length].last().map_or(Ordering::Equal, |largest| largest.total_cmp(&0.0))
+    }
+}
+
+/// Rounded sum and its error (Knuth).
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let b_part = sum - a;
+    let a_part = sum - b_part;
+    (sum, (a - a_part) + (b - b_part))
+}
+
+/// Rounded product and its error (Dekker).
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let error = ((product - a_high * b_high) - a_low * b_high) - a_high * b_low;
+    (product, a_low * b_low - error)
+}
+
+/// Halves of at most 26 bits (Veltkamp).
+fn split(a: f64) -> (f64, f64) {
+    let scaled = ((1u64 << 27) + 1) as f64 * a;
+    let high = scaled - (scaled - a);
+    (high, a - high)
+}

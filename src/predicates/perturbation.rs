@@ -1,0 +1,94 @@
+//! In-sphere tests without ties, by symbolic perturbation of the lift.
+//!
+//! # Derivation
+//!
+//! (Devillers and Teillaud, *Perturbations for Delaunay and weighted Delaunay 3D triangulations*,
+//! [10.1016/j.comgeo.2010.09.010](https://doi.org/10.1016/j.comgeo.2010.09.010).)
+//!
+//! Lift a point p to height |p|². A point e lies inside the sphere of a simplex iff its lifted image lies
+//! below the hyperplane through the lifted vertices aᵢ: with the barycentric coordinates λᵢ of e in the
+//! simplex, iff
+//!
+//! |e|² − Σ λᵢ |aᵢ|² < 0.
+//!
+//! Raise the vertex of id i by εᵢ, where 0 < ε₀ ≪ ε₁ ≪ …, each infinitesimal compared with the next: of
+//! several, the *highest* id dominates. When the left-hand side is zero, what remains is
+//!
+//! ε(e) − Σ λᵢ ε(aᵢ) < 0,
+//!
+//! and its sign is that of the non-zero term with the highest id. The term of e is positive: e is outside.
+//! The term of aᵢ is opposite to λᵢ, and λᵢ is the orientation of the simplex with aᵢ replaced by e, over
+//! the orientation of the simplex: e is inside iff that orientation, the simplex being positive, is
+//! positive.
+//!
+//! Raising a point never moves it, so orientations are those of the unperturbed points and cells of
+//! volume zero never appear; and since the perturbation belongs to a vertex and not to a call, all calls
+//! speak of one and the same set of lifted points in general position. Its lower hull is unique: the
+//! triangulation is a function of positions and ids alone.
+//!
+//! # Cost
+//!
+//! That of the in-sphere test, then, on ties only, one orientation as a rule. In the plane it is exactly
+//! one (three of four distinct cocircular points are never collinear); in space more are needed when four
+//! of the points are coplanar.
+
+use super::filter::StaticFilter;
+use super::plane::{incircle, orient2d};
+use super::space::{insphere, orient3d};
+use std::cmp::Reverse;
+
+/// Whether the last point is inside the circle of the first three, ties being decided by `ids`.
+///
+/// The first three points are in counter-clockwise order and no two points coincide; ids are distinct.
+#[inline(always)]
+pub fn incircle_perturbed(f: &StaticFilter, points: [&[f64; 2]; 4], ids: [u32; 4]) -> bool {
+    let [a, b, c, d] = points;
+    let det = incircle(f, a, b, c, d);
+    if det != 0.0 { det > 0.0 } else { is_inside_cocircular(f, points, ids) }
+}
+
+/// Whether the last point is inside the sphere of the first four, ties being decided by `ids`.
+///
+/// The first four points are in positive orientation and no two points coincide; ids are distinct.
+#[inline(always)]
+pub fn insphere_perturbed(f: &StaticFilter, points: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
+    let [a, b, c, d, e] = points;
+    let det = insphere(f, a, b, c, d, e);
+    if det != 0.0 { det > 0.0 } else { is_inside_cospherical(f, points, ids) }
+}
+
+#[cold]
+#[inline(never)]
+fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u32; 4]) -> bool {
+    debug_assert!(orient2d(f, a, b, c) > 0.0, "the triangle is not counter-clockwise");
+    is_inside_raised(ids, |vertex| match vertex {
+        0 => orient2d(f, d, b, c),
+        1 => orient2d(f, a, d, c),
+        _ => orient2d(f, a, b, d),
+    })
+}
+
+#[cold]
+#[inline(never)]
+fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
+    debug_assert!(orient3d(f, a, b, c, d) > 0.0, "the tetrahedron is not positive");
+    is_inside_raised(ids, |vertex| match vertex {
+        0 => orient3d(f, e, b, c, d),
+        1 => orient3d(f, a, e, c, d),
+        2 => orient3d(f, a, b, e, d),
+        _ => orient3d(f, a, b, c, e),
+    })
+}
+
+/// Decides a tie among the `N − 1` vertices of a positive simplex and a query point, which comes last.
+/// `replaced(i)` is the orientation of the simplex with vertex `i` replaced by the query point.
+fn is_inside_raised<const N: usize>(ids: [u32; N], replaced: impl Fn(usize) -> f64) -> bool {
+    let mut dominating_first: [usize; N] = std::array::from_fn(|position| position);
+    dominating_first.sort_unstable_by_key(|&position| Reverse(ids[position]));
+    dominating_first
+        .into_iter()
+        .take_while(|&position| position != N - 1)
+        .map(replaced)
+        .find(|&orientation| orientation != 0.0)
+        .is_some_and(|orientation| orientation > 0.0)
+}

@@ -1,0 +1,89 @@
+//! Predicates of the plane.
+
+use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
+use super::integer::{Scaled, Wide};
+use robust::Coord;
+
+/// Twice the signed area of the triangle `abc`: positive when counter-clockwise, zero when collinear.
+///
+/// The sign is exact for points in the filter's box; the magnitude is approximate.
+#[inline(always)]
+pub fn orient2d(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
+    let det = cross(&minus(b, a), &minus(c, a));
+    if det.abs() > f.orient { det } else { orient2d_uncertain(det, [a, b, c]) }
+}
+
+/// In-circle determinant: positive iff `d` is strictly inside the circle of the counter-clockwise triangle
+/// `abc`, zero iff the points are cocircular (or `abc` degenerates with them); negated for clockwise `abc`.
+///
+/// The sign is exact for points in the filter's box; the magnitude is approximate.
+#[inline(always)]
+pub fn incircle(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2], d: &[f64; 2]) -> f64 {
+    let det = incircle_rounded([a, b, c, d]);
+    if det.abs() > f.in_sphere { det } else { incircle_uncertain(det, [a, b, c, d]) }
+}
+
+/// The later stages, after the rounded determinant.
+#[cold]
+#[inline(never)]
+fn orient2d_uncertain(det: f64, points: [&[f64; 2]; 3]) -> f64 {
+    let bound = orient2d_bound(extents(points));
+    if is_certain(det, bound) {
+        return det;
+    }
+    let [a, b, c] = points.map(coord);
+    robust::orient2d(a, b, c)
+}
+
+#[cold]
+#[inline(never)]
+fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
+    let extents = extents(points);
+    if is_certain(det, incircle_bound(extents)) {
+        return det;
+    }
+    let [origin, others @ ..] = points;
+    if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
+        return scaled.value(incircle_integer(&scaled.differences), 4);
+    }
+    let [a, b, c, d] = points.map(coord);
+    robust::incircle(a, b, c, d)
+}
+
+/// With the differences u, v, w from `a` to `b`, `c`, `d`: minus the determinant with rows (u, |u|²),
+/// (v, |v|²), (w, |w|²), which is `|v|² u×w − |u|² v×w − |w|² u×v`.
+///
+/// The cross products satisfy `u (v×w) − v (u×w) + w (u×v) = 0`. Its scalar product with u replaces
+/// `|u|² v×w`, and two products remain of three: `(u×w)(v·(v − u)) − (u×v)(w·(w − u))`.
+#[inline(always)]
+fn incircle_rounded([a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
+    let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
+    cross(&u, &w) * dot(&v, &minus(c, b)) - cross(&u, &v) * dot(&w, &minus(d, b))
+}
+
+/// The same, modulo 2²⁵⁶.
+fn incircle_integer([u, v, w]: &[[i64; 2]; 3]) -> Wide {
+    let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
+    let cross = |p: &[i64; 2], q: &[i64; 2]| product(p[0], q[1]) - product(p[1], q[0]);
+    let dot_from_u = |p: &[i64; 2]| product(p[0], p[0] - u[0]) + product(p[1], p[1] - u[1]);
+    Wide::from(cross(u, w)).times(dot_from_u(v)).minus(Wide::from(cross(u, v)).times(dot_from_u(w)))
+}
+
+#[inline(always)]
+fn minus(p: &[f64; 2], q: &[f64; 2]) -> [f64; 2] {
+    [p[0] - q[0], p[1] - q[1]]
+}
+
+#[inline(always)]
+fn cross(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+    p[0] * q[1] - p[1] * q[0]
+}
+
+#[inline(always)]
+fn dot(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+    p[0] * q[0] + p[1] * q[1]
+}
+
+fn coord(&[x, y]: &[f64; 2]) -> Coord<f64> {
+    Coord { x, y }
+}

@@ -1,0 +1,145 @@
+//! Predicates of space.
+//!
+//! Orientation follows CGAL: the tetrahedron `abcd` is positive when `b − a`, `c − a`, `d − a` form a
+//! right-handed basis, that is, when `abc` turns counter-clockwise seen from `d`.
+
+use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
+use super::integer::{Scaled, Wide};
+use robust::Coord3D;
+
+/// Six times the signed volume of the tetrahedron `abcd`, the determinant of `b − a`, `c − a`, `d − a`; zero
+/// when the points are coplanar.
+///
+/// The sign is exact for points in the filter's box; the magnitude is approximate.
+#[inline(always)]
+pub fn orient3d(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> f64 {
+    let det = volume(&minus(b, a), &minus(c, a), &minus(d, a));
+    if det.abs() > f.orient { det } else { orient3d_uncertain(det, [a, b, c, d]) }
+}
+
+/// In-sphere determinant: positive iff `e` is strictly inside the sphere of the positive tetrahedron
+/// `abcd`, zero iff the points are cospherical (or `abcd` degenerates with them); negated for negative
+/// `abcd`.
+///
+/// The sign is exact for points in the filter's box; the magnitude is approximate.
+#[inline(always)]
+pub fn insphere(
+    f: &StaticFilter,
+    a: &[f64; 3],
+    b: &[f64; 3],
+    c: &[f64; 3],
+    d: &[f64; 3],
+    e: &[f64; 3],
+) -> f64 {
+    let det = insphere_rounded([a, b, c, d, e]);
+    if det.abs() > f.in_sphere { det } else { insphere_uncertain(det, [a, b, c, d, e]) }
+}
+
+/// The later stages, after the rounded determinant.
+#[cold]
+#[inline(never)]
+fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
+    let extents = extents(points);
+    if is_certain(det, orient3d_bound(extents)) {
+        return det;
+    }
+    let [origin, others @ ..] = points;
+    if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
+        return scaled.value(orient3d_integer(&scaled.differences), 3);
+    }
+    let [a, b, c, d] = points.map(coord);
+    // Shewchuk's tetrahedra are positive when left-handed.
+    -robust::orient3d(a, b, c, d)
+}
+
+#[cold]
+#[inline(never)]
+fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
+    let extents = extents(points);
+    if is_certain(det, insphere_bound(extents)) {
+        return det;
+    }
+    let [origin, others @ ..] = points;
+    if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
+        return scaled.value(insphere_integer(&scaled.differences), 5);
+    }
+    let [a, b, c, d, e] = points.map(coord);
+    -robust::insphere(a, b, c, d, e)
+}
+
+/// With the differences u, v, w, s from `a` to `b`, `c`, `d`, `e`: minus the determinant with rows (u, |u|²),
+/// (v, |v|²), (w, |w|²), (s, |s|²), which, `[·]` being volumes, is
+/// `|u|² [vws] − |v|² [uws] + |w|² [uvs] − |s|² [uvw]`.
+///
+/// The volumes satisfy `u [vws] − v [uws] + w [uvs] − s [uvw] = 0`. Its scalar product with u replaces
+/// `|u|² [vws]`, and three products remain of four:
+/// `[uvs] (w·(w − u)) − [uws] (v·(v − u)) − [uvw] (s·(s − u))`.
+#[inline(always)]
+fn insphere_rounded([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
+    let (u, v, w, s) = (minus(b, a), minus(c, a), minus(d, a), minus(e, a));
+    let (minor_uv, minor_uw, minor_us) = (minor(&u, &v), minor(&u, &w), minor(&u, &s));
+    let (minor_vw, minor_vs, minor_ws) = (minor(&v, &w), minor(&v, &s), minor(&w, &s));
+    let volume_uvw = minor_vw * u[2] - minor_uw * v[2] + minor_uv * w[2];
+    let volume_uvs = minor_vs * u[2] - minor_us * v[2] + minor_uv * s[2];
+    let volume_uws = minor_ws * u[2] - minor_us * w[2] + minor_uw * s[2];
+    volume_uvs * dot(&w, &minus(d, b))
+        - volume_uws * dot(&v, &minus(c, b))
+        - volume_uvw * dot(&s, &minus(e, b))
+}
+
+/// The same, modulo 2²⁵⁶.
+fn insphere_integer([u, v, w, s]: &[[i64; 3]; 4]) -> Wide {
+    let (minor_uv, minor_uw, minor_us) = (minor_integer(u, v), minor_integer(u, w), minor_integer(u, s));
+    let (minor_vw, minor_vs, minor_ws) = (minor_integer(v, w), minor_integer(v, s), minor_integer(w, s));
+    let volume_uvw = volume_integer([minor_vw, minor_uw, minor_uv], [u, v, w]);
+    let volume_uvs = volume_integer([minor_vs, minor_us, minor_uv], [u, v, s]);
+    let volume_uws = volume_integer([minor_ws, minor_us, minor_uw], [u, w, s]);
+    let dot_from_u = |p: &[i64; 3]| (0..3).map(|axis| product(p[axis], p[axis] - u[axis])).sum();
+    let first = volume_uvs.times(dot_from_u(w));
+    first.minus(volume_uws.times(dot_from_u(v))).minus(volume_uvw.times(dot_from_u(s)))
+}
+
+fn orient3d_integer([u, v, w]: &[[i64; 3]; 3]) -> Wide {
+    volume_integer([minor_integer(v, w), minor_integer(u, w), minor_integer(u, v)], [u, v, w])
+}
+
+/// Determinant of three differences, given the minors without each of them.
+fn volume_integer(minors: [i128; 3], differences: [&[i64; 3]; 3]) -> Wide {
+    let [first, second, third] =
+        std::array::from_fn(|i| Wide::from(minors[i]).times(i128::from(differences[i][2])));
+    first.minus(second).plus(third)
+}
+
+fn minor_integer(p: &[i64; 3], q: &[i64; 3]) -> i128 {
+    product(p[0], q[1]) - product(p[1], q[0])
+}
+
+fn product(x: i64, y: i64) -> i128 {
+    i128::from(x) * i128::from(y)
+}
+
+/// Determinant of three differences.
+#[inline(always)]
+fn volume(u: &[f64; 3], v: &[f64; 3], w: &[f64; 3]) -> f64 {
+    minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
+}
+
+/// Minor of the first two columns.
+#[inline(always)]
+fn minor(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+    p[0] * q[1] - p[1] * q[0]
+}
+
+#[inline(always)]
+fn minus(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
+}
+
+#[inline(always)]
+fn dot(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+}
+
+fn coord(&[x, y, z]: &[f64; 3]) -> Coord3D<f64> {
+    Coord3D { x, y, z }
+}
