@@ -18,7 +18,7 @@ impl Complex<[u32; 3]> {
     /// Replaces the edge between two finite cells by the one between its opposing vertices; the two cells keep
     /// their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`, and `q` across: `c`
     /// becomes `p b q` and its neighbour `q a p`.
-    pub fn flip(&mut self, facet: Facet) {
+    pub(crate) fn flip(&mut self, facet: Facet) {
         let (c, i) = (facet.cell(), facet.index());
         let across = self.cell(c).neighbour(i);
         let (d, j) = (across.cell(), across.index());
@@ -26,8 +26,8 @@ impl Complex<[u32; 3]> {
         let next = |k: usize| (k + 1) % 3;
         let (p, q) = (self.cell(c).corners[i], self.cell(d).corners[j]);
         let (beyond_bq, beyond_ap) = (self.cell(d).neighbour(next(j)), self.cell(c).neighbour(next(i)));
-        self.cells[c as usize].corners[next(next(i))] = q;
-        self.cells[d as usize].corners[next(next(j))] = p;
+        self.cell_mut(c).corners[next(next(i))] = q;
+        self.cell_mut(d).corners[next(next(j))] = p;
         self.glue(Facet::new(c, i), beyond_bq);
         self.glue(Facet::new(d, j), beyond_ap);
         self.glue(Facet::new(c, next(i)), Facet::new(d, next(j)));
@@ -38,6 +38,7 @@ impl Complex<[u32; 4]> {
     /// Replaces the two cells of a facet by three around the edge between their opposing vertices; returns
     /// them. The caller has [reserved](Self::reserve) a cell and knows that the exchange is geometrically valid.
     pub fn flip_2_3(&mut self, facet: Facet) -> [u32; 3] {
+        assert!(self.is_live(facet.cell()) && facet.index() < 4);
         let (c, i) = (facet.cell(), facet.index());
         let across = self.cell(c).neighbour(i);
         let q = self.cell(across.cell()).corners[across.index()];
@@ -50,6 +51,7 @@ impl Complex<[u32; 4]> {
     /// triangle around it; returns them, the one that keeps corner `i` first. `None`, and no change, if the edge
     /// has not exactly three cells.
     pub fn flip_3_2(&mut self, cell: u32, i: usize, j: usize) -> Option<[u32; 2]> {
+        assert!(self.is_live(cell) && i < 4 && j < 4 && i != j);
         let corners = self.cell(cell).corners;
         let (p, q) = (corners[i], corners[j]);
         let k = (0..4).find(|&k| k != i && k != j)?;

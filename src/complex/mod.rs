@@ -10,6 +10,11 @@
 //!
 //! A neighbour is stored with the index of the shared facet seen from the other side, in the two low bits:
 //! crossing a facet costs no search. That bounds the number of cells by [`MAX_CELLS`].
+//!
+//! Methods that take a cell's index are for this crate alone and do not check it (checks cost 5 % of a 3D build): by the
+//! invariants, an index read from a live cell is that of a live cell.
+
+#![allow(unsafe_code)]
 
 mod corners;
 mod flips;
@@ -125,7 +130,7 @@ impl<C: Corners> Default for Complex<C> {
 
 impl<C: Corners> Complex<C> {
     /// Removes all cells; keeps the memory.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.cells.clear();
         self.marks.clear();
         self.free.clear();
@@ -147,16 +152,35 @@ impl<C: Corners> Complex<C> {
         self.cells.len()
     }
 
+    /// Number of cells for which there is memory.
+    pub fn n_cells_reserved(&self) -> usize {
+        self.cells.capacity()
+    }
+
     /// The cell of an index below [`n_slots`](Self::n_slots).
     #[inline(always)]
-    pub fn cell(&self, cell: u32) -> &Cell<C> {
-        &self.cells[cell as usize]
+    pub(crate) fn cell(&self, cell: u32) -> &Cell<C> {
+        debug_assert!((cell as usize) < self.cells.len());
+        // SAFETY: the index is that of a cell (module's documentation).
+        unsafe { self.cells.get_unchecked(cell as usize) }
+    }
+
+    #[inline(always)]
+    fn cell_mut(&mut self, cell: u32) -> &mut Cell<C> {
+        debug_assert!((cell as usize) < self.cells.len());
+        // SAFETY: the index is that of a cell (module's documentation).
+        unsafe { self.cells.get_unchecked_mut(cell as usize) }
     }
 
     /// Whether the index has no cell at present.
     #[inline(always)]
-    pub fn is_free(&self, cell: u32) -> bool {
-        self.cells[cell as usize].corners[0] == NONE
+    pub(crate) fn is_free(&self, cell: u32) -> bool {
+        self.cell(cell).corners[0] == NONE
+    }
+
+    /// Whether there is a cell of this index.
+    pub fn is_live(&self, cell: u32) -> bool {
+        (cell as usize) < self.cells.len() && !self.is_free(cell)
     }
 
     /// Indices of all cells, ghost cells included.
@@ -171,19 +195,23 @@ impl<C: Corners> Complex<C> {
 
     /// Mark of a cell.
     #[inline(always)]
-    pub fn mark(&self, cell: u32) -> u8 {
-        self.marks[cell as usize]
+    pub(crate) fn mark(&self, cell: u32) -> u8 {
+        debug_assert!((cell as usize) < self.marks.len());
+        // SAFETY: there is a mark for each cell.
+        unsafe { *self.marks.get_unchecked(cell as usize) }
     }
 
     /// Marks a cell.
     #[inline(always)]
-    pub fn set_mark(&mut self, cell: u32, mark: u8) {
-        self.marks[cell as usize] = mark;
+    pub(crate) fn set_mark(&mut self, cell: u32, mark: u8) {
+        debug_assert!((cell as usize) < self.marks.len());
+        // SAFETY: there is a mark for each cell.
+        unsafe { *self.marks.get_unchecked_mut(cell as usize) = mark }
     }
 
     /// Makes sure that `n` more cells can be created without a failure.
     #[inline(always)]
-    pub fn reserve(&mut self, n: usize) -> Result<()> {
+    pub(crate) fn reserve(&mut self, n: usize) -> Result<()> {
         if self.cells.capacity() - self.cells.len() + self.free.len() >= n {
             return Ok(());
         }
@@ -206,7 +234,7 @@ impl<C: Corners> Complex<C> {
 
     /// Creates a cell that has no neighbours yet.
     #[inline(always)]
-    pub fn create(&mut self, corners: C) -> u32 {
+    pub(crate) fn create(&mut self, corners: C) -> u32 {
         let cell = self.create_blank();
         self.put(cell, corners);
         cell
@@ -214,7 +242,7 @@ impl<C: Corners> Complex<C> {
 
     /// An index for a cell that is [put](Self::put) there next.
     #[inline(always)]
-    pub fn create_blank(&mut self) -> u32 {
+    pub(crate) fn create_blank(&mut self) -> u32 {
         self.free.pop().unwrap_or_else(|| {
             let cell = self.cells.len() as u32;
             self.cells.push(Cell { alignment: [], corners: C::filled(NONE), neighbours: C::filled(NONE) });
@@ -226,35 +254,46 @@ impl<C: Corners> Complex<C> {
     /// Puts new corners where a cell is free or to be replaced; its mark is cleared, its neighbours are not.
     /// The caller has [retired](Self::retire) the old one.
     #[inline(always)]
-    pub fn put(&mut self, cell: u32, corners: C) {
+    pub(crate) fn put(&mut self, cell: u32, corners: C) {
         self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
-        self.cells[cell as usize].corners = corners;
-        self.marks[cell as usize] = 0;
+        self.cell_mut(cell).corners = corners;
+        self.set_mark(cell, 0);
+    }
+
+    /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to set, but for the facet
+    /// opposite corner 0.
+    #[inline(always)]
+    pub(crate) fn put_glued(&mut self, cell: u32, corners: C, neighbours: C) {
+        self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
+        *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
+        self.set_mark(cell, 0);
+        let out = Facet(neighbours[0]);
+        self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, 0).0;
     }
 
     /// Takes a cell out of the count of ghosts before [`put`](Self::put) or [`release`](Self::release).
     #[inline(always)]
-    pub fn retire(&mut self, cell: u32) {
-        self.n_ghosts -= self.cells[cell as usize].is_ghost() as usize;
+    pub(crate) fn retire(&mut self, cell: u32) {
+        self.n_ghosts -= self.cell(cell).is_ghost() as usize;
     }
 
     /// Frees the index of a retired cell.
     #[inline(always)]
-    pub fn release(&mut self, cell: u32) {
-        self.cells[cell as usize].corners = C::filled(NONE);
-        self.marks[cell as usize] = 0;
+    pub(crate) fn release(&mut self, cell: u32) {
+        self.cell_mut(cell).corners = C::filled(NONE);
+        self.set_mark(cell, 0);
         self.free.push(cell);
     }
 
     /// Glues two facets.
     #[inline(always)]
-    pub fn glue(&mut self, a: Facet, b: Facet) {
-        self.cells[a.cell() as usize].neighbours[a.index()] = b.0;
-        self.cells[b.cell() as usize].neighbours[b.index()] = a.0;
+    pub(crate) fn glue(&mut self, a: Facet, b: Facet) {
+        self.cell_mut(a.cell()).neighbours[a.index()] = b.0;
+        self.cell_mut(b.cell()).neighbours[b.index()] = a.0;
     }
 
     /// Creates a single cell and the ghost cells around it.
-    pub fn start(&mut self, corners: C) -> Result<()> {
+    pub(crate) fn start(&mut self, corners: C) -> Result<()> {
         self.reserve(C::N + 1)?;
         let last = C::N - 1;
         let mut cells = vec![self.create(corners)];
@@ -280,16 +319,5 @@ impl<C: Corners> Complex<C> {
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4
-    }
-}
-
-impl Complex<[u32; 4]> {
-    /// Sets one side of the gluings of all facets but the first; the caller sets the others.
-    #[inline(always)]
-    pub fn set_last_neighbours(&mut self, cell: u32, across: [Facet; 3]) {
-        let neighbours = &mut self.cells[cell as usize].neighbours;
-        for (i, facet) in across.into_iter().enumerate() {
-            neighbours[i + 1] = facet.0;
-        }
     }
 }

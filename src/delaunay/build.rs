@@ -68,9 +68,6 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Builds the cells of all live sites, from a basis of `D + 1` on.
     pub(super) fn triangulate(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
-        if !monitor(0.0) {
-            return Err(Error::Cancelled);
-        }
         let order = in_rounds::<G>(self.live_sites());
         self.complex.clear();
         // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
@@ -79,22 +76,45 @@ impl<G: Dimension> Delaunay<G> {
             site.cell = NONE;
         }
         self.start()?;
-        let mut merges = Vec::new();
+        let inserted = self.insert_all(&order, monitor);
+        // They would be stale after the first relocation, and are as large as the cells.
+        self.spheres = Vec::new();
+        let coincident = inserted?;
+        self.merge(coincident)
+    }
+
+    /// Inserts all sites but those of the first cell; returns pairs of coincident sites, the second in the cells.
+    fn insert_all(&mut self, order: &[u32], monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<(u32, u32)>> {
+        let bytes = self.complex.n_cells_reserved() * size_of::<G::Sphere>();
+        self.spheres.try_reserve_exact(self.complex.n_cells_reserved()).map_err(|_| Error::OutOfMemory { bytes })?;
+        for c in 0..self.complex.n_slots() as u32 {
+            let corners = self.complex.cell(c).corners;
+            self.spheres.push(G::sphere(&self.filter, self.view(), &corners));
+        }
+        let mut coincident = Vec::new();
         self.cavity.steps = 0;
         for (done, &s) in order.iter().enumerate() {
-            if done % MONITORED == MONITORED - 1 && !monitor(done as f64 / order.len() as f64) {
+            if done % MONITORED == 0 && !monitor(done as f64 / order.len() as f64) {
                 return Err(Error::Cancelled);
             }
-            if self.site(s).cell != NONE {
-                continue;
-            }
-            if let Insertion::Coincident(t) = self.insert_into_cells(s, self.recent)? {
-                let (id, at) = (self.site(s).id, self.site(t).id);
-                self.drop_site(s);
-                merges.push(Merge { hidden: id.max(at), site: t });
-                if id < at {
-                    self.rename_site(t, id)?;
+            if self.site(s).cell == NONE {
+                if let Insertion::Coincident(t) = self.insert_into_cells::<true>(s, self.recent)? {
+                    coincident.push((s, t));
                 }
+            }
+        }
+        Ok(coincident)
+    }
+
+    /// Drops the sites that found others at their places, and gives those the lowest id.
+    fn merge(&mut self, coincident: Vec<(u32, u32)>) -> Result<Vec<Merge>> {
+        let mut merges = Vec::with_capacity(coincident.len());
+        for (s, t) in coincident {
+            let (id, at) = (self.site(s).id, self.site(t).id);
+            self.drop_site(s);
+            merges.push(Merge { hidden: id.max(at), site: t });
+            if id < at {
+                self.rename_site(t, id)?;
             }
         }
         Ok(merges)
@@ -104,7 +124,7 @@ impl<G: Dimension> Delaunay<G> {
     fn start(&mut self) -> Result<()> {
         let mut corners = G::Corners::filled(0);
         corners.as_mut().copy_from_slice(&self.flat.basis);
-        if G::orientation(&self.filter, &self.sites, &corners) < 0.0 {
+        if G::orientation(&self.filter, self.view(), &corners) < 0.0 {
             corners.as_mut().swap(0, 1);
         }
         self.flat.clear();

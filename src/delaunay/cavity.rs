@@ -39,10 +39,13 @@ pub(super) const IN_ZONE: u8 = 1;
 
 /// Scratch memory of insertions.
 #[derive(Debug)]
-pub(super) struct Cavity<G: Dimension> {
-    /// Cells in conflict.
+pub struct Cavity<G: Dimension> {
+    /// Cells in conflict: the first `n_zone` entries. The rest is room to write before it is known whether to keep it.
     pub(super) zone: Vec<u32>,
+    pub(super) n_zone: usize,
+    /// Likewise, the rim's facets.
     pub(super) rim: Vec<Rim<G::Corners>>,
+    pub(super) n_rim: usize,
     /// The cell that takes the place of each rim facet.
     pub(super) cells: Vec<u32>,
     pub(super) ridges: G::Ridges,
@@ -52,7 +55,7 @@ pub(super) struct Cavity<G: Dimension> {
 
 impl<G: Dimension> Default for Cavity<G> {
     fn default() -> Self {
-        Cavity { zone: Vec::new(), rim: Vec::new(), cells: Vec::new(), ridges: G::Ridges::default(), steps: 0 }
+        Cavity { zone: Vec::new(), n_zone: 0, rim: Vec::new(), n_rim: 0, cells: Vec::new(), ridges: G::Ridges::default(), steps: 0 }
     }
 }
 
@@ -63,7 +66,7 @@ impl<G: Dimension> Delaunay<G> {
         let q = self.site(s).point;
         self.cover(&q, &q);
         let inserted = if self.has_cells() {
-            self.insert_into_cells(s, if near == NONE { self.recent } else { near })
+            self.insert_into_cells::<false>(s, if near == NONE { self.recent } else { near })
         } else {
             self.insert_flat(s)
         };
@@ -74,8 +77,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Inserts a site that has been added, walking from the cell `near`. There must be cells, and the filter must
-    /// cover the site.
-    pub(super) fn insert_into_cells(&mut self, s: u32, near: u32) -> Result<Insertion> {
+    /// cover the site. In a build every cell has a prepared sphere.
+    pub(super) fn insert_into_cells<const BUILD: bool>(&mut self, s: u32, near: u32) -> Result<Insertion> {
         let (q, id) = (self.site(s).point, self.site(s).id);
         let mut steps = 0;
         let start = self.walk(&self.filter, &q, near, &mut steps);
@@ -84,8 +87,8 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(Insertion::Coincident(t));
         }
         let mut cavity = std::mem::take(&mut self.cavity);
-        G::dig(self, &mut cavity, start, s, &q, id);
-        let filled = self.fill(s, &mut cavity);
+        G::dig::<BUILD>(self, &mut cavity, start, s, &q, id);
+        let filled = self.fill::<BUILD>(s, &mut cavity);
         self.cavity = cavity;
         filled?;
         Ok(Insertion::New)
@@ -93,27 +96,31 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Replaces the zone by the cells that join its rim to the site.
     #[inline(always)]
-    fn fill(&mut self, s: u32, cavity: &mut Cavity<G>) -> Result<()> {
-        if let Err(error) = self.complex.reserve(cavity.rim.len()) {
-            for &c in &cavity.zone {
+    fn fill<const BUILD: bool>(&mut self, s: u32, cavity: &mut Cavity<G>) -> Result<()> {
+        let (zone, n_rim) = (&cavity.zone[..cavity.n_zone], cavity.n_rim);
+        if let Err(error) = self.complex.reserve(n_rim) {
+            for &c in zone {
                 self.complex.set_mark(c, 0);
             }
             return Err(error);
         }
-        // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
-        cavity.cells.clear();
-        let reused = cavity.zone.len().min(cavity.rim.len());
-        cavity.cells.extend_from_slice(&cavity.zone[..reused]);
-        for &c in &cavity.zone {
+        for &c in zone {
             self.complex.retire(c);
         }
-        for &c in &cavity.zone[reused..] {
+        // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
+        let reused = zone.len().min(n_rim);
+        for &c in &zone[reused..] {
             self.complex.release(c);
         }
-        for _ in reused..cavity.rim.len() {
+        cavity.cells.clear();
+        cavity.cells.extend_from_slice(&zone[..reused]);
+        for _ in reused..n_rim {
             cavity.cells.push(self.complex.create_blank());
         }
-        G::glue(self, cavity);
+        if BUILD {
+            self.spheres.resize(self.complex.n_slots(), G::Sphere::default());
+        }
+        G::glue::<BUILD>(self, cavity);
         self.recent = cavity.cells[0];
         self.sites[s as usize].cell = cavity.cells[0];
         Ok(())

@@ -6,53 +6,90 @@
 
 use super::cavity::{Cavity, IN_ZONE, Rim};
 use super::{Delaunay, Plane};
-use crate::complex::Facet;
+use crate::complex::{Facet, INFINITE};
+
+/// The corners with `s` in place of corner `i`, turned to have `s` first; but a ghost corner stays last.
+#[inline(always)]
+fn joined([a, b, c]: [u32; 3], i: usize, s: u32) -> ([u32; 3], u32) {
+    match i {
+        0 => ([s, b, c], 0),
+        1 if c == INFINITE => ([a, s, c], 1),
+        1 => ([s, c, a], 0),
+        _ => ([s, a, b], 0),
+    }
+}
 
 /// Finds the zone of `q` from one cell of it, and its rim.
 #[inline(always)]
-pub(super) fn dig(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32, q: &[f64; 2], id: u32) {
+pub(super) fn dig<const BUILD: bool>(
+    t: &mut Delaunay<Plane>,
+    cavity: &mut Cavity<Plane>,
+    start: u32,
+    s: u32,
+    q: &[f64; 2],
+    id: u32,
+) {
     let Cavity { zone, rim, .. } = cavity;
-    zone.clear();
-    rim.clear();
-    zone.push(start);
+    let (mut next, mut n_zone, mut n_rim) = (0, 1, 0);
+    make_room(zone, rim, n_zone, n_rim);
+    zone[0] = start;
     t.complex.set_mark(start, IN_ZONE);
-    let mut next = 0;
-    while next < zone.len() {
+    while next < n_zone {
+        make_room(zone, rim, n_zone, n_rim);
         let cell = *t.complex.cell(zone[next]);
         next += 1;
         for i in 0..3 {
             let out = cell.neighbour(i);
-            if t.complex.mark(out.cell()) == IN_ZONE {
-                continue;
-            }
-            if t.is_in_conflict(out.cell(), q, id) {
-                t.complex.set_mark(out.cell(), IN_ZONE);
-                zone.push(out.cell());
+            let known = t.complex.mark(out.cell());
+            // A prepared test is cheaper than a wrong guess whether the cell is known.
+            let in_zone = if BUILD {
+                t.is_in_prepared_conflict(out.cell(), q, id)
             } else {
-                let mut corners = cell.corners;
-                corners[i] = s;
-                rim.push(Rim { corners, out, at: i as u32 });
-            }
+                known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
+            };
+            t.complex.set_mark(out.cell(), in_zone as u8);
+            zone[n_zone] = out.cell();
+            let (corners, at) = joined(cell.corners, i, s);
+            rim[n_rim] = Rim { corners, out, at };
+            n_zone += (in_zone as u8 & !known) as usize;
+            n_rim += !in_zone as usize;
         }
+    }
+    (cavity.n_zone, cavity.n_rim) = (n_zone, n_rim);
+}
+
+/// Makes room for the three neighbours of a cell.
+#[inline(always)]
+fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim<[u32; 3]>>, n_zone: usize, n_rim: usize) {
+    if zone.len() < n_zone + 3 {
+        zone.resize(2 * n_zone + 64, 0);
+    }
+    if rim.len() < n_rim + 3 {
+        rim.resize(2 * n_rim + 64, Rim { corners: [0; 3], out: Facet::new(0, 0), at: 0 });
     }
 }
 
 /// Makes the new triangles and glues them.
 #[inline(always)]
-pub(super) fn glue(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>) {
-    let Cavity { rim, cells, .. } = cavity;
+pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>) {
+    let Cavity { rim, n_rim, cells, .. } = cavity;
+    let rim = &rim[..*n_rim];
     for (facet, &cell) in rim.iter().zip(cells) {
-        let at = facet.at as usize;
+        let (start, end) = if facet.at == 0 { (1, 2) } else { (2, 0) };
         t.complex.put(cell, facet.corners);
-        t.complex.glue(Facet::new(cell, at), facet.out);
-        t.sites[facet.corners[(at + 1) % 3] as usize].cell = Facet::new(cell, (at + 2) % 3).code();
+        t.complex.glue(Facet::new(cell, facet.at as usize), facet.out);
+        t.corner_mut(facet.corners[start]).cell = Facet::new(cell, end).code();
+        if BUILD {
+            t.prepare_sphere(cell, &facet.corners);
+        }
     }
     for (facet, &cell) in rim.iter().zip(cells) {
-        let at = facet.at as usize;
-        let next = Facet::from_code(t.sites[facet.corners[(at + 2) % 3] as usize].cell);
-        t.complex.glue(Facet::new(cell, (at + 1) % 3), next);
+        let (start, end) = if facet.at == 0 { (1, 2) } else { (2, 0) };
+        let next = Facet::from_code(t.corner_mut(facet.corners[end]).cell);
+        t.complex.glue(Facet::new(cell, start), next);
     }
     for (facet, &cell) in rim.iter().zip(cells) {
-        t.sites[facet.corners[(facet.at as usize + 1) % 3] as usize].cell = cell;
+        let start = if facet.at == 0 { 1 } else { 2 };
+        t.corner_mut(facet.corners[start]).cell = cell;
     }
 }

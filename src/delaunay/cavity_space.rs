@@ -15,21 +15,17 @@ use crate::complex::Facet;
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
 const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
 const MAX_LABELS: usize = 64;
+const TABLE: usize = MAX_LABELS * MAX_LABELS;
 
 /// Memory in which the two facets of a ridge meet.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Ridges {
     /// Code of the facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
-    table: Box<[u32; MAX_LABELS * MAX_LABELS]>,
-    labels: Box<[u32; MAX_LABELS]>,
+    table: Vec<u32>,
+    /// The site of each label.
+    labels: Vec<u32>,
     /// Labels of the last three corners of each new cell.
     local: Vec<[u8; 4]>,
-}
-
-impl Default for Ridges {
-    fn default() -> Self {
-        Ridges { table: Box::new([0; MAX_LABELS * MAX_LABELS]), labels: Box::new([0; MAX_LABELS]), local: Vec::new() }
-    }
 }
 
 /// The corners with `s` in place of corner `i`, in an even order that has `s` first.
@@ -45,76 +41,97 @@ fn joined([a, b, c, d]: [u32; 4], i: usize, s: u32) -> [u32; 4] {
 
 /// Finds the zone of `q` from one cell of it, and its rim.
 #[inline(always)]
-pub(super) fn dig(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>, start: u32, s: u32, q: &[f64; 3], id: u32) {
+pub(super) fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>, start: u32, s: u32, q: &[f64; 3], id: u32) {
     let Cavity { zone, rim, .. } = cavity;
-    let blank = Rim { corners: [0; 4], out: Facet::new(0, 0), at: 0 };
-    zone.clear();
-    zone.push(start);
-    t.complex.set_mark(start, IN_ZONE);
     let (mut next, mut n_zone, mut n_rim) = (0, 1, 0);
+    make_room(zone, rim, n_zone, n_rim);
+    zone[0] = start;
+    t.complex.set_mark(start, IN_ZONE);
     while next < n_zone {
-        if zone.len() < n_zone + 4 {
-            zone.resize(2 * n_zone + 64, 0);
-        }
-        if rim.len() < n_rim + 4 {
-            rim.resize(2 * n_rim + 64, blank);
-        }
+        make_room(zone, rim, n_zone, n_rim);
         let cell = *t.complex.cell(zone[next]);
         next += 1;
         for i in 0..4 {
             let out = cell.neighbour(i);
-            if t.complex.mark(out.cell()) == IN_ZONE {
-                continue;
-            }
-            let in_zone = t.is_in_conflict(out.cell(), q, id);
+            let known = t.complex.mark(out.cell());
+            // A prepared test is cheaper than a wrong guess whether the cell is known.
+            let in_zone = if BUILD {
+                t.is_in_prepared_conflict(out.cell(), q, id)
+            } else {
+                known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
+            };
             t.complex.set_mark(out.cell(), in_zone as u8);
             zone[n_zone] = out.cell();
             rim[n_rim] = Rim { corners: joined(cell.corners, i, s), out, at: 0 };
-            n_zone += in_zone as usize;
+            n_zone += (in_zone as u8 & !known) as usize;
             n_rim += !in_zone as usize;
         }
     }
-    zone.truncate(n_zone);
-    rim.truncate(n_rim);
+    (cavity.n_zone, cavity.n_rim) = (n_zone, n_rim);
+}
+
+/// Makes room for the four neighbours of a cell.
+#[inline(always)]
+fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim<[u32; 4]>>, n_zone: usize, n_rim: usize) {
+    if zone.len() < n_zone + 4 {
+        zone.resize(2 * n_zone + 64, 0);
+    }
+    if rim.len() < n_rim + 4 {
+        rim.resize(2 * n_rim + 64, Rim { corners: [0; 4], out: Facet::new(0, 0), at: 0 });
+    }
 }
 
 /// Makes the new cells and glues them.
 #[inline(always)]
-pub(super) fn glue(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>) {
-    let Cavity { rim, cells, ridges, .. } = cavity;
-    for (facet, &cell) in rim.iter().zip(&*cells) {
-        t.complex.put(cell, facet.corners);
-        t.complex.glue(Facet::new(cell, 0), facet.out);
-    }
+pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>) {
+    let Cavity { rim, n_rim, cells, ridges, .. } = cavity;
+    let rim = &rim[..*n_rim];
     if rim.len() > SMALL_RIM {
         glue_sorted(t, rim, cells);
-        return;
+    } else {
+        glue_by_table(t, rim, cells, ridges);
     }
+    if BUILD {
+        for (facet, &cell) in rim.iter().zip(&*cells) {
+            t.prepare_sphere(cell, &facet.corners);
+        }
+    }
+}
+
+#[inline(always)]
+fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim<[u32; 4]>], cells: &[u32], ridges: &mut Ridges) {
     let Ridges { table, labels, local } = ridges;
-    local.clear();
+    // Of fixed lengths, so that the compiler sees masked indices in bounds.
+    table.resize(TABLE, 0);
+    labels.resize(MAX_LABELS, 0);
+    local.resize(SMALL_RIM, [0; 4]);
+    let table: &mut [u32; TABLE] = table.as_mut_slice().try_into().expect("just resized");
+    let labels: &mut [u32; MAX_LABELS] = labels.as_mut_slice().try_into().expect("just resized");
     let mut n_labels = 0;
-    for (facet, &cell) in rim.iter().zip(&*cells) {
-        let [_, k, l, m] = facet.corners.map(|v| {
-            let site = &mut t.sites[v as usize];
-            let old = site.cell as usize;
-            let is_known = old < n_labels && labels[old % MAX_LABELS] == v;
+    for ((facet, &cell), local) in rim.iter().zip(cells).zip(&mut *local) {
+        let mut label = |v: u32| {
+            let site = t.corner_mut(v);
+            let old = site.cell;
+            let is_known = (old < n_labels) & (labels[old as usize % MAX_LABELS] == v);
             let label = if is_known { old } else { n_labels };
-            labels[label % MAX_LABELS] = v;
-            site.cell = label as u32;
-            n_labels += !is_known as usize;
-            label
-        });
-        local.push([0, k as u8, l as u8, m as u8]);
-        table[(l * MAX_LABELS + m) % (MAX_LABELS * MAX_LABELS)] = Facet::new(cell, 1).code();
-        table[(m * MAX_LABELS + k) % (MAX_LABELS * MAX_LABELS)] = Facet::new(cell, 2).code();
-        table[(k * MAX_LABELS + l) % (MAX_LABELS * MAX_LABELS)] = Facet::new(cell, 3).code();
+            labels[label as usize % MAX_LABELS] = v;
+            site.cell = label;
+            n_labels += !is_known as u32;
+            label as usize
+        };
+        let [_, k, l, m] = facet.corners;
+        let (k, l, m) = (label(k), label(l), label(m));
+        *local = [0, k as u8, l as u8, m as u8];
+        table[(l * MAX_LABELS + m) % TABLE] = Facet::new(cell, 1).code();
+        table[(m * MAX_LABELS + k) % TABLE] = Facet::new(cell, 2).code();
+        table[(k * MAX_LABELS + l) % TABLE] = Facet::new(cell, 3).code();
     }
-    for ((facet, &cell), label) in rim.iter().zip(&*cells).zip(&*local) {
+    for ((facet, &cell), label) in rim.iter().zip(cells).zip(&*local) {
         let [_, k, l, m] = label.map(usize::from);
-        let at = |from: usize, to: usize| Facet::from_code(table[(from * MAX_LABELS + to) % (MAX_LABELS * MAX_LABELS)]);
-        t.complex.set_last_neighbours(cell, [at(m, l), at(k, m), at(l, k)]);
-        for &v in &facet.corners[1..] {
-            t.sites[v as usize].cell = cell;
+        let at = |from: usize, to: usize| table[(from * MAX_LABELS + to) % TABLE];
+        t.complex.put_glued(cell, facet.corners, [facet.out.code(), at(m, l), at(k, m), at(l, k)]);
+        for i in 1..4 {
+            t.corner_mut(facet.corners[i]).cell = cell;
         }
     }
 }
@@ -125,6 +142,8 @@ fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim<[u32; 4]>], cells: &[u32]) {
     let mut ridges: Vec<([u32; 2], Facet)> = Vec::with_capacity(3 * rim.len());
     for (facet, &cell) in rim.iter().zip(cells) {
         let v = facet.corners;
+        t.complex.put(cell, v);
+        t.complex.glue(Facet::new(cell, 0), facet.out);
         for (i, k, l) in [(1, 2, 3), (2, 3, 1), (3, 1, 2)] {
             ridges.push(([v[k].min(v[l]), v[k].max(v[l])], Facet::new(cell, i)));
             t.sites[v[i] as usize].cell = cell;

@@ -10,8 +10,9 @@ use std::ops::{Index, IndexMut};
 
 use crate::complex::{Corners, INFINITE};
 use super::cavity::Cavity;
-use super::{Delaunay, Site, cavity_plane, cavity_space};
-use crate::predicates::{self, StaticFilter};
+use super::site::Sites;
+use super::{Delaunay, cavity_plane, cavity_space};
+use crate::predicates::{self, Circle, Sphere, StaticFilter};
 
 /// Coordinates of one point: `[f64; D]`.
 pub trait Coordinates:
@@ -32,18 +33,25 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     type Point: Coordinates;
     /// `[u32; D + 1]`: the corners of a cell, or its neighbours.
     type Corners: Corners;
+    /// The sphere of a cell, prepared for many tests.
+    type Sphere: Copy + Debug + Default + Send + Sync;
     /// Scratch memory of [`glue`](Self::glue).
     type Ridges: Debug + Default + Send + Sync;
     /// Error bounds for points inside the box.
     fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
     /// Sign of the orientation of the cell: positive in a valid finite cell.
-    fn orientation(f: &StaticFilter, sites: &[Site<Self>], v: &Self::Corners) -> f64;
+    fn orientation(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners) -> f64;
     /// Sign of the orientation of the cell after corner `i` has gone to `q`.
-    fn orientation_with(f: &StaticFilter, sites: &[Site<Self>], v: &Self::Corners, i: usize, q: &Self::Point)
+    fn orientation_with(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners, i: usize, q: &Self::Point)
     -> f64;
     /// Whether `q`, whose ties are broken as those of vertex `id`, is inside the sphere of a positively
     /// oriented finite cell, symbolically perturbed.
-    fn is_in_sphere(f: &StaticFilter, sites: &[Site<Self>], v: &Self::Corners, q: &Self::Point, id: u32) -> bool;
+    fn is_in_sphere(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners, q: &Self::Point, id: u32) -> bool;
+    /// Prepares the sphere of a cell, or what lies beyond the facet of a ghost cell.
+    fn sphere(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners) -> Self::Sphere;
+    /// Positive if `q` is inside the prepared sphere of a cell with first corner `a`; certain only above
+    /// [`StaticFilter::prepared`] in magnitude.
+    fn side_of_sphere(sphere: &Self::Sphere, a: &Self::Point, q: &Self::Point) -> f64;
     /// Whether the points lie in one affine subspace of dimension `points.len() - 2`: two equal points,
     /// three on a line, four in a plane.
     fn is_dependent(f: &StaticFilter, points: &[Self::Point]) -> bool;
@@ -51,17 +59,17 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// the inner side; `None` if it meets its boundary.
     fn is_crossed(
         f: &StaticFilter,
-        sites: &[Site<Self>],
+        sites: Sites<Self>,
         v: &Self::Corners,
         o: &Self::Point,
         aim: &Self::Point,
     ) -> Option<bool>;
     /// Compares the distances from `q` to `a` and to `b`, exactly.
     fn compare_distance(q: &Self::Point, a: &Self::Point, b: &Self::Point) -> Ordering;
-    /// Finds the conflict zone of `q` and its rim, from the cell `start` in conflict.
-    fn dig(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &Self::Point, id: u32);
+    /// Finds the conflict zone of `q` and its rim, from the cell `start` in conflict. In a build, spheres are prepared.
+    fn dig<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &Self::Point, id: u32);
     /// Joins the rim to the site: puts the new cells and glues them to each other and to what is outside.
-    fn glue(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>);
+    fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>);
     /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
     /// change, in a dimension where flips can be stuck.
     fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64>;
@@ -79,6 +87,7 @@ impl Dimension for Plane {
     const D: usize = 2;
     type Point = [f64; 2];
     type Corners = [u32; 3];
+    type Sphere = Circle;
     type Ridges = ();
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
@@ -86,29 +95,40 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn orientation(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3]) -> f64 {
-        let [a, b, c] = v.map(|s| &sites[s as usize].point);
+    fn orientation(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 3]) -> f64 {
+        let [a, b, c] = v.map(|s| sites.point(s));
         predicates::orient2d(f, a, b, c)
     }
 
     #[inline(always)]
-    fn orientation_with(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3], i: usize, q: &[f64; 2]) -> f64 {
+    fn orientation_with(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 3], i: usize, q: &[f64; 2]) -> f64 {
         // The last corner may be INFINITE, whose record at index 0 is a placeholder: it is replaced.
-        let mut p = v.map(|s| &sites[s as usize].point);
+        let mut p = v.map(|s| sites.point(s));
         p[i] = q;
         predicates::orient2d(f, p[0], p[1], p[2])
     }
 
     #[inline(always)]
-    fn is_in_sphere(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3], q: &[f64; 2], id: u32) -> bool {
+    fn is_in_sphere(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 3], q: &[f64; 2], id: u32) -> bool {
         debug_assert!(v[2] != INFINITE);
-        let [a, b, c] = v.map(|s| &sites[s as usize].point);
+        let [a, b, c] = v.map(|s| sites.point(s));
         let sign = predicates::incircle(f, a, b, c, q);
         if sign != 0.0 {
             return sign > 0.0;
         }
-        let [i, j, k] = v.map(|s| sites[s as usize].id);
+        let [i, j, k] = v.map(|s| sites.id(s));
         predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id])
+    }
+
+    #[inline(always)]
+    fn sphere(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 3]) -> Circle {
+        let [a, b, c] = v.map(|s| sites.point(s));
+        if v[2] == INFINITE { predicates::half_plane(f, a, b) } else { predicates::circle(a, b, c) }
+    }
+
+    #[inline(always)]
+    fn side_of_sphere(circle: &Circle, a: &[f64; 2], q: &[f64; 2]) -> f64 {
+        predicates::side_of_circle(circle, a, q)
     }
 
     fn is_dependent(f: &StaticFilter, points: &[[f64; 2]]) -> bool {
@@ -125,17 +145,17 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn dig(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 2], id: u32) {
-        cavity_plane::dig(t, cavity, start, s, q, id);
+    fn dig<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 2], id: u32) {
+        cavity_plane::dig::<BUILD>(t, cavity, start, s, q, id);
     }
 
     #[inline(always)]
-    fn glue(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
-        cavity_plane::glue(t, cavity);
+    fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
+        cavity_plane::glue::<BUILD>(t, cavity);
     }
 
-    fn is_crossed(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 3], o: &[f64; 2], aim: &[f64; 2]) -> Option<bool> {
-        let (a, b) = (&sites[v[0] as usize].point, &sites[v[1] as usize].point);
+    fn is_crossed(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 3], o: &[f64; 2], aim: &[f64; 2]) -> Option<bool> {
+        let (a, b) = (sites.point(v[0]), sites.point(v[1]));
         all_positive([predicates::orient2d(f, o, aim, a), predicates::orient2d(f, o, b, aim)])
     }
 
@@ -148,6 +168,7 @@ impl Dimension for Space {
     const D: usize = 3;
     type Point = [f64; 3];
     type Corners = [u32; 4];
+    type Sphere = Sphere;
     type Ridges = cavity_space::Ridges;
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
@@ -155,28 +176,39 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn orientation(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4]) -> f64 {
-        let [a, b, c, d] = v.map(|s| &sites[s as usize].point);
+    fn orientation(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 4]) -> f64 {
+        let [a, b, c, d] = v.map(|s| sites.point(s));
         predicates::orient3d(f, a, b, c, d)
     }
 
     #[inline(always)]
-    fn orientation_with(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4], i: usize, q: &[f64; 3]) -> f64 {
-        let mut p = v.map(|s| &sites[s as usize].point);
+    fn orientation_with(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 4], i: usize, q: &[f64; 3]) -> f64 {
+        let mut p = v.map(|s| sites.point(s));
         p[i] = q;
         predicates::orient3d(f, p[0], p[1], p[2], p[3])
     }
 
     #[inline(always)]
-    fn is_in_sphere(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4], q: &[f64; 3], id: u32) -> bool {
+    fn is_in_sphere(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 4], q: &[f64; 3], id: u32) -> bool {
         debug_assert!(v[3] != INFINITE);
-        let [a, b, c, d] = v.map(|s| &sites[s as usize].point);
+        let [a, b, c, d] = v.map(|s| sites.point(s));
         let sign = predicates::insphere(f, a, b, c, d, q);
         if sign != 0.0 {
             return sign > 0.0;
         }
-        let [i, j, k, l] = v.map(|s| sites[s as usize].id);
+        let [i, j, k, l] = v.map(|s| sites.id(s));
         predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id])
+    }
+
+    #[inline(always)]
+    fn sphere(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 4]) -> Sphere {
+        let [a, b, c, d] = v.map(|s| sites.point(s));
+        if v[3] == INFINITE { predicates::half_space(f, a, b, c) } else { predicates::sphere(a, b, c, d) }
+    }
+
+    #[inline(always)]
+    fn side_of_sphere(sphere: &Sphere, a: &[f64; 3], q: &[f64; 3]) -> f64 {
+        predicates::side_of_sphere(sphere, a, q)
     }
 
     fn is_dependent(f: &StaticFilter, points: &[[f64; 3]]) -> bool {
@@ -194,17 +226,17 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn dig(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 3], id: u32) {
-        cavity_space::dig(t, cavity, start, s, q, id);
+    fn dig<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 3], id: u32) {
+        cavity_space::dig::<BUILD>(t, cavity, start, s, q, id);
     }
 
     #[inline(always)]
-    fn glue(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
-        cavity_space::glue(t, cavity);
+    fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
+        cavity_space::glue::<BUILD>(t, cavity);
     }
 
-    fn is_crossed(f: &StaticFilter, sites: &[Site<Self>], v: &[u32; 4], o: &[f64; 3], aim: &[f64; 3]) -> Option<bool> {
-        let [a, b, c] = [0, 1, 2].map(|i| &sites[v[i] as usize].point);
+    fn is_crossed(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 4], o: &[f64; 3], aim: &[f64; 3]) -> Option<bool> {
+        let [a, b, c] = [0, 1, 2].map(|i| sites.point(v[i]));
         let side = |x, y| predicates::orient3d(f, o, aim, x, y);
         all_positive([side(a, b), side(b, c), side(c, a)])
     }

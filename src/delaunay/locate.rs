@@ -35,7 +35,7 @@ impl<G: Dimension> Delaunay<G> {
         'cells: loop {
             let c = self.complex.cell(cell);
             for i in 0..n {
-                if i != entered && G::orientation_with(f, &self.sites, &c.corners, i, q) < 0.0 {
+                if i != entered && G::orientation_with(f, self.view(), &c.corners, i, q) < 0.0 {
                     *steps += 1;
                     let next = c.neighbour(i);
                     cell = next.cell();

@@ -21,6 +21,8 @@
 //! conflict with the finite cell behind the facet: the affine dependency of the `D + 2` points does not involve
 //! that cell's opposite corner, so the perturbed sign is the one in the hyperplane.
 
+#![allow(unsafe_code)]
+
 mod build;
 mod cavity;
 mod cavity_plane;
@@ -56,6 +58,8 @@ pub struct Delaunay<G: Dimension> {
     sites: Vec<Site<G>>,
     free_sites: Vec<u32>,
     complex: Complex<G::Corners>,
+    /// Prepared spheres of all cells, during a build.
+    spheres: Vec<G::Sphere>,
     filter: StaticFilter,
     lower: G::Point,
     upper: G::Point,
@@ -74,6 +78,7 @@ impl<G: Dimension> Default for Delaunay<G> {
             sites: vec![Site::new(origin, INFINITE)],
             free_sites: Vec::new(),
             complex: Complex::default(),
+            spheres: Vec::new(),
             filter: G::filter(&origin, &origin),
             lower: origin,
             upper: origin,
@@ -99,6 +104,12 @@ impl<G: Dimension> Delaunay<G> {
         &self.sites
     }
 
+    /// The sites, as predicates read them.
+    #[inline(always)]
+    fn view(&self) -> site::Sites<'_, G> {
+        site::Sites::new(&self.sites)
+    }
+
     /// The site of an index.
     #[inline(always)]
     pub fn site(&self, s: u32) -> &Site<G> {
@@ -114,6 +125,14 @@ impl<G: Dimension> Delaunay<G> {
     #[inline(always)]
     pub fn has_cells(&self) -> bool {
         self.complex.n_slots() != 0
+    }
+
+    /// Record of a corner of a cell, the ghost vertex included.
+    #[inline(always)]
+    fn corner_mut(&mut self, s: u32) -> &mut Site<G> {
+        debug_assert!((s as usize) < self.sites.len());
+        // SAFETY: a corner of a cell is the index of a site, by the kernel's invariants.
+        unsafe { self.sites.get_unchecked_mut(s as usize) }
     }
 
     /// Adds a site that is in no cell yet: to be followed by [`rebuild`](Self::rebuild) or by the rest of an
@@ -190,18 +209,42 @@ impl<G: Dimension> Delaunay<G> {
         if c.is_ghost() {
             return self.is_in_conflict_with_ghost(cell, q, id);
         }
-        G::is_in_sphere(&self.filter, &self.sites, &c.corners, q, id)
+        G::is_in_sphere(&self.filter, self.view(), &c.corners, q, id)
+    }
+
+    /// As [`is_in_conflict`](Self::is_in_conflict), by the prepared sphere if that is certain.
+    #[inline(always)]
+    fn is_in_prepared_conflict(&self, cell: u32, q: &G::Point, id: u32) -> bool {
+        let first = self.view().point(self.complex.cell(cell).corners[0]);
+        debug_assert!((cell as usize) < self.spheres.len());
+        // SAFETY: in a build there is a sphere for each cell.
+        let sphere = unsafe { self.spheres.get_unchecked(cell as usize) };
+        let side = G::side_of_sphere(sphere, first, q);
+        if side.abs() > self.filter.prepared { side > 0.0 } else { self.is_in_uncertain_conflict(cell, q, id) }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn is_in_uncertain_conflict(&self, cell: u32, q: &G::Point, id: u32) -> bool {
+        self.is_in_conflict(cell, q, id)
+    }
+
+    #[inline(always)]
+    fn prepare_sphere(&mut self, cell: u32, corners: &G::Corners) {
+        debug_assert!((cell as usize) < self.spheres.len());
+        // SAFETY: in a build there is a sphere for each cell.
+        *unsafe { self.spheres.get_unchecked_mut(cell as usize) } = G::sphere(&self.filter, site::Sites::new(&self.sites), corners);
     }
 
     #[inline(never)]
     fn is_in_conflict_with_ghost(&self, cell: u32, q: &G::Point, id: u32) -> bool {
         let c = self.complex.cell(cell);
-        let beyond = G::orientation_with(&self.filter, &self.sites, &c.corners, Self::LAST, q);
+        let beyond = G::orientation_with(&self.filter, self.view(), &c.corners, Self::LAST, q);
         if beyond != 0.0 {
             return beyond > 0.0;
         }
         let behind = self.complex.cell(c.neighbour(Self::LAST).cell());
-        G::is_in_sphere(&self.filter, &self.sites, &behind.corners, q, id)
+        G::is_in_sphere(&self.filter, self.view(), &behind.corners, q, id)
     }
 
     /// Bytes held.

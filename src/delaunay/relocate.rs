@@ -92,7 +92,7 @@ impl<G: Dimension> Delaunay<G> {
     fn star_is_positive(&self) -> bool {
         self.hole.star.iter().all(|&(c, _)| {
             let c = self.complex.cell(c);
-            G::orientation(&self.filter, &self.sites, &c.corners) > 0.0
+            G::orientation(&self.filter, self.view(), &c.corners) > 0.0
         })
     }
 
@@ -116,7 +116,7 @@ impl<G: Dimension> Delaunay<G> {
             return true;
         }
         let site = self.site(apex);
-        !G::is_in_sphere(&self.filter, &self.sites, &cell.corners, &site.point, site.id)
+        !G::is_in_sphere(&self.filter, self.view(), &cell.corners, &site.point, site.id)
     }
 }
 

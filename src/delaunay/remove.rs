@@ -217,8 +217,8 @@ impl<G: Dimension> Delaunay<G> {
             }
             let site = self.site(x);
             let is_closer = best == INFINITE
-                || G::is_in_sphere(&self.filter, &self.sites, &cell, &site.point, site.id);
-            if is_closer && G::orientation_with(&self.filter, &self.sites, &gap.corners, gap.at, &site.point) > 0.0 {
+                || G::is_in_sphere(&self.filter, self.view(), &cell, &site.point, site.id);
+            if is_closer && G::orientation_with(&self.filter, self.view(), &gap.corners, gap.at, &site.point) > 0.0 {
                 best = x;
                 cell[gap.at] = x;
             }

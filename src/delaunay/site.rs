@@ -1,4 +1,9 @@
 //! Sites: the distinct places at which the triangulation has vertices.
+//!
+//! Predicates read sites through [`Sites`], without a bounds check: the corners of cells are indices of sites by the
+//! kernel's invariants, which [`validate`](super::Delaunay::validate) checks. (Checks cost 6 % of a 3D build.)
+
+#![allow(unsafe_code)]
 
 use crate::complex::NONE;
 use crate::delaunay::Dimension;
@@ -26,5 +31,32 @@ impl<G: Dimension> Site<G> {
     #[inline(always)]
     pub fn is_live(&self) -> bool {
         self.id != NONE
+    }
+}
+
+/// The sites of a triangulation, for its own corners.
+#[derive(Clone, Copy, Debug)]
+pub struct Sites<'s, G: Dimension>(&'s [Site<G>]);
+
+impl<'s, G: Dimension> Sites<'s, G> {
+    /// The caller passes only corners of cells of the triangulation whose sites these are, and such sites themselves.
+    pub(super) fn new(sites: &'s [Site<G>]) -> Self {
+        Sites(sites)
+    }
+
+    /// The place of a corner; a meaningless one for the ghost vertex.
+    #[inline(always)]
+    pub fn point(self, s: u32) -> &'s G::Point {
+        debug_assert!((s as usize) < self.0.len());
+        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
+        unsafe { &self.0.get_unchecked(s as usize).point }
+    }
+
+    /// The vertex id of a corner.
+    #[inline(always)]
+    pub fn id(self, s: u32) -> u32 {
+        debug_assert!((s as usize) < self.0.len());
+        // SAFETY: as for `point`.
+        unsafe { self.0.get_unchecked(s as usize).id }
     }
 }

@@ -114,7 +114,7 @@ impl<G: Dimension> Delaunay<G> {
 
     fn check_orientation(&self) -> Check {
         for c in self.complex.finite() {
-            let positive = G::orientation(&self.filter, &self.sites, &self.complex.cell(c).corners) > 0.0;
+            let positive = G::orientation(&self.filter, self.view(), &self.complex.cell(c).corners) > 0.0;
             ensure(positive, Level::Embedding, || format!("cell {} is not positively oriented", self.describe(c)))?;
         }
         if self.has_cells() {
@@ -141,7 +141,7 @@ impl<G: Dimension> Delaunay<G> {
                 o[k] = (0..G::Corners::N).map(|i| self.site(corners[i]).point[k] / G::Corners::N as f64).sum();
             }
             let inside = (0..G::D).all(|k| crate::predicates::is_in_range(o[k]))
-                && (0..G::Corners::N).all(|i| G::orientation_with(&self.filter, &self.sites, corners, i, &o) > 0.0);
+                && (0..G::Corners::N).all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &o) > 0.0);
             inside.then_some(o)
         })
     }
@@ -160,11 +160,11 @@ impl<G: Dimension> Delaunay<G> {
             for i in 0..Self::LAST {
                 let across = cell.neighbour(i);
                 let apex = self.site(self.complex.cell(across.cell()).corners[across.index()]);
-                let beyond = G::orientation_with(&self.filter, &self.sites, &cell.corners, Self::LAST, &apex.point);
+                let beyond = G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, &apex.point);
                 ensure(beyond <= 0.0, level, || format!("the hull is not convex between {} and {}", self.describe(c), self.describe(across.cell())))?;
             }
             if let Some(o) = &inner {
-                let inside = G::orientation_with(&self.filter, &self.sites, &cell.corners, Self::LAST, o) < 0.0;
+                let inside = G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, o) < 0.0;
                 ensure(inside, level, || format!("the hull facet {} turns its outer side inwards", self.describe(c)))?;
             }
         }
@@ -197,7 +197,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         let mut crossings = 0;
         for c in self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()) {
-            match G::is_crossed(&self.filter, &self.sites, &self.complex.cell(c).corners, o, &aim) {
+            match G::is_crossed(&self.filter, self.view(), &self.complex.cell(c).corners, o, &aim) {
                 Some(true) => crossings += 1,
                 Some(false) => {}
                 None => return None,

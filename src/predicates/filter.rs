@@ -73,6 +73,26 @@ const IN_SPHERE: f64 = {
     term.plus(term).last_plus(term)
 };
 
+/// Bound of a prepared circle / (extent x · extent y · largest extent²), see `sphere.rs`.
+const PREPARED_2D: f64 = {
+    let square = DIFFERENCE.times(DIFFERENCE);
+    let lift = square.plus(square);
+    let part = lift.times(DIFFERENCE);
+    let term = part.plus(part).times(DIFFERENCE);
+    term.plus(term).last_plus(lift.times(square.plus(square)))
+};
+
+/// Bound of a prepared sphere / (extent x · extent y · extent z · largest extent²), see `sphere.rs`.
+const PREPARED_3D: f64 = {
+    let square = DIFFERENCE.times(DIFFERENCE);
+    let lift = square.plus(square).plus(square);
+    let part = lift.times(MINOR_3D);
+    let term = part.plus(part).plus(part).times(DIFFERENCE);
+    let volume = MINOR_3D.times(DIFFERENCE);
+    let volume = volume.plus(volume).plus(volume);
+    term.plus(term).plus(term).last_plus(lift.times(volume))
+};
+
 /// A 2 × 2 minor of differences.
 const MINOR_3D: Computed = {
     let product = DIFFERENCE.times(DIFFERENCE);
@@ -122,19 +142,27 @@ pub struct StaticFilter {
     pub orient: f64,
     /// Bound of `incircle` or `insphere`.
     pub in_sphere: f64,
+    /// Bound of `side_of_circle` or `side_of_sphere`.
+    pub prepared: f64,
+    /// Square of the largest extent.
+    pub largest_square: f64,
 }
 
 impl StaticFilter {
     /// Bounds for `orient2d` and `incircle` of points between `lower` and `upper`, inclusive.
     pub fn plane(lower: [f64; 2], upper: [f64; 2]) -> Self {
         let extents = box_extents(&lower, &upper);
-        Self { orient: orient2d_bound(extents), in_sphere: incircle_bound(extents) }
+        let in_sphere = incircle_bound(extents);
+        let largest_square = largest(extents) * largest(extents);
+        Self { orient: orient2d_bound(extents), in_sphere, prepared: in_sphere * (PREPARED_2D / IN_CIRCLE), largest_square }
     }
 
     /// Bounds for `orient3d` and `insphere` of points between `lower` and `upper`, inclusive.
     pub fn space(lower: [f64; 3], upper: [f64; 3]) -> Self {
         let extents = box_extents(&lower, &upper);
-        Self { orient: orient3d_bound(extents), in_sphere: insphere_bound(extents) }
+        let in_sphere = insphere_bound(extents);
+        let largest_square = largest(extents) * largest(extents);
+        Self { orient: orient3d_bound(extents), in_sphere, prepared: in_sphere * (PREPARED_3D / IN_SPHERE), largest_square }
     }
 }
 

@@ -68,12 +68,14 @@ mod integer;
 mod perturbation;
 mod plane;
 mod space;
+mod sphere;
 
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use perturbation::{incircle_perturbed, insphere_perturbed};
 pub use plane::{incircle, orient2d};
 pub use space::{insphere, orient3d};
+pub use sphere::{Circle, Sphere, circle, half_plane, half_space, side_of_circle, side_of_sphere, sphere};
 
 /// Smallest magnitude of an accepted coordinate other than zero.
 pub const MIN_MAGNITUDE: f64 = 1e-42;

@@ -1,0 +1,224 @@
+//! What stands between C and the library: failures and panics become a status and a message.
+//!
+//! The message is kept for each thread in a buffer of fixed size, so that reporting needs no memory,
+//! which may be just what has run out.
+//!
+//! Rust announces a panic on the standard error stream before it unwinds. A library must not, so the
+//! first entry puts a hook in front of the one in place: inside an entry it writes the announcement to
+//! the message of the thread, elsewhere it hands it on unchanged. The shared and the static library
+//! bring a standard library of their own, where no panics but deldrift's arise.
+
+use std::cell::{Cell, RefCell};
+use std::ffi::c_char;
+use std::fmt::{self, Write};
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Once;
+
+use super::pointers;
+use super::status::{Failure, deldrift_status};
+use super::triangulation::{Kernel, deldrift_triangulation};
+
+/// Runs the body of an entry.
+pub(super) fn enter(body: impl FnOnce() -> Result<(), Failure>) -> deldrift_status {
+    hear_panics();
+    let outside = INSIDE.replace(true);
+    let outcome = panic::catch_unwind(AssertUnwindSafe(body));
+    INSIDE.set(outside);
+    match outcome {
+        Ok(Ok(())) => deldrift_status::DELDRIFT_OK,
+        Ok(Err(failure)) => {
+            record(format_args!("{failure}"));
+            failure.status()
+        }
+        Err(payload) => {
+            // Its message has been recorded by the hook; to drop an unknown payload might panic again.
+            std::mem::forget(payload);
+            deldrift_status::DELDRIFT_INTERNAL_ERROR
+        }
+    }
+}
+
+/// Runs the body of an entry that looks at a triangulation.
+///
+/// # Safety
+/// `t` is NULL, misaligned, or the triangulation of a successful creation, and no other thread changes it.
+pub(super) unsafe fn read(
+    t: *const deldrift_triangulation,
+    body: impl FnOnce(&Kernel) -> Result<(), Failure>,
+) -> deldrift_status {
+    enter(|| {
+        // SAFETY: the caller's promise.
+        let handle = unsafe { pointers::reference("t", t) }?;
+        handle.check_ready()?;
+        // SAFETY: it is ready, so no call below this one on the stack is changing it, and none of
+        // another thread by the caller's promise.
+        body(unsafe { &*handle.kernel() })
+    })
+}
+
+/// Runs the body of an entry that tells one thing about a triangulation, and writes what it tells.
+///
+/// # Safety
+/// As for [`read`], and `out` is NULL, misaligned, or a place for a `T`.
+pub(super) unsafe fn tell<T>(
+    t: *const deldrift_triangulation,
+    argument: &'static str,
+    out: *mut T,
+    body: impl FnOnce(&Kernel) -> Result<T, Failure>,
+) -> deldrift_status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        read(t, |kernel| {
+            let out = pointers::output(argument, out)?;
+            out.write(body(kernel)?);
+            Ok(())
+        })
+    }
+}
+
+/// Runs the body of an entry that changes a triangulation, and poisons it if the body panics.
+///
+/// # Safety
+/// As for [`read`], and no other thread reads it.
+pub(super) unsafe fn change(
+    t: *mut deldrift_triangulation,
+    body: impl FnOnce(&mut Kernel) -> Result<(), Failure>,
+) -> deldrift_status {
+    enter(|| {
+        // SAFETY: the caller's promise.
+        let handle = unsafe { pointers::reference("t", t.cast_const()) }?;
+        let claim = handle.claim()?;
+        // SAFETY: the claim excludes calls below this one on the stack, the caller those of other threads.
+        let outcome = body(unsafe { &mut *handle.kernel() });
+        claim.release();
+        outcome
+    })
+}
+
+/// The message of the last failure on this thread.
+pub(super) fn last_message() -> *const c_char {
+    MESSAGE.with(|message| message.as_ptr().cast_const().cast())
+}
+
+thread_local! {
+    /// Whether this thread is inside an entry.
+    static INSIDE: Cell<bool> = const { Cell::new(false) };
+    static MESSAGE: RefCell<Message> = const { RefCell::new(Message { bytes: [0; CAPACITY], length: 0 }) };
+}
+
+const CAPACITY: usize = 512;
+
+/// Text that is cut where it no longer fits and always ends in a NUL. The bytes come first: the message
+/// and its text have the same address.
+#[repr(C)]
+struct Message {
+    bytes: [u8; CAPACITY],
+    length: usize,
+}
+
+impl Write for Message {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        let room = (CAPACITY - 1 - self.length).min(text.len());
+        let cut = (0..=room).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
+        let text = &text.as_bytes()[..cut];
+        let end = self.length + text.len();
+        for (byte, &given) in self.bytes[self.length..end].iter_mut().zip(text) {
+            *byte = if given == 0 { b'?' } else { given };
+        }
+        self.bytes[end] = 0;
+        self.length = end;
+        Ok(())
+    }
+}
+
+/// Makes `text` the message of this thread.
+pub(super) fn record(text: fmt::Arguments<'_>) {
+    MESSAGE.with(|message| {
+        // Taken only if writing the text itself panics; the outer text is then the better one.
+        if let Ok(mut message) = message.try_borrow_mut() {
+            message.length = 0;
+            message.bytes[0] = 0;
+            // Writing to a Message never fails, and a Display that does leaves its beginning.
+            let _ = message.write_fmt(text);
+        }
+    });
+}
+
+/// Puts the hook in place, once.
+fn hear_panics() {
+    static PLACED: Once = Once::new();
+    // The hook cannot be exchanged while a panic of the host unwinds through its destructors.
+    if PLACED.is_completed() || std::thread::panicking() {
+        return;
+    }
+    PLACED.call_once(|| {
+        let before = panic::take_hook();
+        panic::set_hook(Box::new(move |panic| {
+            if INSIDE.get() {
+                record(format_args!("{panic}"));
+            } else {
+                before(panic);
+            }
+        }));
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::CStr;
+    use std::ptr::null_mut;
+
+    use super::super::*;
+    use super::*;
+
+    fn message() -> String {
+        // SAFETY: the message always ends in a NUL.
+        unsafe { CStr::from_ptr(last_message()) }.to_str().expect("messages are UTF-8").to_string()
+    }
+
+    fn square() -> *mut deldrift_triangulation {
+        let (positions, mut t) = ([0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.1, 1.1], null_mut());
+        // SAFETY: four points are there, and a place for the result.
+        let status = unsafe { deldrift_create(2, positions.as_ptr(), 4, std::ptr::null(), &mut t) };
+        assert_eq!(status, deldrift_status::DELDRIFT_OK);
+        t
+    }
+
+    #[test]
+    fn panic_in_a_change_poisons_the_triangulation() {
+        let (t, mut count) = (square(), 77);
+        // SAFETY: `t` lives until its destruction at the end.
+        unsafe {
+            let status = change(t, |_| panic!("cell {} went missing", 13));
+            assert_eq!(status, deldrift_status::DELDRIFT_INTERNAL_ERROR);
+            assert!(message().contains("cell 13 went missing") && message().contains("fence.rs"), "{}", message());
+
+            assert_eq!(deldrift_cell_count(t, &mut count), deldrift_status::DELDRIFT_POISONED);
+            assert_eq!(deldrift_commit_timestamp(t, null_mut()), deldrift_status::DELDRIFT_POISONED);
+            assert_eq!(deldrift_validate(t, 1), deldrift_status::DELDRIFT_POISONED);
+            assert!(message().contains("unusable"), "{}", message());
+            assert_eq!(count, 77);
+            deldrift_destroy(t);
+        }
+    }
+
+    #[test]
+    fn panic_in_a_query_is_an_internal_error_and_no_more() {
+        let (t, mut count) = (square(), 0);
+        // SAFETY: `t` lives until its destruction at the end.
+        unsafe {
+            assert_eq!(read(t, |_| panic!("oh")), deldrift_status::DELDRIFT_INTERNAL_ERROR);
+            assert_eq!(deldrift_cell_count(t, &mut count), deldrift_status::DELDRIFT_OK);
+            assert_eq!(count, 2);
+            deldrift_destroy(t);
+        }
+    }
+
+    #[test]
+    fn long_messages_are_cut_between_characters() {
+        record(format_args!("a{}", "é".repeat(CAPACITY)));
+        assert_eq!(message(), format!("a{}", "é".repeat((CAPACITY - 2) / 2)));
+        record(format_args!("nul \0 within"));
+        assert_eq!(message(), "nul ? within");
+    }
+}

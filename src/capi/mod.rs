@@ -1,0 +1,50 @@
+//! The C boundary: everything that `include/deldrift.h` declares, and nothing else.
+//!
+//! Each function here does three things and no geometry: it checks its arguments, calls the one
+//! method of [`MovingTriangulation`](crate::motion::MovingTriangulation) that does the work, and
+//! converts the result. Types, functions and enumerators carry their C names, so that a search finds
+//! both sides, and their documentation is that of the header, which cbindgen copies from here.
+//!
+//! # Fence
+//!
+//! No panic and no message on a terminal leaves the library. Every entry runs inside `fence`:
+//! a failure becomes a [`deldrift_status`] and a message kept for the calling thread, and so does a
+//! panic, which is by definition an internal error. A panic in a call that was changing a
+//! triangulation leaves it in an unknown state, so it is *poisoned*: all it accepts from then on is
+//! its destruction.
+//!
+//! # Ownership
+//!
+//! A triangulation is created and destroyed here and belongs to the caller in between. Arrays that are
+//! passed in are read during the call and never kept. Arrays that are passed out belong to the
+//! triangulation and stay until it changes (views), or belong to the caller and are filled (copies).
+//! A call writes to its outputs only when it succeeds; the one exception is the count of a buffer that
+//! is too small, without which the caller could not provide a greater one.
+//!
+//! # What is trusted
+//!
+//! That pointers which are neither NULL nor misaligned point to what the header says they do, and that
+//! calls which change a triangulation do not run at the same time as others on it. Everything else is
+//! checked: enumerators and option sizes arrive as plain integers, counts are multiplied with care, and
+//! a callback that calls back into the triangulation it serves is turned away as
+//! [`deldrift_status::DELDRIFT_BUSY`].
+
+#![allow(unsafe_code)]
+// One page for C, the header's first, says what pointers must be; repeating it in every function would
+// only bury what is particular to it.
+#![allow(clippy::missing_safety_doc)]
+#![allow(non_camel_case_types)]
+
+mod fence;
+mod motion;
+mod options;
+mod pointers;
+mod query;
+mod status;
+mod triangulation;
+
+pub use motion::*;
+pub use options::*;
+pub use query::*;
+pub use status::*;
+pub use triangulation::*;

@@ -1,0 +1,260 @@
+//! Motion: staged moves that become a timestamp, and moves that take effect at once.
+
+use std::slice;
+
+use super::fence;
+use super::pointers;
+use super::status::{Failure, deldrift_status};
+use super::triangulation::{deldrift_triangulation, in_its_dimension, points};
+use crate::delaunay::Dimension;
+use crate::error::Error;
+use crate::motion::{CommitReport, MovingTriangulation};
+
+/// What a commit did, or, from deldrift_statistics, what all of them did.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct deldrift_commit_report {
+    /// Number of the timestamp reached: 0 at creation, one more at each commit.
+    pub timestamp: u64,
+    /// Vertices whose position differs from that of the timestamp before.
+    pub moved: u64,
+    /// Moved vertices for which nothing but coordinates changed.
+    pub unchanged: u64,
+    /// Vertices removed and inserted again.
+    pub placements: u64,
+    /// Flips made.
+    pub flips: u64,
+    /// 1 if the triangulation was built anew (in the statistics, how often).
+    pub rebuilds: u64,
+    /// Hidden vertices at the end: those at the place of a vertex with a lower id.
+    pub coincident: u64,
+    /// Zero; later versions may count more.
+    pub reserved: [u64; 9],
+}
+
+impl From<CommitReport> for deldrift_commit_report {
+    fn from(report: CommitReport) -> Self {
+        let CommitReport { timestamp, moved, unchanged, placements, flips, rebuilds, coincident } = report;
+        Self { timestamp, moved, unchanged, placements, flips, rebuilds, coincident, reserved: [0; 9] }
+    }
+}
+
+/// Stages the move of one vertex for the next timestamp. Nothing that can be read changes until
+/// deldrift_commit_timestamp.
+///
+/// position: 2 or 3 numbers, read during the call only.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_move_vertex(
+    t: *mut deldrift_triangulation,
+    vertex: u32,
+    position: *const f64,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let position = point_for(t, "position", position)?;
+                t.move_vertices(&[vertex], slice::from_ref(position)).map_err(of_one)?;
+            });
+            Ok(())
+        })
+    }
+}
+
+/// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
+///
+/// vertices: count ids, each at most once; NULL stands for 0, 1, ..., count - 1, and count must then be
+/// that of all ids ever given (deldrift_id_count), where the entries of removed vertices are not read.
+/// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
+/// and may be NULL if count is 0, when nothing is staged.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE (also
+/// within vertices), DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called
+/// at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_move_vertices(
+    t: *mut deldrift_triangulation,
+    vertices: *const u32,
+    positions: *const f64,
+    count: usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            if count == 0 {
+                return Ok(());
+            }
+            in_its_dimension!(kernel, t => {
+                let positions = points_for(t, "positions", positions, count)?;
+                if vertices.is_null() {
+                    t.move_all(positions)?;
+                } else {
+                    t.move_vertices(pointers::array("vertices", vertices, count)?, positions)?;
+                }
+            });
+            Ok(())
+        })
+    }
+}
+
+/// Forgets all staged moves.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            in_its_dimension!(kernel, t => t.discard_moves());
+            Ok(())
+        })
+    }
+}
+
+/// Makes the staged positions the next timestamp. The cells become those of the Delaunay triangulation
+/// of the new positions, whatever the algorithm; ids stay. A commit without staged moves counts as a
+/// timestamp too.
+///
+/// report: receives what was done; may be NULL. Ends all views.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
+/// reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
+/// stays at its timestamp and the moves stay staged. Not to be called at the same time as any other call
+/// on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_commit_timestamp(
+    t: *mut deldrift_triangulation,
+    report: *mut deldrift_commit_report,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            let report = if report.is_null() { None } else { Some(pointers::output("report", report)?) };
+            let done = in_its_dimension!(kernel, t => t.commit_timestamp())?;
+            if let Some(report) = report {
+                report.write(done.into());
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
+/// timestamp stays, and so do the moves staged for other vertices. Ends all views.
+///
+/// position: 2 or 3 numbers, read during the call only.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE if a move of this vertex is staged,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_relocate_vertex(
+    t: *mut deldrift_triangulation,
+    vertex: u32,
+    position: *const f64,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let position = point_for(t, "position", position)?;
+                t.relocate_vertex(vertex, position)?;
+            });
+            Ok(())
+        })
+    }
+}
+
+/// Inserts a vertex at once. Ends all views.
+///
+/// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
+/// the highest ever given.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_insert_vertex(
+    t: *mut deldrift_triangulation,
+    position: *const f64,
+    out_vertex: *mut u32,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            let out_vertex = pointers::output("out_vertex", out_vertex)?;
+            out_vertex.write(in_its_dimension!(kernel, t => {
+                let position = point_for(t, "position", position)?;
+                t.insert_vertex(position)?
+            }));
+            Ok(())
+        })
+    }
+}
+
+/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again. Ends all
+/// views.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_remove_vertex(
+    t: *mut deldrift_triangulation,
+    vertex: u32,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            in_its_dimension!(kernel, t => t.remove_vertex(vertex))?;
+            Ok(())
+        })
+    }
+}
+
+/// `count` points in the dimension of `t`.
+///
+/// # Safety
+/// As for [`points`].
+pub(super) unsafe fn points_for<'a, G: Dimension>(
+    _t: &MovingTriangulation<G>,
+    argument: &'static str,
+    positions: *const f64,
+    count: usize,
+) -> Result<&'a [G::Point], Failure> {
+    // SAFETY: the caller's promise.
+    unsafe { points::<G>(argument, positions, count) }
+}
+
+/// One point in the dimension of `t`.
+///
+/// # Safety
+/// As for [`points`].
+pub(super) unsafe fn point_for<'a, G: Dimension>(
+    _t: &MovingTriangulation<G>,
+    argument: &'static str,
+    position: *const f64,
+) -> Result<&'a G::Point, Failure> {
+    // SAFETY: the caller's promise.
+    unsafe { pointers::reference(argument, position.cast::<G::Point>()) }
+}
+
+/// An error about arrays of one, told in the names of the single arguments.
+fn of_one(mut error: Error) -> Error {
+    match &mut error {
+        Error::NotFinite { argument, .. } | Error::OutOfRange { argument, .. } => *argument = "position",
+        Error::NoSuchVertex { argument, .. }
+        | Error::RemovedVertex { argument, .. }
+        | Error::DuplicateMove { argument, .. } => *argument = "vertex",
+        _ => {}
+    }
+    error
+}

@@ -1,0 +1,87 @@
+//! Pointers from C, checked as far as they can be and turned into references.
+//!
+//! Each of these trusts that a pointer which is neither NULL nor misaligned points to `T`, or to as many
+//! of them as it is told, for as long as the call lasts; outputs may be uninitialised.
+
+use std::mem::MaybeUninit;
+use std::slice;
+
+use super::status::Failure;
+
+/// A value that must be there.
+pub(super) unsafe fn reference<'a, T>(argument: &'static str, pointer: *const T) -> Result<&'a T, Failure> {
+    check(argument, pointer)?;
+    // SAFETY: neither NULL nor misaligned, and the caller vouches for the rest.
+    Ok(unsafe { &*pointer })
+}
+
+/// A place to write a result to.
+pub(super) unsafe fn output<'a, T>(
+    argument: &'static str,
+    pointer: *mut T,
+) -> Result<&'a mut MaybeUninit<T>, Failure> {
+    check(argument, pointer)?;
+    // SAFETY: as in `reference`; uninitialised memory is what the type allows.
+    Ok(unsafe { &mut *pointer.cast() })
+}
+
+/// An array of `count`; NULL if that is 0.
+pub(super) unsafe fn array<'a, T>(
+    argument: &'static str,
+    pointer: *const T,
+    count: usize,
+) -> Result<&'a [T], Failure> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    check(argument, pointer)?;
+    check_size::<T>(argument, count)?;
+    // SAFETY: neither NULL, misaligned nor larger than an object may be; the caller vouches for the rest.
+    Ok(unsafe { slice::from_raw_parts(pointer, count) })
+}
+
+/// A buffer to write `count` entries to.
+pub(super) unsafe fn buffer<'a, T>(
+    argument: &'static str,
+    pointer: *mut T,
+    count: usize,
+) -> Result<&'a mut [MaybeUninit<T>], Failure> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    check(argument, pointer)?;
+    check_size::<T>(argument, count)?;
+    // SAFETY: as in `array`; uninitialised memory is what the type allows.
+    Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), count) })
+}
+
+/// Writes `values` to a buffer that has room for them.
+pub(super) unsafe fn fill<T: Copy>(
+    argument: &'static str,
+    pointer: *mut T,
+    values: &[T],
+) -> Result<(), Failure> {
+    // SAFETY: the caller vouches for the room.
+    let places = unsafe { buffer(argument, pointer, values.len()) }?;
+    for (place, &value) in places.iter_mut().zip(values) {
+        place.write(value);
+    }
+    Ok(())
+}
+
+fn check<T>(argument: &'static str, pointer: *const T) -> Result<(), Failure> {
+    if pointer.is_null() {
+        return Err(Failure::Null { argument });
+    }
+    if !pointer.is_aligned() {
+        return Err(Failure::Misaligned { argument, address: pointer.addr(), alignment: align_of::<T>() });
+    }
+    Ok(())
+}
+
+fn check_size<T>(argument: &'static str, count: usize) -> Result<(), Failure> {
+    match count.checked_mul(size_of::<T>()) {
+        Some(bytes) if isize::try_from(bytes).is_ok() => Ok(()),
+        _ => Err(Failure::SizeOverflow { argument, count, size: size_of::<T>() }),
+    }
+}

@@ -1,0 +1,498 @@
+//! Queries: counts, positions, cells, and what is where. None changes the triangulation.
+
+use std::ptr;
+
+use super::fence;
+use super::motion::{deldrift_commit_report, point_for};
+use super::pointers;
+use super::status::{Failure, deldrift_status};
+use super::triangulation::{Kernel, deldrift_triangulation, dimension_of, in_its_dimension};
+use crate::delaunay::Dimension;
+use crate::motion::{CellsView, Level, Location, MovingTriangulation, NO_CELL};
+
+/// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
+/// an empty triangulation.
+pub const DELDRIFT_NONE: u32 = u32::MAX;
+const _: () = assert!(DELDRIFT_NONE == NO_CELL);
+
+/// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
+/// until the next call that changes the triangulation.
+///
+/// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
+/// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct deldrift_cells_view {
+    /// Number of cells.
+    pub count: usize,
+    /// 3 in 2D, 4 in 3D.
+    pub corners_per_cell: u32,
+    /// count rows of corners_per_cell vertex ids. NULL if there are no cells.
+    pub vertices: *const u32,
+    /// count rows of corners_per_cell cell indices: entry i of a row is the cell on the other side of
+    /// the facet opposite vertex i, DELDRIFT_NONE on the hull. NULL if there are no cells.
+    pub neighbours: *const u32,
+}
+
+/// A list of cell indices that belongs to the triangulation, valid until the next call that changes it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct deldrift_indices_view {
+    /// Number of indices.
+    pub count: usize,
+    /// The indices, in ascending order. NULL if there are none.
+    pub indices: *const u32,
+}
+
+/// How a point lies to what the index of a deldrift_location names.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum deldrift_location_kind {
+    /// At the place of a vertex: index is its id, the lowest one if several share the place.
+    DELDRIFT_LOCATION_VERTEX = 0,
+    /// In a cell or on its boundary, at no vertex: index is that of the cell.
+    DELDRIFT_LOCATION_CELL = 1,
+    /// Outside the convex hull: index is that of a cell with a hull facet that faces the place.
+    DELDRIFT_LOCATION_OUTSIDE = 2,
+    /// There are no cells, as the vertices do not span the dimension: index is DELDRIFT_NONE.
+    DELDRIFT_LOCATION_NO_CELLS = 3,
+}
+
+/// Where a point lies.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct deldrift_location {
+    /// What index names.
+    pub kind: deldrift_location_kind,
+    /// A vertex or a cell.
+    pub index: u32,
+}
+
+impl From<Location> for deldrift_location {
+    fn from(location: Location) -> Self {
+        let (kind, index) = match location {
+            Location::Vertex(vertex) => (deldrift_location_kind::DELDRIFT_LOCATION_VERTEX, vertex),
+            Location::Cell(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_CELL, cell),
+            Location::Outside(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_OUTSIDE, cell),
+            Location::NoCells => (deldrift_location_kind::DELDRIFT_LOCATION_NO_CELLS, DELDRIFT_NONE),
+        };
+        Self { kind, index }
+    }
+}
+
+/// How many vertices are present, hidden ones included and removed ones not, to *count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_vertex_count(
+    t: *const deldrift_triangulation,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.vertex_count())) }
+}
+
+/// How many ids have been given, to *count: valid ids are below it, those of removed vertices too.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_id_count(
+    t: *const deldrift_triangulation,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.id_count())) }
+}
+
+/// How many cells there are, to *count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_cell_count(
+    t: *const deldrift_triangulation,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.cell_count())) }
+}
+
+/// How many moves are staged for the next timestamp, to *count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_staged_count(
+    t: *const deldrift_triangulation,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.staged_count())) }
+}
+
+/// How many bytes of memory the triangulation holds, to *bytes, what its views show included.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_memory_bytes(
+    t: *const deldrift_triangulation,
+    bytes: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe { fence::tell(t, "bytes", bytes, |kernel| Ok(in_its_dimension!(kernel, t => t.memory_bytes()))) }
+}
+
+/// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_timestamp(
+    t: *const deldrift_triangulation,
+    timestamp: *mut u64,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "timestamp", timestamp, |kernel| Ok(in_its_dimension!(kernel, t => t.timestamp())))
+    }
+}
+
+/// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
+/// coincident are those of now.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_statistics(
+    t: *const deldrift_triangulation,
+    report: *mut deldrift_commit_report,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "report", report, |kernel| Ok(in_its_dimension!(kernel, t => t.statistics()).into()))
+    }
+}
+
+/// Whether a vertex of this id is present, to *present: false if it has been removed or never was.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_is_present(
+    t: *const deldrift_triangulation,
+    vertex: u32,
+    present: *mut bool,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "present", present, |kernel| Ok(in_its_dimension!(kernel, t => t.is_present(vertex))))
+    }
+}
+
+/// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_position(
+    t: *const deldrift_triangulation,
+    vertex: u32,
+    position: *mut f64,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let place = pointers::output("position", pointer_for(t, position))?;
+                place.write(t.position(vertex)?);
+            });
+            Ok(())
+        })
+    }
+}
+
+/// The positions of all ids, in their order, 2 or 3 numbers each; those of removed vertices are NaN.
+///
+/// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
+/// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_copy_positions(
+    t: *const deldrift_triangulation,
+    positions: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let (positions, needed) = (pointer_for(t, positions), t.id_count());
+                copy_out(Room { capacity, count }, needed, &[("positions", positions.cast())], || {
+                    let places = pointers::buffer("positions", positions, needed)?;
+                    for (vertex, place) in (0..).zip(places) {
+                        place.write(position_or_nan(t, vertex));
+                    }
+                    Ok(())
+                })
+            })
+        })
+    }
+}
+
+/// The cells, without a copy, to *view.
+///
+/// The first call after a change brings the view up to date, in time proportional to the number of
+/// cells; further calls take constant time. Calls on several threads are legal, the first included.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_cells(
+    t: *const deldrift_triangulation,
+    view: *mut deldrift_cells_view,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe { fence::tell(t, "view", view, |kernel| Ok(view_of_cells(kernel))) }
+}
+
+/// A copy of the cells: see deldrift_cells_view for what the rows mean.
+///
+/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
+/// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
+/// too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_copy_cells(
+    t: *const deldrift_triangulation,
+    vertices: *mut u32,
+    neighbours: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let cells = t.cells();
+                let buffers = [("vertices", vertices.cast()), ("neighbours", neighbours.cast())];
+                copy_out(Room { capacity, count }, cells.corners.len(), &buffers, || {
+                    if !vertices.is_null() {
+                        pointers::fill("vertices", vertices.cast(), cells.corners)?;
+                    }
+                    if !neighbours.is_null() {
+                        pointers::fill("neighbours", neighbours.cast(), cells.neighbours)?;
+                    }
+                    Ok(())
+                })
+            })
+        })
+    }
+}
+
+/// The star of a vertex: the indices of the cells that have it as a corner, in no particular order; for
+/// a hidden vertex those of its representative.
+///
+/// cells: a buffer with room for capacity indices. count: receives their number, which is also written
+/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL. After a change the first call also does what the
+/// first deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_star(
+    t: *const deldrift_triangulation,
+    vertex: u32,
+    cells: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            let mut star = Vec::with_capacity(64);
+            in_its_dimension!(kernel, t => t.star(vertex, &mut star))?;
+            copy_out(Room { capacity, count }, star.len(), &[("cells", cells.cast())], || {
+                pointers::fill("cells", cells, &star)
+            })
+        })
+    }
+}
+
+/// Where a point lies, exactly, to *location.
+///
+/// position: 2 or 3 numbers.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE. After a change the first call also does what the first deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_locate(
+    t: *const deldrift_triangulation,
+    position: *const f64,
+    location: *mut deldrift_location,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(
+            t,
+            "location",
+            location,
+            |kernel| in_its_dimension!(kernel, t => Ok(t.locate(point_for(t, "position", position)?)?.into())),
+        )
+    }
+}
+
+/// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
+/// triangulation has no vertices.
+///
+/// position: 2 or 3 numbers.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_nearest_vertex(
+    t: *const deldrift_triangulation,
+    position: *const f64,
+    vertex: *mut u32,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "vertex", vertex, |kernel| {
+            in_its_dimension!(kernel, t => {
+                Ok(t.nearest_vertex(point_for(t, "position", position)?)?.unwrap_or(DELDRIFT_NONE))
+            })
+        })
+    }
+}
+
+/// The lowest id among the vertices at the place of this one, to *representative: the one that is a
+/// corner of cells. It is the vertex itself unless the vertex is hidden.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_coincident_representative(
+    t: *const deldrift_triangulation,
+    vertex: u32,
+    representative: *mut u32,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "representative", representative, |kernel| {
+            Ok(in_its_dimension!(kernel, t => t.coincident_representative(vertex))?)
+        })
+    }
+}
+
+/// The cells of now that did not exist before the latest commit, to *view, as indices into
+/// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
+/// first commit there are none. Needs track_changes in the options.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_changed_cells(
+    t: *const deldrift_triangulation,
+    view: *mut deldrift_indices_view,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "view", view, |kernel| {
+            let changed = in_its_dimension!(kernel, t => t.changed_cells())?;
+            Ok(deldrift_indices_view { count: changed.len(), indices: start_of(changed) })
+        })
+    }
+}
+
+/// Checks the triangulation exactly, in time proportional to its size.
+///
+/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
+/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
+/// deldrift_last_error then tells the first violation.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, level: u32) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            let level = match level {
+                1 => Level::Structure,
+                2 => Level::Embedding,
+                3 => Level::Delaunay,
+                given => return Err(Failure::Level { given }),
+            };
+            in_its_dimension!(kernel, t => t.validate(level)).map_err(Failure::Invalid)
+        })
+    }
+}
+
+/// Tells a count.
+///
+/// # Safety
+/// As for [`fence::tell`].
+unsafe fn tell_count(
+    t: *const deldrift_triangulation,
+    count: *mut usize,
+    body: impl FnOnce(&Kernel) -> usize,
+) -> deldrift_status {
+    // SAFETY: the caller's promise.
+    unsafe { fence::tell(t, "count", count, |kernel| Ok(body(kernel))) }
+}
+
+/// What the caller has provided for a copy.
+struct Room {
+    capacity: usize,
+    count: *mut usize,
+}
+
+/// Copies `needed` entries to the buffers that are not NULL, if they are large enough, and tells the count.
+///
+/// # Safety
+/// `room.count` is NULL, misaligned or a place for a count.
+unsafe fn copy_out(
+    room: Room,
+    needed: usize,
+    buffers: &[(&'static str, *mut u8)],
+    copy: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    // SAFETY: the caller's promise.
+    let count = unsafe { pointers::output("count", room.count) }?;
+    if buffers.iter().all(|(_, buffer)| buffer.is_null()) {
+        if room.capacity > 0 {
+            return Err(Failure::Null { argument: buffers[0].0 });
+        }
+    } else if room.capacity < needed {
+        count.write(needed);
+        return Err(Failure::BufferTooSmall { argument: "capacity", capacity: room.capacity, needed });
+    } else {
+        copy()?;
+    }
+    count.write(needed);
+    Ok(())
+}
+
+/// A pointer to numbers as one to points of the dimension of `t`.
+fn pointer_for<G: Dimension>(_t: &MovingTriangulation<G>, positions: *mut f64) -> *mut G::Point {
+    positions.cast()
+}
+
+/// The position of a vertex, NaN if it has been removed.
+fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: u32) -> G::Point {
+    t.position(vertex).unwrap_or_else(|_| {
+        let mut nowhere = G::Point::default();
+        (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
+        nowhere
+    })
+}
+
+fn view_of_cells(kernel: &Kernel) -> deldrift_cells_view {
+    in_its_dimension!(kernel, t => {
+        let CellsView { corners, neighbours } = t.cells();
+        deldrift_cells_view {
+            count: corners.len(),
+            corners_per_cell: dimension_of(t) as u32 + 1,
+            vertices: start_of(corners).cast(),
+            neighbours: start_of(neighbours).cast(),
+        }
+    })
+}
+
+/// Where a list begins, NULL if it is empty: an empty slice of Rust begins at an address that means
+/// nothing to C.
+fn start_of<T>(list: &[T]) -> *const T {
+    if list.is_empty() { ptr::null() } else { list.as_ptr() }
+}

@@ -1,0 +1,262 @@
+//! What a call says when it ends: status codes, the message of the last failure, the version.
+
+use std::ffi::{CStr, c_char};
+use std::fmt;
+
+use super::fence;
+use crate::error::Error;
+use crate::motion::Violation;
+
+/// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
+///
+/// deldrift_last_error tells in words which argument was at fault, at which index, and its value.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::enum_variant_names)]
+pub enum deldrift_status {
+    /// The call did what it was asked to do.
+    DELDRIFT_OK = 0,
+    /// A pointer that must not be NULL is.
+    DELDRIFT_NULL_ARGUMENT = 1,
+    /// A pointer is not aligned for what it should point to.
+    DELDRIFT_MISALIGNED_ARGUMENT = 2,
+    /// An array with the given count would not fit in the address space.
+    DELDRIFT_SIZE_OVERFLOW = 3,
+    /// The dimension is neither 2 nor 3.
+    DELDRIFT_INVALID_DIMENSION = 4,
+    /// An option has a value that this version does not know; the message names the field.
+    DELDRIFT_INVALID_OPTIONS = 5,
+    /// The level of deldrift_validate is not 1, 2 or 3.
+    DELDRIFT_INVALID_LEVEL = 6,
+    /// A buffer holds fewer entries than there are; how many there are has been written to the count.
+    DELDRIFT_BUFFER_TOO_SMALL = 7,
+    /// A coordinate is NaN or infinite.
+    DELDRIFT_NOT_FINITE = 8,
+    /// A coordinate is so large, or so close to zero without being zero, that signs could not be exact.
+    DELDRIFT_OUT_OF_RANGE = 9,
+    /// No vertex ever had this id.
+    DELDRIFT_NO_SUCH_VERTEX = 10,
+    /// The vertex of this id has been removed.
+    DELDRIFT_REMOVED_VERTEX = 11,
+    /// A move of this vertex is already staged for the next timestamp.
+    DELDRIFT_DUPLICATE_MOVE = 12,
+    /// An array with one entry per vertex has another number of entries.
+    DELDRIFT_WRONG_COUNT = 13,
+    /// Two vertices would be at the same place, and the options reject that.
+    DELDRIFT_COINCIDENT = 14,
+    /// There would be more vertices than 32-bit ids can name.
+    DELDRIFT_TOO_MANY_VERTICES = 15,
+    /// There would be more cells than the library can link to each other.
+    DELDRIFT_TOO_MANY_CELLS = 16,
+    /// Memory could not be had.
+    DELDRIFT_OUT_OF_MEMORY = 17,
+    /// The cancel callback returned true.
+    DELDRIFT_CANCELLED = 18,
+    /// Changed cells were asked for, but the options did not ask to track them.
+    DELDRIFT_CHANGES_NOT_TRACKED = 19,
+    /// deldrift_validate found something wrong; the message says what.
+    DELDRIFT_INVALID = 20,
+    /// A callback, or another thread, used a triangulation while a call was changing it.
+    DELDRIFT_BUSY = 21,
+    /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. Only
+    /// deldrift_destroy is of use now.
+    DELDRIFT_POISONED = 22,
+    /// A defect of the library; please report the message.
+    DELDRIFT_INTERNAL_ERROR = 23,
+}
+
+use deldrift_status::*;
+
+/// A status as it arrives from C, where any number may be passed.
+pub type StatusCode = u32;
+
+impl deldrift_status {
+    /// Every status, in the order of their values.
+    const ALL: [deldrift_status; 24] = [
+        DELDRIFT_OK,
+        DELDRIFT_NULL_ARGUMENT,
+        DELDRIFT_MISALIGNED_ARGUMENT,
+        DELDRIFT_SIZE_OVERFLOW,
+        DELDRIFT_INVALID_DIMENSION,
+        DELDRIFT_INVALID_OPTIONS,
+        DELDRIFT_INVALID_LEVEL,
+        DELDRIFT_BUFFER_TOO_SMALL,
+        DELDRIFT_NOT_FINITE,
+        DELDRIFT_OUT_OF_RANGE,
+        DELDRIFT_NO_SUCH_VERTEX,
+        DELDRIFT_REMOVED_VERTEX,
+        DELDRIFT_DUPLICATE_MOVE,
+        DELDRIFT_WRONG_COUNT,
+        DELDRIFT_COINCIDENT,
+        DELDRIFT_TOO_MANY_VERTICES,
+        DELDRIFT_TOO_MANY_CELLS,
+        DELDRIFT_OUT_OF_MEMORY,
+        DELDRIFT_CANCELLED,
+        DELDRIFT_CHANGES_NOT_TRACKED,
+        DELDRIFT_INVALID,
+        DELDRIFT_BUSY,
+        DELDRIFT_POISONED,
+        DELDRIFT_INTERNAL_ERROR,
+    ];
+
+    fn text(self) -> &'static CStr {
+        match self {
+            DELDRIFT_OK => c"success",
+            DELDRIFT_NULL_ARGUMENT => c"a pointer is NULL",
+            DELDRIFT_MISALIGNED_ARGUMENT => c"a pointer is misaligned",
+            DELDRIFT_SIZE_OVERFLOW => c"a count is too large for the address space",
+            DELDRIFT_INVALID_DIMENSION => c"the dimension is neither 2 nor 3",
+            DELDRIFT_INVALID_OPTIONS => c"an option is invalid",
+            DELDRIFT_INVALID_LEVEL => c"the level of validation is not 1, 2 or 3",
+            DELDRIFT_BUFFER_TOO_SMALL => c"a buffer is too small",
+            DELDRIFT_NOT_FINITE => c"a coordinate is not finite",
+            DELDRIFT_OUT_OF_RANGE => c"a coordinate is out of range",
+            DELDRIFT_NO_SUCH_VERTEX => c"no vertex has this id",
+            DELDRIFT_REMOVED_VERTEX => c"the vertex has been removed",
+            DELDRIFT_DUPLICATE_MOVE => c"a move of the vertex is already staged",
+            DELDRIFT_WRONG_COUNT => c"an array has the wrong number of entries",
+            DELDRIFT_COINCIDENT => c"two vertices would be at the same place",
+            DELDRIFT_TOO_MANY_VERTICES => c"too many vertices",
+            DELDRIFT_TOO_MANY_CELLS => c"too many cells",
+            DELDRIFT_OUT_OF_MEMORY => c"out of memory",
+            DELDRIFT_CANCELLED => c"cancelled by the callback",
+            DELDRIFT_CHANGES_NOT_TRACKED => c"changes are not tracked",
+            DELDRIFT_INVALID => c"the triangulation violates an invariant",
+            DELDRIFT_BUSY => c"the triangulation is being changed",
+            DELDRIFT_POISONED => c"an internal error has made the triangulation unusable",
+            DELDRIFT_INTERNAL_ERROR => c"internal error",
+        }
+    }
+}
+
+/// Why a call fails, seen from the boundary.
+#[derive(Debug)]
+pub(super) enum Failure {
+    Null { argument: &'static str },
+    Misaligned { argument: &'static str, address: usize, alignment: usize },
+    SizeOverflow { argument: &'static str, count: usize, size: usize },
+    Dimension { given: u32 },
+    Option { field: &'static str, value: u64, wanted: &'static str },
+    Level { given: u32 },
+    BufferTooSmall { argument: &'static str, capacity: usize, needed: usize },
+    Invalid(Violation),
+    Busy,
+    Poisoned,
+    Kernel(Error),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Failure::Kernel(error)
+    }
+}
+
+impl Failure {
+    pub(super) fn status(&self) -> deldrift_status {
+        match self {
+            Failure::Null { .. } => DELDRIFT_NULL_ARGUMENT,
+            Failure::Misaligned { .. } => DELDRIFT_MISALIGNED_ARGUMENT,
+            Failure::SizeOverflow { .. } => DELDRIFT_SIZE_OVERFLOW,
+            Failure::Dimension { .. } => DELDRIFT_INVALID_DIMENSION,
+            Failure::Option { .. } => DELDRIFT_INVALID_OPTIONS,
+            Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
+            Failure::BufferTooSmall { .. } => DELDRIFT_BUFFER_TOO_SMALL,
+            Failure::Invalid(_) => DELDRIFT_INVALID,
+            Failure::Busy => DELDRIFT_BUSY,
+            Failure::Poisoned => DELDRIFT_POISONED,
+            Failure::Kernel(error) => match error {
+                Error::NotFinite { .. } => DELDRIFT_NOT_FINITE,
+                Error::OutOfRange { .. } => DELDRIFT_OUT_OF_RANGE,
+                Error::NoSuchVertex { .. } => DELDRIFT_NO_SUCH_VERTEX,
+                Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
+                Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
+                Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
+                Error::Coincident { .. } => DELDRIFT_COINCIDENT,
+                Error::TooManyVertices { .. } => DELDRIFT_TOO_MANY_VERTICES,
+                Error::TooManyCells { .. } => DELDRIFT_TOO_MANY_CELLS,
+                Error::OutOfMemory { .. } => DELDRIFT_OUT_OF_MEMORY,
+                Error::Cancelled => DELDRIFT_CANCELLED,
+                Error::ChangesNotTracked => DELDRIFT_CHANGES_NOT_TRACKED,
+            },
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Null { argument } => write!(f, "{argument} is NULL"),
+            Failure::Misaligned { argument, address, alignment } => {
+                write!(f, "{argument} is {address:#x}, which is not a multiple of {alignment}")
+            }
+            Failure::SizeOverflow { argument, count, size } => {
+                write!(f, "{argument} cannot have {count} entries of {size} bytes each")
+            }
+            Failure::Dimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
+            Failure::Option { field, value, wanted } => write!(f, "{field} is {value}, but must be {wanted}"),
+            Failure::Level { given } => write!(f, "level is {given}, but must be 1, 2 or 3"),
+            Failure::BufferTooSmall { argument, capacity, needed } => {
+                write!(f, "{argument} is {capacity}, but {needed} entries are to be written")
+            }
+            Failure::Invalid(violation) => write!(f, "{}", violation.message),
+            Failure::Busy => write!(f, "t is in use by a call that is changing it"),
+            Failure::Poisoned => write!(f, "t is unusable since a call on it ended in an internal error"),
+            Failure::Kernel(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+/// A status in a few words, in English, without a full stop. For a number that is no status of this
+/// version the text says so. The string is static. Never fails; may be called from any thread.
+#[unsafe(no_mangle)]
+pub extern "C" fn deldrift_status_string(status: StatusCode) -> *const c_char {
+    deldrift_status::ALL.get(status as usize).map_or(c"unknown status", |s| s.text()).as_ptr()
+}
+
+/// The message of the last call on this thread that failed: which argument, which index, which value.
+/// An empty string if none has failed. Calls that succeed leave it as it is, so look at it only after
+/// a failure.
+///
+/// The string is never NULL, belongs to the library, and stays until the next failure on the same
+/// thread. It is at most 511 bytes long and valid UTF-8.
+#[unsafe(no_mangle)]
+pub extern "C" fn deldrift_last_error() -> *const c_char {
+    fence::last_message()
+}
+
+/// The version of the library that is running, as "major.minor.patch". The string is static. The
+/// version of the header that a program was compiled with is in DELDRIFT_VERSION_STRING.
+#[unsafe(no_mangle)]
+pub extern "C" fn deldrift_version() -> *const c_char {
+    concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statuses_are_numbered_in_order_and_have_distinct_texts() {
+        for (value, status) in deldrift_status::ALL.into_iter().enumerate() {
+            assert_eq!(status as usize, value);
+            assert!(deldrift_status::ALL[..value].iter().all(|earlier| earlier.text() != status.text()));
+        }
+    }
+
+    #[test]
+    fn failures_that_no_small_program_can_provoke_have_their_status() {
+        let memory = Failure::from(Error::OutOfMemory { bytes: 64 });
+        assert_eq!((memory.status(), memory.to_string().contains("64")), (DELDRIFT_OUT_OF_MEMORY, true));
+        let cells = Failure::from(Error::TooManyCells { limit: 1 << 30 });
+        assert_eq!(
+            (cells.status(), cells.to_string().contains("1073741824")),
+            (DELDRIFT_TOO_MANY_CELLS, true)
+        );
+        let violation = Violation {
+            level: crate::motion::Level::Structure,
+            message: "cell 7 is its own neighbour".into(),
+        };
+        let invalid = Failure::Invalid(violation);
+        assert_eq!((invalid.status(), invalid.to_string().contains("cell 7")), (DELDRIFT_INVALID, true));
+    }
+}

@@ -1,0 +1,250 @@
+//! The object itself: creation, destruction, and what is chosen for its whole life.
+
+use std::cell::UnsafeCell;
+use std::mem;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+use super::fence;
+use super::options::{self, AlgorithmCode, deldrift_options};
+use super::pointers;
+use super::status::{Failure, deldrift_status};
+use crate::delaunay::{Dimension, Plane, Space};
+use crate::error::Error;
+use crate::motion::{MAX_VERTICES, MovingTriangulation};
+
+/// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.
+pub struct deldrift_triangulation {
+    kernel: UnsafeCell<Kernel>,
+    // Written only by calls that change the triangulation, which exclude all others by contract. They are
+    // atomic so that a caller who breaks the contract reads a flag and not garbage; nothing is ordered.
+    is_changing: AtomicBool,
+    is_poisoned: AtomicBool,
+}
+
+/// The library's triangulation, in its dimension.
+#[allow(clippy::large_enum_variant)]
+pub(super) enum Kernel {
+    Plane(MovingTriangulation<Plane>),
+    Space(MovingTriangulation<Space>),
+}
+
+/// Evaluates an expression on a [`Kernel`]'s triangulation, once for each dimension.
+macro_rules! in_its_dimension {
+    ($kernel:expr, $t:ident => $body:expr) => {
+        match $kernel {
+            $crate::capi::triangulation::Kernel::Plane($t) => $body,
+            $crate::capi::triangulation::Kernel::Space($t) => $body,
+        }
+    };
+}
+pub(super) use in_its_dimension;
+
+impl deldrift_triangulation {
+    fn new(kernel: Kernel) -> Self {
+        Self {
+            kernel: UnsafeCell::new(kernel),
+            is_changing: AtomicBool::new(false),
+            is_poisoned: AtomicBool::new(false),
+        }
+    }
+
+    pub(super) fn kernel(&self) -> *mut Kernel {
+        self.kernel.get()
+    }
+
+    pub(super) fn check_idle(&self) -> Result<(), Failure> {
+        if self.is_changing.load(Relaxed) { Err(Failure::Busy) } else { Ok(()) }
+    }
+
+    pub(super) fn check_ready(&self) -> Result<(), Failure> {
+        self.check_idle()?;
+        if self.is_poisoned.load(Relaxed) { Err(Failure::Poisoned) } else { Ok(()) }
+    }
+
+    /// Claims the triangulation for a call that changes it.
+    pub(super) fn claim(&self) -> Result<Claim<'_>, Failure> {
+        self.check_ready()?;
+        self.is_changing.store(true, Relaxed);
+        Ok(Claim(self))
+    }
+}
+
+/// The right to change a triangulation. Dropped without release, by a panic, it leaves it poisoned.
+pub(super) struct Claim<'t>(&'t deldrift_triangulation);
+
+impl Claim<'_> {
+    /// The change has come to its end, with or without success.
+    pub(super) fn release(self) {
+        self.0.is_changing.store(false, Relaxed);
+        mem::forget(self);
+    }
+}
+
+impl Drop for Claim<'_> {
+    fn drop(&mut self) {
+        self.0.is_poisoned.store(true, Relaxed);
+        self.0.is_changing.store(false, Relaxed);
+    }
+}
+
+/// The points that an array from C holds, in the dimension of the triangulation.
+///
+/// # Safety
+/// As for [`pointers::array`], with `count` times the dimension numbers.
+pub(super) unsafe fn points<'a, G: Dimension>(
+    argument: &'static str,
+    positions: *const f64,
+    count: usize,
+) -> Result<&'a [G::Point], Failure> {
+    // SAFETY: a point is an array of as many numbers as the dimension says.
+    unsafe { pointers::array(argument, positions.cast::<G::Point>(), count) }
+}
+
+/// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
+///
+/// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or
+/// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
+/// them for the life of the triangulation. Any set is legal, the empty one, coincident points and points
+/// on one line or plane included; where the points do not span the dimension there are no cells. Every
+/// coordinate must be 0 or of a magnitude for which signs are exact; the message of
+/// DELDRIFT_OUT_OF_RANGE gives the limits. options: NULL for the defaults; read during the call only.
+///
+/// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
+/// success only.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_create(
+    dimension: u32,
+    positions: *const f64,
+    count: usize,
+    options: *const deldrift_options,
+    out: *mut *mut deldrift_triangulation,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::enter(|| {
+            let out = pointers::output("out", out)?;
+            let kernel = Kernel::new(dimension, positions, count, options)?;
+            out.write(Box::into_raw(Box::new(deldrift_triangulation::new(kernel))));
+            Ok(())
+        })
+    }
+}
+
+impl Kernel {
+    /// Creates the triangulation of a dimension.
+    ///
+    /// # Safety
+    /// As for [`deldrift_create`].
+    unsafe fn new(
+        dimension: u32,
+        positions: *const f64,
+        count: usize,
+        options: *const deldrift_options,
+    ) -> Result<Self, Failure> {
+        let is_plane = match dimension {
+            2 => true,
+            3 => false,
+            given => return Err(Failure::Dimension { given }),
+        };
+        // SAFETY: the caller's promise.
+        let options = unsafe { deldrift_options::read(options) }?.convert()?;
+        // Looked at here as well, lest an absurd count becomes the length of a slice.
+        if count > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
+        }
+        // SAFETY: the caller's promise.
+        unsafe {
+            Ok(if is_plane {
+                Kernel::Plane(MovingTriangulation::new(
+                    points::<Plane>("positions", positions, count)?,
+                    options,
+                )?)
+            } else {
+                Kernel::Space(MovingTriangulation::new(
+                    points::<Space>("positions", positions, count)?,
+                    options,
+                )?)
+            })
+        }
+    }
+}
+
+/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.
+/// A poisoned triangulation is destroyed like any other. From inside a callback of a call on the same
+/// triangulation this does nothing but set deldrift_last_error.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_destroy(t: *mut deldrift_triangulation) {
+    if t.is_null() {
+        return;
+    }
+    // There is no one to give the status to; the message is there for who looks for it.
+    let _ = fence::enter(|| {
+        // SAFETY: made by deldrift_create and, by the header's contract, not used by another thread.
+        let handle = unsafe { pointers::reference("t", t.cast_const()) }?;
+        handle.check_idle()?;
+        // SAFETY: it came from a Box, and no call below this one on the stack is using it.
+        drop(unsafe { Box::from_raw(t) });
+        Ok(())
+    });
+}
+
+/// The dimension of the triangulation, 2 or 3, to *dimension.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_dimension(
+    t: *const deldrift_triangulation,
+    dimension: *mut u32,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "dimension", dimension, |kernel| {
+            Ok(in_its_dimension!(kernel, t => dimension_of(t)) as u32)
+        })
+    }
+}
+
+/// The number of coordinates of a point of `t`.
+pub(super) fn dimension_of<G: Dimension>(_t: &MovingTriangulation<G>) -> usize {
+    G::D
+}
+
+/// Changes the algorithm of later commits. Staged moves stay.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this
+/// version. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_set_algorithm(
+    t: *mut deldrift_triangulation,
+    algorithm: AlgorithmCode,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            let algorithm = options::algorithm("algorithm", algorithm)?;
+            in_its_dimension!(kernel, t => t.set_algorithm(algorithm));
+            Ok(())
+        })
+    }
+}
+
+/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_get_algorithm(
+    t: *const deldrift_triangulation,
+    algorithm: *mut AlgorithmCode,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "algorithm", algorithm, |kernel| {
+            Ok(options::algorithm_code(in_its_dimension!(kernel, t => t.algorithm())))
+        })
+    }
+}
