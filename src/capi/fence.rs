@@ -191,7 +191,11 @@ mod tests {
         unsafe {
             let status = change(t, |_| panic!("cell {} went missing", 13));
             assert_eq!(status, deldrift_status::DELDRIFT_INTERNAL_ERROR);
-            assert!(message().contains("cell 13 went missing") && message().contains("fence.rs"), "{}", message());
+            assert!(
+                message().contains("cell 13 went missing") && message().contains("fence.rs"),
+                "{}",
+                message()
+            );
 
             assert_eq!(deldrift_cell_count(t, &mut count), deldrift_status::DELDRIFT_POISONED);
             assert_eq!(deldrift_commit_timestamp(t, null_mut()), deldrift_status::DELDRIFT_POISONED);

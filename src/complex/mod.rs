@@ -277,6 +277,12 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts -= self.cell(cell).is_ghost() as usize;
     }
 
+    /// As [`retire`](Self::retire) for several cells, of which so many are ghosts.
+    #[inline(always)]
+    pub(crate) fn retire_ghosts(&mut self, n: usize) {
+        self.n_ghosts -= n;
+    }
+
     /// Frees the index of a retired cell.
     #[inline(always)]
     pub(crate) fn release(&mut self, cell: u32) {

@@ -38,13 +38,9 @@ impl<G: Dimension> Delaunay<G> {
     pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
         self.tighten_filter();
         self.flat.clear();
-        for s in in_rounds::<G>(self.live_sites()) {
-            if self.extend_basis(s) {
-                break;
-            }
-        }
-        if self.flat.basis.len() == G::D + 1 {
-            return self.triangulate(monitor);
+        let order = in_rounds::<G>(self.live_sites());
+        if order.iter().any(|&s| self.extend_basis(s)) {
+            return self.triangulate(&order, monitor);
         }
         self.complex.clear();
         let mut merges = Vec::new();
@@ -66,9 +62,12 @@ impl<G: Dimension> Delaunay<G> {
         Ok(merges)
     }
 
-    /// Builds the cells of all live sites, from a basis of `D + 1` on.
-    pub(super) fn triangulate(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
-        let order = in_rounds::<G>(self.live_sites());
+    /// Builds the cells of all live sites, given in insertion order, from a basis of `D + 1` on.
+    pub(super) fn triangulate(
+        &mut self,
+        order: &[u32],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<Merge>> {
         self.complex.clear();
         // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
         self.complex.reserve(order.len() * if G::D == 2 { 2 } else { 7 } + 64)?;
@@ -76,7 +75,7 @@ impl<G: Dimension> Delaunay<G> {
             site.cell = NONE;
         }
         self.start()?;
-        let inserted = self.insert_all(&order, monitor);
+        let inserted = self.insert_all(order, monitor);
         // They would be stale after the first relocation, and are as large as the cells.
         self.spheres = Vec::new();
         let coincident = inserted?;

@@ -43,6 +43,8 @@ pub struct Cavity<G: Dimension> {
     /// Cells in conflict: the first `n_zone` entries. The rest is room to write before it is known whether to keep it.
     pub(super) zone: Vec<u32>,
     pub(super) n_zone: usize,
+    /// How many of them are ghosts.
+    pub(super) n_ghosts: usize,
     /// Likewise, the rim's facets.
     pub(super) rim: Vec<Rim<G::Corners>>,
     pub(super) n_rim: usize,
@@ -55,7 +57,7 @@ pub struct Cavity<G: Dimension> {
 
 impl<G: Dimension> Default for Cavity<G> {
     fn default() -> Self {
-        Cavity { zone: Vec::new(), n_zone: 0, rim: Vec::new(), n_rim: 0, cells: Vec::new(), ridges: G::Ridges::default(), steps: 0 }
+        Cavity { zone: Vec::new(), n_zone: 0, n_ghosts: 0, rim: Vec::new(), n_rim: 0, cells: Vec::new(), ridges: G::Ridges::default(), steps: 0 }
     }
 }
 
@@ -104,9 +106,7 @@ impl<G: Dimension> Delaunay<G> {
             }
             return Err(error);
         }
-        for &c in zone {
-            self.complex.retire(c);
-        }
+        self.complex.retire_ghosts(cavity.n_ghosts);
         // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
         let reused = zone.len().min(n_rim);
         for &c in &zone[reused..] {

@@ -6,7 +6,7 @@
 
 use super::cavity::{Cavity, IN_ZONE, Rim};
 use super::{Delaunay, Plane};
-use crate::complex::{Facet, INFINITE};
+use crate::complex::{Facet, INFINITE, NONE};
 
 /// The corners with `s` in place of corner `i`, turned to have `s` first; but a ghost corner stays last.
 #[inline(always)]
@@ -30,32 +30,33 @@ pub(super) fn dig<const BUILD: bool>(
     id: u32,
 ) {
     let Cavity { zone, rim, .. } = cavity;
-    let (mut next, mut n_zone, mut n_rim) = (0, 1, 0);
+    let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
     make_room(zone, rim, n_zone, n_rim);
     zone[0] = start;
     t.complex.set_mark(start, IN_ZONE);
     while next < n_zone {
         make_room(zone, rim, n_zone, n_rim);
         let cell = *t.complex.cell(zone[next]);
+        n_ghosts += cell.is_ghost() as usize;
         next += 1;
         for i in 0..3 {
             let out = cell.neighbour(i);
-            let known = t.complex.mark(out.cell());
-            // A prepared test is cheaper than a wrong guess whether the cell is known.
-            let in_zone = if BUILD {
-                t.is_in_prepared_conflict(out.cell(), q, id)
+            if t.complex.mark(out.cell()) == IN_ZONE {
+                continue;
+            }
+            let in_zone = if BUILD { t.is_in_prepared_conflict(out.cell(), q, id) } else { t.is_in_conflict(out.cell(), q, id) };
+            if in_zone {
+                t.complex.set_mark(out.cell(), IN_ZONE);
+                zone[n_zone] = out.cell();
+                n_zone += 1;
             } else {
-                known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
-            };
-            t.complex.set_mark(out.cell(), in_zone as u8);
-            zone[n_zone] = out.cell();
-            let (corners, at) = joined(cell.corners, i, s);
-            rim[n_rim] = Rim { corners, out, at };
-            n_zone += (in_zone as u8 & !known) as usize;
-            n_rim += !in_zone as usize;
+                let (corners, at) = joined(cell.corners, i, s);
+                rim[n_rim] = Rim { corners, out, at };
+                n_rim += 1;
+            }
         }
     }
-    (cavity.n_zone, cavity.n_rim) = (n_zone, n_rim);
+    (cavity.n_zone, cavity.n_rim, cavity.n_ghosts) = (n_zone, n_rim, n_ghosts);
 }
 
 /// Makes room for the three neighbours of a cell.
@@ -75,10 +76,12 @@ pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Plane>, cavity: &Cavity<P
     let Cavity { rim, n_rim, cells, .. } = cavity;
     let rim = &rim[..*n_rim];
     for (facet, &cell) in rim.iter().zip(cells) {
-        let (start, end) = if facet.at == 0 { (1, 2) } else { (2, 0) };
-        t.complex.put(cell, facet.corners);
-        t.complex.glue(Facet::new(cell, facet.at as usize), facet.out);
-        t.corner_mut(facet.corners[start]).cell = Facet::new(cell, end).code();
+        if facet.at == 0 {
+            t.complex.put_glued(cell, facet.corners, [facet.out.code(), NONE, NONE]);
+            t.corner_mut(facet.corners[1]).cell = Facet::new(cell, 2).code();
+        } else {
+            put_ghost(t, facet, cell);
+        }
         if BUILD {
             t.prepare_sphere(cell, &facet.corners);
         }
@@ -92,4 +95,13 @@ pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Plane>, cavity: &Cavity<P
         let start = if facet.at == 0 { 1 } else { 2 };
         t.corner_mut(facet.corners[start]).cell = cell;
     }
+}
+
+/// A triangle that starts at the ghost vertex.
+#[cold]
+#[inline(never)]
+fn put_ghost(t: &mut Delaunay<Plane>, facet: &Rim<[u32; 3]>, cell: u32) {
+    t.complex.put(cell, facet.corners);
+    t.complex.glue(Facet::new(cell, 1), facet.out);
+    t.corner_mut(INFINITE).cell = Facet::new(cell, 0).code();
 }

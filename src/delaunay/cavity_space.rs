@@ -43,13 +43,14 @@ fn joined([a, b, c, d]: [u32; 4], i: usize, s: u32) -> [u32; 4] {
 #[inline(always)]
 pub(super) fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>, start: u32, s: u32, q: &[f64; 3], id: u32) {
     let Cavity { zone, rim, .. } = cavity;
-    let (mut next, mut n_zone, mut n_rim) = (0, 1, 0);
+    let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
     make_room(zone, rim, n_zone, n_rim);
     zone[0] = start;
     t.complex.set_mark(start, IN_ZONE);
     while next < n_zone {
         make_room(zone, rim, n_zone, n_rim);
         let cell = *t.complex.cell(zone[next]);
+        n_ghosts += cell.is_ghost() as usize;
         next += 1;
         for i in 0..4 {
             let out = cell.neighbour(i);
@@ -67,7 +68,7 @@ pub(super) fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, cavity: &mut Cavit
             n_rim += !in_zone as usize;
         }
     }
-    (cavity.n_zone, cavity.n_rim) = (n_zone, n_rim);
+    (cavity.n_zone, cavity.n_rim, cavity.n_ghosts) = (n_zone, n_rim, n_ghosts);
 }
 
 /// Makes room for the four neighbours of a cell.

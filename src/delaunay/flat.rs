@@ -6,6 +6,7 @@
 
 use std::collections::HashMap;
 
+use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion};
 use crate::complex::NONE;
 use crate::error::Result;
@@ -74,7 +75,8 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.sites[s as usize].cell = NONE;
         if self.extend_basis(s) {
-            let merges = self.triangulate(&mut |_| true)?;
+            let order = in_rounds::<G>(self.live_sites());
+            let merges = self.triangulate(&order, &mut |_| true)?;
             debug_assert!(merges.is_empty());
         }
         Ok(Insertion::New)

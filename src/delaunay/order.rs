@@ -39,13 +39,12 @@ const SHORT_RUN: usize = 8;
 
 fn sort_in_box<G: Dimension>(points: &[G::Point], keyed: &mut [(u64, u32)]) {
     let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|&(_, i)| &points[i as usize])) else { return };
-    // Halved before the difference: an extent of the accepted range does not overflow, but stays exact enough.
     let extent = (0..G::D).map(|k| upper[k] - lower[k]).fold(0.0, f64::max);
     if extent == 0.0 {
         return;
     }
     let per_axis = ((keyed.len() as f64).log2() / G::D as f64).ceil() as u32 + 4;
-    let bits = per_axis.clamp(4, 63 / G::D as u32);
+    let bits = if G::D == 2 { per_axis.next_multiple_of(4).min(28) } else { per_axis.min(21) };
     let scale = ((1u64 << bits) - 1) as f64 / extent;
     for (key, i) in keyed.iter_mut() {
         let p = &points[*i as usize];
@@ -63,19 +62,48 @@ fn sort_in_box<G: Dimension>(points: &[G::Point], keyed: &mut [(u64, u32)]) {
     }
 }
 
-/// Position along the plane's Hilbert curve of the cell `(x, y)` of a grid of `2^bits` cells a side.
-fn hilbert_key_2(mut x: u32, mut y: u32, bits: u32) -> u64 {
-    let mut key = 0u64;
-    for b in (0..bits).rev() {
-        let (rx, ry) = (x >> b & 1, y >> b & 1);
-        key = key << 2 | u64::from((3 * rx) ^ ry);
-        // Turn the quadrant so that its curve starts at its origin: swap the axes if ry is 0, mirrored if rx is 1.
-        let mirror = 0u32.wrapping_sub(rx & !ry & 1);
-        x ^= mirror;
-        y ^= mirror;
-        let swap = (x ^ y) & (ry.wrapping_sub(1));
-        x ^= swap;
-        y ^= swap;
+/// One entry for each state of the plane's curve and four bits of each coordinate: eight bits of the key, and the next
+/// state above them.
+///
+/// The state is the transformation that the quadrants passed so far have put on the curve: whether both axes are
+/// mirrored (bit 0) and whether they are exchanged (bit 1). A quadrant with `y = 0` exchanges them for the curve within,
+/// and one with `x = 1` as well mirrors them first.
+static CURVE: [[u16; 256]; 4] = {
+    let mut table = [[0; 256]; 4];
+    let mut start = 0;
+    while start < 4 {
+        let mut bits = 0;
+        while bits < 256 {
+            let (mut state, mut key) = (start, 0);
+            let mut b = 4;
+            while b > 0 {
+                b -= 1;
+                let (x, y) = ((bits >> (4 + b)) & 1, (bits >> b) & 1);
+                let (x, y) = if state & 2 == 0 { (x, y) } else { (y, x) };
+                let (x, y) = (x ^ (state & 1), y ^ (state & 1));
+                key = key << 2 | ((3 * x) ^ y);
+                if y == 0 {
+                    state = (state ^ 2) ^ x;
+                }
+            }
+            table[start][bits] = (key | state << 8) as u16;
+            bits += 1;
+        }
+        start += 1;
+    }
+    table
+};
+
+/// Position along the plane's Hilbert curve of the cell `(x, y)` of a grid of `2^bits` cells a side; `bits` is a multiple
+/// of 4.
+fn hilbert_key_2(x: u32, y: u32, bits: u32) -> u64 {
+    let (mut key, mut state) = (0u64, 0);
+    let mut shift = bits;
+    while shift > 0 {
+        shift -= 4;
+        let entry = CURVE[state & 3][((x >> shift & 15) << 4 | y >> shift & 15) as usize];
+        key = key << 8 | u64::from(entry & 255);
+        state = usize::from(entry >> 8);
     }
     key
 }
@@ -151,13 +179,16 @@ mod tests {
     /// On a full grid a Hilbert curve visits every cell once and steps to a neighbour each time.
     #[test]
     fn the_curve_steps_to_neighbours() {
-        for bits in 1..6 {
+        for bits in [4, 8] {
             let side = 1u32 << bits;
             let mut plane: Vec<_> = (0..side * side).map(|i| [i % side, i / side]).collect();
             plane.sort_by_key(|c| hilbert_key_2(c[0], c[1], bits));
             for w in plane.windows(2) {
                 assert_eq!(w[0][0].abs_diff(w[1][0]) + w[0][1].abs_diff(w[1][1]), 1, "{w:?}");
             }
+        }
+        for bits in 1..6 {
+            let side = 1u32 << bits;
             let mut space: Vec<_> = (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side]).collect();
             space.sort_by_key(|&c| hilbert_key_3(c, bits));
             for w in space.windows(2) {
