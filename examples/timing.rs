@@ -34,10 +34,20 @@ fn run<G: Dimension>(n: usize) {
         best = best.min(t0.elapsed().as_secs_f64());
         drop(t);
     }
-    let mut t = MovingTriangulation::<G>::new(&p, Options { algorithm: Algorithm::Rebuilding, ..Options::default() }).unwrap();
+    let mut t =
+        MovingTriangulation::<G>::new(&p, Options { algorithm: Algorithm::Rebuilding, ..Options::default() })
+            .unwrap();
     print!("{}D n {n:8}: build {:7.1}", G::D, best * 1e9 / n as f64);
-    print!("  cells/n {:.2} bytes/n {:.1}", t.cell_count() as f64 / n as f64, t.memory_bytes() as f64 / n as f64);
-    for (name, a) in [("rebuild", Algorithm::Rebuilding), ("place", Algorithm::Placement), ("flips", Algorithm::PlacementFlips)] {
+    print!(
+        "  cells/n {:.2} bytes/n {:.1}",
+        t.cell_count() as f64 / n as f64,
+        t.memory_bytes() as f64 / n as f64
+    );
+    for (name, a) in [
+        ("rebuild", Algorithm::Rebuilding),
+        ("place", Algorithm::Placement),
+        ("flips", Algorithm::PlacementFlips),
+    ] {
         t.set_algorithm(a);
         let mut best = f64::MAX;
         for _ in 0..(repeats / 4).max(3) {

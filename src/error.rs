@@ -135,7 +135,9 @@ impl fmt::Display for Error {
             Error::TooManyCells { limit } => write!(f, "the triangulation needs more than {limit} cells"),
             Error::OutOfMemory { bytes } => write!(f, "no memory for {bytes} more bytes"),
             Error::Cancelled => write!(f, "the cancel callback asked to stop"),
-            Error::ChangesNotTracked => write!(f, "changes are not recorded: set track_changes in the options"),
+            Error::ChangesNotTracked => {
+                write!(f, "changes are not recorded: set track_changes in the options")
+            }
         }
     }
 }

@@ -58,7 +58,8 @@ impl Complex<[u32; 4]> {
         let l = 6 - i - j - k;
         let (beyond_k, beyond_l) = (self.cell(cell).neighbour(k), self.cell(cell).neighbour(l));
         let third = self.cell(beyond_k.cell()).corners[beyond_k.index()];
-        if self.cell(beyond_l.cell()).corners[beyond_l.index()] != third || beyond_k.cell() == beyond_l.cell() {
+        if self.cell(beyond_l.cell()).corners[beyond_l.index()] != third || beyond_k.cell() == beyond_l.cell()
+        {
             return None;
         }
         let meet = |d: u32| {
@@ -71,7 +72,11 @@ impl Complex<[u32; 4]> {
     }
 
     /// Replaces cells by others with the same boundary and glues them.
-    fn exchange<const A: usize, const B: usize>(&mut self, dead: [u32; A], corners: [[u32; 4]; B]) -> [u32; B] {
+    fn exchange<const A: usize, const B: usize>(
+        &mut self,
+        dead: [u32; A],
+        corners: [[u32; 4]; B],
+    ) -> [u32; B] {
         let mut rim: Vec<([u32; 3], Facet)> = Vec::with_capacity(2 * (A + B));
         for &c in &dead {
             for i in 0..4 {
@@ -137,9 +142,9 @@ mod tests {
         complex.live().all(|c| {
             (0..C::N).all(|i| {
                 let n = complex.cell(c).neighbour(i);
-                let same = (0..C::N).filter(|&k| k != i).all(|k| {
-                    complex.cell(n.cell()).corners.as_ref().contains(&complex.cell(c).corners[k])
-                });
+                let same = (0..C::N)
+                    .filter(|&k| k != i)
+                    .all(|k| complex.cell(n.cell()).corners.as_ref().contains(&complex.cell(c).corners[k]));
                 same && complex.cell(n.cell()).neighbour(n.index()) == Facet::new(c, i)
             })
         })

@@ -314,7 +314,9 @@ impl<C: Corners> Complex<C> {
         }
         for (k, &a) in cells.iter().enumerate() {
             for &b in &cells[..k] {
-                let differs = |x: u32, y: u32| (0..C::N).find(|&i| !self.cell(y).corners.as_ref().contains(&self.cell(x).corners[i]));
+                let differs = |x: u32, y: u32| {
+                    (0..C::N).find(|&i| !self.cell(y).corners.as_ref().contains(&self.cell(x).corners[i]))
+                };
                 let (i, j) = (differs(a, b).expect("distinct cells"), differs(b, a).expect("distinct cells"));
                 self.glue(Facet::new(a, i), Facet::new(b, j));
             }

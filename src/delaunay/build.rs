@@ -85,7 +85,9 @@ impl<G: Dimension> Delaunay<G> {
     /// Inserts all sites but those of the first cell; returns pairs of coincident sites, the second in the cells.
     fn insert_all(&mut self, order: &[u32], monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<(u32, u32)>> {
         let bytes = self.complex.n_cells_reserved() * size_of::<G::Sphere>();
-        self.spheres.try_reserve_exact(self.complex.n_cells_reserved()).map_err(|_| Error::OutOfMemory { bytes })?;
+        self.spheres
+            .try_reserve_exact(self.complex.n_cells_reserved())
+            .map_err(|_| Error::OutOfMemory { bytes })?;
         for c in 0..self.complex.n_slots() as u32 {
             let corners = self.complex.cell(c).corners;
             self.spheres.push(G::sphere(&self.filter, self.view(), &corners));
@@ -96,10 +98,10 @@ impl<G: Dimension> Delaunay<G> {
             if done % MONITORED == 0 && !monitor(done as f64 / order.len() as f64) {
                 return Err(Error::Cancelled);
             }
-            if self.site(s).cell == NONE {
-                if let Insertion::Coincident(t) = self.insert_into_cells::<true>(s, self.recent)? {
-                    coincident.push((s, t));
-                }
+            if self.site(s).cell == NONE
+                && let Insertion::Coincident(t) = self.insert_into_cells::<true>(s, self.recent)?
+            {
+                coincident.push((s, t));
             }
         }
         Ok(coincident)

@@ -57,7 +57,16 @@ pub struct Cavity<G: Dimension> {
 
 impl<G: Dimension> Default for Cavity<G> {
     fn default() -> Self {
-        Cavity { zone: Vec::new(), n_zone: 0, n_ghosts: 0, rim: Vec::new(), n_rim: 0, cells: Vec::new(), ridges: G::Ridges::default(), steps: 0 }
+        Cavity {
+            zone: Vec::new(),
+            n_zone: 0,
+            n_ghosts: 0,
+            rim: Vec::new(),
+            n_rim: 0,
+            cells: Vec::new(),
+            ridges: G::Ridges::default(),
+            steps: 0,
+        }
     }
 }
 

@@ -44,7 +44,11 @@ pub(super) fn dig<const BUILD: bool>(
             if t.complex.mark(out.cell()) == IN_ZONE {
                 continue;
             }
-            let in_zone = if BUILD { t.is_in_prepared_conflict(out.cell(), q, id) } else { t.is_in_conflict(out.cell(), q, id) };
+            let in_zone = if BUILD {
+                t.is_in_prepared_conflict(out.cell(), q, id)
+            } else {
+                t.is_in_conflict(out.cell(), q, id)
+            };
             if in_zone {
                 t.complex.set_mark(out.cell(), IN_ZONE);
                 zone[n_zone] = out.cell();

@@ -41,7 +41,14 @@ fn joined([a, b, c, d]: [u32; 4], i: usize, s: u32) -> [u32; 4] {
 
 /// Finds the zone of `q` from one cell of it, and its rim.
 #[inline(always)]
-pub(super) fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>, start: u32, s: u32, q: &[f64; 3], id: u32) {
+pub(super) fn dig<const BUILD: bool>(
+    t: &mut Delaunay<Space>,
+    cavity: &mut Cavity<Space>,
+    start: u32,
+    s: u32,
+    q: &[f64; 3],
+    id: u32,
+) {
     let Cavity { zone, rim, .. } = cavity;
     let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
     make_room(zone, rim, n_zone, n_rim);

@@ -8,10 +8,10 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
-use crate::complex::{Corners, INFINITE};
 use super::cavity::Cavity;
 use super::site::Sites;
 use super::{Delaunay, cavity_plane, cavity_space};
+use crate::complex::{Corners, INFINITE};
 use crate::predicates::{self, Circle, Sphere, StaticFilter};
 
 /// Coordinates of one point: `[f64; D]`.
@@ -42,11 +42,22 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Sign of the orientation of the cell: positive in a valid finite cell.
     fn orientation(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners) -> f64;
     /// Sign of the orientation of the cell after corner `i` has gone to `q`.
-    fn orientation_with(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners, i: usize, q: &Self::Point)
-    -> f64;
+    fn orientation_with(
+        f: &StaticFilter,
+        sites: Sites<Self>,
+        v: &Self::Corners,
+        i: usize,
+        q: &Self::Point,
+    ) -> f64;
     /// Whether `q`, whose ties are broken as those of vertex `id`, is inside the sphere of a positively
     /// oriented finite cell, symbolically perturbed.
-    fn is_in_sphere(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners, q: &Self::Point, id: u32) -> bool;
+    fn is_in_sphere(
+        f: &StaticFilter,
+        sites: Sites<Self>,
+        v: &Self::Corners,
+        q: &Self::Point,
+        id: u32,
+    ) -> bool;
     /// Prepares the sphere of a cell, or what lies beyond the facet of a ghost cell.
     fn sphere(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners) -> Self::Sphere;
     /// Positive if `q` is inside the prepared sphere of a cell with first corner `a`; certain only above
@@ -67,7 +78,14 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Compares the distances from `q` to `a` and to `b`, exactly.
     fn compare_distance(q: &Self::Point, a: &Self::Point, b: &Self::Point) -> Ordering;
     /// Finds the conflict zone of `q` and its rim, from the cell `start` in conflict. In a build, spheres are prepared.
-    fn dig<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &Self::Point, id: u32);
+    fn dig<const BUILD: bool>(
+        t: &mut Delaunay<Self>,
+        cavity: &mut Cavity<Self>,
+        start: u32,
+        s: u32,
+        q: &Self::Point,
+        id: u32,
+    );
     /// Joins the rim to the site: puts the new cells and glues them to each other and to what is outside.
     fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>);
     /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
@@ -145,7 +163,14 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn dig<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 2], id: u32) {
+    fn dig<const BUILD: bool>(
+        t: &mut Delaunay<Self>,
+        cavity: &mut Cavity<Self>,
+        start: u32,
+        s: u32,
+        q: &[f64; 2],
+        id: u32,
+    ) {
         cavity_plane::dig::<BUILD>(t, cavity, start, s, q, id);
     }
 
@@ -154,7 +179,13 @@ impl Dimension for Plane {
         cavity_plane::glue::<BUILD>(t, cavity);
     }
 
-    fn is_crossed(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 3], o: &[f64; 2], aim: &[f64; 2]) -> Option<bool> {
+    fn is_crossed(
+        f: &StaticFilter,
+        sites: Sites<Self>,
+        v: &[u32; 3],
+        o: &[f64; 2],
+        aim: &[f64; 2],
+    ) -> Option<bool> {
         let (a, b) = (sites.point(v[0]), sites.point(v[1]));
         all_positive([predicates::orient2d(f, o, aim, a), predicates::orient2d(f, o, b, aim)])
     }
@@ -226,7 +257,14 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn dig<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>, start: u32, s: u32, q: &[f64; 3], id: u32) {
+    fn dig<const BUILD: bool>(
+        t: &mut Delaunay<Self>,
+        cavity: &mut Cavity<Self>,
+        start: u32,
+        s: u32,
+        q: &[f64; 3],
+        id: u32,
+    ) {
         cavity_space::dig::<BUILD>(t, cavity, start, s, q, id);
     }
 
@@ -235,7 +273,13 @@ impl Dimension for Space {
         cavity_space::glue::<BUILD>(t, cavity);
     }
 
-    fn is_crossed(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 4], o: &[f64; 3], aim: &[f64; 3]) -> Option<bool> {
+    fn is_crossed(
+        f: &StaticFilter,
+        sites: Sites<Self>,
+        v: &[u32; 4],
+        o: &[f64; 3],
+        aim: &[f64; 3],
+    ) -> Option<bool> {
         let [a, b, c] = [0, 1, 2].map(|i| sites.point(v[i]));
         let side = |x, y| predicates::orient3d(f, o, aim, x, y);
         all_positive([side(a, b), side(b, c), side(c, a)])

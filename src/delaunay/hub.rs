@@ -61,11 +61,16 @@ impl<G: Dimension> Delaunay<G> {
             at_id.insert(self.site(s).id, s);
         }
         let global = |s: u32| if s == INFINITE { INFINITE } else { at_id[&local.site(s).id] };
-        let rim: HashMap<G::Corners, (G::Corners, usize)> =
-            self.hole.link.iter().map(|gap| (sorted_without(gap.corners, gap.at), (gap.corners, gap.at))).collect();
+        let rim: HashMap<G::Corners, (G::Corners, usize)> = self
+            .hole
+            .link
+            .iter()
+            .map(|gap| (sorted_without(gap.corners, gap.at), (gap.corners, gap.at)))
+            .collect();
         if !local.has_cells() {
             // The link is in one hyperplane: each finite facet of it is on the new hull.
-            let finite_facets = self.hole.link.iter().filter(|g| g.at == Self::LAST || g.corners[Self::LAST] != INFINITE);
+            let finite_facets =
+                self.hole.link.iter().filter(|g| g.at == Self::LAST || g.corners[Self::LAST] != INFINITE);
             return Ok(finite_facets.map(|g| g.corners.with(g.at, INFINITE).rotated_to_last(g.at)).collect());
         }
         let mut inside: HashSet<u32> = HashSet::new();

@@ -196,7 +196,8 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Makes the static filter as sharp as the places of the live sites allow.
     pub fn tighten_filter(&mut self) {
-        let box_of_sites = order::bounding_box::<G>(self.sites[1..].iter().filter(|s| s.is_live()).map(|s| &s.point));
+        let box_of_sites =
+            order::bounding_box::<G>(self.sites[1..].iter().filter(|s| s.is_live()).map(|s| &s.point));
         let (lower, upper) = box_of_sites.unwrap_or_default();
         (self.lower, self.upper) = (lower, upper);
         self.filter = G::filter(&lower, &upper);
@@ -220,7 +221,11 @@ impl<G: Dimension> Delaunay<G> {
         // SAFETY: in a build there is a sphere for each cell.
         let sphere = unsafe { self.spheres.get_unchecked(cell as usize) };
         let side = G::side_of_sphere(sphere, first, q);
-        if side.abs() > self.filter.prepared { side > 0.0 } else { self.is_in_uncertain_conflict(cell, q, id) }
+        if side.abs() > self.filter.prepared {
+            side > 0.0
+        } else {
+            self.is_in_uncertain_conflict(cell, q, id)
+        }
     }
 
     #[cold]
@@ -233,7 +238,8 @@ impl<G: Dimension> Delaunay<G> {
     fn prepare_sphere(&mut self, cell: u32, corners: &G::Corners) {
         debug_assert!((cell as usize) < self.spheres.len());
         // SAFETY: in a build there is a sphere for each cell.
-        *unsafe { self.spheres.get_unchecked_mut(cell as usize) } = G::sphere(&self.filter, site::Sites::new(&self.sites), corners);
+        *unsafe { self.spheres.get_unchecked_mut(cell as usize) } =
+            G::sphere(&self.filter, site::Sites::new(&self.sites), corners);
     }
 
     #[inline(never)]

@@ -12,7 +12,9 @@
 use crate::delaunay::Dimension;
 
 /// Lower and upper corner of the bounding box.
-pub fn bounding_box<'p, G: Dimension>(points: impl Iterator<Item = &'p G::Point>) -> Option<(G::Point, G::Point)>
+pub fn bounding_box<'p, G: Dimension>(
+    points: impl Iterator<Item = &'p G::Point>,
+) -> Option<(G::Point, G::Point)>
 where
     G::Point: 'p,
 {
@@ -38,7 +40,9 @@ pub fn hilbert_order<G: Dimension>(points: &[G::Point]) -> Vec<u32> {
 const SHORT_RUN: usize = 8;
 
 fn sort_in_box<G: Dimension>(points: &[G::Point], keyed: &mut [(u64, u32)]) {
-    let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|&(_, i)| &points[i as usize])) else { return };
+    let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|&(_, i)| &points[i as usize])) else {
+        return;
+    };
     let extent = (0..G::D).map(|k| upper[k] - lower[k]).fold(0.0, f64::max);
     if extent == 0.0 {
         return;
@@ -189,7 +193,8 @@ mod tests {
         }
         for bits in 1..6 {
             let side = 1u32 << bits;
-            let mut space: Vec<_> = (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side]).collect();
+            let mut space: Vec<_> =
+                (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side]).collect();
             space.sort_by_key(|&c| hilbert_key_3(c, bits));
             for w in space.windows(2) {
                 assert_eq!((0..3).map(|k| w[0][k].abs_diff(w[1][k])).sum::<u32>(), 1, "{w:?}");
@@ -211,7 +216,8 @@ mod tests {
         let mut seen = order.clone();
         seen.sort_unstable();
         assert!(seen.iter().copied().eq(0..points.len() as u32));
-        let long = order.windows(2).filter(|w| (points[w[0] as usize][0] - points[w[1] as usize][0]).abs() > 1e6);
+        let long =
+            order.windows(2).filter(|w| (points[w[0] as usize][0] - points[w[1] as usize][0]).abs() > 1e6);
         assert_eq!(long.count(), 3);
         let step = |w: &[u32]| {
             let (a, b) = (points[w[0] as usize], points[w[1] as usize]);

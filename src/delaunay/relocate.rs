@@ -78,10 +78,10 @@ impl<G: Dimension> Delaunay<G> {
             if self.star_is_delaunay() {
                 return Some(Relocation::InPlace);
             }
-            if shortcut == Shortcut::Flips {
-                if let Some(flips) = G::flip_to_delaunay(self) {
-                    return Some(Relocation::Flipped(flips));
-                }
+            if shortcut == Shortcut::Flips
+                && let Some(flips) = G::flip_to_delaunay(self)
+            {
+                return Some(Relocation::Flipped(flips));
             }
         }
         self.sites[s as usize].point = old.0;
@@ -144,7 +144,12 @@ impl Delaunay<super::Plane> {
                     self.sites[s as usize].cell = cell;
                 }
             }
-            edges.extend([Facet::new(c, i), Facet::new(c, (i + 2) % 3), Facet::new(d, j), Facet::new(d, (j + 2) % 3)]);
+            edges.extend([
+                Facet::new(c, i),
+                Facet::new(c, (i + 2) % 3),
+                Facet::new(d, j),
+                Facet::new(d, (j + 2) % 3),
+            ]);
         }
         self.hole.edges = edges;
         flips

@@ -159,7 +159,8 @@ impl<G: Dimension> Delaunay<G> {
         hole.made.clear();
         let bit = |sites: &[super::Site<G>], v: u32| 1u64 << sites[v as usize].cell;
         for gap in &hole.link {
-            let key = (0..G::Corners::N).filter(|&i| i != gap.at).map(|i| bit(&self.sites, gap.corners[i])).sum();
+            let key =
+                (0..G::Corners::N).filter(|&i| i != gap.at).map(|i| bit(&self.sites, gap.corners[i])).sum();
             if gap.at != Self::LAST && gap.corners[Self::LAST] == INFINITE {
                 hole.open_ghost.push((key, gap.out));
             } else {
@@ -198,7 +199,9 @@ impl<G: Dimension> Delaunay<G> {
                 } else {
                     match hole.open.iter().position(|o| o.0 == key) {
                         Some(o) => glue(facet, hole.open.swap_remove(o).1.out),
-                        None => hole.open.push((key, Gap { corners: corners.reflected(i), at: i, out: facet })),
+                        None => {
+                            hole.open.push((key, Gap { corners: corners.reflected(i), at: i, out: facet }))
+                        }
                     }
                 }
             }
@@ -216,9 +219,11 @@ impl<G: Dimension> Delaunay<G> {
                 continue;
             }
             let site = self.site(x);
-            let is_closer = best == INFINITE
-                || G::is_in_sphere(&self.filter, self.view(), &cell, &site.point, site.id);
-            if is_closer && G::orientation_with(&self.filter, self.view(), &gap.corners, gap.at, &site.point) > 0.0 {
+            let is_closer =
+                best == INFINITE || G::is_in_sphere(&self.filter, self.view(), &cell, &site.point, site.id);
+            if is_closer
+                && G::orientation_with(&self.filter, self.view(), &gap.corners, gap.at, &site.point) > 0.0
+            {
                 best = x;
                 cell[gap.at] = x;
             }

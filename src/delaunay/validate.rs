@@ -82,25 +82,45 @@ impl<G: Dimension> Delaunay<G> {
             let cell = self.complex.cell(c);
             for i in 0..n {
                 let s = cell.corners[i];
-                ensure((s as usize) < self.sites.len(), level, || format!("cell {} has no such site {s}", self.describe(c)))?;
-                ensure(s == INFINITE || self.site(s).is_live(), level, || format!("cell {} has a removed corner", self.describe(c)))?;
-                ensure(s != INFINITE || i == n - 1, level, || format!("the ghost corner of {} is not last", self.describe(c)))?;
-                ensure((0..i).all(|j| cell.corners[j] != s), level, || format!("cell {} has a corner twice", self.describe(c)))?;
+                ensure((s as usize) < self.sites.len(), level, || {
+                    format!("cell {} has no such site {s}", self.describe(c))
+                })?;
+                ensure(s == INFINITE || self.site(s).is_live(), level, || {
+                    format!("cell {} has a removed corner", self.describe(c))
+                })?;
+                ensure(s != INFINITE || i == n - 1, level, || {
+                    format!("the ghost corner of {} is not last", self.describe(c))
+                })?;
+                ensure((0..i).all(|j| cell.corners[j] != s), level, || {
+                    format!("cell {} has a corner twice", self.describe(c))
+                })?;
                 is_corner[s as usize] = true;
                 let across = cell.neighbour(i);
-                let exists = (across.cell() as usize) < self.complex.n_slots() && across.index() < n && !self.complex.is_free(across.cell());
-                ensure(exists, level, || format!("cell {} has no neighbour opposite corner {i}", self.describe(c)))?;
+                let exists = (across.cell() as usize) < self.complex.n_slots()
+                    && across.index() < n
+                    && !self.complex.is_free(across.cell());
+                ensure(exists, level, || {
+                    format!("cell {} has no neighbour opposite corner {i}", self.describe(c))
+                })?;
                 let other = self.complex.cell(across.cell());
-                let agree = (0..n).all(|j| j == i || (0..n).any(|k| k != across.index() && other.corners[k] == cell.corners[j]));
+                let agree = (0..n).all(|j| {
+                    j == i || (0..n).any(|k| k != across.index() && other.corners[k] == cell.corners[j])
+                });
                 ensure(agree && other.neighbour(across.index()) == Facet::new(c, i), level, || {
-                    format!("cells {} and {} do not meet in a facet", self.describe(c), self.describe(across.cell()))
+                    format!(
+                        "cells {} and {} do not meet in a facet",
+                        self.describe(c),
+                        self.describe(across.cell())
+                    )
                 })?;
             }
         }
         for s in self.live_sites() {
             let site = self.site(s);
             if !self.has_cells() {
-                ensure(self.flat.site_at(&site.point) == Some(s), level, || format!("vertex {} is not at its place", site.id))?;
+                ensure(self.flat.site_at(&site.point) == Some(s), level, || {
+                    format!("vertex {} is not at its place", site.id)
+                })?;
                 continue;
             }
             ensure(is_corner[s as usize], level, || format!("vertex {} is a corner of no cell", site.id))?;
@@ -115,10 +135,14 @@ impl<G: Dimension> Delaunay<G> {
     fn check_orientation(&self) -> Check {
         for c in self.complex.finite() {
             let positive = G::orientation(&self.filter, self.view(), &self.complex.cell(c).corners) > 0.0;
-            ensure(positive, Level::Embedding, || format!("cell {} is not positively oriented", self.describe(c)))?;
+            ensure(positive, Level::Embedding, || {
+                format!("cell {} is not positively oriented", self.describe(c))
+            })?;
         }
         if self.has_cells() {
-            return ensure(self.complex.n_finite() > 0, Level::Embedding, || "there are only ghost cells".to_string());
+            return ensure(self.complex.n_finite() > 0, Level::Embedding, || {
+                "there are only ghost cells".to_string()
+            });
         }
         let points: Vec<G::Point> = self.flat.basis.iter().map(|&s| self.site(s).point).collect();
         for s in self.live_sites() {
@@ -126,7 +150,10 @@ impl<G: Dimension> Delaunay<G> {
             more.push(self.site(s).point);
             let dependent = points.contains(&self.site(s).point) || G::is_dependent(&self.filter, &more);
             ensure(dependent && points.len() <= G::D, Level::Embedding, || {
-                format!("there are no cells, but vertex {} is out of the hyperplane of the others", self.site(s).id)
+                format!(
+                    "there are no cells, but vertex {} is out of the hyperplane of the others",
+                    self.site(s).id
+                )
             })?;
         }
         Ok(())
@@ -138,10 +165,12 @@ impl<G: Dimension> Delaunay<G> {
             let corners = &self.complex.cell(c).corners;
             let mut o = G::Point::default();
             for k in 0..G::D {
-                o[k] = (0..G::Corners::N).map(|i| self.site(corners[i]).point[k] / G::Corners::N as f64).sum();
+                o[k] =
+                    (0..G::Corners::N).map(|i| self.site(corners[i]).point[k] / G::Corners::N as f64).sum();
             }
             let inside = (0..G::D).all(|k| crate::predicates::is_in_range(o[k]))
-                && (0..G::Corners::N).all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &o) > 0.0);
+                && (0..G::Corners::N)
+                    .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &o) > 0.0);
             inside.then_some(o)
         })
     }
@@ -160,15 +189,27 @@ impl<G: Dimension> Delaunay<G> {
             for i in 0..Self::LAST {
                 let across = cell.neighbour(i);
                 let apex = self.site(self.complex.cell(across.cell()).corners[across.index()]);
-                let beyond = G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, &apex.point);
-                ensure(beyond <= 0.0, level, || format!("the hull is not convex between {} and {}", self.describe(c), self.describe(across.cell())))?;
+                let beyond =
+                    G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, &apex.point);
+                ensure(beyond <= 0.0, level, || {
+                    format!(
+                        "the hull is not convex between {} and {}",
+                        self.describe(c),
+                        self.describe(across.cell())
+                    )
+                })?;
             }
             if let Some(o) = &inner {
-                let inside = G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, o) < 0.0;
-                ensure(inside, level, || format!("the hull facet {} turns its outer side inwards", self.describe(c)))?;
+                let inside =
+                    G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, o) < 0.0;
+                ensure(inside, level, || {
+                    format!("the hull facet {} turns its outer side inwards", self.describe(c))
+                })?;
             }
         }
-        ensure(ghosts == self.complex.n_ghosts(), level, || format!("{ghosts} hull facets, {} counted", self.complex.n_ghosts()))?;
+        ensure(ghosts == self.complex.n_ghosts(), level, || {
+            format!("{ghosts} hull facets, {} counted", self.complex.n_ghosts())
+        })?;
         match &inner {
             Some(o) => self.check_winding(o),
             None => Ok(()),

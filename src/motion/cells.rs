@@ -53,7 +53,8 @@ impl<G: Dimension> Cells<G> {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        (self.corners.capacity() + self.neighbours.capacity()) * size_of::<G::Corners>() + self.index_of.capacity() * 4
+        (self.corners.capacity() + self.neighbours.capacity()) * size_of::<G::Corners>()
+            + self.index_of.capacity() * 4
     }
 }
 

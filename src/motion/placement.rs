@@ -13,7 +13,11 @@ const MONITORED: usize = 256;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Relocates the staged vertices one after the other.
-    pub(super) fn commit_by_placement(&mut self, shortcut: Shortcut, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn commit_by_placement(
+        &mut self,
+        shortcut: Shortcut,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         self.order_staged_by_site();
         let n = self.staging.vertices.len();
         for k in 0..n {
@@ -62,7 +66,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The vertex leaves others behind at the place: it gets a site of its own.
-    fn relocate_from_shared(&mut self, vertex: u32, s: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+    fn relocate_from_shared(
+        &mut self,
+        vertex: u32,
+        s: u32,
+        q: &G::Point,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         report.placements += 1;
         let own = self.kernel.add_site(*q, vertex)?;
         self.site_of[vertex as usize] = own;

@@ -85,7 +85,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(match self.kernel.locate(&q, NONE) {
             Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
             Place::Cell(c) => Location::Cell(index_of(c)),
-            Place::Outside(c) => Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell())),
+            Place::Outside(c) => {
+                Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell()))
+            }
             Place::NoCells => Location::NoCells,
         })
     }
@@ -140,7 +142,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut best = sites.next()?;
         for s in sites {
             let order = self.compare(q, s, best);
-            if order == Ordering::Less || order == Ordering::Equal && self.kernel.site(s).id < self.kernel.site(best).id {
+            if order == Ordering::Less
+                || order == Ordering::Equal && self.kernel.site(s).id < self.kernel.site(best).id
+            {
                 best = s;
             }
         }

@@ -19,7 +19,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.staging.applied = k + 1;
         }
         report.rebuilds += 1;
-        if self.kernel.mean_walk() > 1.5 * self.sorted_walk + 0.5 { self.sort_and_rebuild() } else { self.rebuild() }
+        if self.kernel.mean_walk() > 1.5 * self.sorted_walk + 0.5 {
+            self.sort_and_rebuild()
+        } else {
+            self.rebuild()
+        }
     }
 
     /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.

@@ -82,13 +82,19 @@ impl<G: Dimension> Staging<G> {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.positions.capacity() * size_of::<G::Point>() + self.is_staged.capacity() + self.vertices.capacity() * 4
+        self.positions.capacity() * size_of::<G::Point>()
+            + self.is_staged.capacity()
+            + self.vertices.capacity() * 4
     }
 }
 
 /// A position with the sign of zeros made positive, so that equal places are equal bits.
 #[inline(always)]
-pub(super) fn check_position<G: Dimension>(argument: &'static str, index: usize, p: &G::Point) -> Result<G::Point> {
+pub(super) fn check_position<G: Dimension>(
+    argument: &'static str,
+    index: usize,
+    p: &G::Point,
+) -> Result<G::Point> {
     let mut checked = *p;
     for axis in 0..G::D {
         let value = p[axis];
@@ -116,7 +122,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
     pub fn move_vertices(&mut self, vertices: &[u32], positions: &[G::Point]) -> Result<()> {
         if vertices.len() != positions.len() {
-            return Err(Error::WrongCount { argument: "count", given: positions.len(), wanted: vertices.len() });
+            return Err(Error::WrongCount {
+                argument: "count",
+                given: positions.len(),
+                wanted: vertices.len(),
+            });
         }
         self.staging.reserve(self.site_of.len(), vertices.len())?;
         let before = self.staging.vertices.len();
@@ -137,7 +147,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`move_vertices`](Self::move_vertices).
     pub fn move_all(&mut self, positions: &[G::Point]) -> Result<()> {
         if positions.len() != self.site_of.len() {
-            return Err(Error::WrongCount { argument: "count", given: positions.len(), wanted: self.site_of.len() });
+            return Err(Error::WrongCount {
+                argument: "count",
+                given: positions.len(),
+                wanted: self.site_of.len(),
+            });
         }
         self.staging.reserve(positions.len(), positions.len())?;
         let before = self.staging.vertices.len();
@@ -154,7 +168,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     #[inline(always)]
-    fn stage(&mut self, argument: &'static str, index: usize, vertex: u32, position: &G::Point) -> Result<()> {
+    fn stage(
+        &mut self,
+        argument: &'static str,
+        index: usize,
+        vertex: u32,
+        position: &G::Point,
+    ) -> Result<()> {
         self.site_of_vertex(argument, index, vertex)?;
         if self.staging.is_staged[vertex as usize] {
             return Err(Error::DuplicateMove { argument, index, vertex });

@@ -154,7 +154,12 @@ impl StaticFilter {
         let extents = box_extents(&lower, &upper);
         let in_sphere = incircle_bound(extents);
         let largest_square = largest(extents) * largest(extents);
-        Self { orient: orient2d_bound(extents), in_sphere, prepared: in_sphere * (PREPARED_2D / IN_CIRCLE), largest_square }
+        Self {
+            orient: orient2d_bound(extents),
+            in_sphere,
+            prepared: in_sphere * (PREPARED_2D / IN_CIRCLE),
+            largest_square,
+        }
     }
 
     /// Bounds for `orient3d` and `insphere` of points between `lower` and `upper`, inclusive.
@@ -162,7 +167,12 @@ impl StaticFilter {
         let extents = box_extents(&lower, &upper);
         let in_sphere = insphere_bound(extents);
         let largest_square = largest(extents) * largest(extents);
-        Self { orient: orient3d_bound(extents), in_sphere, prepared: in_sphere * (PREPARED_3D / IN_SPHERE), largest_square }
+        Self {
+            orient: orient3d_bound(extents),
+            in_sphere,
+            prepared: in_sphere * (PREPARED_3D / IN_SPHERE),
+            largest_square,
+        }
     }
 }
 

@@ -97,8 +97,17 @@ mod tests {
         let (mut n_certain, mut n_open) = (0, 0);
         for round in 0..200_000 {
             // Every other round has integer points around a sphere of radius 5, shaken by a last bit or not at all.
-            let shaken = |state: &mut u64, x: f64| x + [0.0, 0.0, 1e-15, -1e-15][(unit(state) * 4.0) as usize];
-            let on_sphere = [[3., 4., 0.], [5., 0., 0.], [0., 3., -4.], [-4., 0., 3.], [0., -5., 0.], [-3., 0., -4.], [0., 0., 5.]];
+            let shaken =
+                |state: &mut u64, x: f64| x + [0.0, 0.0, 1e-15, -1e-15][(unit(state) * 4.0) as usize];
+            let on_sphere = [
+                [3., 4., 0.],
+                [5., 0., 0.],
+                [0., 3., -4.],
+                [-4., 0., 3.],
+                [0., -5., 0.],
+                [-3., 0., -4.],
+                [0., 0., 5.],
+            ];
             let p: [[f64; 3]; 5] = std::array::from_fn(|_| {
                 if round % 2 == 0 {
                     std::array::from_fn(|_| unit(&mut state) * 10.0 - 5.0)
