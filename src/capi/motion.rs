@@ -92,7 +92,7 @@ pub unsafe extern "C" fn deldrift_move_vertices(
             in_its_dimension!(kernel, t => {
                 let positions = points_for(t, "positions", positions, count)?;
                 if vertices.is_null() {
-                    t.move_all(positions)?;
+                    t.move_first(positions)?;
                 } else {
                     t.move_vertices(pointers::array("vertices", vertices, count)?, positions)?;
                 }

@@ -109,10 +109,14 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Drops the sites that found others at their places, and gives those the lowest id.
     fn merge(&mut self, coincident: Vec<(u32, u32)>) -> Result<Vec<Merge>> {
-        let mut merges = Vec::with_capacity(coincident.len());
-        for (s, t) in coincident {
-            let (id, at) = (self.site(s).id, self.site(t).id);
+        // All are dropped first: a change of id may have to look at every live site.
+        let ids: Vec<u32> = coincident.iter().map(|&(s, _)| self.site(s).id).collect();
+        for &(s, _) in &coincident {
             self.drop_site(s);
+        }
+        let mut merges = Vec::with_capacity(coincident.len());
+        for (id, (_, t)) in ids.into_iter().zip(coincident) {
+            let at = self.site(t).id;
             merges.push(Merge { hidden: id.max(at), site: t });
             if id < at {
                 self.rename_site(t, id)?;

@@ -74,11 +74,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         report.placements += 1;
+        self.kernel.reserve_sites(1)?;
+        // A live site must be in the triangulation while another is renamed, so the vertex's own is made after that,
+        // and whatever comes of it.
+        let renamed = match self.hidden.leave(s, vertex, self.kernel.site(s).id) {
+            Some(next) => self.kernel.rename_site(s, next),
+            None => Ok(()),
+        };
         let own = self.kernel.add_site(*q, vertex)?;
         self.site_of[vertex as usize] = own;
-        if let Some(next) = self.hidden.leave(s, vertex, self.kernel.site(s).id) {
-            self.kernel.rename_site(s, next)?;
-        }
+        renamed?;
         match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
             Insertion::New => Ok(()),
             Insertion::Coincident(t) => self.hide(vertex, t),

@@ -45,6 +45,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         for merge in merges {
             self.site_of[merge.hidden as usize] = merge.site;
+            self.site_of[self.kernel.site(merge.site).id as usize] = merge.site;
             self.hidden.add(merge.site, merge.hidden);
         }
         Ok(())

@@ -139,12 +139,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Stages a move of every vertex. `positions` has one entry for each id ever given; those of removed vertices are
-    /// not read.
+    /// Stages a move of every vertex: as [`move_first`](Self::move_first) with one position for each id ever given.
     ///
     /// # Errors
-    /// [`Error::WrongCount`] if `positions` has another length; otherwise as
-    /// [`move_vertices`](Self::move_vertices).
+    /// [`Error::WrongCount`] if `positions` has another length; otherwise as [`move_first`](Self::move_first).
     pub fn move_all(&mut self, positions: &[G::Point]) -> Result<()> {
         if positions.len() != self.site_of.len() {
             return Err(Error::WrongCount {
@@ -153,7 +151,24 @@ impl<G: Dimension> MovingTriangulation<G> {
                 wanted: self.site_of.len(),
             });
         }
-        self.staging.reserve(positions.len(), positions.len())?;
+        self.move_first(positions)
+    }
+
+    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. Entries of
+    /// removed vertices are not read.
+    ///
+    /// # Errors
+    /// [`Error::WrongCount`] if there are more `positions` than ids; otherwise as
+    /// [`move_vertices`](Self::move_vertices).
+    pub fn move_first(&mut self, positions: &[G::Point]) -> Result<()> {
+        if positions.len() > self.site_of.len() {
+            return Err(Error::WrongCount {
+                argument: "count",
+                given: positions.len(),
+                wanted: self.site_of.len(),
+            });
+        }
+        self.staging.reserve(self.site_of.len(), positions.len())?;
         let before = self.staging.vertices.len();
         for (index, position) in positions.iter().enumerate() {
             if self.site_of[index] == NONE {

@@ -1,0 +1,106 @@
+//! Delaunay triangulation by definition, in exact integers: slow, small, and independent of the library.
+//!
+//! A cell is a set of `D + 1` vertices, not in one hyperplane, whose sphere holds no other vertex. Ties are broken
+//! by raising the lift of the vertex of id i by εᵢ, the highest id dominating: the in-sphere determinant is linear
+//! in every lift, so its sign is that of the unperturbed determinant or, if that vanishes, of the first cofactor
+//! of a lift that does not, from the highest id down.
+
+use super::{CellSet, sorted};
+use deldrift::delaunay::Dimension;
+
+/// A point of integers.
+pub type Grid = Vec<i64>;
+
+/// As coordinates.
+pub fn to_point<G: Dimension>(p: &Grid) -> G::Point {
+    super::point::<G>(|k| p[k] as f64)
+}
+
+/// Determinant by expansion along the first row.
+fn determinant(rows: &[Vec<i128>]) -> i128 {
+    if rows.is_empty() {
+        return 1;
+    }
+    let minor = |skip: usize| -> Vec<Vec<i128>> {
+        let without = |row: &Vec<i128>| (0..row.len()).filter(|&j| j != skip).map(|j| row[j]).collect();
+        rows[1..].iter().map(without).collect()
+    };
+    (0..rows.len())
+        .filter(|&j| rows[0][j] != 0)
+        .map(|j| if j % 2 == 0 { 1 } else { -1 } * rows[0][j] * determinant(&minor(j)))
+        .sum()
+}
+
+/// Orientation of `D + 1` points: the determinant of the differences to the first one.
+pub fn orientation(points: &[&Grid]) -> i128 {
+    let difference = |p: &&Grid| p.iter().zip(points[0]).map(|(x, o)| i128::from(x - o)).collect();
+    determinant(&points[1..].iter().map(difference).collect::<Vec<Vec<i128>>>())
+}
+
+pub fn squared_distance(p: &Grid, q: &Grid) -> i128 {
+    p.iter().zip(q).map(|(x, y)| i128::from(x - y).pow(2)).sum()
+}
+
+/// Whether the last point is inside the sphere of the others, ties broken by id. The others are not in one
+/// hyperplane; their order does not matter.
+pub fn is_inside(points: &[&Grid], ids: &[u32]) -> bool {
+    let last = points.len() - 1;
+    let row = |p: &&Grid| -> Vec<i128> {
+        let lift = p.iter().map(|&x| i128::from(x).pow(2)).sum();
+        p.iter().map(|&x| i128::from(x)).chain([1, lift]).collect()
+    };
+    let rows: Vec<Vec<i128>> = points.iter().map(row).collect();
+    // The lift is the last column: cofactor of row i is the determinant without row i and that column, signed.
+    let cofactor = |i: usize| {
+        let rows: Vec<Vec<i128>> =
+            (0..rows.len()).filter(|&k| k != i).map(|k| rows[k][..rows.len() - 1].to_vec()).collect();
+        if (i + last) % 2 == 0 { determinant(&rows) } else { -determinant(&rows) }
+    };
+    let mut by_id: Vec<usize> = (0..points.len()).collect();
+    by_id.sort_by_key(|&i| std::cmp::Reverse(ids[i]));
+    let value = std::iter::once(determinant(&rows)).chain(by_id.into_iter().map(cofactor)).find(|&x| x != 0);
+    // Raising the last point far enough takes it outside: outside is the sign of its own cofactor.
+    let outside = cofactor(last);
+    assert_ne!(outside, 0, "a cell without volume");
+    value.expect("some cofactor") > 0 && outside < 0 || value.expect("some cofactor") < 0 && outside > 0
+}
+
+/// For each vertex the lowest id at its place; `None` for removed vertices.
+pub fn representatives<P: PartialEq>(positions: &[Option<P>]) -> Vec<Option<u32>> {
+    let first = |p: &P| positions.iter().position(|q| q.as_ref() == Some(p)).expect("itself") as u32;
+    positions.iter().map(|p| p.as_ref().map(first)).collect()
+}
+
+/// All subsets of `k` of `items`.
+fn subsets(items: &[u32], k: usize) -> Vec<Vec<u32>> {
+    if k == 0 {
+        return vec![Vec::new()];
+    }
+    let mut all = Vec::new();
+    for (i, &x) in items.iter().enumerate() {
+        for mut rest in subsets(&items[i + 1..], k - 1) {
+            rest.insert(0, x);
+            all.push(rest);
+        }
+    }
+    all
+}
+
+/// The cells of the Delaunay triangulation of the present vertices.
+pub fn delaunay_cells(dimension: usize, positions: &[Option<Grid>]) -> CellSet {
+    let at = |v: u32| positions[v as usize].as_ref().expect("present");
+    let places: Vec<u32> = representatives(positions)
+        .iter()
+        .enumerate()
+        .filter(|(v, r)| **r == Some(*v as u32))
+        .map(|(v, _)| v as u32)
+        .collect();
+    let is_cell = |cell: &Vec<u32>| {
+        orientation(&cell.iter().map(|&v| at(v)).collect::<Vec<_>>()) != 0
+            && places.iter().filter(|v| !cell.contains(v)).all(|&v| {
+                let ids: Vec<u32> = cell.iter().copied().chain([v]).collect();
+                !is_inside(&ids.iter().map(|&v| at(v)).collect::<Vec<_>>(), &ids)
+            })
+    };
+    subsets(&places, dimension + 1).into_iter().filter(is_cell).map(|c| sorted(&c)).collect()
+}

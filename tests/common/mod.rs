@@ -1,0 +1,142 @@
+//! Shared by the test crates: seeded numbers, views of cells as sets, and an exact integer oracle.
+#![allow(dead_code)] // Each test crate uses a part.
+
+pub mod exact;
+pub mod files;
+pub mod history;
+pub mod inputs;
+
+use deldrift::delaunay::Dimension;
+use deldrift::motion::{Level, MovingTriangulation, NO_CELL, Options};
+use std::collections::BTreeSet;
+
+/// Splitmix64: a seed gives the same numbers everywhere.
+pub struct Rng(u64);
+
+impl Rng {
+    pub fn new(seed: u64) -> Self {
+        Rng(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d)
+    }
+
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ z >> 31
+    }
+
+    /// Below `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+
+    /// From `low` to `high`, both included.
+    pub fn within(&mut self, low: i64, high: i64) -> i64 {
+        low + (self.next() % (high - low + 1) as u64) as i64
+    }
+
+    /// In [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn one_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    pub fn pick<'s, T>(&mut self, from: &'s [T]) -> &'s T {
+        &from[self.below(from.len())]
+    }
+
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for i in (1..items.len()).rev() {
+            items.swap(i, self.below(i + 1));
+        }
+    }
+}
+
+/// How many seeds a test takes: `n` times what the environment variable `DELDRIFT_SOAK` says, if anything.
+pub fn seeds(n: u64) -> std::ops::Range<u64> {
+    let factor =
+        std::env::var("DELDRIFT_SOAK").map_or(1, |soak| soak.parse().expect("DELDRIFT_SOAK is a number"));
+    0..n * factor
+}
+
+/// A point from coordinates.
+pub fn point<G: Dimension>(coordinate: impl FnMut(usize) -> f64) -> G::Point {
+    let mut p = G::Point::default();
+    for (k, x) in (0..G::D).map(coordinate).enumerate() {
+        p[k] = x;
+    }
+    p
+}
+
+/// A set of cells, each as its ascending vertex ids.
+pub type CellSet = BTreeSet<Vec<u32>>;
+
+pub fn sorted(corners: &[u32]) -> Vec<u32> {
+    let mut ids = corners.to_vec();
+    ids.sort_unstable();
+    ids
+}
+
+/// The cells of a triangulation.
+pub fn cell_set<G: Dimension>(t: &MovingTriangulation<G>) -> CellSet {
+    t.cells().corners.iter().map(|c| sorted(c.as_ref())).collect()
+}
+
+/// The cells of a fresh build of the present vertices, by their ids here: a build from scratch numbers its vertices
+/// from 0, so present ids are mapped in ascending order, on which alone ties depend.
+pub fn fresh_cells<G: Dimension>(positions: &[Option<G::Point>]) -> CellSet {
+    let present: Vec<u32> =
+        (0..positions.len() as u32).filter(|&v| positions[v as usize].is_some()).collect();
+    let points: Vec<G::Point> = positions.iter().copied().flatten().collect();
+    let fresh = MovingTriangulation::<G>::new(&points, Options::default()).expect("a fresh build");
+    fresh.validate(Level::Delaunay).expect("a valid fresh build");
+    let named = |c: &Vec<u32>| c.iter().map(|&i| present[i as usize]).collect();
+    cell_set(&fresh).iter().map(named).collect()
+}
+
+/// Panics with the first few differences of two sets of cells.
+pub fn assert_same_cells(found: &CellSet, expected: &CellSet, context: impl Fn() -> String) {
+    if found != expected {
+        let extra: Vec<_> = found.difference(expected).take(5).collect();
+        let missing: Vec<_> = expected.difference(found).take(5).collect();
+        panic!(
+            "{}: {} cells, not {}; wrongly there: {extra:?}, missing: {missing:?}",
+            context(),
+            found.len(),
+            expected.len()
+        );
+    }
+}
+
+/// Checks what a caller relies on when reading cells: no cell is listed twice; neighbour `i` is opposite corner `i`,
+/// has the other corners too and knows its way back; where there is none, the facet is in no other cell.
+pub fn check_adjacency<G: Dimension>(t: &MovingTriangulation<G>, context: &dyn Fn() -> String) {
+    let view = t.cells();
+    assert_eq!(view.corners.len(), view.neighbours.len(), "{}", context());
+    assert_eq!(view.corners.len(), t.cell_count(), "{}", context());
+    assert_eq!(cell_set(t).len(), t.cell_count(), "{}: a cell is listed twice", context());
+    let facet = |c: usize, i: usize| {
+        let mut ids = view.corners[c].as_ref().to_vec();
+        ids.remove(i);
+        sorted(&ids)
+    };
+    let mut hull = BTreeSet::new();
+    let mut inner = BTreeSet::new();
+    for c in 0..view.corners.len() {
+        for i in 0..=G::D {
+            let n = view.neighbours[c][i];
+            if n == NO_CELL {
+                assert!(hull.insert(facet(c, i)), "{}: a hull facet is there twice", context());
+                continue;
+            }
+            let n = n as usize;
+            let back = (0..=G::D).find(|&j| view.neighbours[n][j] == c as u32 && facet(n, j) == facet(c, i));
+            assert!(back.is_some(), "{}: cells {c} and {n} do not share facet {:?}", context(), facet(c, i));
+            inner.insert(facet(c, i));
+        }
+    }
+    assert!(hull.is_disjoint(&inner), "{}: a facet is on the hull and within", context());
+}
