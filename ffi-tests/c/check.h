@@ -1,0 +1,78 @@
+// What the test programs share: checks that end the program and say where.
+#ifndef CHECK_H
+#define CHECK_H
+
+#include <deldrift.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHECK(condition)                                                              \
+    do {                                                                              \
+        if (!(condition)) {                                                           \
+            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);   \
+            exit(1);                                                                  \
+        }                                                                             \
+    } while (0)
+
+// The call gives this status.
+#define CHECK_STATUS(call, expected) check_status((call), (expected), #call, __FILE__, __LINE__)
+
+// The call succeeds.
+#define OK(call) CHECK_STATUS(call, DELDRIFT_OK)
+
+// The message of the last failure contains this text.
+#define CHECK_MESSAGE(part)                                                                         \
+    do {                                                                                            \
+        if (strstr(deldrift_last_error(), (part)) == NULL) {                                        \
+            fprintf(stderr, "%s:%d: \"%s\" is not in \"%s\"\n", __FILE__, __LINE__, (part),         \
+                    deldrift_last_error());                                                         \
+            exit(1);                                                                                \
+        }                                                                                           \
+    } while (0)
+
+static inline void check_status(deldrift_status status, deldrift_status expected, const char *call,
+                                const char *file, int line) {
+    if (status != expected) {
+        fprintf(stderr, "%s:%d: %s gave \"%s\" (%s) and not \"%s\"\n", file, line, call,
+                deldrift_status_string(status), deldrift_last_error(), deldrift_status_string(expected));
+        exit(1);
+    }
+}
+
+// Numbers from 0 to 1, the same in every run.
+static inline double next_random(uint64_t *state) {
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) / 9007199254740992.0;
+}
+
+static inline double *random_positions(uint32_t dimension, size_t count, uint64_t seed) {
+    double *positions = malloc((count * dimension + 1) * sizeof *positions);
+    CHECK(positions != NULL);
+    for (size_t i = 0; i < count * dimension; i++) positions[i] = next_random(&seed);
+    return positions;
+}
+
+static inline deldrift_triangulation *create(uint32_t dimension, const double *positions, size_t count,
+                                             const deldrift_options *options) {
+    deldrift_triangulation *t = NULL;
+    OK(deldrift_create(dimension, positions, count, options, &t));
+    CHECK(t != NULL);
+    return t;
+}
+
+static inline size_t cell_count(const deldrift_triangulation *t) {
+    size_t count = SIZE_MAX;
+    OK(deldrift_cell_count(t, &count));
+    return count;
+}
+
+// The corners of a quadrilateral, and of a tetrahedron, with a vertex inside: four cells, without ties.
+static const double SQUARE[] = {0, 0, 4, 0, 5, 5, 0, 4, 1, 2};
+enum { SQUARE_COUNT = 5 };
+static const double TETRAHEDRON[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 0.5, 0.5, 0.75};
+enum { TETRAHEDRON_COUNT = 5 };
+
+#endif

@@ -1,0 +1,273 @@
+// Positions, cells, stars, places, changes, validation.
+#include "check.h"
+
+static deldrift_cells_view cells_of(const deldrift_triangulation *t) {
+    deldrift_cells_view view;
+    memset(&view, 255, sizeof view);
+    OK(deldrift_cells(t, &view));
+    return view;
+}
+
+// Twice the area or six times the volume of a cell.
+static double measure_of(const deldrift_triangulation *t, const uint32_t *cell, uint32_t corners) {
+    double e[3][3] = {{0}}, origin[3], p[3];
+    OK(deldrift_position(t, cell[0], origin));
+    for (uint32_t i = 1; i < corners; i++) {
+        OK(deldrift_position(t, cell[i], p));
+        for (uint32_t k = 0; k + 1 < corners; k++) e[i - 1][k] = p[k] - origin[k];
+    }
+    if (corners == 3) return e[0][0] * e[1][1] - e[0][1] * e[1][0];
+    return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+static bool has_corner(const uint32_t *cell, uint32_t corners, uint32_t vertex) {
+    for (uint32_t i = 0; i < corners; i++) {
+        if (cell[i] == vertex) return true;
+    }
+    return false;
+}
+
+static void cells_are_positive_and_neighbours_mutual(uint32_t dimension) {
+    enum { COUNT = 300 };
+    double *positions = random_positions(dimension, COUNT, 5);
+    deldrift_triangulation *t = create(dimension, positions, COUNT, NULL);
+    deldrift_cells_view view = cells_of(t);
+    uint32_t d = view.corners_per_cell;
+    CHECK(d == dimension + 1 && view.count == cell_count(t) && view.count > COUNT);
+    size_t hull = 0;
+    for (size_t c = 0; c < view.count; c++) {
+        const uint32_t *cell = view.vertices + c * d;
+        CHECK(measure_of(t, cell, d) > 0);
+        for (uint32_t i = 0; i < d; i++) {
+            CHECK(cell[i] < COUNT);
+            uint32_t other = view.neighbours[c * d + i];
+            if (other == DELDRIFT_NONE) {
+                hull++;
+                continue;
+            }
+            CHECK(other < view.count);
+            const uint32_t *across = view.vertices + other * d;
+            CHECK(!has_corner(across, d, cell[i]));
+            for (uint32_t j = 0; j < d; j++) CHECK(j == i || has_corner(across, d, cell[j]));
+            CHECK(has_corner(view.neighbours + other * d, d, (uint32_t)c));
+        }
+    }
+    CHECK(hull > dimension);
+    for (uint32_t level = 1; level <= 3; level++) OK(deldrift_validate(t, level));
+    CHECK_STATUS(deldrift_validate(t, 0), DELDRIFT_INVALID_LEVEL);
+    CHECK_STATUS(deldrift_validate(t, 4), DELDRIFT_INVALID_LEVEL);
+    CHECK_MESSAGE("level is 4");
+    deldrift_destroy(t);
+    free(positions);
+}
+
+static void stars_are_the_cells_with_the_vertex(uint32_t dimension) {
+    enum { COUNT = 200 };
+    double *positions = random_positions(dimension, COUNT, 6);
+    deldrift_triangulation *t = create(dimension, positions, COUNT, NULL);
+    deldrift_cells_view view = cells_of(t);
+    uint32_t d = view.corners_per_cell;
+    size_t corners = 0;
+    for (uint32_t v = 0; v < COUNT; v++) {
+        size_t count = 0, again = 0;
+        OK(deldrift_star(t, v, NULL, 0, &count));
+        CHECK(count > 0);
+        uint32_t *star = malloc(count * sizeof *star);
+        CHECK(star != NULL);
+        star[0] = 77;
+        CHECK_STATUS(deldrift_star(t, v, star, count - 1, &again), DELDRIFT_BUFFER_TOO_SMALL);
+        CHECK_MESSAGE("capacity is ");
+        CHECK(again == count && star[0] == 77);
+        OK(deldrift_star(t, v, star, count, &again));
+        CHECK(again == count);
+        for (size_t i = 0; i < count; i++) CHECK(has_corner(view.vertices + star[i] * d, d, v));
+        corners += count;
+        free(star);
+    }
+    CHECK(corners == view.count * d);
+    size_t count = 77;
+    CHECK_STATUS(deldrift_star(t, COUNT, NULL, 0, &count), DELDRIFT_NO_SUCH_VERTEX);
+    OK(deldrift_remove_vertex(t, 7));
+    CHECK_STATUS(deldrift_star(t, 7, NULL, 0, &count), DELDRIFT_REMOVED_VERTEX);
+    CHECK(count == 77);
+    deldrift_destroy(t);
+    free(positions);
+}
+
+static void copies_are_those_of_the_views(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    deldrift_cells_view view = cells_of(t);
+    size_t numbers = view.count * view.corners_per_cell, count = 0;
+    uint32_t vertices[12], neighbours[12];
+    CHECK(numbers == 12);
+    OK(deldrift_copy_cells(t, NULL, NULL, 0, &count));
+    CHECK(count == 4);
+    count = 0;
+    vertices[0] = neighbours[0] = 77;
+    CHECK_STATUS(deldrift_copy_cells(t, vertices, neighbours, 3, &count), DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK(count == 4 && vertices[0] == 77 && neighbours[0] == 77);
+    OK(deldrift_copy_cells(t, vertices, NULL, 4, &count));
+    CHECK(memcmp(vertices, view.vertices, sizeof vertices) == 0 && neighbours[0] == 77);
+    memset(vertices, 0, sizeof vertices);
+    OK(deldrift_copy_cells(t, NULL, neighbours, 4, &count));
+    CHECK(memcmp(neighbours, view.neighbours, sizeof neighbours) == 0 && vertices[0] == 0);
+    OK(deldrift_copy_cells(t, vertices, neighbours, 5, &count));
+    CHECK(memcmp(vertices, view.vertices, sizeof vertices) == 0 && count == 4);
+    deldrift_destroy(t);
+}
+
+static void positions_of_removed_vertices_are_not_numbers(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    double positions[2 * SQUARE_COUNT] = {77};
+    size_t count = 0;
+    OK(deldrift_copy_positions(t, NULL, 0, &count));
+    CHECK(count == SQUARE_COUNT);
+    count = 0;
+    CHECK_STATUS(deldrift_copy_positions(t, positions, SQUARE_COUNT - 1, &count), DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK(count == SQUARE_COUNT && positions[0] == 77);
+    OK(deldrift_remove_vertex(t, 1));
+    OK(deldrift_copy_positions(t, positions, SQUARE_COUNT, &count));
+    for (size_t i = 0; i < 2 * SQUARE_COUNT; i++) {
+        if (i / 2 == 1) {
+            CHECK(isnan(positions[i]));
+        } else {
+            CHECK(positions[i] == SQUARE[i]);
+        }
+    }
+    double position[2] = {77, 77};
+    CHECK_STATUS(deldrift_position(t, 9, position), DELDRIFT_NO_SUCH_VERTEX);
+    CHECK(position[0] == 77);
+    deldrift_destroy(t);
+}
+
+static void places_are_found(void) {
+    static const double inside[] = {2, 1}, vertex[] = {1, 2}, outside[] = {-1, 2}, nowhere[] = {NAN, 0}, far[] = {0, 1e99};
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    deldrift_cells_view view = cells_of(t);
+    deldrift_location location;
+    OK(deldrift_locate(t, inside, &location));
+    CHECK(location.kind == DELDRIFT_LOCATION_CELL);
+    const uint32_t *cell = view.vertices + 3 * location.index;
+    CHECK(has_corner(cell, 3, 0) && has_corner(cell, 3, 1) && has_corner(cell, 3, 4));
+    OK(deldrift_locate(t, vertex, &location));
+    CHECK(location.kind == DELDRIFT_LOCATION_VERTEX && location.index == 4);
+    OK(deldrift_locate(t, outside, &location));
+    CHECK(location.kind == DELDRIFT_LOCATION_OUTSIDE);
+    CHECK(has_corner(view.vertices + 3 * location.index, 3, 0) && has_corner(view.vertices + 3 * location.index, 3, 3));
+    CHECK_STATUS(deldrift_locate(t, nowhere, &location), DELDRIFT_NOT_FINITE);
+    CHECK_STATUS(deldrift_locate(t, far, &location), DELDRIFT_OUT_OF_RANGE);
+    CHECK(location.kind == DELDRIFT_LOCATION_OUTSIDE);
+
+    uint32_t nearest = 77;
+    OK(deldrift_nearest_vertex(t, inside, &nearest));
+    CHECK(nearest == 4);
+    OK(deldrift_nearest_vertex(t, outside, &nearest));
+    CHECK(nearest == 4 || nearest == 3 || nearest == 0);
+    CHECK_STATUS(deldrift_nearest_vertex(t, nowhere, &nearest), DELDRIFT_NOT_FINITE);
+    CHECK_STATUS(deldrift_nearest_vertex(t, far, &nearest), DELDRIFT_OUT_OF_RANGE);
+    deldrift_destroy(t);
+
+    t = create(2, NULL, 0, NULL);
+    OK(deldrift_locate(t, inside, &location));
+    CHECK(location.kind == DELDRIFT_LOCATION_NO_CELLS && location.index == DELDRIFT_NONE);
+    OK(deldrift_nearest_vertex(t, inside, &nearest));
+    CHECK(nearest == DELDRIFT_NONE);
+    deldrift_destroy(t);
+}
+
+static void views_without_cells_are_empty(void) {
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.track_changes = 1;
+    static const double line[] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
+    deldrift_triangulation *t = create(3, line, 4, &options);
+    deldrift_cells_view view = cells_of(t);
+    CHECK(view.count == 0 && view.corners_per_cell == 4 && view.vertices == NULL && view.neighbours == NULL);
+    deldrift_indices_view changed = {77, NULL};
+    OK(deldrift_changed_cells(t, &changed));
+    CHECK(changed.count == 0 && changed.indices == NULL);
+    size_t count = 77;
+    OK(deldrift_star(t, 0, NULL, 0, &count));
+    CHECK(count == 0);
+    OK(deldrift_validate(t, 3));
+    deldrift_destroy(t);
+}
+
+static void views_stay_until_the_next_change(void) {
+    enum { COUNT = 500 };
+    double *positions = random_positions(2, COUNT, 7);
+    deldrift_triangulation *t = create(2, positions, COUNT, NULL);
+    deldrift_cells_view view = cells_of(t), later;
+    size_t bytes = view.count * 3 * sizeof(uint32_t), count = 0;
+    uint32_t *copy = malloc(bytes);
+    CHECK(copy != NULL);
+    memcpy(copy, view.vertices, bytes);
+
+    // Queries, failures among them, leave it where it is.
+    deldrift_location location;
+    uint32_t vertex;
+    OK(deldrift_locate(t, positions + 10, &location));
+    OK(deldrift_nearest_vertex(t, positions + 12, &vertex));
+    OK(deldrift_star(t, 3, NULL, 0, &count));
+    OK(deldrift_validate(t, 3));
+    OK(deldrift_memory_bytes(t, &count));
+    CHECK(count > COUNT * 2 * sizeof(double) + 2 * bytes);
+    CHECK_STATUS(deldrift_position(t, COUNT, positions), DELDRIFT_NO_SUCH_VERTEX);
+    later = cells_of(t);
+    CHECK(later.vertices == view.vertices && later.neighbours == view.neighbours);
+    CHECK(memcmp(copy, view.vertices, bytes) == 0);
+
+    // After a change that has no effect in the end, the cells are the same set, in a view taken anew.
+    OK(deldrift_insert_vertex(t, (const double[]){0.5, 0.5}, &vertex));
+    OK(deldrift_remove_vertex(t, vertex));
+    later = cells_of(t);
+    CHECK(later.count == view.count);
+    free(copy);
+    deldrift_destroy(t);
+    free(positions);
+}
+
+static void changes_are_those_since_the_commit(void) {
+    deldrift_options options;
+    deldrift_options_init(&options);
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, &options);
+    deldrift_indices_view changed = {77, NULL};
+    CHECK_STATUS(deldrift_changed_cells(t, &changed), DELDRIFT_CHANGES_NOT_TRACKED);
+    CHECK(changed.count == 77);
+    deldrift_destroy(t);
+
+    options.track_changes = 1;
+    t = create(2, SQUARE, SQUARE_COUNT, &options);
+    OK(deldrift_changed_cells(t, &changed));
+    CHECK(changed.count == 0);
+    // The vertex leaves through the side 0-3, which makes a hull of five vertices with other triangles.
+    static const double outside[2] = {-3, 2};
+    OK(deldrift_move_vertex(t, 4, outside));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_changed_cells(t, &changed));
+    CHECK(changed.count > 0);
+    deldrift_cells_view view = cells_of(t);
+    for (size_t i = 0; i < changed.count; i++) {
+        CHECK(changed.indices[i] < view.count);
+        CHECK(i == 0 || changed.indices[i - 1] < changed.indices[i]);
+    }
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_changed_cells(t, &changed));
+    CHECK(changed.count == 0);
+    deldrift_destroy(t);
+}
+
+int main(void) {
+    for (uint32_t dimension = 2; dimension <= 3; dimension++) {
+        cells_are_positive_and_neighbours_mutual(dimension);
+        stars_are_the_cells_with_the_vertex(dimension);
+    }
+    copies_are_those_of_the_views();
+    positions_of_removed_vertices_are_not_numbers();
+    places_are_found();
+    views_without_cells_are_empty();
+    views_stay_until_the_next_change();
+    changes_are_those_since_the_commit();
+    return 0;
+}

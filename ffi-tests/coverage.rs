@@ -1,0 +1,91 @@
+//! What the programs use of the header: everything.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use crate::support::{sources, text_of};
+
+/// Statuses that no C program can bring about on purpose, and the unit tests in `src/capi` that stand in:
+/// a program would need 2^30 cells for the first, and a defect of the library for the others.
+const TESTED_IN_RUST: [(&str, &str); 4] = [
+    ("DELDRIFT_TOO_MANY_CELLS", "src/capi/status.rs"),
+    ("DELDRIFT_INVALID", "src/capi/status.rs"),
+    ("DELDRIFT_POISONED", "src/capi/fence.rs"),
+    ("DELDRIFT_INTERNAL_ERROR", "src/capi/fence.rs"),
+];
+
+#[test]
+fn every_function_is_called_by_a_c_program() {
+    let header = text_of("include/deldrift.h");
+    let functions: BTreeSet<&str> = declarations(&header).filter_map(function_name).collect();
+    assert!(functions.len() > 30, "{functions:?}");
+    let programs = programs("c");
+    let missing: Vec<&&str> =
+        functions.iter().filter(|name| !programs.contains(&format!("{name}("))).collect();
+    assert!(missing.is_empty(), "no C program calls {missing:?}");
+}
+
+#[test]
+fn every_status_is_asserted() {
+    let header = text_of("include/deldrift.h");
+    let (_, from) = header.split_once("enum deldrift_status").expect("there are statuses");
+    let (statuses, _) = from.split_once("};").expect("an enumeration ends");
+    let statuses: Vec<&str> =
+        declarations(statuses).filter_map(|line| line.split_once(" = ")).map(|(name, _)| name).collect();
+    assert!(statuses.len() > 20, "{statuses:?}");
+    let programs = programs("c");
+    for status in statuses {
+        let in_rust = TESTED_IN_RUST.iter().find(|(name, _)| *name == status);
+        let is_asserted = match in_rust {
+            Some((_, source)) => {
+                text_of(source).split("mod tests").nth(1).is_some_and(|tests| tests.contains(status))
+            }
+            None if status == "DELDRIFT_OK" => programs.contains("OK("),
+            None => programs.contains(&format!(", {status})")) || programs.contains(&format!(" {status})")),
+        };
+        assert!(is_asserted, "no test brings about {status}");
+    }
+}
+
+#[test]
+fn every_member_of_the_cpp_wrapper_is_used() {
+    let wrapper = text_of("include/deldrift.hpp");
+    let programs = programs("cpp");
+    let public = wrapper.split("\nprivate:").enumerate().map(|(i, part)| {
+        // What follows the word up to the end of the class is private.
+        if i == 0 { part } else { part.split_once("\n};").map_or("", |(_, rest)| rest) }
+    });
+    let members: BTreeSet<&str> = public.flat_map(str::lines).filter_map(member_name).collect();
+    assert!(members.len() > 20, "{members:?}");
+    let missing: Vec<&&str> = members.iter().filter(|name| !programs.contains(&format!("{name}("))).collect();
+    assert!(missing.is_empty(), "no C++ program uses {missing:?}");
+}
+
+/// Lines that are no comments, without their indentation.
+fn declarations(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().map(str::trim).filter(|line| !line.starts_with(['/', '*', '#']))
+}
+
+/// The function that a line declares.
+fn function_name(line: &str) -> Option<&str> {
+    let start = line.match_indices("deldrift_").map(|(at, _)| at).find(|&at| {
+        let name_end = line[at..].find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        name_end.is_some_and(|end| line[at + end..].starts_with('(')) && at > 0
+    })?;
+    line[start..].split('(').next()
+}
+
+/// The function that a line of the wrapper declares; constructors are used wherever there is an object.
+fn member_name(line: &str) -> Option<&str> {
+    let declaration = line.strip_prefix("    ").filter(|line| !line.starts_with([' ', '/', '}', ':']))?;
+    let (head, _) = declaration.split_once('(')?;
+    let (_, name) = head.rsplit_once([' ', '*', '&'])?;
+    let is_name = !name.is_empty() && name.chars().all(|c| c.is_ascii_lowercase() || c == '_');
+    (is_name && name != "span").then_some(name)
+}
+
+/// All programs of a language, one after the other.
+fn programs(language: &str) -> String {
+    let read = |source| fs::read_to_string(source).expect("a program can be read");
+    sources(&format!("ffi-tests/{language}"), language).iter().map(read).collect()
+}

@@ -1,0 +1,142 @@
+// The C++ wrapper: every member, exceptions, ownership.
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <deldrift.hpp>
+#include <iostream>
+#include <type_traits>
+
+#define CHECK(condition)                                                                   \
+    do {                                                                                   \
+        if (!(condition)) {                                                                \
+            std::cerr << __FILE__ << ":" << __LINE__ << ": not so: " << #condition << "\n"; \
+            std::exit(1);                                                                  \
+        }                                                                                  \
+    } while (false)
+
+#define CHECK_THROWS(statement, expected_status, part)                     \
+    do {                                                                   \
+        bool thrown = false;                                               \
+        try {                                                              \
+            statement;                                                     \
+        } catch (const deldrift::Error &error) {                           \
+            thrown = true;                                                 \
+            CHECK(error.status() == (expected_status));                    \
+            CHECK(std::strstr(error.what(), (part)) != nullptr);           \
+        }                                                                  \
+        CHECK(thrown);                                                     \
+    } while (false)
+
+using deldrift::Triangulation;
+
+static_assert(!std::is_copy_constructible_v<Triangulation> && !std::is_copy_assignable_v<Triangulation>);
+static_assert(std::is_nothrow_move_constructible_v<Triangulation> && std::is_nothrow_move_assignable_v<Triangulation>);
+static_assert(sizeof(Triangulation) <= 2 * sizeof(void *));
+
+static const std::vector<double> square{0, 0, 4, 0, 5, 5, 0, 4, 1, 2};
+
+static void cells_are_spans() {
+    const Triangulation t(2, square);
+    const deldrift::Cells cells = t.cells();
+    CHECK(cells.size() == 4 && cells.size() == t.cell_count() && cells.corners_per_cell() == 3);
+    CHECK(cells.vertices().size() == 12 && cells.neighbours().size() == 12);
+    std::size_t rows = 0, hull = 0;
+    for (auto triangle : cells) {
+        CHECK(triangle.size() == 3 && triangle.begin() + 3 == triangle.end());
+        CHECK(std::memcmp(triangle.data(), cells.vertices().data() + 3 * rows, 3 * sizeof(std::uint32_t)) == 0);
+        for (std::uint32_t other : cells.neighbours_of(rows)) hull += other == DELDRIFT_NONE;
+        rows++;
+    }
+    CHECK(rows == 4 && hull == 4);
+    CHECK(Triangulation(2, {}).cells().vertices().empty());
+}
+
+static void motion() {
+    Triangulation t(2, square);
+    CHECK(t.dimension() == 2 && t.vertex_count() == 5 && t.id_count() == 5 && t.timestamp() == 0);
+    t.move_vertex(4, {2.0, 3.0});
+    CHECK(t.staged_count() == 1);
+    CHECK(t.commit_timestamp().moved == 1);
+    CHECK((t.position(4) == std::vector<double>{2, 3}));
+    t.move_vertices(square);
+    t.discard_moves();
+    t.move_vertices({0, 4}, {0.5, 0.5, 1.0, 2.0});
+    CHECK(t.commit_timestamp().timestamp == 2 && t.timestamp() == 2 && t.statistics().moved == 3);
+    t.relocate_vertex(0, std::array<double, 2>{0, 0});
+    CHECK(t.positions() == square);
+    const std::uint32_t vertex = t.insert_vertex({3.0, 1.0});
+    CHECK(vertex == 5 && t.is_present(5) && t.star(5).size() == 4);
+    t.remove_vertex(vertex);
+    CHECK(!t.is_present(5) && std::isnan(t.positions()[10]));
+    t.validate(3);
+}
+
+static void queries() {
+    deldrift_options options = deldrift::default_options();
+    options.track_changes = 1;
+    Triangulation t(3, {0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.5, 0.5, 0.75}, options);
+    CHECK(t.dimension() == 3 && t.star(4).size() == 4 && t.memory_bytes() > 0);
+    CHECK(t.locate({0.25, 0.5, 0.5}).kind == DELDRIFT_LOCATION_CELL && t.nearest_vertex({0.5, 0.5, 1.0}) == 4);
+    CHECK(t.changed_cells().empty());
+    t.move_vertex(4, {0.0, 0.0, 4.0});
+    t.commit_timestamp();
+    CHECK(t.coincident_representative(4) == 3 && t.changed_cells().size() == 1);
+    CHECK(t.algorithm() == DELDRIFT_AUTO);
+    t.set_algorithm(DELDRIFT_PLACEMENT);
+    CHECK(t.algorithm() == DELDRIFT_PLACEMENT);
+}
+
+// A wheel has a vertex with more cells than any first guess.
+static void large_stars_are_whole() {
+    std::vector<double> wheel{0, 0};
+    for (int i = 0; i < 100; i++) {
+        wheel.push_back(std::cos(0.0625 * i));
+        wheel.push_back(std::sin(0.0625 * i));
+    }
+    const Triangulation t(2, wheel);
+    CHECK(t.star(0).size() == 100);
+}
+
+static void failures_are_exceptions() {
+    Triangulation t(2, square);
+    CHECK_THROWS(Triangulation(4, square), DELDRIFT_WRONG_COUNT, "positions has 10 numbers, but must have 8");
+    CHECK_THROWS(Triangulation(5, square), DELDRIFT_INVALID_DIMENSION, "dimension is 5");
+    CHECK_THROWS(Triangulation(0, {}), DELDRIFT_INVALID_DIMENSION, "dimension is 0");
+    CHECK_THROWS(Triangulation(2, {0.0, NAN}), DELDRIFT_NOT_FINITE, "positions[0]");
+    CHECK_THROWS(t.move_vertex(9, {1.0, 1.0}), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
+    CHECK_THROWS(t.move_vertex(4, {1.0, 1.0, 1.0}), DELDRIFT_WRONG_COUNT, "position has 3 numbers");
+    CHECK_THROWS(t.move_vertices({0, 1}, {1.0, 1.0}), DELDRIFT_WRONG_COUNT, "must have 4");
+    CHECK_THROWS(t.star(9), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
+    CHECK_THROWS(t.changed_cells(), DELDRIFT_CHANGES_NOT_TRACKED, "track_changes");
+    CHECK_THROWS(t.validate(9), DELDRIFT_INVALID_LEVEL, "level is 9");
+    CHECK(t.timestamp() == 0 && t.staged_count() == 0);
+}
+
+static void ownership_moves() {
+    Triangulation a(2, square);
+    const std::uint32_t *vertices = a.cells().vertices().data();
+    Triangulation b = std::move(a);
+    CHECK(a.native() == nullptr && b.cells().vertices().data() == vertices);
+    CHECK_THROWS(a.cell_count(), DELDRIFT_NULL_ARGUMENT, "t is NULL");
+    a = std::move(b);
+    CHECK(a.cell_count() == 4 && b.native() == nullptr);
+
+    deldrift_triangulation *raw = nullptr;
+    CHECK(deldrift_create(2, square.data(), 5, nullptr, &raw) == DELDRIFT_OK);
+    Triangulation adopted(raw);
+    CHECK(adopted.native() == raw && adopted.dimension() == 2);
+    CHECK_THROWS(Triangulation(nullptr), DELDRIFT_NULL_ARGUMENT, "t is NULL");
+
+    // Without exceptions: the functions of deldrift.h on what it owns.
+    CHECK(deldrift_remove_vertex(adopted.native(), 77) == DELDRIFT_NO_SUCH_VERTEX);
+}
+
+int main() {
+    cells_are_spans();
+    motion();
+    queries();
+    large_stars_are_whole();
+    failures_are_exceptions();
+    ownership_moves();
+}

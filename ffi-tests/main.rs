@@ -1,0 +1,17 @@
+//! The C boundary, used from C and C++: programs are compiled against `include/`, linked with the
+//! library that cargo has just built, and run.
+//!
+//! | file | what |
+//! |---|---|
+//! | `header.rs` | the committed header is what the sources say, and compiles as C11 and C++17 |
+//! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
+//! | `coverage.rs` | every function and every status of the header is used by some program |
+//! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
+//! | `installation.rs` | programs that find an installed library through CMake and pkg-config (`--include-ignored`) |
+
+mod coverage;
+mod header;
+mod installation;
+mod memory;
+mod programs;
+mod support;

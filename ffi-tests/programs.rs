@@ -1,0 +1,49 @@
+//! Every program, run with either library.
+
+use crate::support::{Linkage, build, command, fresh_folder, sources, succeed};
+
+#[test]
+fn c_programs_run_with_the_shared_library() {
+    run_all("c", Linkage::Shared);
+}
+
+#[test]
+fn c_programs_run_with_the_static_library() {
+    run_all("c", Linkage::Static);
+}
+
+#[test]
+fn cpp_programs_run_with_the_shared_library() {
+    run_all("cpp", Linkage::Shared);
+}
+
+#[test]
+fn cpp_programs_run_with_the_static_library() {
+    run_all("cpp", Linkage::Static);
+}
+
+/// Builds and runs the programs of a language. Tests are silent.
+fn run_all(language: &str, linkage: Linkage) {
+    let folder = fresh_folder(&format!("{language}-{}", linkage.name()));
+    for source in sources(&format!("ffi-tests/{language}"), language) {
+        let said = succeed(&mut command(build(&source, &folder, linkage, &[])));
+        if source.ends_with("readme_example.c") {
+            assert_eq!(triangles_in(&said), [[0, 1, 4], [0, 3, 4], [1, 2, 4], [2, 3, 4]]);
+        } else {
+            assert_eq!(said, "", "{}", source.display());
+        }
+    }
+}
+
+/// The triangles that the example prints, in ascending order.
+fn triangles_in(text: &str) -> Vec<[u32; 3]> {
+    let triangle = |line: &str| {
+        let ids = line.split_whitespace().skip(1).map(|id| id.parse().expect("an id is a number"));
+        let mut ids: [u32; 3] = ids.collect::<Vec<_>>().try_into().expect("a triangle has three corners");
+        ids.sort_unstable();
+        ids
+    };
+    let mut triangles: Vec<[u32; 3]> = text.lines().map(triangle).collect();
+    triangles.sort_unstable();
+    triangles
+}

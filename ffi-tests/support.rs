@@ -1,0 +1,132 @@
+//! Compiling and running programs.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+use std::{env, fs};
+
+/// What the static library needs of the system, as `rustc --print native-static-libs` says.
+const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
+
+/// A file of the repository.
+pub fn repository(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+/// The text of a file of the repository.
+pub fn text_of(path: &str) -> String {
+    fs::read_to_string(repository(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// The programs in a folder, by file name, in alphabetical order.
+pub fn sources(folder: &str, extension: &str) -> Vec<PathBuf> {
+    let mut sources: Vec<PathBuf> = fs::read_dir(repository(folder))
+        .unwrap_or_else(|error| panic!("{folder}: {error}"))
+        .map(|entry| entry.expect("a folder can be listed to its end").path())
+        .filter(|path| path.extension().is_some_and(|given| given == extension))
+        .collect();
+    assert!(!sources.is_empty(), "{folder} has no program");
+    sources.sort();
+    sources
+}
+
+/// An empty folder for what a test makes.
+pub fn fresh_folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    folder
+}
+
+/// The folder with the libraries: the one of this executable, or the one above it, wherever cargo has
+/// put them along with the test.
+pub fn library_folder() -> PathBuf {
+    let executable = env::current_exe().expect("a test knows its own path");
+    let folders: Vec<&Path> = executable.ancestors().skip(1).take(2).collect();
+    let found = folders.iter().find(|folder| {
+        ["libdeldrift.so", "libdeldrift.a"].iter().all(|library| folder.join(library).exists())
+    });
+    found.unwrap_or_else(|| panic!("no libdeldrift.so with libdeldrift.a in {folders:?}")).to_path_buf()
+}
+
+/// Which library a program is linked with.
+#[derive(Clone, Copy)]
+pub enum Linkage {
+    Shared,
+    Static,
+}
+
+impl Linkage {
+    pub fn name(self) -> &'static str {
+        match self {
+            Linkage::Shared => "shared",
+            Linkage::Static => "static",
+        }
+    }
+}
+
+/// The compiler for a source, with the project's warnings as errors and the headers in reach.
+pub fn compiler(source: &Path) -> Command {
+    static HOST: OnceLock<String> = OnceLock::new();
+    let host = HOST.get_or_init(host_triple);
+    let is_cpp = source.extension().is_some_and(|extension| extension == "cpp");
+    let tool = cc::Build::new()
+        .cargo_metadata(false)
+        .cpp(is_cpp)
+        .host(host)
+        .target(host)
+        .opt_level(1)
+        .debug(true)
+        .out_dir(env!("CARGO_TARGET_TMPDIR"))
+        .get_compiler();
+    let mut command = tool.to_command();
+    command.arg(if is_cpp { "-std=c++17" } else { "-std=c11" });
+    command.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread", "-I"]).arg(repository("include"));
+    command
+}
+
+/// Compiles and links one program with further flags; its path.
+pub fn build(source: &Path, folder: &Path, linkage: Linkage, flags: &[&str]) -> PathBuf {
+    let program = folder.join(source.file_stem().expect("a source has a name"));
+    let libraries = library_folder();
+    let mut command = compiler(source);
+    command.args(flags).arg(source).arg("-o").arg(&program);
+    match linkage {
+        Linkage::Shared => {
+            let run_path = format!("-Wl,-rpath,{}", libraries.display());
+            command.arg(libraries.join("libdeldrift.so")).arg(run_path).arg("-lm");
+        }
+        Linkage::Static => {
+            command.arg(libraries.join("libdeldrift.a")).args(SYSTEM_LIBRARIES);
+        }
+    }
+    succeed(&mut command);
+    program
+}
+
+/// A command that finds libraries as it would outside of cargo, which for its tests puts folders first
+/// where an older build of the library may lie.
+pub fn command(program: impl AsRef<OsStr>) -> Command {
+    let mut command = Command::new(program);
+    command.env_remove("LD_LIBRARY_PATH");
+    command
+}
+
+/// Runs a command that must end with exit code 0; its standard output. Everything it says is shown
+/// when it fails.
+pub fn succeed(command: &mut Command) -> String {
+    let outcome = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    assert!(outcome.status.success(), "{command:?}: {}\n{}", outcome.status, all_of(&outcome));
+    String::from_utf8_lossy(&outcome.stdout).into_owned()
+}
+
+fn all_of(outcome: &Output) -> String {
+    String::from_utf8_lossy(&[outcome.stdout.as_slice(), outcome.stderr.as_slice()].concat()).into_owned()
+}
+
+fn host_triple() -> String {
+    let version = succeed(Command::new(env::var_os("RUSTC").unwrap_or("rustc".into())).arg("-vV"));
+    let host = version.lines().find_map(|line| line.strip_prefix("host: "));
+    host.expect("rustc names its host").to_string()
+}

@@ -1,0 +1,615 @@
+/*
+ * deldrift: exact Delaunay triangulations of moving points, in 2D and 3D.
+ *
+ * Made from the sources in src/capi by `DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi`: change it there.
+ *
+ * A triangulation is created once from an array of points. Vertex i is the i-th point, for ever. Then
+ * points move: stage the moves, commit them as the next timestamp, read the cells. After every commit
+ * the cells are exactly those of the Delaunay triangulation of the current positions; ties (cocircular
+ * and cospherical points) are broken by vertex id, so that they depend on nothing but positions and ids.
+ *
+ *     #include <deldrift.h>
+ *     #include <stdio.h>
+ *
+ *     int main(void) {
+ *         double square[] = {0, 0, 4, 0, 4, 3, 0, 3, 1, 1};  // vertices 0 to 4
+ *         deldrift_triangulation *t;
+ *         if (deldrift_create(2, square, 5, NULL, &t) != DELDRIFT_OK) {
+ *             fprintf(stderr, "%s\n", deldrift_last_error());
+ *             return 1;
+ *         }
+ *         double position[] = {3, 2};
+ *         deldrift_cells_view cells;
+ *         deldrift_move_vertex(t, 4, position);
+ *         deldrift_commit_timestamp(t, NULL);
+ *         deldrift_cells(t, &cells);
+ *         for (const uint32_t *v = cells.vertices; v < cells.vertices + 3 * cells.count; v += 3)
+ *             printf("triangle %u %u %u\n", v[0], v[1], v[2]);
+ *         deldrift_destroy(t);
+ *     }
+ *
+ * Compile and link: `cc program.c $(pkg-config --cflags --libs deldrift)`, or in CMake
+ * `find_package(deldrift)` and `target_link_libraries(program deldrift::deldrift)`. C++ programs may use
+ * deldrift.hpp, which wraps this header.
+ *
+ * Arrays. Points are contiguous: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D. Counts and capacities are
+ * in points, vertices or cells, never in numbers or bytes. A pointer must be aligned for its type and
+ * point to as much as the count says; NULL is accepted where that is said, and for an array of 0.
+ * Otherwise it is an error like any other.
+ *
+ * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: the
+ * triangulation is as it was, and outputs are not written (except the count of a buffer that is too
+ * small). deldrift_last_error tells the details. Nothing is printed, and no exception leaves the library.
+ *
+ * Besides the errors named with each function, every function that takes a triangulation may return
+ * DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUSY (called from a callback of a call
+ * on the same triangulation), DELDRIFT_POISONED and DELDRIFT_INTERNAL_ERROR.
+ *
+ * Ownership. What deldrift_create made must be given to deldrift_destroy, once. Arrays that are passed in
+ * are read during the call and not kept. Views (deldrift_cells_view, deldrift_indices_view) belong to
+ * the triangulation and end with the next call on it that takes it as non-const, or with its destruction.
+ * Strings belong to the library.
+ *
+ * Threads. Functions that take `const deldrift_triangulation *` may run on the same triangulation from
+ * any number of threads at once. Those that take it as non-const change it, and no other call on it may
+ * run meanwhile. Different triangulations are independent, and none is bound to a thread. Errors are kept
+ * per thread.
+ */
+
+#ifndef DELDRIFT_H
+#define DELDRIFT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/// Version of this header, that of the library it came with: see deldrift_version.
+#define DELDRIFT_VERSION_MAJOR 0
+#define DELDRIFT_VERSION_MINOR 1
+#define DELDRIFT_VERSION_PATCH 0
+#define DELDRIFT_VERSION_STRING "0.1.0"
+
+/// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
+/// an empty triangulation.
+#define DELDRIFT_NONE UINT32_MAX
+
+/// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
+///
+/// deldrift_last_error tells in words which argument was at fault, at which index, and its value.
+enum deldrift_status
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// The call did what it was asked to do.
+    DELDRIFT_OK = 0,
+    /// A pointer that must not be NULL is.
+    DELDRIFT_NULL_ARGUMENT = 1,
+    /// A pointer is not aligned for what it should point to.
+    DELDRIFT_MISALIGNED_ARGUMENT = 2,
+    /// An array with the given count would not fit in the address space.
+    DELDRIFT_SIZE_OVERFLOW = 3,
+    /// The dimension is neither 2 nor 3.
+    DELDRIFT_INVALID_DIMENSION = 4,
+    /// An option has a value that this version does not know; the message names the field.
+    DELDRIFT_INVALID_OPTIONS = 5,
+    /// The level of deldrift_validate is not 1, 2 or 3.
+    DELDRIFT_INVALID_LEVEL = 6,
+    /// A buffer holds fewer entries than there are; how many there are has been written to the count.
+    DELDRIFT_BUFFER_TOO_SMALL = 7,
+    /// A coordinate is NaN or infinite.
+    DELDRIFT_NOT_FINITE = 8,
+    /// A coordinate is so large, or so close to zero without being zero, that signs could not be exact.
+    DELDRIFT_OUT_OF_RANGE = 9,
+    /// No vertex ever had this id.
+    DELDRIFT_NO_SUCH_VERTEX = 10,
+    /// The vertex of this id has been removed.
+    DELDRIFT_REMOVED_VERTEX = 11,
+    /// A move of this vertex is already staged for the next timestamp.
+    DELDRIFT_DUPLICATE_MOVE = 12,
+    /// An array with one entry per vertex has another number of entries.
+    DELDRIFT_WRONG_COUNT = 13,
+    /// Two vertices would be at the same place, and the options reject that.
+    DELDRIFT_COINCIDENT = 14,
+    /// There would be more vertices than 32-bit ids can name.
+    DELDRIFT_TOO_MANY_VERTICES = 15,
+    /// There would be more cells than the library can link to each other.
+    DELDRIFT_TOO_MANY_CELLS = 16,
+    /// Memory could not be had.
+    DELDRIFT_OUT_OF_MEMORY = 17,
+    /// The cancel callback returned true.
+    DELDRIFT_CANCELLED = 18,
+    /// Changed cells were asked for, but the options did not ask to track them.
+    DELDRIFT_CHANGES_NOT_TRACKED = 19,
+    /// deldrift_validate found something wrong; the message says what.
+    DELDRIFT_INVALID = 20,
+    /// A callback, or another thread, used a triangulation while a call was changing it.
+    DELDRIFT_BUSY = 21,
+    /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. Only
+    /// deldrift_destroy is of use now.
+    DELDRIFT_POISONED = 22,
+    /// A defect of the library; please report the message.
+    DELDRIFT_INTERNAL_ERROR = 23,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_status deldrift_status;
+#else
+typedef uint32_t deldrift_status;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// How a point lies to what the index of a deldrift_location names.
+enum deldrift_location_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// At the place of a vertex: index is its id, the lowest one if several share the place.
+    DELDRIFT_LOCATION_VERTEX = 0,
+    /// In a cell or on its boundary, at no vertex: index is that of the cell.
+    DELDRIFT_LOCATION_CELL = 1,
+    /// Outside the convex hull: index is that of a cell with a hull facet that faces the place.
+    DELDRIFT_LOCATION_OUTSIDE = 2,
+    /// There are no cells, as the vertices do not span the dimension: index is DELDRIFT_NONE.
+    DELDRIFT_LOCATION_NO_CELLS = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_location_kind deldrift_location_kind;
+#else
+typedef uint32_t deldrift_location_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// How deldrift_commit_timestamp brings the triangulation to the staged positions. Every algorithm
+/// gives exactly the same cells; they differ in what they cost.
+enum deldrift_algorithm
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// The library chooses at each commit, from what the commits before have cost.
+    DELDRIFT_AUTO = 0,
+    /// Builds the triangulation anew from all positions.
+    DELDRIFT_REBUILDING = 1,
+    /// Takes the moved vertices one by one: finds the new place by a walk from the old one, removes and
+    /// inserts. Where no certificate of the star fails, only the coordinates change.
+    DELDRIFT_PLACEMENT = 2,
+    /// As placement, but a star whose cells stay positively oriented is repaired by flips (in 3D the
+    /// same as placement).
+    DELDRIFT_PLACEMENT_FLIPS = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_algorithm deldrift_algorithm;
+#else
+typedef uint32_t deldrift_algorithm;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// What happens when vertices come to lie at the same place.
+enum deldrift_coincidence
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// The lowest id represents the place in the cells; the others are hidden until they move apart.
+    DELDRIFT_COINCIDENCE_MERGE = 0,
+    /// The call fails with DELDRIFT_COINCIDENT and has no effect.
+    DELDRIFT_COINCIDENCE_REJECT = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_coincidence deldrift_coincidence;
+#else
+typedef uint32_t deldrift_coincidence;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.
+typedef struct deldrift_triangulation deldrift_triangulation;
+
+/// Options of a triangulation. Initialise them with deldrift_options_init, then set what should differ
+/// from the defaults, all of which are zero.
+///
+/// The structure may grow in later versions. struct_size says how much of it the program knows: fields
+/// beyond it have their defaults. A size greater than the library's own is accepted as long as all
+/// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
+/// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value not listed here.
+///
+/// The callbacks are called from inside deldrift_create and deldrift_commit_timestamp, on the thread
+/// that called these, one at a time, and not after deldrift_destroy. They must return normally (no
+/// exception, no longjmp) and must not use the triangulation that is being created or committed: such
+/// calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
+/// must live as long as the triangulation.
+typedef struct deldrift_options {
+    /// sizeof(deldrift_options) as the program sees it.
+    size_t struct_size;
+    /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
+    deldrift_algorithm algorithm;
+    /// Greatest number of threads a call may use; 0, the default, lets the library choose. The cells do
+    /// not depend on it.
+    uint32_t threads;
+    /// Default DELDRIFT_COINCIDENCE_MERGE.
+    deldrift_coincidence coincidence;
+    /// 1 keeps what deldrift_changed_cells needs, at some cost for each commit; 0, the default, does not.
+    uint32_t track_changes;
+    /// Called now and then during long calls; when it returns true, the call ends in DELDRIFT_CANCELLED
+    /// and has had no effect. NULL, the default, never cancels.
+    bool (*cancel)(void *user_data);
+    /// Called now and then during long calls with the part of the work that is done, from 0 to 1. NULL
+    /// is the default.
+    void (*progress)(void *user_data, double fraction);
+    /// Handed to the callbacks as it is.
+    void *user_data;
+} deldrift_options;
+
+/// What a commit did, or, from deldrift_statistics, what all of them did.
+typedef struct deldrift_commit_report {
+    /// Number of the timestamp reached: 0 at creation, one more at each commit.
+    uint64_t timestamp;
+    /// Vertices whose position differs from that of the timestamp before.
+    uint64_t moved;
+    /// Moved vertices for which nothing but coordinates changed.
+    uint64_t unchanged;
+    /// Vertices removed and inserted again.
+    uint64_t placements;
+    /// Flips made.
+    uint64_t flips;
+    /// 1 if the triangulation was built anew (in the statistics, how often).
+    uint64_t rebuilds;
+    /// Hidden vertices at the end: those at the place of a vertex with a lower id.
+    uint64_t coincident;
+    /// Zero; later versions may count more.
+    uint64_t reserved[9];
+} deldrift_commit_report;
+
+/// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
+/// until the next call that changes the triangulation.
+///
+/// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
+/// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
+typedef struct deldrift_cells_view {
+    /// Number of cells.
+    size_t count;
+    /// 3 in 2D, 4 in 3D.
+    uint32_t corners_per_cell;
+    /// count rows of corners_per_cell vertex ids. NULL if there are no cells.
+    const uint32_t *vertices;
+    /// count rows of corners_per_cell cell indices: entry i of a row is the cell on the other side of
+    /// the facet opposite vertex i, DELDRIFT_NONE on the hull. NULL if there are no cells.
+    const uint32_t *neighbours;
+} deldrift_cells_view;
+
+/// Where a point lies.
+typedef struct deldrift_location {
+    /// What index names.
+    deldrift_location_kind kind;
+    /// A vertex or a cell.
+    uint32_t index;
+} deldrift_location;
+
+/// A list of cell indices that belongs to the triangulation, valid until the next call that changes it.
+typedef struct deldrift_indices_view {
+    /// Number of indices.
+    size_t count;
+    /// The indices, in ascending order. NULL if there are none.
+    const uint32_t *indices;
+} deldrift_indices_view;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/// A status in a few words, in English, without a full stop. For a number that is no status of this
+/// version the text says so. The string is static. Never fails; may be called from any thread.
+const char *deldrift_status_string(deldrift_status status);
+
+/// The message of the last call on this thread that failed: which argument, which index, which value.
+/// An empty string if none has failed. Calls that succeed leave it as it is, so look at it only after
+/// a failure.
+///
+/// The string is never NULL, belongs to the library, and stays until the next failure on the same
+/// thread. It is at most 511 bytes long and valid UTF-8.
+const char *deldrift_last_error(void);
+
+/// The version of the library that is running, as "major.minor.patch". The string is static. The
+/// version of the header that a program was compiled with is in DELDRIFT_VERSION_STRING.
+const char *deldrift_version(void);
+
+/// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
+///
+/// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or
+/// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
+/// them for the life of the triangulation. Any set is legal, the empty one, coincident points and points
+/// on one line or plane included; where the points do not span the dimension there are no cells. Every
+/// coordinate must be 0 or of a magnitude for which signs are exact; the message of
+/// DELDRIFT_OUT_OF_RANGE gives the limits. options: NULL for the defaults; read during the call only.
+///
+/// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
+/// success only.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
+/// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
+deldrift_status deldrift_create(uint32_t dimension,
+                                const double *positions,
+                                size_t count,
+                                const deldrift_options *options,
+                                deldrift_triangulation **out);
+
+/// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.
+/// A poisoned triangulation is destroyed like any other. From inside a callback of a call on the same
+/// triangulation this does nothing but set deldrift_last_error.
+void deldrift_destroy(deldrift_triangulation *t);
+
+/// The dimension of the triangulation, 2 or 3, to *dimension.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+deldrift_status deldrift_dimension(const deldrift_triangulation *t, uint32_t *dimension);
+
+/// Changes the algorithm of later commits. Staged moves stay.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this
+/// version. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_set_algorithm(deldrift_triangulation *t,
+                                       deldrift_algorithm algorithm);
+
+/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+deldrift_status deldrift_get_algorithm(const deldrift_triangulation *t,
+                                       deldrift_algorithm *algorithm);
+
+/// Stages the move of one vertex for the next timestamp. Nothing that can be read changes until
+/// deldrift_commit_timestamp.
+///
+/// position: 2 or 3 numbers, read during the call only.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_move_vertex(deldrift_triangulation *t,
+                                     uint32_t vertex,
+                                     const double *position);
+
+/// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
+///
+/// vertices: count ids, each at most once; NULL stands for 0, 1, ..., count - 1, and count must then be
+/// that of all ids ever given (deldrift_id_count), where the entries of removed vertices are not read.
+/// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
+/// and may be NULL if count is 0, when nothing is staged.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE (also
+/// within vertices), DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called
+/// at the same time as any other call on t.
+deldrift_status deldrift_move_vertices(deldrift_triangulation *t,
+                                       const uint32_t *vertices,
+                                       const double *positions,
+                                       size_t count);
+
+/// Forgets all staged moves.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
+
+/// Makes the staged positions the next timestamp. The cells become those of the Delaunay triangulation
+/// of the new positions, whatever the algorithm; ids stay. A commit without staged moves counts as a
+/// timestamp too.
+///
+/// report: receives what was done; may be NULL. Ends all views.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
+/// reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
+/// stays at its timestamp and the moves stay staged. Not to be called at the same time as any other call
+/// on t.
+deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
+                                          deldrift_commit_report *report);
+
+/// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
+/// timestamp stays, and so do the moves staged for other vertices. Ends all views.
+///
+/// position: 2 or 3 numbers, read during the call only.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE if a move of this vertex is staged,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// on t.
+deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
+                                         uint32_t vertex,
+                                         const double *position);
+
+/// Inserts a vertex at once. Ends all views.
+///
+/// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
+/// the highest ever given.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// on t.
+deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
+                                       const double *position,
+                                       uint32_t *out_vertex);
+
+/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again. Ends all
+/// views.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// on t.
+deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
+                                       uint32_t vertex);
+
+/// How many vertices are present, hidden ones included and removed ones not, to *count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+deldrift_status deldrift_vertex_count(const deldrift_triangulation *t, size_t *count);
+
+/// How many ids have been given, to *count: valid ids are below it, those of removed vertices too.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+deldrift_status deldrift_id_count(const deldrift_triangulation *t, size_t *count);
+
+/// How many cells there are, to *count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+deldrift_status deldrift_cell_count(const deldrift_triangulation *t, size_t *count);
+
+/// How many moves are staged for the next timestamp, to *count.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+deldrift_status deldrift_staged_count(const deldrift_triangulation *t, size_t *count);
+
+/// How many bytes of memory the triangulation holds, to *bytes, what its views show included.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t, size_t *bytes);
+
+/// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+deldrift_status deldrift_timestamp(const deldrift_triangulation *t, uint64_t *timestamp);
+
+/// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
+/// coincident are those of now.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+deldrift_status deldrift_statistics(const deldrift_triangulation *t,
+                                    deldrift_commit_report *report);
+
+/// Whether a vertex of this id is present, to *present: false if it has been removed or never was.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+deldrift_status deldrift_is_present(const deldrift_triangulation *t,
+                                    uint32_t vertex,
+                                    bool *present);
+
+/// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX. Constant time.
+deldrift_status deldrift_position(const deldrift_triangulation *t,
+                                  uint32_t vertex,
+                                  double *position);
+
+/// The positions of all ids, in their order, 2 or 3 numbers each; those of removed vertices are NaN.
+///
+/// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
+/// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
+                                        double *positions,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// The cells, without a copy, to *view.
+///
+/// The first call after a change brings the view up to date, in time proportional to the number of
+/// cells; further calls take constant time. Calls on several threads are legal, the first included.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
+deldrift_status deldrift_cells(const deldrift_triangulation *t,
+                               deldrift_cells_view *view);
+
+/// A copy of the cells: see deldrift_cells_view for what the rows mean.
+///
+/// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
+/// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
+/// too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
+                                    uint32_t *vertices,
+                                    uint32_t *neighbours,
+                                    size_t capacity,
+                                    size_t *count);
+
+/// The star of a vertex: the indices of the cells that have it as a corner, in no particular order; for
+/// a hidden vertex those of its representative.
+///
+/// cells: a buffer with room for capacity indices. count: receives their number, which is also written
+/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL. After a change the first call also does what the
+/// first deldrift_cells does.
+deldrift_status deldrift_star(const deldrift_triangulation *t,
+                              uint32_t vertex,
+                              uint32_t *cells,
+                              size_t capacity,
+                              size_t *count);
+
+/// Where a point lies, exactly, to *location.
+///
+/// position: 2 or 3 numbers.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE. After a change the first call also does what the first deldrift_cells does.
+deldrift_status deldrift_locate(const deldrift_triangulation *t,
+                                const double *position,
+                                deldrift_location *location);
+
+/// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
+/// triangulation has no vertices.
+///
+/// position: 2 or 3 numbers.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE.
+deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
+                                        const double *position,
+                                        uint32_t *vertex);
+
+/// The lowest id among the vertices at the place of this one, to *representative: the one that is a
+/// corner of cells. It is the vertex itself unless the vertex is hidden.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX.
+deldrift_status deldrift_coincident_representative(const deldrift_triangulation *t,
+                                                   uint32_t vertex,
+                                                   uint32_t *representative);
+
+/// The cells of now that did not exist before the latest commit, to *view, as indices into
+/// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
+/// first commit there are none. Needs track_changes in the options.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED.
+deldrift_status deldrift_changed_cells(const deldrift_triangulation *t,
+                                       deldrift_indices_view *view);
+
+/// Checks the triangulation exactly, in time proportional to its size.
+///
+/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
+/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
+/// deldrift_last_error then tells the first violation.
+deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t level);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+/// Sets struct_size and the default of every other option. NULL is legal and does nothing.
+///
+/// Defined here and not in the library, so that it fills the structure of this header, whichever later
+/// version the program runs with. Other languages do the same: all zero but struct_size.
+static inline void deldrift_options_init(deldrift_options *options) {
+    if (options == NULL) {
+        return;
+    }
+    options->struct_size = sizeof *options;
+    options->algorithm = DELDRIFT_AUTO;
+    options->threads = 0;
+    options->coincidence = DELDRIFT_COINCIDENCE_MERGE;
+    options->track_changes = 0;
+    options->cancel = NULL;
+    options->progress = NULL;
+    options->user_data = NULL;
+}
+
+#endif // DELDRIFT_H

@@ -1,0 +1,239 @@
+// deldrift for C++17: deldrift.h with an owner, exceptions and spans.
+//
+//     const std::vector<double> square{0, 0, 4, 0, 4, 3, 0, 3, 1, 1};
+//     deldrift::Triangulation t(2, square);
+//     t.move_vertex(4, {3.0, 2.0});
+//     t.commit_timestamp();
+//     for (auto triangle : t.cells()) std::cout << triangle[0] << triangle[1] << triangle[2] << '\n';
+//
+// A Triangulation owns a deldrift_triangulation and destroys it. Every member calls the function of the
+// same name in deldrift.h, which describes shapes, errors and the life of views; const members may be called
+// from several threads at once. A member that is not noexcept throws deldrift::Error, and has had no effect
+// then. To do without exceptions, call the functions of deldrift.h on native(): they return a status.
+#ifndef DELDRIFT_HPP
+#define DELDRIFT_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "deldrift.h"
+
+namespace deldrift {
+
+// A call failed: what() names the argument, the index and the value.
+class Error : public std::runtime_error {
+public:
+    explicit Error(deldrift_status status, const std::string &message = deldrift_last_error())
+        : std::runtime_error(message), status_(status) {}
+    deldrift_status status() const noexcept { return status_; }
+
+private:
+    deldrift_status status_;
+};
+
+// Contiguous values that belong to someone else: a pointer and a count.
+template <class T>
+class span {
+public:
+    constexpr span() noexcept = default;
+    constexpr span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+    // Of anything with data() and size(): vectors, arrays, std::span.
+    template <class C, class = std::enable_if_t<std::is_convertible_v<decltype(std::declval<C &>().data()), T *>>>
+    constexpr span(C &&values) noexcept : data_(values.data()), size_(values.size()) {}
+    // Of values in braces, for the duration of the call that they are written in.
+    constexpr span(std::initializer_list<std::remove_const_t<T>> values) noexcept : size_(values.size()) {
+        data_ = values.begin();
+    }
+
+    constexpr T *data() const noexcept { return data_; }
+    constexpr std::size_t size() const noexcept { return size_; }
+    constexpr bool empty() const noexcept { return size_ == 0; }
+    constexpr T &operator[](std::size_t i) const noexcept { return data_[i]; }
+    constexpr T *begin() const noexcept { return data_; }
+    constexpr T *end() const noexcept { return data_ + size_; }
+
+private:
+    T *data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+// The cells, without a copy, until the triangulation changes; see deldrift_cells_view.
+class Cells {
+public:
+    using Row = span<const std::uint32_t>;
+
+    explicit Cells(const deldrift_cells_view &view) noexcept : view_(view) {}
+    std::size_t size() const noexcept { return view_.count; }
+    std::size_t corners_per_cell() const noexcept { return view_.corners_per_cell; }
+    // The vertices of one cell, the cells across its facets, and all rows of either.
+    Row operator[](std::size_t cell) const noexcept { return row(view_.vertices, cell); }
+    Row neighbours_of(std::size_t cell) const noexcept { return row(view_.neighbours, cell); }
+    Row vertices() const noexcept { return {view_.vertices, size() * corners_per_cell()}; }
+    Row neighbours() const noexcept { return {view_.neighbours, size() * corners_per_cell()}; }
+
+    struct iterator {
+        const Cells *cells;
+        std::size_t cell;
+        Row operator*() const noexcept { return (*cells)[cell]; }
+        iterator &operator++() noexcept { return ++cell, *this; }
+        bool operator!=(const iterator &other) const noexcept { return cell != other.cell; }
+    };
+    iterator begin() const noexcept { return {this, 0}; }
+    iterator end() const noexcept { return {this, size()}; }
+
+private:
+    Row row(const std::uint32_t *rows, std::size_t cell) const noexcept {
+        return {rows + cell * corners_per_cell(), corners_per_cell()};
+    }
+    deldrift_cells_view view_;
+};
+
+// The default options, to be changed and passed on.
+inline deldrift_options default_options() noexcept {
+    deldrift_options options;
+    deldrift_options_init(&options);
+    return options;
+}
+
+// A triangulation of moving points: can be moved, not copied.
+class Triangulation {
+public:
+    // positions: dimension numbers for each point.
+    Triangulation(std::uint32_t dimension, span<const double> positions,
+                  const deldrift_options &options = default_options())
+        : dimension_(dimension) {
+        deldrift_triangulation *t = nullptr;
+        check(deldrift_create(dimension, positions.data(), count_of("positions", positions), &options, &t));
+        t_.reset(t);
+    }
+    // Takes over what deldrift_create has made.
+    explicit Triangulation(deldrift_triangulation *t) : t_(t) { check(deldrift_dimension(t, &dimension_)); }
+
+    // For the functions of deldrift.h; null when moved from.
+    deldrift_triangulation *native() noexcept { return t_.get(); }
+    const deldrift_triangulation *native() const noexcept { return t_.get(); }
+    std::uint32_t dimension() const noexcept { return dimension_; }
+
+    void set_algorithm(deldrift_algorithm algorithm) { check(deldrift_set_algorithm(native(), algorithm)); }
+    deldrift_algorithm algorithm() const { return ask<deldrift_algorithm>(deldrift_get_algorithm); }
+
+    void move_vertex(std::uint32_t vertex, span<const double> position) {
+        check(deldrift_move_vertex(native(), vertex, point(position)));
+    }
+    // positions: those of all ids, or of the ids in vertices.
+    void move_vertices(span<const double> positions) {
+        check(deldrift_move_vertices(native(), nullptr, positions.data(), count_of("positions", positions)));
+    }
+    void move_vertices(span<const std::uint32_t> vertices, span<const double> positions) {
+        expect("positions", positions.size(), vertices.size() * dimension_);
+        check(deldrift_move_vertices(native(), vertices.data(), positions.data(), vertices.size()));
+    }
+    void discard_moves() { check(deldrift_discard_moves(native())); }
+    deldrift_commit_report commit_timestamp() {
+        deldrift_commit_report report;
+        check(deldrift_commit_timestamp(native(), &report));
+        return report;
+    }
+
+    void relocate_vertex(std::uint32_t vertex, span<const double> position) {
+        check(deldrift_relocate_vertex(native(), vertex, point(position)));
+    }
+    std::uint32_t insert_vertex(span<const double> position) {
+        std::uint32_t vertex;
+        check(deldrift_insert_vertex(native(), point(position), &vertex));
+        return vertex;
+    }
+    void remove_vertex(std::uint32_t vertex) { check(deldrift_remove_vertex(native(), vertex)); }
+
+    std::size_t vertex_count() const { return ask<std::size_t>(deldrift_vertex_count); }
+    std::size_t id_count() const { return ask<std::size_t>(deldrift_id_count); }
+    std::size_t cell_count() const { return ask<std::size_t>(deldrift_cell_count); }
+    std::size_t staged_count() const { return ask<std::size_t>(deldrift_staged_count); }
+    std::size_t memory_bytes() const { return ask<std::size_t>(deldrift_memory_bytes); }
+    std::uint64_t timestamp() const { return ask<std::uint64_t>(deldrift_timestamp); }
+    deldrift_commit_report statistics() const { return ask<deldrift_commit_report>(deldrift_statistics); }
+    bool is_present(std::uint32_t vertex) const { return ask<bool>(deldrift_is_present, vertex); }
+
+    std::vector<double> position(std::uint32_t vertex) const {
+        std::vector<double> position(dimension_);
+        check(deldrift_position(native(), vertex, position.data()));
+        return position;
+    }
+    std::vector<double> positions() const {
+        std::size_t count = id_count();
+        std::vector<double> positions(count * dimension_);
+        check(deldrift_copy_positions(native(), positions.data(), count, &count));
+        return positions;
+    }
+    Cells cells() const { return Cells(ask<deldrift_cells_view>(deldrift_cells)); }
+    span<const std::uint32_t> changed_cells() const {
+        const auto view = ask<deldrift_indices_view>(deldrift_changed_cells);
+        return {view.indices, view.count};
+    }
+    std::vector<std::uint32_t> star(std::uint32_t vertex) const {
+        std::vector<std::uint32_t> star(64);
+        std::size_t count = 0;
+        deldrift_status status = deldrift_star(native(), vertex, star.data(), star.size(), &count);
+        star.resize(count);
+        if (status == DELDRIFT_BUFFER_TOO_SMALL) {
+            status = deldrift_star(native(), vertex, star.data(), star.size(), &count);
+        }
+        check(status);
+        return star;
+    }
+    deldrift_location locate(span<const double> position) const {
+        return ask<deldrift_location>(deldrift_locate, point(position));
+    }
+    // DELDRIFT_NONE if there are no vertices.
+    std::uint32_t nearest_vertex(span<const double> position) const {
+        return ask<std::uint32_t>(deldrift_nearest_vertex, point(position));
+    }
+    std::uint32_t coincident_representative(std::uint32_t vertex) const {
+        return ask<std::uint32_t>(deldrift_coincident_representative, vertex);
+    }
+    void validate(std::uint32_t level) const { check(deldrift_validate(native(), level)); }
+
+private:
+    struct Destroy {
+        void operator()(deldrift_triangulation *t) const noexcept { deldrift_destroy(t); }
+    };
+
+    static void check(deldrift_status status) {
+        if (status != DELDRIFT_OK) throw Error(status);
+    }
+    static void expect(const char *argument, std::size_t given, std::size_t wanted) {
+        if (given == wanted) return;
+        throw Error(DELDRIFT_WRONG_COUNT, argument + (" has " + std::to_string(given)) + " numbers, but must have " +
+                                              std::to_string(wanted));
+    }
+    // What a query writes to its last argument.
+    template <class T, class Query, class... Arguments>
+    T ask(Query query, Arguments... arguments) const {
+        T answer{};
+        check(query(native(), arguments..., &answer));
+        return answer;
+    }
+    const double *point(span<const double> position) const {
+        expect("position", position.size(), dimension_);
+        return position.data();
+    }
+    std::size_t count_of(const char *argument, span<const double> positions) const {
+        const std::size_t count = positions.size() / (dimension_ == 0 ? 1 : dimension_);
+        expect(argument, positions.size(), count * dimension_);
+        return count;
+    }
+
+    std::unique_ptr<deldrift_triangulation, Destroy> t_;
+    std::uint32_t dimension_ = 0;
+};
+
+}  // namespace deldrift
+
+#endif  // DELDRIFT_HPP
