@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CGAL's Delaunay triangulations in two and three dimensions under one set of names.
+#pragma once
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace bench {
+
+using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// What a CGAL vertex carries: the id of a point at its place, and the number of points there (CGAL holds one
+/// vertex for coincident points).
+struct VertexInfo {
+    std::uint32_t id = 0;
+    std::uint32_t n_sharers = 0;
+};
+
+template <unsigned dimension>
+struct CgalSpace;
+
+template <>
+struct CgalSpace<2> {
+    using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, CgalKernel>;
+    using DataStructure = CGAL::Triangulation_data_structure_2<VertexBase>;
+    using Triangulation = CGAL::Delaunay_triangulation_2<CgalKernel, DataStructure>;
+    using Point = Triangulation::Point;
+    using Vertex = Triangulation::Vertex_handle;
+    using InputPoint = std::pair<Point, VertexInfo>;
+    using SortTraits = CGAL::Spatial_sort_traits_adapter_2<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
+
+    static Point point(const double *coordinates) { return {coordinates[0], coordinates[1]}; }
+
+    /// A face at the vertex, from which to walk.
+    static Triangulation::Face_handle hint(Vertex vertex) { return vertex->face(); }
+
+    template <typename Visit>
+    static void for_each_cell(const Triangulation &triangulation, Visit visit) {
+        if (triangulation.dimension() < 2) return;
+        for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end(); ++face)
+            visit(std::array<Vertex, 3>{face->vertex(0), face->vertex(1), face->vertex(2)});
+    }
+};
+
+template <>
+struct CgalSpace<3> {
+    using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, CgalKernel>;
+    using DataStructure =
+        CGAL::Triangulation_data_structure_3<VertexBase, CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>>;
+    using Triangulation = CGAL::Delaunay_triangulation_3<CgalKernel, DataStructure>;
+    using Point = Triangulation::Point;
+    using Vertex = Triangulation::Vertex_handle;
+    using InputPoint = std::pair<Point, VertexInfo>;
+    using SortTraits = CGAL::Spatial_sort_traits_adapter_3<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
+
+    static Point point(const double *coordinates) { return {coordinates[0], coordinates[1], coordinates[2]}; }
+
+    static Triangulation::Cell_handle hint(Vertex vertex) { return vertex->cell(); }
+
+    template <typename Visit>
+    static void for_each_cell(const Triangulation &triangulation, Visit visit) {
+        if (triangulation.dimension() < 3) return;
+        for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end(); ++cell)
+            visit(std::array<Vertex, 4>{cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)});
+    }
+};
+
+/// Points with their ids, in the order of the ids.
+template <unsigned dimension>
+std::vector<typename CgalSpace<dimension>::InputPoint> input_points(const double *positions, std::size_t n_points) {
+    std::vector<typename CgalSpace<dimension>::InputPoint> input;
+    input.reserve(n_points);
+    for (std::size_t id = 0; id < n_points; ++id)
+        input.emplace_back(CgalSpace<dimension>::point(positions + id * dimension),
+                           VertexInfo{static_cast<std::uint32_t>(id), 0});
+    return input;
+}
+
+/// What CGAL's range insertion of bare points does, with ids: the input is sorted spatially in place and every
+/// point is inserted from the vertex before it. CGAL's own range insertion with info sorts indices instead and
+/// reaches for the points through them, which is slower on large inputs.
+template <unsigned dimension>
+void insert_range(typename CgalSpace<dimension>::Triangulation &triangulation,
+                  std::vector<typename CgalSpace<dimension>::InputPoint> &input) {
+    using Space = CgalSpace<dimension>;
+    CGAL::spatial_sort(input.begin(), input.end(), typename Space::SortTraits());
+    typename Space::Vertex last;
+    for (const auto &[point, info] : input) {
+        last = last == typename Space::Vertex() ? triangulation.insert(point)
+                                                : triangulation.insert(point, Space::hint(last));
+        last->info() = info;
+    }
+}
+
+/// Vertex ids of all finite cells, as the vertices carry them.
+template <unsigned dimension>
+std::vector<std::uint32_t> cell_ids(const typename CgalSpace<dimension>::Triangulation &triangulation) {
+    std::vector<std::uint32_t> ids;
+    CgalSpace<dimension>::for_each_cell(triangulation, [&](const auto &vertices) {
+        for (const auto vertex : vertices) ids.push_back(vertex->info().id);
+    });
+    return ids;
+}
+
+}  // namespace bench

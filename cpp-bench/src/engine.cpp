@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine.hpp"
+
+#include <stdexcept>
+
+namespace bench {
+
+const std::vector<EngineKind> &engine_kinds() {
+    static const std::vector<EngineKind> kinds = {
+        // engine, algorithm, is_stateless, is_slow_in_3d
+        {"cgal", "rebuilding", true, false, make_cgal_rebuilding},
+        {"cgal", "placement", false, true, make_cgal_placement},
+        {"cgal", "move", false, true, make_cgal_move},
+        {"deldrift", "rebuilding", false, false, make_deldrift_rebuilding},
+        {"deldrift", "placement", false, true, make_deldrift_placement},
+        {"deldrift", "placement_flips", false, true, make_deldrift_placement_flips},
+        {"deldrift", "auto", false, false, make_deldrift_auto},
+    };
+    return kinds;
+}
+
+const EngineKind &engine_kind(const std::string &name) {
+    for (const EngineKind &kind : engine_kinds())
+        if (kind.name() == name) return kind;
+    throw std::runtime_error("no engine is called " + name);
+}
+
+}  // namespace bench

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An engine keeps one Delaunay triangulation of moving points up to date. The harness sees nothing else of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+class Engine {
+public:
+    virtual ~Engine() = default;
+
+    /// Lays positions out in the engine's own input type, before `build` or `advance` is called with the same
+    /// ones. Never timed.
+    virtual void prepare(const double * /*positions*/, std::size_t /*n_points*/) {}
+
+    /// The triangulation of these positions from nothing, whatever was held before.
+    virtual void build(const double *positions, std::size_t n_points) = 0;
+
+    /// From the positions held to these, of the same points. This is what is timed.
+    virtual void advance(const double *positions) = 0;
+
+    /// Finite cells, dimension + 1 vertex ids each. Coincident points may appear under any of their ids.
+    virtual std::vector<std::uint32_t> cells() = 0;
+
+    /// The library's own examination of its state; throws std::runtime_error with the first violation.
+    virtual void validate() {}
+
+    /// What the library says it has allocated, or 0 where it does not say.
+    virtual std::size_t reported_bytes() const { return 0; }
+};
+
+/// What the tables call an engine and how the harness may treat it.
+struct EngineKind {
+    std::string engine;     // "cgal" or "deldrift"
+    std::string algorithm;  // "rebuilding", "placement", ...
+    bool is_stateless;      // the result does not depend on earlier timestamps: it can be checked out of order
+    bool is_slow_in_3d;     // relocates every vertex by itself: timed on a sample of the timestamps in 3D
+    std::unique_ptr<Engine> (*make)(unsigned dimension, unsigned n_threads);
+
+    std::string name() const { return engine + "/" + algorithm; }
+};
+
+/// Every engine there is; the first is the baseline, CGAL's rebuilding.
+const std::vector<EngineKind> &engine_kinds();
+
+/// The kind called `name` ("deldrift/auto"); throws std::runtime_error where there is none.
+const EngineKind &engine_kind(const std::string &name);
+
+std::unique_ptr<Engine> make_cgal_rebuilding(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_cgal_placement(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_cgal_move(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_rebuilding(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_placement(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_placement_flips(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads);
+
+}  // namespace bench

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// deldrift through its C interface: stage all positions, commit the timestamp.
+#include "engine.hpp"
+
+#include <deldrift.h>
+
+#include <stdexcept>
+
+namespace bench {
+namespace {
+
+/// Everything: indices, adjacency, orientation and hull, empty spheres.
+constexpr std::uint32_t full_validation = 3;
+
+void require(deldrift_status status, const char *call) {
+    if (status == DELDRIFT_OK) return;
+    throw std::runtime_error(std::string(call) + ": " + deldrift_last_error());
+}
+
+class Deldrift final : public Engine {
+public:
+    Deldrift(unsigned dimension, deldrift_algorithm algorithm, unsigned n_threads) : dimension_(dimension) {
+        deldrift_options_init(&options_);
+        options_.algorithm = algorithm;
+        options_.threads = n_threads;
+    }
+    Deldrift(const Deldrift &) = delete;
+    Deldrift &operator=(const Deldrift &) = delete;
+    ~Deldrift() override { deldrift_destroy(triangulation_); }
+
+    void build(const double *positions, std::size_t n_points) override {
+        deldrift_destroy(triangulation_);
+        triangulation_ = nullptr;
+        n_points_ = n_points;
+        require(deldrift_create(dimension_, positions, n_points, &options_, &triangulation_), "deldrift_create");
+    }
+
+    void advance(const double *positions) override {
+        require(deldrift_move_vertices(triangulation_, nullptr, positions, n_points_), "deldrift_move_vertices");
+        require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp");
+    }
+
+    std::vector<std::uint32_t> cells() override {
+        deldrift_cells_view view;
+        require(deldrift_cells(triangulation_, &view), "deldrift_cells");
+        if (view.count == 0) return {};
+        return {view.vertices, view.vertices + view.count * view.corners_per_cell};
+    }
+
+    void validate() override { require(deldrift_validate(triangulation_, full_validation), "deldrift_validate"); }
+
+    std::size_t reported_bytes() const override {
+        std::size_t bytes = 0;
+        require(deldrift_memory_bytes(triangulation_, &bytes), "deldrift_memory_bytes");
+        return bytes;
+    }
+
+private:
+    unsigned dimension_;
+    deldrift_options options_;
+    deldrift_triangulation *triangulation_ = nullptr;
+    std::size_t n_points_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_deldrift_rebuilding(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_REBUILDING, n_threads);
+}
+
+std::unique_ptr<Engine> make_deldrift_placement(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_PLACEMENT, n_threads);
+}
+
+std::unique_ptr<Engine> make_deldrift_placement_flips(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_PLACEMENT_FLIPS, n_threads);
+}
+
+std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_AUTO, n_threads);
+}
+
+}  // namespace bench

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "environment.hpp"
+#include "options.hpp"
+#include "resources.hpp"
+#include "runner.hpp"
+#include "self_test.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+namespace {
+
+std::string joined(int n_arguments, char **arguments) {
+    std::string text = "cpp-bench/run";
+    for (int i = 1; i < n_arguments; ++i) text += std::string(" ") + arguments[i];
+    return text;
+}
+
+int perform(const bench::Options &options, const std::string &command) {
+    std::string environment = "environment";
+    switch (options.task) {
+        case bench::Task::help: std::fputs(bench::usage, stdout); return 0;
+        case bench::Task::self_test: return bench::run_self_test() ? 0 : 1;
+        case bench::Task::memory: bench::run_memory(options); environment += "_memory"; break;
+        case bench::Task::large: bench::run_large(options); environment += "_large"; break;
+        case bench::Task::run: bench::run_scenarios(options); break;
+    }
+    bench::write_environment(options.results + "/" + environment + ".txt", command);
+    return 0;
+}
+
+}  // namespace
+
+int main(int n_arguments, char **arguments) {
+    try {
+        return perform(bench::parse_options(n_arguments, arguments), joined(n_arguments, arguments));
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "error: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// How much a preset does.
+struct Preset {
+    std::string name;
+    std::size_t lloyd_timestamps;
+    std::size_t walk_timestamps;
+    std::size_t n_slow_timestamps;  // how many timestamps engines that are slow in 3D are timed at
+    std::size_t n_checks;           // at how many timestamps cells are compared
+    unsigned n_repeats;
+    std::vector<std::size_t> static_sizes;
+};
+
+struct SeriesFile {
+    std::string path;
+    std::string displacement_path;  // empty: the file has the frames
+    std::size_t n_steps = 0;
+};
+
+enum class Task { run, memory, large, self_test, help };
+
+struct Options {
+    Task task = Task::run;
+    Preset preset;
+    std::vector<std::string> scenarios;
+    std::vector<std::string> engines;  // empty: all
+    std::vector<SeriesFile> series;
+    std::size_t n_series_checks = SIZE_MAX;           // as n_checks, for series files
+    std::size_t n_series_slow_timestamps = SIZE_MAX;  // as n_slow_timestamps, for series files
+    std::vector<unsigned> threads{1};
+    double snap = 0;  // coordinates of series files below this magnitude become 0
+    std::uint64_t seed = 1;
+    std::string results = "results";  // the wrapper script names its own through DELDRIFT_BENCH_RESULTS
+    std::string keep_failures;  // folder for positions at which a check failed; empty: not kept
+    std::size_t large_points_2d = 50'000'000;
+    std::size_t large_points_3d = 20'000'000;
+};
+
+/// Throws std::runtime_error with what is wrong.
+Options parse_options(int n_arguments, char **arguments);
+
+extern const char *const usage;
+
+}  // namespace bench

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "random.hpp"
+#include "scenarios.hpp"
+
+#include <cmath>
+
+namespace bench {
+namespace {
+
+void random_direction(Random &random, double *direction) {
+    double squared;
+    do {
+        random.in_ball(3, 1.0, direction);
+        squared = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+    } while (squared < 1e-6);
+    for (unsigned axis = 0; axis < 3; ++axis) direction[axis] /= std::sqrt(squared);
+}
+
+void step_inside(Random &random, double radius, const double *from, double *to) {
+    double squared;
+    do {
+        double direction[3];
+        random_direction(random, direction);
+        squared = 0;
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            to[axis] = from[axis] + walk_step * direction[axis];
+            squared += to[axis] * to[axis];
+        }
+    } while (squared > radius * radius);
+}
+
+}  // namespace
+
+Series record_walk_3d(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress) {
+    Series series;
+    series.name = "walk_3d";
+    series.dimension = 3;
+    series.n_points = n_points;
+    series.positions.resize((n_timestamps + 1) * 3 * n_points);
+    const double radius = unit_density_radius(3, n_points);
+    Random random(seed);
+    for (std::size_t id = 0; id < n_points; ++id) random.in_ball(3, radius, &series.positions[3 * id]);
+
+    progress.begin(series.name + ": recording " + std::to_string(n_timestamps) + " timestamps", n_timestamps);
+    for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
+        const double *from = series.frame(timestamp - 1);
+        double *to = series.positions.data() + timestamp * series.frame_length();
+        for (std::size_t id = 0; id < n_points; ++id) step_inside(random, radius, from + 3 * id, to + 3 * id);
+        progress.step();
+    }
+    return series;
+}
+
+Series uniform_points(unsigned dimension, std::size_t n_points, std::uint64_t seed) {
+    Series series;
+    series.name = dimension == 2 ? "static_2d" : "static_3d";
+    series.dimension = dimension;
+    series.n_points = n_points;
+    series.positions.resize(n_points * dimension);
+    Random random(seed);
+    for (double &coordinate : series.positions) coordinate = random.unit();
+    return series;
+}
+
+}  // namespace bench

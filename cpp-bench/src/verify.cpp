@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "verify.hpp"
+
+#include "arbiter.hpp"
+#include "cells.hpp"
+
+#include <algorithm>
+
+namespace bench {
+namespace {
+
+constexpr std::size_t nowhere = SIZE_MAX;
+
+struct Runner {
+    const Entrant *entrant;
+    std::unique_ptr<Engine> engine;
+    std::size_t timestamp = nowhere;
+
+    /// Brings the engine to the timestamp by the shortest honest way: one update from the timestamp before.
+    void bring_to(const Series &series, std::size_t wanted) {
+        if (timestamp != wanted - 1) build(series, wanted - 1);
+        engine->prepare(series.frame(wanted), series.n_points);
+        engine->advance(series.frame(wanted));
+        timestamp = wanted;
+    }
+
+    void build(const Series &series, std::size_t wanted) {
+        engine->prepare(series.frame(wanted), series.n_points);
+        engine->build(series.frame(wanted), series.n_points);
+        timestamp = wanted;
+    }
+};
+
+/// Compares whatever is at one timestamp with the two references, which are built once for it.
+class Referee {
+public:
+    Referee(const Series &series, std::size_t timestamp, Checks &checks)
+        : series_(series), timestamp_(timestamp), checks_(checks),
+          representatives_(representatives(series.dimension, series.frame(timestamp), series.n_points)),
+          cgal_(fresh("cgal/rebuilding")), deldrift_(fresh("deldrift/rebuilding")) {
+        checks_.n_degenerate += require_equivalent(deldrift_, "a fresh deldrift build");
+        checks_.n_cells += deldrift_.size();
+        ++checks_.n_timestamps;
+        std::size_t n_coincident = 0;
+        for (std::size_t id = 0; id < representatives_.size(); ++id) n_coincident += representatives_[id] != id;
+        checks_.n_coincident = std::max(checks_.n_coincident, n_coincident);
+    }
+
+    void judge(const Entrant &entrant, Engine &engine) {
+        const CellSet cells = cells_of(engine, entrant.name());
+        if (entrant.kind->engine == "deldrift")
+            require_equal(cells, entrant.name());
+        else
+            require_equivalent(cells, entrant.name());
+        ++checks_.n_comparisons;
+    }
+
+private:
+    CellSet fresh(const std::string &name) {
+        const std::unique_ptr<Engine> engine = engine_kind(name).make(series_.dimension, 1);
+        engine->prepare(series_.frame(timestamp_), series_.n_points);
+        engine->build(series_.frame(timestamp_), series_.n_points);
+        return cells_of(*engine, "a fresh " + name);
+    }
+
+    CellSet cells_of(Engine &engine, const std::string &name) {
+        try {
+            engine.validate();
+            return canonical(series_.dimension, engine.cells(), representatives_);
+        } catch (const std::runtime_error &error) {
+            fail(name + ": " + error.what());
+        }
+    }
+
+    void require_equal(const CellSet &cells, const std::string &name) {
+        if (cells == deldrift_) return;
+        const CellSet extra = difference(cells, deldrift_);
+        const CellSet missing = difference(deldrift_, cells);
+        fail(name + " has " + std::to_string(extra.size()) + " cells that a fresh deldrift build has not, and lacks " +
+             std::to_string(missing.size()) + ", beginning with " +
+             to_string(extra.empty() ? missing.front() : extra.front()));
+    }
+
+    std::size_t require_equivalent(const CellSet &cells, const std::string &name) {
+        const Verdict verdict = compare(series_.dimension, series_.frame(timestamp_), cells, name, cgal_,
+                                        "CGAL's rebuilding");
+        if (!verdict.is_accepted) fail(verdict.complaint);
+        return verdict.n_degenerate;
+    }
+
+    [[noreturn]] void fail(const std::string &what) const {
+        throw Mismatch(series_.name + ", timestamp " + std::to_string(timestamp_) + ": " + what, timestamp_);
+    }
+
+    const Series &series_;
+    std::size_t timestamp_;
+    Checks &checks_;
+    std::vector<std::uint32_t> representatives_;
+    CellSet cgal_;
+    CellSet deldrift_;
+};
+
+bool contains(const std::vector<std::size_t> &ascending, std::size_t value) {
+    return std::binary_search(ascending.begin(), ascending.end(), value);
+}
+
+/// An engine that takes part in every timestamp must live through all of them; one that is rebuilt in between
+/// anyway, or whose state has no history, is brought to the checked ones alone.
+bool must_live_through(const Entrant &entrant, const Series &series) {
+    return !entrant.kind->is_stateless && entrant.timestamps.size() == series.n_timestamps();
+}
+
+}  // namespace
+
+std::string Entrant::name() const {
+    return kind->name() + (n_threads > 1 ? " on " + std::to_string(n_threads) + " threads" : "");
+}
+
+Checks verify(const Series &series, const std::vector<Entrant> &entrants,
+              const std::vector<std::size_t> &check_timestamps, Progress &progress) {
+    Checks checks;
+    checks.scenario = series.name;
+    checks.n_points = series.n_points;
+
+    std::vector<Runner> runners;
+    for (const Entrant &entrant : entrants) runners.push_back({&entrant, entrant.make(series.dimension)});
+
+    progress.begin(series.name + ": checking cells at " + std::to_string(check_timestamps.size()) + " of " +
+                       std::to_string(series.n_timestamps()) + " timestamps",
+                   series.n_timestamps());
+    for (std::size_t timestamp = 1; timestamp <= series.n_timestamps(); ++timestamp) {
+        const bool is_checked = contains(check_timestamps, timestamp);
+        std::unique_ptr<Referee> referee;
+        if (is_checked) referee = std::make_unique<Referee>(series, timestamp, checks);
+        for (Runner &runner : runners) {
+            const bool takes_part = contains(runner.entrant->timestamps, timestamp);
+            if (!takes_part || !(is_checked || must_live_through(*runner.entrant, series))) continue;
+            runner.bring_to(series, timestamp);
+            if (is_checked) referee->judge(*runner.entrant, *runner.engine);
+        }
+        progress.step("timestamp " + std::to_string(timestamp));
+    }
+    return checks;
+}
+
+Checks verify_build(const Series &series, Progress &progress) {
+    Checks checks;
+    checks.scenario = series.name;
+    checks.n_points = series.n_points;
+    progress.begin(series.name + ": checking the cells of " + std::to_string(series.n_points) + " points", 1);
+    const Referee referee(series, 0, checks);
+    checks.n_comparisons = 1;
+    return checks;
+}
+
+}  // namespace bench
