@@ -18,6 +18,7 @@
 
 mod corners;
 mod flips;
+pub(crate) mod memory;
 
 use std::fmt;
 
@@ -226,10 +227,9 @@ impl<C: Corners> Complex<C> {
             return Err(Error::TooManyCells { limit: MAX_CELLS });
         }
         let more = n.max(self.cells.len() / 8).min(MAX_CELLS - self.cells.len());
-        let bytes = more * (size_of::<Cell<C>>() + 1);
-        self.cells.try_reserve_exact(more).map_err(|_| Error::OutOfMemory { bytes })?;
+        memory::reserve_exact(&mut self.cells, more)?;
         let spare = self.cells.capacity() - self.marks.len();
-        self.marks.try_reserve_exact(spare).map_err(|_| Error::OutOfMemory { bytes })
+        memory::reserve_exact(&mut self.marks, spare)
     }
 
     /// Creates a cell that has no neighbours yet.

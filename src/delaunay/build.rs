@@ -75,23 +75,15 @@ impl<G: Dimension> Delaunay<G> {
             site.cell = NONE;
         }
         self.start()?;
+        G::begin_build(self)?;
         let inserted = self.insert_all(order, monitor);
-        // They would be stale after the first relocation, and are as large as the cells.
-        self.spheres = Vec::new();
+        G::end_build(self);
         let coincident = inserted?;
         self.merge(coincident)
     }
 
     /// Inserts all sites but those of the first cell; returns pairs of coincident sites, the second in the cells.
     fn insert_all(&mut self, order: &[u32], monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<(u32, u32)>> {
-        let bytes = self.complex.n_cells_reserved() * size_of::<G::Sphere>();
-        self.spheres
-            .try_reserve_exact(self.complex.n_cells_reserved())
-            .map_err(|_| Error::OutOfMemory { bytes })?;
-        for c in 0..self.complex.n_slots() as u32 {
-            let corners = self.complex.cell(c).corners;
-            self.spheres.push(G::sphere(&self.filter, self.view(), &corners));
-        }
         let mut coincident = Vec::new();
         self.cavity.steps = 0;
         for (done, &s) in order.iter().enumerate() {

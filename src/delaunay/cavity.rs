@@ -50,7 +50,7 @@ pub struct Cavity<G: Dimension> {
     pub(super) n_rim: usize,
     /// The cell that takes the place of each rim facet.
     pub(super) cells: Vec<u32>,
-    pub(super) ridges: G::Ridges,
+    pub(super) scratch: G::Scratch,
     /// Cells crossed by the walks so far.
     pub(super) steps: u64,
 }
@@ -64,7 +64,7 @@ impl<G: Dimension> Default for Cavity<G> {
             rim: Vec::new(),
             n_rim: 0,
             cells: Vec::new(),
-            ridges: G::Ridges::default(),
+            scratch: G::Scratch::default(),
             steps: 0,
         }
     }
@@ -88,7 +88,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Inserts a site that has been added, walking from the cell `near`. There must be cells, and the filter must
-    /// cover the site. In a build every cell has a prepared sphere.
+    /// cover the site. `BUILD` if between [`begin_build`](Dimension::begin_build) and
+    /// [`end_build`](Dimension::end_build).
     pub(super) fn insert_into_cells<const BUILD: bool>(&mut self, s: u32, near: u32) -> Result<Insertion> {
         let (q, id) = (self.site(s).point, self.site(s).id);
         let mut steps = 0;
@@ -125,9 +126,6 @@ impl<G: Dimension> Delaunay<G> {
         cavity.cells.extend_from_slice(&zone[..reused]);
         for _ in reused..n_rim {
             cavity.cells.push(self.complex.create_blank());
-        }
-        if BUILD {
-            self.spheres.resize(self.complex.n_slots(), G::Sphere::default());
         }
         G::glue::<BUILD>(self, cavity);
         self.recent = cavity.cells[0];

@@ -21,7 +21,7 @@ fn joined([a, b, c]: [u32; 3], i: usize, s: u32) -> ([u32; 3], u32) {
 
 /// Finds the zone of `q` from one cell of it, and its rim.
 #[inline(always)]
-pub(super) fn dig<const BUILD: bool>(
+pub(super) fn dig(
     t: &mut Delaunay<Plane>,
     cavity: &mut Cavity<Plane>,
     start: u32,
@@ -44,12 +44,7 @@ pub(super) fn dig<const BUILD: bool>(
             if t.complex.mark(out.cell()) == IN_ZONE {
                 continue;
             }
-            let in_zone = if BUILD {
-                t.is_in_prepared_conflict(out.cell(), q, id)
-            } else {
-                t.is_in_conflict(out.cell(), q, id)
-            };
-            if in_zone {
+            if t.is_in_conflict(out.cell(), q, id) {
                 t.complex.set_mark(out.cell(), IN_ZONE);
                 zone[n_zone] = out.cell();
                 n_zone += 1;
@@ -76,7 +71,7 @@ fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim<[u32; 3]>>, n_zone: usize, n
 
 /// Makes the new triangles and glues them.
 #[inline(always)]
-pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>) {
+pub(super) fn glue(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>) {
     let Cavity { rim, n_rim, cells, .. } = cavity;
     let rim = &rim[..*n_rim];
     for (facet, &cell) in rim.iter().zip(cells) {
@@ -85,9 +80,6 @@ pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Plane>, cavity: &Cavity<P
             t.corner_mut(facet.corners[1]).cell = Facet::new(cell, 2).code();
         } else {
             put_ghost(t, facet, cell);
-        }
-        if BUILD {
-            t.prepare_sphere(cell, &facet.corners);
         }
     }
     for (facet, &cell) in rim.iter().zip(cells) {

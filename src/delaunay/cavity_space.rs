@@ -8,24 +8,74 @@
 //!
 //! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept.
 
+#![allow(unsafe_code)]
+
 use super::cavity::{Cavity, IN_ZONE, Rim};
 use super::{Delaunay, Space};
-use crate::complex::Facet;
+use crate::complex::{Facet, INFINITE, memory};
+use crate::error::Result;
+use crate::predicates::{self, Sphere};
 
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
 const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
 const MAX_LABELS: usize = 64;
 const TABLE: usize = MAX_LABELS * MAX_LABELS;
 
-/// Memory in which the two facets of a ridge meet.
+/// Scratch memory: where the two facets of a ridge meet, and the spheres of a build.
 #[derive(Debug, Default)]
-pub struct Ridges {
+pub struct Scratch {
     /// Code of the facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
     table: Vec<u32>,
     /// The site of each label.
     labels: Vec<u32>,
     /// Labels of the last three corners of each new cell.
     local: Vec<[u8; 4]>,
+    /// Prepared spheres of all cells, during a build.
+    spheres: Vec<Sphere>,
+}
+
+/// Prepares the spheres of all cells there are, with room for those to come.
+pub(super) fn prepare_spheres(t: &mut Delaunay<Space>) -> Result<()> {
+    let mut spheres = std::mem::take(&mut t.cavity.scratch.spheres);
+    memory::reserve_exact(&mut spheres, t.complex.n_cells_reserved())?;
+    spheres.extend((0..t.complex.n_slots() as u32).map(|c| sphere_of(t, &t.complex.cell(c).corners)));
+    t.cavity.scratch.spheres = spheres;
+    Ok(())
+}
+
+/// Frees the spheres: they would be stale after the first relocation, and are as large as the cells.
+pub(super) fn forget_spheres(t: &mut Delaunay<Space>) {
+    t.cavity.scratch.spheres = Vec::new();
+}
+
+/// Prepares the sphere of a cell, or what lies beyond the facet of a ghost cell.
+#[inline(always)]
+fn sphere_of(t: &Delaunay<Space>, v: &[u32; 4]) -> Sphere {
+    let [a, b, c, d] = v.map(|s| t.view().point(s));
+    if v[3] == INFINITE { predicates::half_space(&t.filter, a, b, c) } else { predicates::sphere(a, b, c, d) }
+}
+
+/// Whether `q` is in conflict with a cell, by its prepared sphere if that is certain.
+#[inline(always)]
+fn is_in_prepared_conflict(
+    t: &Delaunay<Space>,
+    spheres: &[Sphere],
+    cell: u32,
+    q: &[f64; 3],
+    id: u32,
+) -> bool {
+    let first = t.view().point(t.complex.cell(cell).corners[0]);
+    debug_assert!((cell as usize) < spheres.len());
+    // SAFETY: in a build there is a sphere for each cell.
+    let sphere = unsafe { spheres.get_unchecked(cell as usize) };
+    let side = predicates::side_of_sphere(sphere, first, q);
+    if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id) }
+}
+
+#[cold]
+#[inline(never)]
+fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+    t.is_in_conflict(cell, q, id)
 }
 
 /// The corners with `s` in place of corner `i`, in an even order that has `s` first.
@@ -49,7 +99,7 @@ pub(super) fn dig<const BUILD: bool>(
     q: &[f64; 3],
     id: u32,
 ) {
-    let Cavity { zone, rim, .. } = cavity;
+    let Cavity { zone, rim, scratch, .. } = cavity;
     let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
     make_room(zone, rim, n_zone, n_rim);
     zone[0] = start;
@@ -64,7 +114,7 @@ pub(super) fn dig<const BUILD: bool>(
             let known = t.complex.mark(out.cell());
             // A prepared test is cheaper than a wrong guess whether the cell is known.
             let in_zone = if BUILD {
-                t.is_in_prepared_conflict(out.cell(), q, id)
+                is_in_prepared_conflict(t, &scratch.spheres, out.cell(), q, id)
             } else {
                 known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
             };
@@ -92,23 +142,26 @@ fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim<[u32; 4]>>, n_zone: usize, n
 /// Makes the new cells and glues them.
 #[inline(always)]
 pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>) {
-    let Cavity { rim, n_rim, cells, ridges, .. } = cavity;
+    let Cavity { rim, n_rim, cells, scratch, .. } = cavity;
     let rim = &rim[..*n_rim];
     if rim.len() > SMALL_RIM {
         glue_sorted(t, rim, cells);
     } else {
-        glue_by_table(t, rim, cells, ridges);
+        glue_by_table(t, rim, cells, scratch);
     }
     if BUILD {
+        scratch.spheres.resize(t.complex.n_slots(), Sphere::default());
         for (facet, &cell) in rim.iter().zip(&*cells) {
-            t.prepare_sphere(cell, &facet.corners);
+            debug_assert!((cell as usize) < scratch.spheres.len());
+            // SAFETY: the spheres are as many as the cells.
+            *unsafe { scratch.spheres.get_unchecked_mut(cell as usize) } = sphere_of(t, &facet.corners);
         }
     }
 }
 
 #[inline(always)]
-fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim<[u32; 4]>], cells: &[u32], ridges: &mut Ridges) {
-    let Ridges { table, labels, local } = ridges;
+fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim<[u32; 4]>], cells: &[u32], scratch: &mut Scratch) {
+    let Scratch { table, labels, local, .. } = scratch;
     // Of fixed lengths, so that the compiler sees masked indices in bounds.
     table.resize(TABLE, 0);
     labels.resize(MAX_LABELS, 0);

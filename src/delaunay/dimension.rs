@@ -12,7 +12,8 @@ use super::cavity::Cavity;
 use super::site::Sites;
 use super::{Delaunay, cavity_plane, cavity_space};
 use crate::complex::{Corners, INFINITE};
-use crate::predicates::{self, Circle, Sphere, StaticFilter};
+use crate::error::Result;
+use crate::predicates::{self, StaticFilter};
 
 /// Coordinates of one point: `[f64; D]`.
 pub trait Coordinates:
@@ -33,10 +34,8 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     type Point: Coordinates;
     /// `[u32; D + 1]`: the corners of a cell, or its neighbours.
     type Corners: Corners;
-    /// The sphere of a cell, prepared for many tests.
-    type Sphere: Copy + Debug + Default + Send + Sync;
-    /// Scratch memory of [`glue`](Self::glue).
-    type Ridges: Debug + Default + Send + Sync;
+    /// Scratch memory of insertions.
+    type Scratch: Debug + Default + Send + Sync;
     /// Error bounds for points inside the box.
     fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
     /// Sign of the orientation of the cell: positive in a valid finite cell.
@@ -58,11 +57,6 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         q: &Self::Point,
         id: u32,
     ) -> bool;
-    /// Prepares the sphere of a cell, or what lies beyond the facet of a ghost cell.
-    fn sphere(f: &StaticFilter, sites: Sites<Self>, v: &Self::Corners) -> Self::Sphere;
-    /// Positive if `q` is inside the prepared sphere of a cell with first corner `a`; certain only above
-    /// [`StaticFilter::prepared`] in magnitude.
-    fn side_of_sphere(sphere: &Self::Sphere, a: &Self::Point, q: &Self::Point) -> f64;
     /// Whether the points lie in one affine subspace of dimension `points.len() - 2`: two equal points,
     /// three on a line, four in a plane.
     fn is_dependent(f: &StaticFilter, points: &[Self::Point]) -> bool;
@@ -77,7 +71,11 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     ) -> Option<bool>;
     /// Compares the distances from `q` to `a` and to `b`, exactly.
     fn compare_distance(q: &Self::Point, a: &Self::Point, b: &Self::Point) -> Ordering;
-    /// Finds the conflict zone of `q` and its rim, from the cell `start` in conflict. In a build, spheres are prepared.
+    /// Gets ready to insert very many sites: after that, and until [`end_build`](Self::end_build), `BUILD` is true.
+    fn begin_build(t: &mut Delaunay<Self>) -> Result<()>;
+    /// Frees what [`begin_build`](Self::begin_build) made.
+    fn end_build(t: &mut Delaunay<Self>);
+    /// Finds the conflict zone of `q` and its rim, from the cell `start` in conflict.
     fn dig<const BUILD: bool>(
         t: &mut Delaunay<Self>,
         cavity: &mut Cavity<Self>,
@@ -105,8 +103,7 @@ impl Dimension for Plane {
     const D: usize = 2;
     type Point = [f64; 2];
     type Corners = [u32; 3];
-    type Sphere = Circle;
-    type Ridges = ();
+    type Scratch = ();
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
@@ -138,17 +135,6 @@ impl Dimension for Plane {
         predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id])
     }
 
-    #[inline(always)]
-    fn sphere(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 3]) -> Circle {
-        let [a, b, c] = v.map(|s| sites.point(s));
-        if v[2] == INFINITE { predicates::half_plane(f, a, b) } else { predicates::circle(a, b, c) }
-    }
-
-    #[inline(always)]
-    fn side_of_sphere(circle: &Circle, a: &[f64; 2], q: &[f64; 2]) -> f64 {
-        predicates::side_of_circle(circle, a, q)
-    }
-
     fn is_dependent(f: &StaticFilter, points: &[[f64; 2]]) -> bool {
         match points {
             [] | [_] => false,
@@ -162,6 +148,12 @@ impl Dimension for Plane {
         predicates::compare_distance(q, a, b)
     }
 
+    fn begin_build(_: &mut Delaunay<Self>) -> Result<()> {
+        Ok(())
+    }
+
+    fn end_build(_: &mut Delaunay<Self>) {}
+
     #[inline(always)]
     fn dig<const BUILD: bool>(
         t: &mut Delaunay<Self>,
@@ -171,12 +163,12 @@ impl Dimension for Plane {
         q: &[f64; 2],
         id: u32,
     ) {
-        cavity_plane::dig::<BUILD>(t, cavity, start, s, q, id);
+        cavity_plane::dig(t, cavity, start, s, q, id);
     }
 
     #[inline(always)]
     fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
-        cavity_plane::glue::<BUILD>(t, cavity);
+        cavity_plane::glue(t, cavity);
     }
 
     fn is_crossed(
@@ -199,8 +191,7 @@ impl Dimension for Space {
     const D: usize = 3;
     type Point = [f64; 3];
     type Corners = [u32; 4];
-    type Sphere = Sphere;
-    type Ridges = cavity_space::Ridges;
+    type Scratch = cavity_space::Scratch;
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
         StaticFilter::space(*lower, *upper)
@@ -231,17 +222,6 @@ impl Dimension for Space {
         predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id])
     }
 
-    #[inline(always)]
-    fn sphere(f: &StaticFilter, sites: Sites<Self>, v: &[u32; 4]) -> Sphere {
-        let [a, b, c, d] = v.map(|s| sites.point(s));
-        if v[3] == INFINITE { predicates::half_space(f, a, b, c) } else { predicates::sphere(a, b, c, d) }
-    }
-
-    #[inline(always)]
-    fn side_of_sphere(sphere: &Sphere, a: &[f64; 3], q: &[f64; 3]) -> f64 {
-        predicates::side_of_sphere(sphere, a, q)
-    }
-
     fn is_dependent(f: &StaticFilter, points: &[[f64; 3]]) -> bool {
         match points {
             [] | [_] => false,
@@ -254,6 +234,14 @@ impl Dimension for Space {
 
     fn compare_distance(q: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> Ordering {
         predicates::compare_distance(q, a, b)
+    }
+
+    fn begin_build(t: &mut Delaunay<Self>) -> Result<()> {
+        cavity_space::prepare_spheres(t)
+    }
+
+    fn end_build(t: &mut Delaunay<Self>) {
+        cavity_space::forget_spheres(t);
     }
 
     #[inline(always)]

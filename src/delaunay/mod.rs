@@ -45,7 +45,7 @@ pub use relocate::{Relocation, Shortcut};
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, INFINITE};
+use crate::complex::{Complex, INFINITE, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
 use cavity::Cavity;
@@ -58,8 +58,6 @@ pub struct Delaunay<G: Dimension> {
     sites: Vec<Site<G>>,
     free_sites: Vec<u32>,
     complex: Complex<G::Corners>,
-    /// Prepared spheres of all cells, during a build.
-    spheres: Vec<G::Sphere>,
     filter: StaticFilter,
     lower: G::Point,
     upper: G::Point,
@@ -78,7 +76,6 @@ impl<G: Dimension> Default for Delaunay<G> {
             sites: vec![Site::new(origin, INFINITE)],
             free_sites: Vec::new(),
             complex: Complex::default(),
-            spheres: Vec::new(),
             filter: G::filter(&origin, &origin),
             lower: origin,
             upper: origin,
@@ -156,8 +153,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Makes room for `n` more sites.
     pub fn reserve_sites(&mut self, n: usize) -> Result<()> {
-        let bytes = n * size_of::<Site<G>>();
-        self.sites.try_reserve_exact(n).map_err(|_| Error::OutOfMemory { bytes })
+        memory::reserve_exact(&mut self.sites, n)
     }
 
     /// Forgets a site that is in no cell: one whose insertion failed.
@@ -211,35 +207,6 @@ impl<G: Dimension> Delaunay<G> {
             return self.is_in_conflict_with_ghost(cell, q, id);
         }
         G::is_in_sphere(&self.filter, self.view(), &c.corners, q, id)
-    }
-
-    /// As [`is_in_conflict`](Self::is_in_conflict), by the prepared sphere if that is certain.
-    #[inline(always)]
-    fn is_in_prepared_conflict(&self, cell: u32, q: &G::Point, id: u32) -> bool {
-        let first = self.view().point(self.complex.cell(cell).corners[0]);
-        debug_assert!((cell as usize) < self.spheres.len());
-        // SAFETY: in a build there is a sphere for each cell.
-        let sphere = unsafe { self.spheres.get_unchecked(cell as usize) };
-        let side = G::side_of_sphere(sphere, first, q);
-        if side.abs() > self.filter.prepared {
-            side > 0.0
-        } else {
-            self.is_in_uncertain_conflict(cell, q, id)
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn is_in_uncertain_conflict(&self, cell: u32, q: &G::Point, id: u32) -> bool {
-        self.is_in_conflict(cell, q, id)
-    }
-
-    #[inline(always)]
-    fn prepare_sphere(&mut self, cell: u32, corners: &G::Corners) {
-        debug_assert!((cell as usize) < self.spheres.len());
-        // SAFETY: in a build there is a sphere for each cell.
-        *unsafe { self.spheres.get_unchecked_mut(cell as usize) } =
-            G::sphere(&self.filter, site::Sites::new(&self.sites), corners);
     }
 
     #[inline(never)]

@@ -139,13 +139,16 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Removes the site whose star has been gathered from the cells; the site stays live.
     pub(super) fn remove_gathered(&mut self, s: u32) -> Result<()> {
-        self.complex.reserve(4 * self.hole.link.len())?;
         self.label_link();
         if self.hole.sites.len() > MAX_LINK {
             self.restore_link_cells();
             return self.remove_hub();
         }
         self.wrap();
+        if let Err(error) = self.complex.reserve(self.hole.made.len()) {
+            self.restore_link_cells();
+            return Err(error);
+        }
         self.replace_star();
         self.sites[s as usize].cell = NONE;
         Ok(())

@@ -218,7 +218,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// A ray from `o` crosses exactly one hull facet.
     fn check_winding(&self, o: &G::Point) -> Check {
-        let (crossings, aim) = (0..64).find_map(|attempt| self.crossings(o, attempt)).unwrap_or((0, *o));
+        let (crossings, aim) = (0..1024).find_map(|attempt| self.crossings(o, attempt)).unwrap_or((0, *o));
         ensure(crossings == 1, Level::Embedding, || {
             format!("the ray from {o:?} towards {aim:?} crosses {crossings} hull facets, not one")
         })
