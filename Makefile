@@ -1,0 +1,73 @@
+# deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is installed
+# where it is missing, as root or through sudo.
+
+# quick (within three minutes on two cores) or full
+PRESET ?= quick
+PREFIX ?= /usr/local
+# Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy"
+ARGS ?=
+
+# Where cargo builds, and all others look for the library: one absolute path, CARGO_TARGET_DIR if that is set.
+override CARGO_TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
+override CARGO_TARGET_DIR := $(if $(filter /%,$(CARGO_TARGET_DIR)),,$(CURDIR)/)$(CARGO_TARGET_DIR)
+export CARGO_TARGET_DIR
+# Where rustup puts cargo, for shells that do not know.
+export PATH := $(PATH):$(HOME)/.cargo/bin
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help test bench memory large table lint header picture install library benchmark clean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
+
+test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
+	@.ci/packages cmake g++ libcgal-dev pkg-config valgrind
+	cargo test
+	cargo test --test ffi -- --include-ignored
+	$(MAKE) benchmark
+	ctest --test-dir cpp-bench/build --output-on-failure
+
+bench: benchmark ## deldrift beside CGAL: a table, and cpp-bench/results/bench.csv (PRESET=quick or full)
+	cpp-bench/run --preset $(PRESET) $(ARGS)
+
+memory: benchmark ## bytes per vertex, beside CGAL's: cpp-bench/results/memory.csv
+	cpp-bench/run --memory $(ARGS)
+
+large: benchmark ## 50 million points in 2D, 20 million in 3D: cpp-bench/results/large.csv
+	cpp-bench/run --large $(ARGS)
+
+table: ## the measured figures of README.md, from cpp-bench/results
+	cpp-bench/readme_table
+
+lint: ## format, clippy, documentation, freshness of the header
+	@.ci/packages g++
+	cargo fmt --check
+	cargo clippy --all-targets -- -D warnings
+	RUSTDOCFLAGS=-Dwarnings cargo doc --no-deps
+	cargo test --test ffi header
+
+header: ## include/deldrift.h, from the sources in src/capi
+	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header_is_what_the_sources_say
+
+picture: ## docs/moving.svg, from a run of the library
+	cargo run --release --example moving_picture > docs/moving.svg.new
+	mv docs/moving.svg.new docs/moving.svg
+
+install: ## library, headers, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
+	@.ci/packages cmake
+	cmake -S . -B build/install -DCMAKE_INSTALL_PREFIX="$(PREFIX)"
+	cmake --build build/install
+	DESTDIR="$(DESTDIR)" cmake --install build/install
+
+library: ## the library alone: libdeldrift.so and libdeldrift.a in target/release
+	cargo build --release --lib
+
+benchmark: library
+	@.ci/packages cmake g++ libcgal-dev
+	@echo "building cpp-bench"
+	@cpp-bench/run --help >/dev/null
+
+clean: ## away with all that was built
+	cargo clean
+	rm -rf build cpp-bench/build
