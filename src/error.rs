@@ -21,8 +21,7 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
-    /// A coordinate is neither zero nor of a magnitude for which signs are exact, see
-    /// [`crate::predicates::MIN_MAGNITUDE`] and [`crate::predicates::MAX_MAGNITUDE`].
+    /// A coordinate is of a magnitude above [`crate::predicates::MAX_MAGNITUDE`].
     OutOfRange {
         /// Parameter at fault.
         argument: &'static str,
@@ -110,8 +109,7 @@ impl fmt::Display for Error {
             }
             Error::OutOfRange { argument, index, axis, value } => write!(
                 f,
-                "{argument}[{index}], coordinate {axis}, is {value:e}: a coordinate must be 0 or have a magnitude from {:e} to {:e}",
-                crate::predicates::MIN_MAGNITUDE,
+                "{argument}[{index}], coordinate {axis}, is {value:e}, and its magnitude may not exceed {:e}",
                 crate::predicates::MAX_MAGNITUDE
             ),
             Error::NoSuchVertex { argument, index, vertex, ids } => {

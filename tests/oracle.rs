@@ -117,10 +117,10 @@ fn a_lattice_collapses_and_expands_in_space() {
 fn magnitudes_do_not_matter<G: Dimension>() {
     for seed in seeds(30) {
         let rng = &mut Rng::new(seed);
-        let (low, high) = *rng.pick(&[(-42, 56), (-42, -38), (50, 56), (-5, 5)]);
+        let (low, high) = *rng.pick(&[(-320, 56), (-320, -250), (-42, -38), (50, 56), (-5, 5)]);
         let coordinate = |rng: &mut Rng| {
             let magnitude = (1.0 + 8.0 * rng.unit()) * 10f64.powi(rng.within(low, high) as i32);
-            *rng.pick(&[0.0, 1.0, -1.0, 1.0]) * magnitude.max(1e-42)
+            *rng.pick(&[0.0, 1.0, -1.0, 1.0]) * magnitude
         };
         let mut positions: Vec<Option<G::Point>> =
             (0..20).map(|_| Some(point::<G>(|_| coordinate(rng)))).collect();
@@ -377,7 +377,7 @@ fn bad_arguments_leave_no_trace<G: Dimension>() {
                 if *index == i && *axis == last && value.to_bits() == x.to_bits())
         });
     }
-    for x in [1e300, -1e300, 1e58, 1e-300, -1e-43, f64::MIN_POSITIVE, 5e-324] {
+    for x in [1e300, -1e300, 1e58, -1.001e57, f64::MAX] {
         is_refused(&mut t, &with(x), &|error, i| {
             matches!(error, Error::OutOfRange { index, axis, value, .. }
                 if *index == i && *axis == last && *value == x)

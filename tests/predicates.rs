@@ -1,188 +1,19 @@
-//! The predicates against determinants of integers.
-//!
-//! Every `f64` is an integer times a power of two, so a case is scaled to integers and its determinant
-//! evaluated exactly: in `i128` where it fits, else in big integers.
+//! The predicates against determinants of integers, for coordinates of which no product underflows.
+
+mod exact_oracle;
 
 use deldrift::predicates::*;
-use num_bigint::{BigInt, Sign};
+use exact_oracle::*;
+use num_bigint::BigInt;
 use std::array::from_fn;
 use std::cmp::Ordering;
 
-// ---------------------------------------------------------------------------------------------- integers
-
-/// Integers enough to evaluate a determinant.
-trait Integer: Clone {
-    fn minus(&self, other: &Self) -> Self;
-    fn plus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-    fn compare_zero(&self) -> Ordering;
-}
-
-impl Integer for i128 {
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-    fn compare_zero(&self) -> Ordering {
-        self.cmp(&0)
-    }
-}
-
-impl Integer for BigInt {
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-    fn compare_zero(&self) -> Ordering {
-        match self.sign() {
-            Sign::Minus => Ordering::Less,
-            Sign::NoSign => Ordering::Equal,
-            Sign::Plus => Ordering::Greater,
-        }
-    }
-}
-
-/// Determinant of a square matrix of two to four rows, by minors of the first two columns.
-fn determinant<T: Integer>(rows: &[Vec<T>]) -> T {
-    let minor = |column: usize, i: usize, j: usize| {
-        let [p, q] = [&rows[i], &rows[j]];
-        p[column].times(&q[column + 1]).minus(&p[column + 1].times(&q[column]))
-    };
-    match rows.len() {
-        2 => minor(0, 0, 1),
-        3 => {
-            let term = |i, j, k: usize| minor(0, i, j).times(&rows[k][2]);
-            term(0, 1, 2).minus(&term(0, 2, 1)).plus(&term(1, 2, 0))
-        }
-        4 => {
-            let term = |i, j, k, l| minor(0, i, j).times(&minor(2, k, l));
-            let positive =
-                term(0, 1, 2, 3).plus(&term(0, 3, 1, 2)).plus(&term(1, 2, 0, 3)).plus(&term(2, 3, 0, 1));
-            positive.minus(&term(0, 2, 1, 3)).minus(&term(1, 3, 0, 2))
-        }
-        n => unreachable!("{n} rows"),
-    }
-}
-
-/// `x` = mantissa · 2^exponent with an odd mantissa, or 0 = 0 · 2^0.
-fn decode(x: f64) -> (i64, i32) {
-    if x == 0.0 {
-        return (0, 0);
-    }
-    let exponent = (x.to_bits() >> 52 & 0x7ff) as i32;
-    assert!((1..0x7ff).contains(&exponent), "{x} is not a normal number");
-    let mantissa = (x.to_bits() & ((1 << 52) - 1) | 1 << 52) as i64;
-    let zeros = mantissa.trailing_zeros();
-    ((mantissa >> zeros) * if x < 0.0 { -1 } else { 1 }, exponent - 1075 + zeros as i32)
-}
-
-/// The points as integers in units of a common power of two, its exponent, and the bits of the largest.
-fn common_unit<const D: usize>(points: &[[f64; D]]) -> (i32, u32) {
-    let decoded = || points.iter().flatten().map(|&x| decode(x)).filter(|&(mantissa, _)| mantissa != 0);
-    let unit = decoded().map(|(_, exponent)| exponent).min().unwrap_or(0);
-    let bits = decoded().map(|(m, e)| (e - unit) as u32 + 64 - m.unsigned_abs().leading_zeros()).max();
-    (unit, bits.unwrap_or(0))
-}
-
-/// The differences to the last point, as integers: small ones if a polynomial of `degree` in them is sure to
-/// fit.
-enum Differences {
-    Small(Vec<Vec<i128>>),
-    Big(Vec<Vec<BigInt>>),
-}
-
-fn differences<const D: usize>(points: &[[f64; D]], degree: u32) -> Differences {
-    let (unit, bits) = common_unit(points);
-    let (last, others) = points.split_last().unwrap();
-    if bits <= 126 {
-        let integer = |x: f64| {
-            let (mantissa, exponent) = decode(x);
-            if mantissa == 0 { 0 } else { i128::from(mantissa) << (exponent - unit) }
-        };
-        let row = |p: &[f64; D]| (0..D).map(|i| integer(p[i]) - integer(last[i])).collect();
-        let rows: Vec<Vec<i128>> = others.iter().map(row).collect();
-        let largest = rows.iter().flatten().map(|d| 128 - d.unsigned_abs().leading_zeros()).max().unwrap();
-        // Each determinant has at most 2^7 monomials.
-        if degree * largest + 7 <= 126 {
-            return Differences::Small(rows);
-        }
-    }
-    Differences::Big(big_differences(points))
-}
-
-fn big_differences<const D: usize>(points: &[[f64; D]]) -> Vec<Vec<BigInt>> {
-    let (unit, _) = common_unit(points);
-    let (last, others) = points.split_last().unwrap();
-    let integer = |x: f64| {
-        let (mantissa, exponent) = decode(x);
-        if mantissa == 0 { BigInt::ZERO } else { BigInt::from(mantissa) << (exponent - unit) }
-    };
-    let row = |p: &[f64; D]| (0..D).map(|i| integer(p[i]) - integer(last[i])).collect();
-    others.iter().map(row).collect()
-}
-
-/// Appends the squared length to every row.
-fn lift<T: Integer>(rows: &mut [Vec<T>]) {
-    for row in rows {
-        let square = row.iter().map(|x| x.times(x)).reduce(|a, b| a.plus(&b)).unwrap();
-        row.push(square);
-    }
-}
-
 // ---------------------------------------------------------------------------------------------- generator
 
-/// Steele, Lea and Flood's splitmix64.
-struct Random(u64);
+/// Expansions of the highest degree have room for coordinates from this on.
+const MIN_MAGNITUDE: f64 = 1e-42;
 
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        ((u128::from(self.next()) * n as u128) >> 64) as usize
-    }
-
-    /// Integer in -n..=n.
-    fn integer(&mut self, n: i64) -> i64 {
-        self.below(2 * n as usize + 1) as i64 - n
-    }
-
-    /// In [-1, 1).
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
-    }
-
-    fn sign(&mut self) -> f64 {
-        if self.below(2) == 0 { 1.0 } else { -1.0 }
-    }
-
-    fn shuffle<T>(&mut self, items: &mut [T]) {
-        for i in (1..items.len()).rev() {
-            items.swap(i, self.below(i + 1));
-        }
-    }
-}
-
-/// `x` moved by `n` units in the last place, away from zero if positive. Zero stays.
-fn nudged(x: f64, n: i64) -> f64 {
-    if x == 0.0 { x } else { f64::from_bits(x.to_bits().wrapping_add_signed(n)) }
-}
-
-/// What the range accepts, of what a family generates near its ends.
+/// What remains in range, of what a family generates near its ends.
 fn in_range(x: f64) -> f64 {
     match x.abs() {
         m if m < MIN_MAGNITUDE => 0.0,
@@ -206,7 +37,8 @@ enum Family {
     Flat,
     /// On a common circle or sphere, up to a few ulps.
     Sphere,
-    /// Exactly on a common circle or sphere, translated and scaled; one coordinate in some cases is an ulp off.
+    /// Exactly on a common circle or sphere, translated and scaled; one coordinate in some cases is an ulp
+    /// off.
     ExactSphere,
     /// Coordinates from both ends of the range, and anywhere between.
     Extreme,
@@ -374,51 +206,20 @@ const IN_SPHERE: Predicate<3, 5> = Predicate {
     bound: |f| f.in_sphere,
 };
 
-#[derive(Default)]
-struct Tally {
-    cases: usize,
-    big: usize,
-    zero: usize,
-}
-
 impl<const D: usize, const N: usize> Predicate<D, N> {
-    const IS_LIFTED: bool = N == D + 2;
-    const DEGREE: u32 = if Self::IS_LIFTED { D as u32 + 2 } else { D as u32 };
-
-    fn exact_sign(&self, points: &[[f64; D]; N], tally: &mut Tally) -> Ordering {
-        fn sign<T: Integer>(mut rows: Vec<Vec<T>>, is_lifted: bool) -> Ordering {
-            if is_lifted {
-                lift(&mut rows);
-            }
-            determinant(&rows).compare_zero()
-        }
-        tally.cases += 1;
-        let sign = match differences(points, Self::DEGREE) {
-            Differences::Small(rows) => sign(rows, Self::IS_LIFTED),
-            Differences::Big(rows) => {
-                tally.big += 1;
-                sign(rows, Self::IS_LIFTED)
-            }
-        };
-        tally.zero += usize::from(sign == Ordering::Equal);
-        // In space, differences to the last point make a left-handed basis of a positive tetrahedron.
-        if D == 3 { sign.reverse() } else { sign }
-    }
-
     fn sign(&self, f: &StaticFilter, points: &[[f64; D]; N]) -> Ordering {
         (self.value)(f, points).partial_cmp(&0.0).expect("not NaN")
     }
 
     fn tight_filter(&self, points: &[[f64; D]; N]) -> StaticFilter {
-        let extreme =
-            |pick: fn(f64, f64) -> f64| from_fn(|axis| points.iter().map(|p| p[axis]).reduce(pick).unwrap());
-        (self.filter)(extreme(f64::min), extreme(f64::max))
+        let [lower, upper] = bounding_box(points);
+        (self.filter)(lower, upper)
     }
 
     /// The tightest filter, one that holds for all coordinates (and so proves nothing here), and a swap.
     fn check(&self, points: [[f64; D]; N], random: &mut Random, tally: &mut Tally) {
         assert!(points.iter().flatten().all(|&x| is_in_range(x)), "{points:?}");
-        let expected = self.exact_sign(&points, tally);
+        let expected = exact_sign(&points, tally);
         let tight = self.tight_filter(&points);
         assert_eq!(self.sign(&tight, &points), expected, "{points:?}");
         let wide = (self.filter)([-MAX_MAGNITUDE; D], [MAX_MAGNITUDE; D]);
@@ -441,34 +242,14 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
                 "{D}D, {N} points, {family:?}: {} cases, {} big, {} zero",
                 tally.cases, tally.big, tally.zero
             );
-            total.cases += tally.cases;
-            total.big += tally.big;
-            total.zero += tally.zero;
+            total.add(&tally);
         }
         assert!(total.cases >= 1_000_000 && total.big >= 100_000 && total.zero >= 100_000);
     }
 
-    /// The error of the rounded determinant over what its bound allows: the bound, and the last rounding.
     fn error_ratio(&self, points: &[[f64; D]; N]) -> f64 {
-        let everything = StaticFilter { orient: -1.0, in_sphere: -1.0 };
-        let bound = (self.bound)(&self.tight_filter(points));
-        let rounded = (self.value)(&everything, points);
-        let mut rows = big_differences(points);
-        if Self::IS_LIFTED {
-            lift(&mut rows);
-        }
-        let exact = determinant(&rows) * if D == 3 { -1 } else { 1 };
-        // In units of 2^-1074, of which all these numbers are multiples.
-        let units = |x: f64| {
-            let (mantissa, exponent) = decode(x);
-            if mantissa == 0 { BigInt::ZERO } else { BigInt::from(mantissa) << (exponent + 1074) }
-        };
-        let exact = exact << (common_unit(points).0 * Self::DEGREE as i32 + 1074);
-        let error: BigInt = units(rounded) - exact;
-        let error = BigInt::from(error.magnitude().clone());
-        let allowed = units(bound) + units(rounded.abs() * (f64::EPSILON / 2.0));
-        assert!(error <= allowed, "{points:?}: {rounded} is beyond {bound}");
-        if allowed == BigInt::ZERO { 0.0 } else { ratio(&error, &allowed) }
+        let everything = StaticFilter { orient: -1.0, in_sphere: -1.0, prepared: 0.0, largest_square: 0.0 };
+        error_ratio(points, (self.value)(&everything, points), (self.bound)(&self.tight_filter(points)))
     }
 
     /// Errors of any points, and the largest to be found by climbing from points in a cube's corners.
@@ -499,12 +280,6 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
         }
         println!("{D}D, {N} points: at most {largest:.3} of the bound, {climbed:.3} by climbing");
     }
-}
-
-fn ratio(a: &BigInt, b: &BigInt) -> f64 {
-    let shift = b.bits().saturating_sub(60);
-    let small = |x: &BigInt| i128::try_from(x >> shift).unwrap() as f64;
-    small(a) / small(b)
 }
 
 #[test]
@@ -609,45 +384,10 @@ fn conventions() {
     assert!(insphere(&f, &a, &b, &c, &d, &[4.0, 4.0, 4.0f64.next_down()]) > 0.0, "inside by an ulp");
 }
 
-#[test]
-fn range() {
-    for x in [0.0, -0.0, MIN_MAGNITUDE, -MIN_MAGNITUDE, 1.0, MAX_MAGNITUDE, -MAX_MAGNITUDE] {
-        assert!(is_in_range(x), "{x}");
-    }
-    let outside =
-        [MIN_MAGNITUDE.next_down(), -MAX_MAGNITUDE.next_up(), f64::MIN_POSITIVE, f64::INFINITY, f64::NAN];
-    for x in outside {
-        assert!(!is_in_range(x), "{x}");
-    }
-}
-
 // ---------------------------------------------------------------------------------------------- perturbation
 
-/// The sign of the in-sphere determinant whose lifts are polynomials |p|² + ε(id), the indeterminate of the
-/// highest id being the largest: a determinant is linear in its last column, so its coefficients are the
-/// determinants whose last column holds one coefficient of every lift.
-fn is_inside_by_polynomial<const D: usize, const N: usize>(points: &[[i64; D]; N], ids: &[u32; N]) -> bool {
-    let last = N - 1;
-    let coefficient = |column: [i128; N]| {
-        let row = |i: usize| {
-            let mut row: Vec<i128> =
-                (0..D).map(|axis| i128::from(points[i][axis] - points[last][axis])).collect();
-            row.push(column[i] - column[last]);
-            row
-        };
-        let rows: Vec<Vec<i128>> = (0..last).map(row).collect();
-        determinant(&rows) * if D == 3 { -1 } else { 1 }
-    };
-    let square = |p: &[i64; D]| p.iter().map(|&x| i128::from(x) * i128::from(x)).sum();
-    let mut order: [usize; N] = from_fn(|i| i);
-    order.sort_by(|&i, &j| ids[j].cmp(&ids[i]));
-    let lifts = [from_fn(|i| square(&points[i]))];
-    let indeterminates = order.map(|i| from_fn(|j| i128::from(i == j)));
-    let leading = lifts.into_iter().chain(indeterminates).map(coefficient).find(|&c| c != 0);
-    leading.expect("no tie survives") > 0
-}
-
-/// The same with numbers: ε of the k-th highest id is 2^(-128 k).
+/// The sign of the in-sphere determinant whose lifts are raised by numbers: ε of the k-th highest id is
+/// 2^(-128 k).
 fn is_inside_by_numbers<const D: usize, const N: usize>(points: &[[i64; D]; N], ids: &[u32; N]) -> bool {
     let raised = |i: usize| {
         let rank = 1 + ids.iter().filter(|&&id| id > ids[i]).count();
@@ -708,14 +448,14 @@ impl<const D: usize, const N: usize> Perturbed<D, N> {
     fn check(&self, n_cases: usize, every_nth_by_numbers: usize) {
         let f = (self.filter)([-1e6; D], [1e6; D]);
         let mut random = Random(20_100_910 + N as u64);
-        let (mut cases, mut by_numbers) = (0, 0);
+        let (mut tally, mut cases, mut by_numbers) = (Tally::default(), 0, 0);
         while cases < n_cases {
             let Some(integers) = self.points(&f, &mut random) else { continue };
             let mut ids: [u32; N] = from_fn(|i| (i * i) as u32 * 1_000);
             random.shuffle(&mut ids);
             let points = integers.map(|p| p.map(|x| x as f64));
             let is_inside = (self.is_inside)(&f, &points, ids);
-            assert_eq!(is_inside, is_inside_by_polynomial(&integers, &ids), "{integers:?} {ids:?}");
+            assert_eq!(is_inside, is_inside_by_polynomial(&points, &ids, &mut tally), "{integers:?} {ids:?}");
             if cases % every_nth_by_numbers == 0 {
                 assert_eq!(is_inside, is_inside_by_numbers(&integers, &ids), "{integers:?} {ids:?}");
                 by_numbers += 1;
@@ -821,25 +561,13 @@ fn perturbed_spheres_triangulate_a_grid() {
 // ---------------------------------------------------------------------------------------------- distances
 
 fn check_compare_distance<const D: usize>(family: Family, n_cases: usize, random: &mut Random) -> Tally {
-    fn exact<T: Integer>(mut rows: Vec<Vec<T>>, axis: usize) -> Ordering {
-        lift(&mut rows);
-        rows[0][axis].minus(&rows[1][axis]).compare_zero()
-    }
     let mut tally = Tally::default();
     for _ in 0..n_cases {
         let points: [[f64; D]; 3] = family.points(random);
         let [a, b, q] = &points;
-        let expected = match differences(&points, 2) {
-            Differences::Small(rows) => exact(rows, D),
-            Differences::Big(rows) => {
-                tally.big += 1;
-                exact(rows, D)
-            }
-        };
+        let expected = exact_distance_order(&points, &mut tally);
         assert_eq!(compare_distance(q, a, b), expected, "{points:?}");
         assert_eq!(compare_distance(q, b, a), expected.reverse(), "{points:?}");
-        tally.cases += 1;
-        tally.zero += usize::from(expected == Ordering::Equal);
     }
     tally
 }
@@ -863,9 +591,7 @@ fn compare_distance_is_exact() {
             check_compare_distance::<2>(family, n_cases, &mut random),
             check_compare_distance::<3>(family, n_cases, &mut random),
         ] {
-            total.cases += tally.cases;
-            total.big += tally.big;
-            total.zero += tally.zero;
+            total.add(&tally);
         }
     }
     println!("{} cases, {} big, {} zero", total.cases, total.big, total.zero);
@@ -874,12 +600,6 @@ fn compare_distance_is_exact() {
 
 #[test]
 fn is_collinear3_is_exact() {
-    fn exact<T: Integer>(rows: &[Vec<T>]) -> bool {
-        [(0, 1), (1, 2), (2, 0)].into_iter().all(|(x, y)| {
-            let minor = rows[0][x].times(&rows[1][y]).minus(&rows[0][y].times(&rows[1][x]));
-            minor.compare_zero() == Ordering::Equal
-        })
-    }
     let families = [
         (Uniform, 50_000),
         (Lattice, 350_000),
@@ -900,17 +620,9 @@ fn is_collinear3_is_exact() {
                 let [a, b, _] = points;
                 points[2] = from_fn(|axis| in_range(b[axis] + (b[axis] - a[axis])));
             }
-            let is_collinear = match differences(&points, 2) {
-                Differences::Small(rows) => exact(&rows),
-                Differences::Big(rows) => {
-                    total.big += 1;
-                    exact(&rows)
-                }
-            };
+            let is_collinear = is_exactly_collinear(&points, &mut total);
             let [a, b, c] = &points;
             assert_eq!(is_collinear3(a, b, c), is_collinear, "{points:?}");
-            total.cases += 1;
-            total.zero += usize::from(is_collinear);
         }
     }
     println!("{} cases, {} big, {} collinear", total.cases, total.big, total.zero);

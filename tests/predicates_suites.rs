@@ -39,7 +39,7 @@ fn check<const D: usize, const N: usize>(
             std::array::from_fn(|axis| points.iter().map(|p| p[axis]).reduce(pick).unwrap())
         };
         let tight = filter(corner(f64::min), corner(f64::max));
-        let nothing = StaticFilter { orient: f64::INFINITY, in_sphere: f64::INFINITY };
+        let nothing = filter([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
         for f in [tight, nothing] {
             assert_eq!(value(&f, points).partial_cmp(&0.0), expected.partial_cmp(&0.0), "{line}");
         }

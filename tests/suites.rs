@@ -98,13 +98,7 @@ fn inline_cases_of_other_codes() {
     assert_eq!(cases.list().len(), 37);
     for case in cases.list() {
         let name = case.get("name").expect("a name").text();
-        let mut points = points_of::<Plane>(&case.get("points").expect("points").table());
-        if points.iter().flatten().any(|&x| !deldrift::predicates::is_in_range(x)) {
-            // Refused; but a power of two changes no sign.
-            let error = MovingTriangulation::<Plane>::new(&points, Options::default()).expect_err(name);
-            assert!(matches!(error, Error::OutOfRange { .. }), "{name}: {error}");
-            points = points.iter().map(|p| p.map(|x| x * 1024.0)).collect();
-        }
+        let points = points_of::<Plane>(&case.get("points").expect("points").table());
         let t = build::<Plane>(&points, name);
         let distinct = case.get("distinct").expect("a count").number();
         assert_eq!((points.len() - t.statistics().coincident as usize) as f64, distinct, "{name}");

@@ -74,7 +74,8 @@ static void random_walk(uint32_t dimension, size_t count, deldrift_algorithm alg
 
 int main(void) {
     static const deldrift_algorithm all[] = {DELDRIFT_AUTO, DELDRIFT_REBUILDING, DELDRIFT_PLACEMENT,
-                                             DELDRIFT_PLACEMENT_FLIPS};
+                                             DELDRIFT_PLACEMENT_FLIPS,
+        DELDRIFT_TOLERANCE, DELDRIFT_SAFE_REGION, DELDRIFT_SAFE_REGION_TOLERANCE, DELDRIFT_REBUILDING_TOLERANCE};
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
         corners = dimension + 1;
         for (size_t i = 0; i < sizeof all / sizeof *all; i++) {

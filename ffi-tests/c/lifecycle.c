@@ -82,7 +82,7 @@ static void positions_are_copied(void) {
 }
 
 static void bad_positions_are_refused(void) {
-    static const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1e-300};
+    static const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1e58};
     deldrift_triangulation *t = NULL;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         double positions[sizeof SQUARE / sizeof *SQUARE];

@@ -92,7 +92,8 @@ static void unknown_values_are_refused_by_name(void) {
 
 static void algorithms_can_be_exchanged(void) {
     static const deldrift_algorithm all[] = {DELDRIFT_AUTO, DELDRIFT_REBUILDING, DELDRIFT_PLACEMENT,
-                                             DELDRIFT_PLACEMENT_FLIPS};
+                                             DELDRIFT_PLACEMENT_FLIPS,
+        DELDRIFT_TOLERANCE, DELDRIFT_SAFE_REGION, DELDRIFT_SAFE_REGION_TOLERANCE, DELDRIFT_REBUILDING_TOLERANCE};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         deldrift_options options;
         deldrift_options_init(&options);
@@ -107,10 +108,10 @@ static void algorithms_can_be_exchanged(void) {
             OK(deldrift_get_algorithm(t, &algorithm));
             CHECK(algorithm == all[j]);
         }
-        CHECK_STATUS(deldrift_set_algorithm(t, (deldrift_algorithm)4), DELDRIFT_INVALID_OPTIONS);
-        CHECK_MESSAGE("algorithm is 4");
+        CHECK_STATUS(deldrift_set_algorithm(t, (deldrift_algorithm)8), DELDRIFT_INVALID_OPTIONS);
+        CHECK_MESSAGE("algorithm is 8");
         OK(deldrift_get_algorithm(t, &algorithm));
-        CHECK(algorithm == DELDRIFT_PLACEMENT_FLIPS);
+        CHECK(algorithm == DELDRIFT_REBUILDING_TOLERANCE);
         deldrift_destroy(t);
     }
 }

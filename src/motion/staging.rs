@@ -4,7 +4,7 @@ use super::MovingTriangulation;
 use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::predicates::{MAX_MAGNITUDE, MIN_MAGNITUDE};
+use crate::predicates::is_in_range;
 
 /// Staged positions by vertex id. During and after a commit the entries of its vertices hold the positions
 /// *before* it: applying a move exchanges the two.
@@ -35,6 +35,11 @@ impl<G: Dimension> Staging<G> {
             self.positions.resize(n_ids, G::Point::default());
             self.is_staged.resize(n_ids, false);
         }
+    }
+
+    /// Makes room for a position of each id.
+    pub(super) fn grow_for(&mut self, n_ids: usize) -> Result<()> {
+        if self.positions.len() < n_ids { self.reserve(n_ids, 0) } else { Ok(()) }
     }
 
     /// Makes room for `more` moves of `n_ids` vertices.
@@ -99,9 +104,7 @@ pub(super) fn check_position<G: Dimension>(
     for axis in 0..G::D {
         let value = p[axis];
         checked[axis] = value + 0.0;
-        let magnitude = value.abs();
-        // The comparison is false for NaN.
-        if magnitude == 0.0 || (MIN_MAGNITUDE..=MAX_MAGNITUDE).contains(&magnitude) {
+        if is_in_range(value) {
             continue;
         }
         return Err(if value.is_finite() {

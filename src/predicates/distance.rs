@@ -1,5 +1,7 @@
 //! Exact comparison of distances, and collinearity in space.
 
+use super::big::{self, has_room};
+use super::filter::UNDERFLOW;
 use robust::Coord;
 use std::cmp::Ordering;
 
@@ -10,8 +12,9 @@ pub fn compare_distance<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]
     let difference = to_a - to_b;
     // A rounded squared distance is a sum of D non-negative terms, each of relative error 3 u to first order
     // (twice the difference's, and the product's), plus u for each of D − 1 sums: at most 5 u in all. The
-    // last subtraction keeps the sign. 6 u covers the higher orders and the rounding of this bound.
-    let bound = 6.0 * (f64::EPSILON / 2.0) * (to_a + to_b);
+    // last subtraction keeps the sign. 6 u covers the higher orders and the rounding of this bound. Each of
+    // the 2 D squares and the bound's product may underflow, with an error of 2⁻¹⁰⁷⁵.
+    let bound = 6.0 * (f64::EPSILON / 2.0) * (to_a + to_b) + UNDERFLOW;
     if difference > bound {
         Ordering::Greater
     } else if difference < -bound {
@@ -23,6 +26,9 @@ pub fn compare_distance<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]
 
 /// Whether three points of space lie on a line, exactly: whether all three projections do.
 pub fn is_collinear3(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> bool {
+    if !has_room([a, b, c], 2) {
+        return big::is_collinear3([a, b, c]);
+    }
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(x, y)| {
         let [a, b, c] = [a, b, c].map(|p| Coord { x: p[x], y: p[y] });
         robust::orient2d(a, b, c) == 0.0
@@ -44,6 +50,9 @@ fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
 #[inline(never)]
 fn compare_distance_exactly<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
     const { assert!(D <= 3, "a sum has room for the products of three axes") };
+    if !has_room([q, a, b], 2) {
+        return big::compare_distance(q, a, b);
+    }
     let mut sum = ExactSum::default();
     for axis in 0..D {
         let (q, a, b) = (q[axis], a[axis], b[axis]);

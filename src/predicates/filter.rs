@@ -2,9 +2,11 @@
 //!
 //! # Analysis
 //!
-//! Let u = 2⁻⁵³. Without overflow and underflow, which the range of coordinates excludes, an operation
-//! with exact result t returns fl(t) where |fl(t) − t| ≤ u·|t| and also |fl(t) − t| ≤ u·|fl(t)|, and fl(t)
-//! has the sign of t.
+//! Let u = 2⁻⁵³ and η = 2⁻¹⁰⁷⁵, half the least positive number. The range of coordinates excludes overflow,
+//! so an operation with exact result t returns fl(t) where |fl(t) − t| ≤ u·|t| and also |fl(t) − t| ≤
+//! u·|fl(t)|, and fl(t) has the sign of t; but a product below 2⁻¹⁰²² has an error of up to η instead, and
+//! may become zero. Sums and differences of such size are multiples of 2η with no more than 53 bits, hence
+//! exact.
 //!
 //! Every determinant here is a polynomial in coordinate differences. All its terms are bounded by the same
 //! product of extents of the points' bounding box: one extent per axis and, where a lift takes part, the
@@ -13,7 +15,7 @@
 //! to the exact value. The rules are
 //!
 //! - difference of two coordinates: magnitude 1, error u (relative to the computed value, by the second
-//!   inequality);
+//!   inequality, so that it also holds for extents that are subnormal);
 //! - product: with x = X + δ and y = Y + η for exact X, Y, |xy − XY| = |xη + yδ − δη|, then rounding of a
 //!   value of at most |x||y|;
 //! - sum: errors add, then rounding of a value of at most |x| + |y|;
@@ -24,6 +26,22 @@
 //! `plane.rs` and `space.rs`. To first order they give 6 u, 72 u, 40 u and 756 u. Keeping the last rounding
 //! would give 8 u, 80 u and 46 u for the first three, as found in CGAL, Geogram and HXT; those have 1122 u
 //! for the in-sphere determinant, which they expand into four products of a lift instead of three.
+//!
+//! # Underflow
+//!
+//! Both numbers of a value of degree k hold up to an absolute term, too, `underflow` times η·Mᵏ⁻², where M is
+//! the largest extent or 1, whichever is larger. A product starts with one η of its own. It inherits, from
+//! either factor, that factor's term times the magnitude of the other, whose own product of extents is at
+//! most Mʲ for degree j; products of a term with an error or with another term are smaller by 2⁻⁴⁰ at least
+//! and left to [`ROUND_UP`]. Terms of summands add.
+//!
+//! The determinants collect fewer than 300 η·Mᵏ⁻² in this way, and evaluating a bound, whose products
+//! underflow like any others, loses no more than 4. Instead of the precise number, all bounds add
+//! [`UNDERFLOW`] = 2¹¹ η times Mᵏ⁻²; the compiler checks that it is plenty. That much leaves determinants
+//! uncertain that are below 10⁻³²⁰ where extents are up to 1, and below 10⁻¹⁴⁸ where one is as large as can
+//! be.
+//!
+//! # Rounding of the bounds
 //!
 //! The calculus adds and multiplies positive numbers only, fewer than 200 times, and evaluating a bound
 //! takes at most six more operations; each loses at most a factor 1 − u, and the factor 1 + 2⁻⁴⁰ makes good
@@ -42,32 +60,29 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 /// Covers the rounding of the bounds themselves.
 const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 
+/// What bounds allow for underflow, times a power of the largest extent: 2¹¹ η.
+pub(super) const UNDERFLOW: f64 = f64::from_bits(1 << 10);
+
 /// Bound of `orient2d` / (extent x · extent y).
-const ORIENT_2D: f64 = {
-    let product = DIFFERENCE.times(DIFFERENCE);
-    product.last_plus(product)
-};
+const ORIENT_2D: f64 = SQUARE.last_plus(SQUARE);
 
 /// Bound of `incircle` / (extent x · extent y · largest extent²).
 const IN_CIRCLE: f64 = {
-    let product = DIFFERENCE.times(DIFFERENCE);
-    let minor = product.plus(product);
-    let dot = product.plus(product);
+    let (minor, dot) = (MINOR, SQUARE.plus(SQUARE));
     let term = minor.times(dot);
     term.last_plus(term)
 };
 
 /// Bound of `orient3d` / (extent x · extent y · extent z).
 const ORIENT_3D: f64 = {
-    let term = MINOR_3D.times(DIFFERENCE);
+    let term = MINOR.times(DIFFERENCE);
     term.plus(term).last_plus(term)
 };
 
 /// Bound of `insphere` / (extent x · extent y · extent z · largest extent²).
 const IN_SPHERE: f64 = {
-    let square = DIFFERENCE.times(DIFFERENCE);
-    let dot = square.plus(square).plus(square);
-    let part = MINOR_3D.times(DIFFERENCE);
+    let dot = SQUARE.plus(SQUARE).plus(SQUARE);
+    let part = MINOR.times(DIFFERENCE);
     let volume = part.plus(part).plus(part);
     let term = volume.times(dot);
     term.plus(term).last_plus(term)
@@ -75,40 +90,49 @@ const IN_SPHERE: f64 = {
 
 /// Bound of a prepared circle / (extent x · extent y · largest extent²), see `sphere.rs`.
 const PREPARED_2D: f64 = {
-    let square = DIFFERENCE.times(DIFFERENCE);
-    let lift = square.plus(square);
+    let lift = SQUARE.plus(SQUARE);
     let part = lift.times(DIFFERENCE);
     let term = part.plus(part).times(DIFFERENCE);
-    term.plus(term).last_plus(lift.times(square.plus(square)))
+    term.plus(term).last_plus(lift.times(SQUARE.plus(SQUARE)))
 };
 
 /// Bound of a prepared sphere / (extent x · extent y · extent z · largest extent²), see `sphere.rs`.
 const PREPARED_3D: f64 = {
-    let square = DIFFERENCE.times(DIFFERENCE);
-    let lift = square.plus(square).plus(square);
-    let part = lift.times(MINOR_3D);
+    let lift = SQUARE.plus(SQUARE).plus(SQUARE);
+    let part = lift.times(MINOR);
     let term = part.plus(part).plus(part).times(DIFFERENCE);
-    let volume = MINOR_3D.times(DIFFERENCE);
+    let volume = MINOR.times(DIFFERENCE);
     let volume = volume.plus(volume).plus(volume);
     term.plus(term).plus(term).last_plus(lift.times(volume))
 };
 
-/// A 2 × 2 minor of differences.
-const MINOR_3D: Computed = {
-    let product = DIFFERENCE.times(DIFFERENCE);
-    product.plus(product)
+/// Lines and planes in place of circles and spheres keep the bounds of those, see `sphere.rs`. The rounded
+/// square of the largest extent is their exact scale: [`SQUARE`] grants it an error that it has not.
+const _: () = {
+    let term = SQUARE.times(DIFFERENCE).times(DIFFERENCE);
+    assert!(term.last_plus(term) <= PREPARED_2D);
+    let term = MINOR.times(SQUARE).times(DIFFERENCE);
+    assert!(term.plus(term).last_plus(term) <= PREPARED_3D);
 };
 
-/// A difference of two coordinates.
-const DIFFERENCE: Computed = Computed { magnitude: 1.0, error: UNIT };
+/// A 2 × 2 minor of differences.
+const MINOR: Computed = SQUARE.plus(SQUARE);
 
-/// What is known of an intermediate value, in units of its product of extents.
+/// A product of two differences.
+const SQUARE: Computed = DIFFERENCE.times(DIFFERENCE);
+
+/// A difference of two coordinates.
+const DIFFERENCE: Computed = Computed { magnitude: 1.0, error: UNIT, underflow: 0.0 };
+
+/// What is known of an intermediate value of degree k, in units of its product of extents.
 #[derive(Clone, Copy)]
 struct Computed {
     /// Bounds the computed value.
     magnitude: f64,
     /// Bounds its distance to the exact value.
     error: f64,
+    /// What both may be exceeded by, in units of η·Mᵏ⁻².
+    underflow: f64,
 }
 
 impl Computed {
@@ -116,25 +140,31 @@ impl Computed {
         let magnitude = self.magnitude * other.magnitude;
         let inherited =
             self.magnitude * other.error + self.error * other.magnitude + self.error * other.error;
-        Self { magnitude: magnitude * (1.0 + UNIT), error: inherited + magnitude * UNIT }
+        let underflow =
+            1.0 + (self.magnitude * other.underflow + self.underflow * other.magnitude) * ROUND_UP;
+        Self { magnitude: magnitude * (1.0 + UNIT), error: inherited + magnitude * UNIT, underflow }
     }
 
     /// Also describes a difference.
     const fn plus(self, other: Self) -> Self {
         let magnitude = self.magnitude + other.magnitude;
-        Self { magnitude: magnitude * (1.0 + UNIT), error: self.error + other.error + magnitude * UNIT }
+        Self {
+            magnitude: magnitude * (1.0 + UNIT),
+            error: self.error + other.error + magnitude * UNIT,
+            underflow: (self.underflow + other.underflow) * ROUND_UP,
+        }
     }
 
-    /// What the magnitude of a sum must exceed for its sign to be right.
+    /// What the magnitude of a sum must exceed for its sign to be right, beside the term for underflow.
     const fn last_plus(self, other: Self) -> f64 {
+        assert!(self.underflow + other.underflow < 1_000.0, "half of UNDERFLOW");
         (self.error + other.error) / (1.0 - UNIT) * ROUND_UP
     }
 }
 
 /// Error bounds valid for all points of a bounding box.
 ///
-/// A bound of zero (a box without extent along some axis) is as valid as any: every determinant of such
-/// points is computed as zero, which does not exceed it. An empty or unbounded box gives infinity or NaN,
+/// No bound is zero, so a determinant that is exceeds none. An empty or unbounded box gives infinity or NaN,
 /// which nothing exceeds: all calls then take the slow path.
 #[derive(Clone, Copy, Debug)]
 pub struct StaticFilter {
@@ -152,26 +182,22 @@ impl StaticFilter {
     /// Bounds for `orient2d` and `incircle` of points between `lower` and `upper`, inclusive.
     pub fn plane(lower: [f64; 2], upper: [f64; 2]) -> Self {
         let extents = box_extents(&lower, &upper);
-        let in_sphere = incircle_bound(extents);
-        let largest_square = largest(extents) * largest(extents);
         Self {
             orient: orient2d_bound(extents),
-            in_sphere,
-            prepared: in_sphere * (PREPARED_2D / IN_CIRCLE),
-            largest_square,
+            in_sphere: incircle_bound(extents),
+            prepared: lifted_bound_2d(PREPARED_2D, extents),
+            largest_square: largest(extents) * largest(extents),
         }
     }
 
     /// Bounds for `orient3d` and `insphere` of points between `lower` and `upper`, inclusive.
     pub fn space(lower: [f64; 3], upper: [f64; 3]) -> Self {
         let extents = box_extents(&lower, &upper);
-        let in_sphere = insphere_bound(extents);
-        let largest_square = largest(extents) * largest(extents);
         Self {
             orient: orient3d_bound(extents),
-            in_sphere,
-            prepared: in_sphere * (PREPARED_3D / IN_SPHERE),
-            largest_square,
+            in_sphere: insphere_bound(extents),
+            prepared: lifted_bound_3d(PREPARED_3D, extents),
+            largest_square: largest(extents) * largest(extents),
         }
     }
 }
@@ -199,11 +225,11 @@ pub(super) fn extents<const D: usize, const N: usize>(points: [&[f64; D]; N]) ->
     })
 }
 
-/// Whether a rounded determinant has the right sign.
+/// Whether a rounded determinant has the right sign, given its bound for points of the given extents.
 #[inline]
-pub(super) fn is_certain(det: f64, bound: f64) -> bool {
-    // Nothing underflows, so the bound vanishes only with an extent, and the exact determinant with it.
-    det.abs() > bound || bound == 0.0
+pub(super) fn is_certain<const D: usize>(det: f64, bound: f64, extents: [f64; D]) -> bool {
+    // Without extent along an axis, all differences along it are exactly zero, and so are both determinants.
+    det.abs() > bound || extents.contains(&0.0)
 }
 
 pub(super) fn largest<const D: usize>(extents: [f64; D]) -> f64 {
@@ -211,21 +237,31 @@ pub(super) fn largest<const D: usize>(extents: [f64; D]) -> f64 {
 }
 
 pub(super) fn orient2d_bound([x, y]: [f64; 2]) -> f64 {
-    ORIENT_2D * (x * y)
+    ORIENT_2D * (x * y) + UNDERFLOW
 }
 
-pub(super) fn incircle_bound(extents @ [x, y]: [f64; 2]) -> f64 {
+pub(super) fn incircle_bound(extents: [f64; 2]) -> f64 {
+    lifted_bound_2d(IN_CIRCLE, extents)
+}
+
+pub(super) fn orient3d_bound(extents @ [x, y, z]: [f64; 3]) -> f64 {
+    ORIENT_3D * (x * y * z) + UNDERFLOW * largest(extents).max(1.0)
+}
+
+pub(super) fn insphere_bound(extents: [f64; 3]) -> f64 {
+    lifted_bound_3d(IN_SPHERE, extents)
+}
+
+fn lifted_bound_2d(constant: f64, extents @ [x, y]: [f64; 2]) -> f64 {
     let largest = largest(extents);
-    IN_CIRCLE * (x * y) * (largest * largest)
+    let amplified = largest.max(1.0);
+    constant * (x * y) * (largest * largest) + UNDERFLOW * (amplified * amplified)
 }
 
-pub(super) fn orient3d_bound([x, y, z]: [f64; 3]) -> f64 {
-    ORIENT_3D * (x * y * z)
-}
-
-pub(super) fn insphere_bound(extents @ [x, y, z]: [f64; 3]) -> f64 {
+fn lifted_bound_3d(constant: f64, extents @ [x, y, z]: [f64; 3]) -> f64 {
     let largest = largest(extents);
-    IN_SPHERE * (x * y * z) * (largest * largest)
+    let amplified = largest.max(1.0);
+    constant * (x * y * z) * (largest * largest) + UNDERFLOW * (amplified * amplified * amplified)
 }
 
 #[cfg(test)]
@@ -249,7 +285,7 @@ mod tests {
         {
             let f = StaticFilter::space(lower, upper);
             let accepts = |bound: f64| f64::MAX > bound;
-            assert!(!accepts(f.orient) && !accepts(f.in_sphere));
+            assert!(!accepts(f.orient) && !accepts(f.in_sphere) && !accepts(f.prepared));
         }
     }
 }

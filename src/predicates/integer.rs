@@ -4,15 +4,27 @@
 //! the coordinates. They should not cost a hundred times an easy test, as with expansions of any length.
 //!
 //! Points that nearly tie are mostly neighbours with similar exponents, so their differences, scaled by a
-//! power of two, are exactly integers of at most 59 bits ([`Scaled`]); where they are not, expansions
-//! have to do. Products of two differences then fit `i128`. The determinant D of degree k ≤ 5 consists of
-//! terms too large for 256 bits, but D itself is not: this stage is entered only when the rounded
-//! determinant does not exceed its error bound, so |D| is at most twice that bound, in units of the scale
-//! at most 2 · 756 u · 2⁵⁹ᵏ·(1 + 2⁻⁴⁰) < 2²⁵³. Hence it suffices to know D modulo 2²⁵⁶, which costs a few
-//! wrapping multiplications ([`Wide`]), and overflow of intermediate values is of no consequence.
+//! power of two, are exactly integers of at most 59 bits ([`Scaled`]); where they are not, later
+//! stages have to do. Products of two differences then fit `i128`. The determinant D of degree k ≤ 5 consists
+//! of terms too large for 256 bits, but D itself is not: this stage is entered only when the rounded
+//! determinant does not exceed its error bound, so |D| is at most twice that bound, in units of the scale at
+//! most 2 · 756 u · 2⁵⁹ᵏ·(1 + 2⁻⁴⁰), plus what the bound allows for underflow, less than 2²⁵³ together (see
+//! [`MIN_EXTENT`]). Hence it suffices to know D modulo 2²⁵⁶, which costs a few wrapping multiplications
+//! ([`Wide`]), and overflow of intermediate values is of no consequence.
 
 /// Bits of a scaled difference.
-const N_BITS: u64 = 59;
+const N_BITS: i32 = 59;
+
+/// Least extent at which the determinants are known to fit.
+///
+/// Let the extent be at least 2ᵉ, and the unit 2ᵉ⁻⁵⁸. For e ≥ 0, twice the term for underflow is
+/// 2⁻¹⁰⁶³·2⁽ᵉ⁺¹⁾⁽ᵏ⁻²⁾, in units 2⁻¹⁰⁶³⁺⁵⁸ᵏ⁺⁽ᵏ⁻²⁾⁻²ᵉ < 1. For e < 0 it is 2⁻¹⁰⁶³, in units 2⁻¹⁰⁶³⁺⁽⁵⁸⁻ᵉ⁾ᵏ,
+/// which for e = −200 and k = 5 is 2²²⁷.
+const MIN_EXTENT: f64 = power_of_two(-200);
+
+const fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((f64::MAX_EXP - 1 + exponent) as u64) << (f64::MANTISSA_DIGITS - 1))
+}
 
 /// Differences of points as integers.
 pub(super) struct Scaled<const D: usize, const N: usize> {
@@ -22,26 +34,26 @@ pub(super) struct Scaled<const D: usize, const N: usize> {
 }
 
 impl<const D: usize, const N: usize> Scaled<D, N> {
-    /// The differences from `origin` to `points` if all of them are multiples of the unit, which is 2⁻⁵⁸ times
-    /// the largest power of two not above `extent`. The latter is not zero and bounds their magnitudes, up to
-    /// rounding.
+    /// The differences from `origin` to `points` if all of them are multiples of the unit, which is 2⁻⁵⁸
+    /// times the largest power of two not above `extent`. The latter bounds their magnitudes, up to rounding;
+    /// it must not be too small.
     pub fn new(origin: &[f64; D], points: [&[f64; D]; N], extent: f64) -> Option<Self> {
-        const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
-        const BIAS: u64 = (f64::MAX_EXP - 1) as u64;
-        // In the accepted range, exponents of extent and scale are far from the ends of the format's.
-        let biased_exponent = extent.to_bits() >> MANTISSA_BITS;
-        let power = |biased: u64| f64::from_bits(biased << MANTISSA_BITS);
-        let unit = power(biased_exponent + 1 - N_BITS);
-        let scale = power(2 * BIAS + N_BITS - 1 - biased_exponent);
+        if extent < MIN_EXTENT {
+            return None;
+        }
+        // Within the range of coordinates, the exponents of unit and scale are far from the ends of the
+        // format's.
+        let exponent = (extent.to_bits() >> (f64::MANTISSA_DIGITS - 1)) as i32 - (f64::MAX_EXP - 1);
+        let (unit, scale) = (power_of_two(exponent - (N_BITS - 1)), power_of_two(N_BITS - 1 - exponent));
 
         let mut differences = [[0; D]; N];
         let mut is_exact = true;
         for (difference, point) in differences.iter_mut().zip(points) {
             for axis in 0..D {
                 let (rounded, tail) = two_difference(point[axis], origin[axis]);
-                let (rounded, tail) = (rounded * scale, tail * scale);
-                let integers = (rounded as i64, tail as i64);
-                is_exact &= integers.0 as f64 == rounded && integers.1 as f64 == tail;
+                let integers = ((rounded * scale) as i64, (tail * scale) as i64);
+                // Scaled back, as the scaled number may have underflowed.
+                is_exact &= integers.0 as f64 * unit == rounded && integers.1 as f64 * unit == tail;
                 difference[axis] = integers.0 + integers.1;
             }
         }
@@ -50,8 +62,9 @@ impl<const D: usize, const N: usize> Scaled<D, N> {
 
     /// A determinant of the given degree, rounded.
     pub fn value(&self, determinant: Wide, degree: usize) -> f64 {
-        // The value and the integer are both in range; multiplied one by one, so are all between.
-        (0..degree).fold(determinant.rounded(), |value, _| value * self.unit)
+        let integer = determinant.rounded();
+        let value = (0..degree).fold(integer.abs(), |value, _| value * self.unit);
+        if integer == 0.0 { 0.0 } else { value.max(f64::MIN_POSITIVE).copysign(integer) }
     }
 }
 
@@ -137,5 +150,15 @@ mod tests {
         assert_eq!(scaled.differences, [[half + (half >> 30)], [1 + (half >> 30)]]);
         assert_eq!(scaled.value(Wide::from(i128::from(half)), 1), 1.0);
         assert!(Scaled::new(&[0.0], [&[1.0], &[2f64.powi(-59)]], 1.0).is_none());
+        let least = f64::from_bits(1);
+        assert!(Scaled::new(&[0.0], [&[1e57], &[least]], 1e57).is_none(), "it scales to zero");
+        assert!(Scaled::new(&[0.0], [&[least]], least).is_none());
+    }
+
+    #[test]
+    fn values_keep_their_sign() {
+        let scaled = Scaled::new(&[0.0], [&[1e-60]], 1e-60).unwrap();
+        assert!(scaled.value(Wide::from(1), 5) > 0.0 && scaled.value(Wide::from(-1), 5) < 0.0);
+        assert_eq!(scaled.value(Wide::from(0), 5), 0.0);
     }
 }

@@ -14,6 +14,7 @@
 //! 3. *Integer*: where scaled differences are integers that fit, as those of neighbours on a grid are, the
 //!    determinant in 256 bits (`integer.rs`; not for `orient2d`, whose expansions are short).
 //! 4. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
+//! 5. *Big integers*: where expansions would underflow, the determinant in integers of any length (`big.rs`).
 //!
 //! The error constants are not quoted but computed by the compiler, from the operation order of each
 //! determinant (`filter.rs`, which holds the analysis).
@@ -29,27 +30,33 @@
 //! - A result depends on the positions (and ids, where they are given), never on the filter: a tighter box
 //!   is faster, and nothing else.
 //! - Swapping two simplex vertices negates the sign.
-//! - Nothing allocates, panics or branches on the way to the static comparison.
+//! - Nothing allocates, panics or branches on the way to the static comparison, and nothing but the last
+//!   stage allocates at all.
 //!
 //! The caller owes that all coordinates satisfy [`is_in_range`] and lie in the filter's box.
 //!
 //! # Range
 //!
-//! Neither filters nor expansions survive overflow or underflow, so coordinates are either zero or of
-//! magnitude [`MIN_MAGNITUDE`] to [`MAX_MAGNITUDE`]. This is enough for every stage:
+//! Coordinates are finite and of magnitude up to [`MAX_MAGNITUDE`], subnormal numbers included. The
+//! arithmetic is that of IEEE 754, rounding to nearest and with gradual underflow: a thread that flushes
+//! subnormal numbers to zero, as some compilers' fast modes arrange, may get wrong signs where extents are so
+//! small that differences or products of them are subnormal.
 //!
-//! - *No underflow.* `MIN_MAGNITUDE` ≥ 2⁻¹⁴⁰, so with 53 significant bits every coordinate is an integer
-//!   multiple of 2⁻¹⁹². Sums and differences, rounded or not, and the halves and tails into which Dekker
-//!   and Shewchuk split numbers are multiples of the same unit, hence a product of `k` of them is a
-//!   multiple of 2⁻¹⁹²ᵏ. The largest degree is 5 (the in-sphere determinant in space), so every
-//!   intermediate value of every stage is a multiple of 2⁻⁹⁶⁰ and either zero or a normal number: the
-//!   relative error of each operation is at most 2⁻⁵³, as the filters assume, and every tail of an
-//!   expansion is representable. The bounds themselves stay normal as well: an extent is zero or at least
-//!   2⁻¹⁹², the constants exceed 2⁻⁵¹, and 2⁻⁹⁶⁰⁻⁵¹ > 2⁻¹⁰²².
 //! - *No overflow.* Differences are at most 2·10⁵⁷, products of five of them 32·10²⁸⁵, and the in-sphere
 //!   determinant is a sum of fewer than 1,000 such products: below 10²⁹⁰. The expansions also multiply raw
 //!   coordinates, which are smaller, and split factors by multiplying them by 2²⁷ + 1, but only factors of
 //!   degree four or less, below 10²⁴². The largest `f64` is 1.8·10³⁰⁸.
+//! - *Underflow in the filters* is part of their bounds (`filter.rs`). Differences never underflow.
+//! - *Underflow in integers.* Scaling is by powers of two, and checked by scaling back. A value returned is
+//!   kept from underflowing to zero.
+//! - *No underflow in expansions.* They are used for points whose coordinates are multiples of a unit 2⁻ˡ
+//!   such that kl ≤ 960 in a determinant of degree k. Sums and differences, rounded or not, and the halves
+//!   and tails into which Dekker and Shewchuk split numbers are multiples of the same unit, hence a product
+//!   of k of them is a multiple of 2⁻⁹⁶⁰ and either zero or a normal number, and every tail is representable.
+//!   The bounds by which [`robust`] ends early are products with constants down to 2⁻¹⁰⁵ and may lose 2⁻¹⁰⁷⁵,
+//!   which is less than the 2⁻⁵⁰ or so that Shewchuk rounds these constants up by, of a value of 2⁻⁹⁶⁰. With
+//!   53 significant bits, coordinates are such multiples if they are zero or at least 2⁵²⁻ˡ: 10⁻¹²⁸ in degree
+//!   2 (and for distances), or 10⁻⁸⁰, 10⁻⁵⁶ and 10⁻⁴² in degrees 3, 4 and 5.
 //!
 //! # Cost
 //!
@@ -62,6 +69,7 @@
 //! | [`orient3d`] | 23 | 40 u | 2.4 ns | 5.0 ns | 18 ns | 160 ns |
 //! | [`insphere`] | 74 | 756 u | 7.7 ns | 11.5 ns | 79 ns | 2,800 ns |
 
+mod big;
 mod distance;
 mod filter;
 mod integer;
@@ -69,6 +77,7 @@ mod perturbation;
 mod plane;
 mod space;
 mod sphere;
+mod tolerance;
 
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
@@ -76,17 +85,17 @@ pub use perturbation::{incircle_perturbed, insphere_perturbed};
 pub use plane::{incircle, orient2d};
 pub use space::{insphere, orient3d};
 pub use sphere::{Circle, Sphere, circle, half_plane, half_space, side_of_circle, side_of_sphere, sphere};
-
-/// Smallest magnitude of an accepted coordinate other than zero.
-pub const MIN_MAGNITUDE: f64 = 1e-42;
+pub use tolerance::{
+    Delimiter, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
+    is_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
+};
 
 /// Largest magnitude of an accepted coordinate.
 pub const MAX_MAGNITUDE: f64 = 1e57;
 
-/// Whether `x` is accepted as a coordinate: zero, or of magnitude [`MIN_MAGNITUDE`] to [`MAX_MAGNITUDE`].
-///
-/// False for infinities and NaN.
+/// Whether `x` is accepted as a coordinate: finite, and of magnitude up to [`MAX_MAGNITUDE`].
 #[inline]
 pub fn is_in_range(x: f64) -> bool {
-    x == 0.0 || (MIN_MAGNITUDE..=MAX_MAGNITUDE).contains(&x.abs())
+    // False for NaN.
+    x.abs() <= MAX_MAGNITUDE
 }

@@ -1,5 +1,6 @@
 //! Predicates of the plane.
 
+use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
 use super::integer::{Scaled, Wide};
 use robust::Coord;
@@ -27,9 +28,12 @@ pub fn incircle(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2], d: &
 #[cold]
 #[inline(never)]
 fn orient2d_uncertain(det: f64, points: [&[f64; 2]; 3]) -> f64 {
-    let bound = orient2d_bound(extents(points));
-    if is_certain(det, bound) {
+    let extents = extents(points);
+    if is_certain(det, orient2d_bound(extents), extents) {
         return det;
+    }
+    if !has_room(points, 2) {
+        return big::orient2d(det, points);
     }
     let [a, b, c] = points.map(coord);
     robust::orient2d(a, b, c)
@@ -39,12 +43,15 @@ fn orient2d_uncertain(det: f64, points: [&[f64; 2]; 3]) -> f64 {
 #[inline(never)]
 fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
     let extents = extents(points);
-    if is_certain(det, incircle_bound(extents)) {
+    if is_certain(det, incircle_bound(extents), extents) {
         return det;
     }
     let [origin, others @ ..] = points;
     if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
         return scaled.value(incircle_integer(&scaled.differences), 4);
+    }
+    if !has_room(points, 4) {
+        return big::incircle(det, points);
     }
     let [a, b, c, d] = points.map(coord);
     robust::incircle(a, b, c, d)

@@ -3,6 +3,7 @@
 //! Orientation follows CGAL: the tetrahedron `abcd` is positive when `b − a`, `c − a`, `d − a` form a
 //! right-handed basis, that is, when `abc` turns counter-clockwise seen from `d`.
 
+use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
 use super::integer::{Scaled, Wide};
 use robust::Coord3D;
@@ -40,12 +41,15 @@ pub fn insphere(
 #[inline(never)]
 fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
     let extents = extents(points);
-    if is_certain(det, orient3d_bound(extents)) {
+    if is_certain(det, orient3d_bound(extents), extents) {
         return det;
     }
     let [origin, others @ ..] = points;
     if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
         return scaled.value(orient3d_integer(&scaled.differences), 3);
+    }
+    if !has_room(points, 3) {
+        return big::orient3d(det, points);
     }
     let [a, b, c, d] = points.map(coord);
     // Shewchuk's tetrahedra are positive when left-handed.
@@ -56,12 +60,15 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
 #[inline(never)]
 fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     let extents = extents(points);
-    if is_certain(det, insphere_bound(extents)) {
+    if is_certain(det, insphere_bound(extents), extents) {
         return det;
     }
     let [origin, others @ ..] = points;
     if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
         return scaled.value(insphere_integer(&scaled.differences), 5);
+    }
+    if !has_room(points, 5) {
+        return big::insphere(det, points);
     }
     let [a, b, c, d, e] = points.map(coord);
     -robust::insphere(a, b, c, d, e)

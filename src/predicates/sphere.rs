@@ -1,20 +1,28 @@
 //! The sphere of a cell, prepared once to be tested against many points.
 //!
-//! The in-sphere determinant is linear in the lift of its last point. With the differences u, v (, w) from corner `a` of
-//! a cell to the others and s to the point, and a vector *n* and a volume *V* of the cell alone,
+//! The in-sphere determinant is linear in the lift of its last point. With the differences u, v (, w) from
+//! corner `a` of a cell to the others and s to the point, and a vector *n* and a volume *V* of the cell
+//! alone,
 //!
 //! ```text
 //! in-sphere = s·n − |s|² V,    plane: V = u × v,      n = |u|² (v_y, −v_x) − |v|² (u_y, −u_x)
 //!                              space: V = [u v w],    n = |u|² v × w − |v|² u × w + |w|² u × v
 //! ```
 //!
-//! since u·n = |u|² V, and likewise for v and w, determines n. A test costs 9 or 14 operations instead of 25 or 74.
-//! The bound is derived like those of the other determinants, for this operation order, and is static only: what it
-//! leaves uncertain goes to [`incircle`](super::incircle) or [`insphere`](super::insphere).
+//! since u·n = |u|² V, and likewise for v and w, determines n. A test costs 9 or 14 operations instead of 25
+//! or 74. The bound is derived like those of the other determinants, for this operation order, and is static
+//! only: what it leaves uncertain goes to [`incircle`](super::incircle) or [`insphere`](super::insphere).
 //!
-//! The half-space beyond a hull facet is the sphere of a ghost cell: V = 0 and n is the facet's outer normal, times the
-//! largest extent squared, which brings its values, and an error of fewer than 72 u or 756 u times that, under the same
-//! bound.
+//! The half-space beyond a hull facet is the sphere of a ghost cell: V = 0 and n is the facet's outer normal,
+//! times [`StaticFilter::largest_square`], so that its values have the same degree. Their sign is that of the
+//! orientation for whatever positive scale there is; their errors grow with the scale, so all that the bound
+//! asks of it is not to exceed the square of the largest extent by more than a rounding error, with or
+//! without underflow. (The compiler checks that the bound of spheres is sufficient.) A scale of zero, the
+//! square of less than 10⁻¹⁶², makes all values zero, hence uncertain.
+//!
+//! Underflow of n and V is amplified like that of any other intermediate value and part of the bound.
+//! Infinity, the scale in a filter that bounds nothing, may make a value NaN, which like any value does not
+//! exceed infinity.
 
 use super::StaticFilter;
 
@@ -37,8 +45,9 @@ pub fn half_plane(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2]) -> Circle {
     [f.largest_square * (a[1] - b[1]), f.largest_square * (b[0] - a[0]), 0.0]
 }
 
-/// Positive if `q` is inside the circle of which `a` is the first corner, negative if outside; open if the magnitude is not
-/// above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it would be mispredicted.)
+/// Positive if `q` is inside the circle of which `a` is the first corner, negative if outside; open if the
+/// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
+/// would be mispredicted.)
 #[inline(always)]
 pub fn side_of_circle([x, y, volume]: &Circle, a: &[f64; 2], q: &[f64; 2]) -> f64 {
     let s = [q[0] - a[0], q[1] - a[1]];
@@ -63,8 +72,9 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
     [x, y, z, 0.0]
 }
 
-/// Positive if `q` is inside the sphere of which `a` is the first corner, negative if outside; open if the magnitude is not
-/// above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it would be mispredicted.)
+/// Positive if `q` is inside the sphere of which `a` is the first corner, negative if outside; open if the
+/// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
+/// would be mispredicted.)
 #[inline(always)]
 pub fn side_of_sphere([x, y, z, volume]: &Sphere, a: &[f64; 3], q: &[f64; 3]) -> f64 {
     let s = [q[0] - a[0], q[1] - a[1], q[2] - a[2]];
@@ -90,13 +100,15 @@ mod tests {
         (*state >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A certain answer is that of the exact predicate, on random points and on points a few ulps from a sphere.
+    /// A certain answer is that of the exact predicate, on random points and on points a few ulps from a
+    /// sphere.
     #[test]
     fn certain_answers_are_exact() {
         let mut state = 5;
         let (mut n_certain, mut n_open) = (0, 0);
         for round in 0..200_000 {
-            // Every other round has integer points around a sphere of radius 5, shaken by a last bit or not at all.
+            // Every other round has integer points around a sphere of radius 5, shaken by a last bit or not
+            // at all.
             let shaken =
                 |state: &mut u64, x: f64| x + [0.0, 0.0, 1e-15, -1e-15][(unit(state) * 4.0) as usize];
             let on_sphere = [

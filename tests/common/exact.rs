@@ -54,7 +54,7 @@ pub fn is_inside(points: &[&Grid], ids: &[u32]) -> bool {
     let cofactor = |i: usize| {
         let rows: Vec<Vec<i128>> =
             (0..rows.len()).filter(|&k| k != i).map(|k| rows[k][..rows.len() - 1].to_vec()).collect();
-        if (i + last) % 2 == 0 { determinant(&rows) } else { -determinant(&rows) }
+        if (i + last).is_multiple_of(2) { determinant(&rows) } else { -determinant(&rows) }
     };
     let mut by_id: Vec<usize> = (0..points.len()).collect();
     by_id.sort_by_key(|&i| std::cmp::Reverse(ids[i]));

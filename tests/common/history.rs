@@ -7,8 +7,16 @@ use deldrift::delaunay::Dimension;
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
 use std::collections::BTreeMap;
 
-pub const ALGORITHMS: [Algorithm; 4] =
-    [Algorithm::Rebuilding, Algorithm::Placement, Algorithm::PlacementFlips, Algorithm::Auto];
+pub const ALGORITHMS: [Algorithm; 8] = [
+    Algorithm::Rebuilding,
+    Algorithm::Placement,
+    Algorithm::PlacementFlips,
+    Algorithm::Tolerance,
+    Algorithm::SafeRegion,
+    Algorithm::SafeRegionTolerance,
+    Algorithm::RebuildingTolerance,
+    Algorithm::Auto,
+];
 
 /// How a set of vertices moves from one timestamp to the next.
 #[derive(Clone, Copy, Debug)]
