@@ -99,7 +99,7 @@ enum deldrift_status
     DELDRIFT_BUFFER_TOO_SMALL = 7,
     /// A coordinate is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
-    /// A coordinate is so large, or so close to zero without being zero, that signs could not be exact.
+    /// A coordinate is of a magnitude above 1e57: signs could not be exact.
     DELDRIFT_OUT_OF_RANGE = 9,
     /// No vertex ever had this id.
     DELDRIFT_NO_SUCH_VERTEX = 10,
@@ -169,7 +169,8 @@ enum deldrift_algorithm
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// The library chooses at each commit, from what the commits before have cost.
+    /// The library chooses at each commit: placement with flips while fewer than one vertex in five is
+    /// staged, rebuilding otherwise.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.
     DELDRIFT_REBUILDING = 1,
@@ -179,6 +180,17 @@ enum deldrift_algorithm
     /// As placement, but a star whose cells stay positively oriented is repaired by flips (in 3D the
     /// same as placement).
     DELDRIFT_PLACEMENT_FLIPS = 3,
+    /// Keeps for each vertex a certified tolerance, within which it may move without any change of
+    /// connectivity. A vertex within it costs a distance, one beyond it a placement and the tolerances around
+    /// it. For small displacements, and for schemes that converge.
+    DELDRIFT_TOLERANCE = 4,
+    /// As tolerance, but a vertex may move in all of its safe region: a larger one, and a dearer test.
+    DELDRIFT_SAFE_REGION = 5,
+    /// The safe region is tested where the tolerance test fails.
+    DELDRIFT_SAFE_REGION_TOLERANCE = 6,
+    /// Rebuilds until a sample of the vertices stays within tolerance, then tolerance: for schemes that start
+    /// with large displacements and converge.
+    DELDRIFT_REBUILDING_TOLERANCE = 7,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -261,8 +273,16 @@ typedef struct deldrift_commit_report {
     uint64_t rebuilds;
     /// Hidden vertices at the end: those at the place of a vertex with a lower id.
     uint64_t coincident;
+    /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
+    uint64_t within_tolerance;
+    /// Vertices that were not, but certainly within their safe region, with an algorithm that tests it.
+    uint64_t within_safe_region;
+    /// Bi-cells whose tolerance was computed.
+    uint64_t tolerances;
+    /// Orientations and in-sphere tests of the stars of relocated vertices.
+    uint64_t certificates;
     /// Zero; later versions may count more.
-    uint64_t reserved[9];
+    uint64_t reserved[5];
 } deldrift_commit_report;
 
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid

@@ -106,8 +106,16 @@ fn builds_agree<G: Dimension>(n_seeds: u64, limit: usize) {
 
 /// Immediate calls and commits, each followed by the comparison.
 fn histories_agree<G: Dimension>(n_seeds: u64, limit: usize) {
-    const ALGORITHMS: [Algorithm; 4] =
-        [Algorithm::Rebuilding, Algorithm::Placement, Algorithm::PlacementFlips, Algorithm::Auto];
+    const ALGORITHMS: [Algorithm; 8] = [
+        Algorithm::Rebuilding,
+        Algorithm::Placement,
+        Algorithm::PlacementFlips,
+        Algorithm::Tolerance,
+        Algorithm::SafeRegion,
+        Algorithm::SafeRegionTolerance,
+        Algorithm::RebuildingTolerance,
+        Algorithm::Auto,
+    ];
     for (kind, draw) in KINDS {
         for seed in seeds(n_seeds) {
             let rng = &mut Rng::new(seed ^ 0xabcd_0000);

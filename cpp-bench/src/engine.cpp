@@ -14,6 +14,10 @@ const std::vector<EngineKind> &engine_kinds() {
         {"deldrift", "rebuilding", false, false, make_deldrift_rebuilding},
         {"deldrift", "placement", false, true, make_deldrift_placement},
         {"deldrift", "placement_flips", false, true, make_deldrift_placement_flips},
+        {"deldrift", "tolerance", false, true, make_deldrift_tolerance},
+        {"deldrift", "safe_region", false, true, make_deldrift_safe_region},
+        {"deldrift", "safe_region_tolerance", false, true, make_deldrift_safe_region_tolerance},
+        {"deldrift", "rebuilding_tolerance", false, false, make_deldrift_rebuilding_tolerance},
         {"deldrift", "auto", false, false, make_deldrift_auto},
     };
     return kinds;

@@ -57,6 +57,10 @@ std::unique_ptr<Engine> make_cgal_move(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_rebuilding(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_placement(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_placement_flips(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_tolerance(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_safe_region(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_safe_region_tolerance(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_rebuilding_tolerance(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads);
 
 }  // namespace bench

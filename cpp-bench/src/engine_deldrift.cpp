@@ -76,6 +76,22 @@ std::unique_ptr<Engine> make_deldrift_placement_flips(unsigned dimension, unsign
     return std::make_unique<Deldrift>(dimension, DELDRIFT_PLACEMENT_FLIPS, n_threads);
 }
 
+std::unique_ptr<Engine> make_deldrift_tolerance(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_TOLERANCE, n_threads);
+}
+
+std::unique_ptr<Engine> make_deldrift_safe_region(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_SAFE_REGION, n_threads);
+}
+
+std::unique_ptr<Engine> make_deldrift_safe_region_tolerance(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_SAFE_REGION_TOLERANCE, n_threads);
+}
+
+std::unique_ptr<Engine> make_deldrift_rebuilding_tolerance(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_REBUILDING_TOLERANCE, n_threads);
+}
+
 std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads) {
     return std::make_unique<Deldrift>(dimension, DELDRIFT_AUTO, n_threads);
 }

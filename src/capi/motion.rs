@@ -28,14 +28,34 @@ pub struct deldrift_commit_report {
     pub rebuilds: u64,
     /// Hidden vertices at the end: those at the place of a vertex with a lower id.
     pub coincident: u64,
+    /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
+    pub within_tolerance: u64,
+    /// Vertices that were not, but certainly within their safe region, with an algorithm that tests it.
+    pub within_safe_region: u64,
+    /// Bi-cells whose tolerance was computed.
+    pub tolerances: u64,
+    /// Orientations and in-sphere tests of the stars of relocated vertices.
+    pub certificates: u64,
     /// Zero; later versions may count more.
-    pub reserved: [u64; 9],
+    pub reserved: [u64; 5],
 }
 
 impl From<CommitReport> for deldrift_commit_report {
     fn from(report: CommitReport) -> Self {
-        let CommitReport { timestamp, moved, unchanged, placements, flips, rebuilds, coincident } = report;
-        Self { timestamp, moved, unchanged, placements, flips, rebuilds, coincident, reserved: [0; 9] }
+        Self {
+            timestamp: report.timestamp,
+            moved: report.moved,
+            unchanged: report.unchanged,
+            placements: report.placements,
+            flips: report.flips,
+            rebuilds: report.rebuilds,
+            coincident: report.coincident,
+            within_tolerance: report.within_tolerance,
+            within_safe_region: report.within_safe_region,
+            tolerances: report.tolerances,
+            certificates: report.certificates,
+            reserved: [0; 5],
+        }
     }
 }
 

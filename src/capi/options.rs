@@ -6,14 +6,15 @@ use std::ptr;
 
 use super::pointers;
 use super::status::Failure;
-use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options};
+use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRule};
 
 /// How deldrift_commit_timestamp brings the triangulation to the staged positions. Every algorithm
 /// gives exactly the same cells; they differ in what they cost.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_algorithm {
-    /// The library chooses at each commit, from what the commits before have cost.
+    /// The library chooses at each commit: placement with flips while fewer than one vertex in five is
+    /// staged, rebuilding otherwise.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.
     DELDRIFT_REBUILDING = 1,
@@ -23,6 +24,17 @@ pub enum deldrift_algorithm {
     /// As placement, but a star whose cells stay positively oriented is repaired by flips (in 3D the
     /// same as placement).
     DELDRIFT_PLACEMENT_FLIPS = 3,
+    /// Keeps for each vertex a certified tolerance, within which it may move without any change of
+    /// connectivity. A vertex within it costs a distance, one beyond it a placement and the tolerances around
+    /// it. For small displacements, and for schemes that converge.
+    DELDRIFT_TOLERANCE = 4,
+    /// As tolerance, but a vertex may move in all of its safe region: a larger one, and a dearer test.
+    DELDRIFT_SAFE_REGION = 5,
+    /// The safe region is tested where the tolerance test fails.
+    DELDRIFT_SAFE_REGION_TOLERANCE = 6,
+    /// Rebuilds until a sample of the vertices stays within tolerance, then tolerance: for schemes that start
+    /// with large displacements and converge.
+    DELDRIFT_REBUILDING_TOLERANCE = 7,
 }
 
 /// What happens when vertices come to lie at the same place.
@@ -147,7 +159,14 @@ impl deldrift_options {
             other => return Err(invalid("options.track_changes", other, "0 or 1")),
         };
         let algorithm = algorithm("options.algorithm", self.algorithm)?;
-        Ok(Options { algorithm, threads: self.threads, coincidence, track_changes, monitor: self.monitor() })
+        Ok(Options {
+            algorithm,
+            threads: self.threads,
+            coincidence,
+            track_changes,
+            switching: SwitchingRule::default(),
+            monitor: self.monitor(),
+        })
     }
 
     fn monitor(&self) -> Option<Monitor> {
@@ -191,6 +210,10 @@ pub(super) fn algorithm(field: &'static str, code: AlgorithmCode) -> Result<Algo
         1 => Ok(Algorithm::Rebuilding),
         2 => Ok(Algorithm::Placement),
         3 => Ok(Algorithm::PlacementFlips),
+        4 => Ok(Algorithm::Tolerance),
+        5 => Ok(Algorithm::SafeRegion),
+        6 => Ok(Algorithm::SafeRegionTolerance),
+        7 => Ok(Algorithm::RebuildingTolerance),
         other => Err(invalid(field, other, "a deldrift_algorithm")),
     }
 }
@@ -202,6 +225,10 @@ pub(super) fn algorithm_code(algorithm: Algorithm) -> AlgorithmCode {
         Algorithm::Rebuilding => deldrift_algorithm::DELDRIFT_REBUILDING,
         Algorithm::Placement => deldrift_algorithm::DELDRIFT_PLACEMENT,
         Algorithm::PlacementFlips => deldrift_algorithm::DELDRIFT_PLACEMENT_FLIPS,
+        Algorithm::Tolerance => deldrift_algorithm::DELDRIFT_TOLERANCE,
+        Algorithm::SafeRegion => deldrift_algorithm::DELDRIFT_SAFE_REGION,
+        Algorithm::SafeRegionTolerance => deldrift_algorithm::DELDRIFT_SAFE_REGION_TOLERANCE,
+        Algorithm::RebuildingTolerance => deldrift_algorithm::DELDRIFT_REBUILDING_TOLERANCE,
     };
     code as AlgorithmCode
 }
@@ -216,10 +243,10 @@ mod tests {
 
     #[test]
     fn algorithms_and_their_numbers_agree() {
-        for code in 0..4 {
+        for code in 0..8 {
             assert_eq!(algorithm("", code).map(algorithm_code).ok(), Some(code));
         }
-        assert!(algorithm("", 4).is_err());
+        assert!(algorithm("", 8).is_err());
     }
 
     #[test]

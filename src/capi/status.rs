@@ -32,7 +32,7 @@ pub enum deldrift_status {
     DELDRIFT_BUFFER_TOO_SMALL = 7,
     /// A coordinate is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
-    /// A coordinate is so large, or so close to zero without being zero, that signs could not be exact.
+    /// A coordinate is of a magnitude above 1e57: signs could not be exact.
     DELDRIFT_OUT_OF_RANGE = 9,
     /// No vertex ever had this id.
     DELDRIFT_NO_SUCH_VERTEX = 10,

@@ -36,7 +36,7 @@ impl Complex<[u32; 3]> {
 
 impl Complex<[u32; 4]> {
     /// Replaces the two cells of a facet by three around the edge between their opposing vertices; returns
-    /// them. The caller has [reserved](Self::reserve) a cell and knows that the exchange is geometrically valid.
+    /// them. The caller has reserved a cell and knows that the exchange is geometrically valid.
     pub fn flip_2_3(&mut self, facet: Facet) -> [u32; 3] {
         assert!(self.is_live(facet.cell()) && facet.index() < 4);
         let (c, i) = (facet.cell(), facet.index());

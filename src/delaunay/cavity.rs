@@ -77,7 +77,13 @@ impl<G: Dimension> Delaunay<G> {
         let q = self.site(s).point;
         self.cover(&q, &q);
         let inserted = if self.has_cells() {
-            self.insert_into_cells::<false>(s, if near == NONE { self.recent } else { near })
+            let inserted = self.insert_into_cells::<false>(s, if near == NONE { self.recent } else { near });
+            if inserted == Ok(Insertion::New)
+                && let Some(changed) = &mut self.changed
+            {
+                changed.extend_from_slice(&self.cavity.cells);
+            }
+            inserted
         } else {
             self.insert_flat(s)
         };

@@ -13,7 +13,7 @@ use super::site::Sites;
 use super::{Delaunay, cavity_plane, cavity_space};
 use crate::complex::{Corners, INFINITE};
 use crate::error::Result;
-use crate::predicates::{self, StaticFilter};
+use crate::predicates::{self, Delimiter, StaticFilter};
 
 /// Coordinates of one point: `[f64; D]`.
 pub trait Coordinates:
@@ -86,6 +86,18 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     );
     /// Joins the rim to the site: puts the new cells and glues them to each other and to what is outside.
     fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>);
+    /// Standard delimiter of a bi-cell: its `D + 2` corners, the opposing vertices first and last.
+    fn delimiter(points: &[Self::Point]) -> Delimiter<Self::Point>;
+    /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
+    fn orientation_tolerance(points: &[Self::Point]) -> f64;
+    /// As [`predicates::squared_distance`].
+    fn squared_distance(p: &Self::Point, q: &Self::Point) -> f64;
+    /// As [`predicates::distance_above`].
+    fn distance_above(p: &Self::Point, q: &Self::Point) -> f64;
+    /// As [`predicates::is_certainly_inside`].
+    fn is_certainly_inside(centre: &Self::Point, radius: f64, p: &Self::Point) -> bool;
+    /// As [`predicates::is_certainly_outside`].
+    fn is_certainly_outside(centre: &Self::Point, radius: f64, p: &Self::Point) -> bool;
     /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
     /// change, in a dimension where flips can be stuck.
     fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64>;
@@ -142,6 +154,38 @@ impl Dimension for Plane {
             [a, b, c] => predicates::orient2d(f, a, b, c) == 0.0,
             _ => true,
         }
+    }
+
+    #[inline(always)]
+    fn delimiter(points: &[[f64; 2]]) -> Delimiter<[f64; 2]> {
+        let [c, a, b, d]: &[_; 4] = points.try_into().expect("two cells");
+        predicates::delimiter2d(c, [a, b], d)
+    }
+
+    #[inline(always)]
+    fn orientation_tolerance(points: &[[f64; 2]]) -> f64 {
+        let [a, b, c]: &[_; 3] = points.try_into().expect("one cell");
+        predicates::orientation_tolerance2d([a, b, c])
+    }
+
+    #[inline(always)]
+    fn squared_distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+        predicates::squared_distance(p, q)
+    }
+
+    #[inline(always)]
+    fn distance_above(p: &[f64; 2], q: &[f64; 2]) -> f64 {
+        predicates::distance_above(p, q)
+    }
+
+    #[inline(always)]
+    fn is_certainly_inside(centre: &[f64; 2], radius: f64, p: &[f64; 2]) -> bool {
+        predicates::is_certainly_inside(centre, radius, p)
+    }
+
+    #[inline(always)]
+    fn is_certainly_outside(centre: &[f64; 2], radius: f64, p: &[f64; 2]) -> bool {
+        predicates::is_certainly_outside(centre, radius, p)
     }
 
     fn compare_distance(q: &[f64; 2], a: &[f64; 2], b: &[f64; 2]) -> Ordering {
@@ -230,6 +274,38 @@ impl Dimension for Space {
             [a, b, c, d] => predicates::orient3d(f, a, b, c, d) == 0.0,
             _ => true,
         }
+    }
+
+    #[inline(always)]
+    fn delimiter(points: &[[f64; 3]]) -> Delimiter<[f64; 3]> {
+        let [d, a, b, c, e]: &[_; 5] = points.try_into().expect("two cells");
+        predicates::delimiter3d(d, [a, b, c], e)
+    }
+
+    #[inline(always)]
+    fn orientation_tolerance(points: &[[f64; 3]]) -> f64 {
+        let [a, b, c, d]: &[_; 4] = points.try_into().expect("one cell");
+        predicates::orientation_tolerance3d([a, b, c, d])
+    }
+
+    #[inline(always)]
+    fn squared_distance(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+        predicates::squared_distance(p, q)
+    }
+
+    #[inline(always)]
+    fn distance_above(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+        predicates::distance_above(p, q)
+    }
+
+    #[inline(always)]
+    fn is_certainly_inside(centre: &[f64; 3], radius: f64, p: &[f64; 3]) -> bool {
+        predicates::is_certainly_inside(centre, radius, p)
+    }
+
+    #[inline(always)]
+    fn is_certainly_outside(centre: &[f64; 3], radius: f64, p: &[f64; 3]) -> bool {
+        predicates::is_certainly_outside(centre, radius, p)
     }
 
     fn compare_distance(q: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> Ordering {

@@ -41,6 +41,7 @@ impl<G: Dimension> Delaunay<G> {
                 self.sites[corners[i] as usize].cell = cell;
             }
             self.recent = cell;
+            self.record([cell]);
         }
         debug_assert!(open.is_empty());
         Ok(())

@@ -67,6 +67,10 @@ pub struct Delaunay<G: Dimension> {
     recent: u32,
     cavity: Cavity<G>,
     hole: Hole<G>,
+    /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
+    changed: Option<Vec<u32>>,
+    /// Certificates evaluated by relocations so far.
+    certificates: u64,
 }
 
 impl<G: Dimension> Default for Delaunay<G> {
@@ -83,6 +87,8 @@ impl<G: Dimension> Default for Delaunay<G> {
             recent: 0,
             cavity: Cavity::default(),
             hole: Hole::default(),
+            changed: None,
+            certificates: 0,
         }
     }
 }
@@ -218,6 +224,30 @@ impl<G: Dimension> Delaunay<G> {
         }
         let behind = self.complex.cell(c.neighbour(Self::LAST).cell());
         G::is_in_sphere(&self.filter, self.view(), &behind.corners, q, id)
+    }
+
+    /// How many certificates relocations have evaluated so far.
+    pub fn certificates(&self) -> u64 {
+        self.certificates
+    }
+
+    /// Starts a record of the cells that relocations, insertions and removals make or move, in `buffer`.
+    pub fn record_changes(&mut self, mut buffer: Vec<u32>) {
+        buffer.clear();
+        self.changed = Some(buffer);
+    }
+
+    /// Ends the record and returns it: cells, some of them more than once, some free again by now.
+    pub fn take_changes(&mut self) -> Vec<u32> {
+        self.changed.take().unwrap_or_default()
+    }
+
+    /// Enters cells into the record, if there is one.
+    #[inline(always)]
+    fn record(&mut self, cells: impl IntoIterator<Item = u32>) {
+        if let Some(changed) = &mut self.changed {
+            changed.extend(cells);
+        }
     }
 
     /// Bytes held.

@@ -59,6 +59,22 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Moves a site, without a look at spheres, if it is not on the hull and its star, which is gathered, stays positively
+    /// oriented; the cells are then a triangulation still.
+    pub(crate) fn move_within_link(&mut self, s: u32, q: &G::Point) -> bool {
+        self.cover(q, q);
+        self.gather_star(s);
+        if self.hole.star.iter().any(|&(c, _)| self.complex.cell(c).is_ghost()) {
+            return false;
+        }
+        let old = std::mem::replace(&mut self.sites[s as usize].point, *q);
+        if !self.star_is_positive() {
+            self.sites[s as usize].point = old;
+            return false;
+        }
+        true
+    }
+
     /// Gives a site the id of another vertex.
     pub fn rename_site(&mut self, s: u32, id: u32) -> Result<()> {
         let q = self.site(s).point;
@@ -75,6 +91,9 @@ impl<G: Dimension> Delaunay<G> {
         self.sites[s as usize].point = *q;
         self.sites[s as usize].id = id;
         if self.star_is_positive() {
+            if let Some(changed) = &mut self.changed {
+                changed.extend(self.hole.star.iter().map(|&(c, _)| c));
+            }
             if self.star_is_delaunay() {
                 return Some(Relocation::InPlace);
             }
@@ -89,22 +108,33 @@ impl<G: Dimension> Delaunay<G> {
         None
     }
 
-    fn star_is_positive(&self) -> bool {
-        self.hole.star.iter().all(|&(c, _)| {
+    /// Whether every cell of the gathered star is positively oriented.
+    fn star_is_positive(&mut self) -> bool {
+        for &(c, _) in &self.hole.star {
+            self.certificates += 1;
             let c = self.complex.cell(c);
-            G::orientation(&self.filter, self.view(), &c.corners) > 0.0
-        })
+            if G::orientation(&self.filter, self.view(), &c.corners) <= 0.0 {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether every bi-cell of the gathered star passes the empty-sphere test; each facet within is tested once.
-    fn star_is_delaunay(&self) -> bool {
-        self.hole.star.iter().all(|&(c, at)| {
-            let cell = self.complex.cell(c);
-            (0..G::Corners::N).all(|i| {
-                let across = cell.neighbour(i);
-                i != at as usize && across.cell() < c || self.is_locally_delaunay(Facet::new(c, i))
-            })
-        })
+    fn star_is_delaunay(&mut self) -> bool {
+        for &(c, at) in &self.hole.star {
+            for i in 0..G::Corners::N {
+                let across = self.complex.cell(c).neighbour(i);
+                if i != at as usize && across.cell() < c {
+                    continue;
+                }
+                self.certificates += 1;
+                if !self.is_locally_delaunay(Facet::new(c, i)) {
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     /// Whether the opposing vertices of a facet of a finite cell are outside the spheres of the opposite cells.
@@ -131,12 +161,14 @@ impl Delaunay<super::Plane> {
         let mut flips = 0;
         while let Some(edge) = edges.pop() {
             let (c, i) = (edge.cell(), edge.index());
+            self.certificates += 1;
             if self.complex.cell(c).is_ghost() || self.is_locally_delaunay(edge) {
                 continue;
             }
             let across = self.complex.cell(c).neighbour(i);
             let (d, j) = (across.cell(), across.index());
             self.complex.flip(edge);
+            self.record([c, d]);
             flips += 1;
             for cell in [c, d] {
                 let corners = self.complex.cell(cell).corners;

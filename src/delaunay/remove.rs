@@ -65,7 +65,7 @@ const NEW: u32 = MAX_CELLS as u32;
 
 impl<G: Dimension> Delaunay<G> {
     /// Collects the star of a site and its link.
-    pub(super) fn gather_star(&mut self, s: u32) {
+    pub(crate) fn gather_star(&mut self, s: u32) {
         let hole = &mut self.hole;
         hole.star.clear();
         hole.link.clear();
@@ -91,6 +91,11 @@ impl<G: Dimension> Delaunay<G> {
         for &(c, _) in &hole.star {
             self.complex.set_mark(c, 0);
         }
+    }
+
+    /// Cells of the star gathered last, and the index of its site in each.
+    pub(crate) fn gathered_star(&self) -> &[(u32, u8)] {
+        &self.hole.star
     }
 
     /// Lists the link's sites. Each gets its position in the list as a label, kept in its `cell` field.
@@ -150,6 +155,9 @@ impl<G: Dimension> Delaunay<G> {
             return Err(error);
         }
         self.replace_star();
+        if let Some(changed) = &mut self.changed {
+            changed.extend_from_slice(&self.hole.made_at);
+        }
         self.sites[s as usize].cell = NONE;
         Ok(())
     }

@@ -28,6 +28,8 @@ pub(super) struct Cells<G: Dimension> {
     pub(super) neighbours: Vec<G::Corners>,
     /// Index in the arrays of the kernel's cells, [`NO_CELL`] for ghost cells.
     pub(super) index_of: Vec<u32>,
+    /// The kernel's cell of each index.
+    pub(super) slots: Vec<u32>,
 }
 
 impl<G: Dimension> Cells<G> {
@@ -49,12 +51,12 @@ impl<G: Dimension> Cells<G> {
             corners.push(ids);
             neighbours.push(across);
         }
-        Cells { corners, neighbours, index_of }
+        Cells { corners, neighbours, index_of, slots: complex.finite().collect() }
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
         (self.corners.capacity() + self.neighbours.capacity()) * size_of::<G::Corners>()
-            + self.index_of.capacity() * 4
+            + (self.index_of.capacity() + self.slots.capacity()) * 4
     }
 }
 

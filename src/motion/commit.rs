@@ -1,6 +1,7 @@
 //! The commit: one timestamp, all or nothing.
 
 use super::cells::Baseline;
+use super::regions::Filter;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
@@ -21,11 +22,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         let baseline = self.options.track_changes.then(|| Baseline::of(self));
         self.forget_views();
         let mut report = CommitReport::default();
+        let before = self.kernel.certificates();
         self.staging.applied = 0;
         if let Err(error) = self.advance(&mut report) {
             self.go_back()?;
             return Err(error);
         }
+        report.certificates = self.kernel.certificates() - before;
         self.staging.clear();
         self.baseline = baseline;
         self.statistics.timestamp += 1;
@@ -40,6 +43,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         match self.algorithm_for_commit() {
             Algorithm::Placement => self.commit_by_placement(Shortcut::Certificates, report)?,
             Algorithm::PlacementFlips => self.commit_by_placement(Shortcut::Flips, report)?,
+            Algorithm::Tolerance => self.commit_by_filter(Filter::Tolerance, report)?,
+            Algorithm::SafeRegion => self.commit_by_filter(Filter::SafeRegion, report)?,
+            Algorithm::SafeRegionTolerance => self.commit_by_filter(Filter::Both, report)?,
+            Algorithm::RebuildingTolerance => self.commit_by_switching(report)?,
             Algorithm::Rebuilding | Algorithm::Auto => self.commit_by_rebuilding(0, report)?,
         }
         self.reject_coincidence()

@@ -7,6 +7,10 @@
 //! |---|---|---|
 //! | `rebuilding` | section 1 | triangulate all positions anew |
 //! | `placement` | sections 3.1, 3.2 | relocate the vertices one at a time |
+//! | `tolerance` | section 3.3 | place only those that leave their tolerance or safe region |
+//! | `switching` | section 5.2 | rebuild until few do |
+//!
+//! `bicell` and `regions` hold what the last two need: delimiters and tolerances (sections 2.2 to 2.4).
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
@@ -17,6 +21,7 @@
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, and once moves are staged a position, a flag and
 //! an id.
 
+mod bicell;
 mod cells;
 mod coincidence;
 mod commit;
@@ -24,21 +29,26 @@ mod options;
 mod placement;
 mod query;
 mod rebuilding;
+mod regions;
 mod staging;
+mod switching;
+mod tolerance;
 
 use std::sync::OnceLock;
 
 pub use crate::delaunay::{Level, Violation};
 pub use cells::{CellsView, NO_CELL};
-pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options};
+pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
 pub use query::Location;
 
 use crate::complex::NONE;
-use crate::delaunay::{Delaunay, Dimension, Insertion, Shortcut};
+use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use cells::{Baseline, Cells};
 use coincidence::Hidden;
+use regions::Regions;
 use staging::{Staging, check_position};
+use switching::Switching;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
@@ -52,6 +62,8 @@ pub struct MovingTriangulation<G: Dimension> {
     hidden: Hidden,
     n_present: usize,
     staging: Staging<G>,
+    regions: Regions<G>,
+    switching: Switching,
     options: Options,
     statistics: CommitReport,
     /// Mean walk of the latest build in freshly sorted storage: the measure of lost locality.
@@ -77,6 +89,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             hidden: Hidden::default(),
             n_present: positions.len(),
             staging: Staging::default(),
+            regions: Regions::default(),
+            switching: Switching::default(),
             options,
             statistics: CommitReport::default(),
             sorted_walk: 0.0,
@@ -114,13 +128,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.reject_occupied(vertex, &q)?;
         self.forget_views();
+        let before = self.kernel.certificates();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };
-        if let Err(error) = self.relocate(vertex, &q, Shortcut::Flips, &mut report) {
+        if let Err(error) = self.relocate_filtered(vertex, &q, &mut report) {
             self.spread_hidden()?;
             self.kernel.set_point(self.site_of[vertex as usize], old);
             self.rebuild_quietly()?;
             return Err(error);
         }
+        report.certificates = self.kernel.certificates() - before;
         self.count(report);
         Ok(())
     }
@@ -141,6 +157,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let s = self.kernel.add_site(q, id)?;
         self.site_of.push(s);
         self.n_present += 1;
+        self.regions.invalidate();
         match self.kernel.insert_site(s, NONE) {
             Ok(Insertion::New) => {}
             // The new id is the highest of all, so it is the one to hide: nothing else changes.
@@ -165,6 +182,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
         self.forget_views();
+        self.regions.invalidate();
         let removed = if self.hidden.any_at(s) {
             match self.hidden.leave(s, vertex, self.kernel.site(s).id) {
                 Some(next) => self.kernel.rename_site(s, next),
@@ -208,6 +226,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.placements += report.placements;
         sum.flips += report.flips;
         sum.rebuilds += report.rebuilds;
+        sum.within_tolerance += report.within_tolerance;
+        sum.within_safe_region += report.within_safe_region;
+        sum.tolerances += report.tolerances;
+        sum.certificates += report.certificates;
         sum.coincident = self.hidden.count() as u64;
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::delaunay::Dimension;
+
 /// How [`commit_timestamp`](super::MovingTriangulation::commit_timestamp) brings the triangulation to the
 /// staged positions. Every algorithm gives exactly the same cells; they differ in cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,6 +19,41 @@ pub enum Algorithm {
     /// As placement, but where the star stays positively oriented, flips repair it (report, section 3.2;
     /// in 3D the same as placement).
     PlacementFlips,
+    /// Vertices that stay within their certified tolerance change nothing; the others are placed (report, Algorithm 1).
+    Tolerance,
+    /// Vertices that stay within their safe region change nothing; the others are placed (report, Algorithm 2).
+    SafeRegion,
+    /// The safe region is tested where the tolerance test fails.
+    SafeRegionTolerance,
+    /// Rebuilding until most vertices stay within their tolerance, then *tolerance* (report, section 5.2).
+    RebuildingTolerance,
+}
+
+/// When *rebuilding + tolerance* swaps from the one to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SwitchingRule {
+    /// Vertices sampled each time.
+    pub sample: u32,
+    /// Commits from one sample to the next.
+    pub period: u32,
+    /// Share of the sample, from 0 to 1, that must be within tolerance; `None` for the report's: 0.75 in the plane, 0.55
+    /// in space.
+    pub share: Option<f64>,
+    /// Seed of the sample.
+    pub seed: u64,
+}
+
+impl Default for SwitchingRule {
+    fn default() -> Self {
+        SwitchingRule { sample: 40, period: 4, share: None, seed: 0 }
+    }
+}
+
+impl SwitchingRule {
+    /// The share in force in a dimension.
+    pub(super) fn share_for<G: Dimension>(&self) -> f64 {
+        self.share.unwrap_or(if G::D == 2 { 0.75 } else { 0.55 })
+    }
 }
 
 /// What happens when vertices come to lie at the same place.
@@ -43,6 +80,8 @@ pub struct Options {
     pub coincidence: CoincidencePolicy,
     /// Keep what [`changed_cells`](super::MovingTriangulation::changed_cells) needs.
     pub track_changes: bool,
+    /// Rule of [`Algorithm::RebuildingTolerance`].
+    pub switching: SwitchingRule,
     /// Progress and cancellation, of creation and of commits.
     pub monitor: Option<Monitor>,
 }
@@ -54,6 +93,7 @@ impl fmt::Debug for Options {
             .field("threads", &self.threads)
             .field("coincidence", &self.coincidence)
             .field("track_changes", &self.track_changes)
+            .field("switching", &self.switching)
             .field("monitor", &self.monitor.is_some())
             .finish()
     }
@@ -75,6 +115,14 @@ pub struct CommitReport {
     pub flips: u64,
     /// 1 if the triangulation was rebuilt (a sum in the statistics).
     pub rebuilds: u64,
+    /// Vertices that were certainly within their tolerance.
+    pub within_tolerance: u64,
+    /// Vertices that were certainly within their safe region, where the algorithm tests that.
+    pub within_safe_region: u64,
+    /// Delimiters computed: bi-cells whose tolerance was taken anew.
+    pub tolerances: u64,
+    /// Certificates evaluated: orientations and in-sphere tests of stars whose vertex was relocated.
+    pub certificates: u64,
     /// Hidden vertices at the end: those that are at the place of a vertex with a lower id.
     pub coincident: u64,
 }

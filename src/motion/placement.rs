@@ -18,6 +18,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         shortcut: Shortcut,
         report: &mut CommitReport,
     ) -> Result<()> {
+        self.regions.invalidate();
         self.order_staged_by_site();
         let n = self.staging.vertices.len();
         for k in 0..n {

@@ -30,6 +30,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Changes the algorithm of later commits.
     pub fn set_algorithm(&mut self, algorithm: Algorithm) {
+        if algorithm != self.options.algorithm {
+            self.reset_switching();
+        }
         self.options.algorithm = algorithm;
     }
 
@@ -205,6 +208,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.kernel.memory_bytes()
             + self.site_of.capacity() * 4
             + self.staging.memory_bytes()
+            + self.regions.memory_bytes()
             + self.cells.get().map_or(0, |cells| cells.memory_bytes())
     }
 }

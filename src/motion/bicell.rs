@@ -1,0 +1,132 @@
+//! Bi-cells: two cells and the facet between them (report, section 2.2).
+
+use super::MovingTriangulation;
+use crate::complex::{Corners, Facet, INFINITE};
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::predicates::Delimiter;
+
+/// The corners of a bi-cell that are not the ghost vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BiCell<G: Dimension> {
+    sites: [u32; 5],
+    points: [G::Point; 5],
+    n: usize,
+}
+
+impl<G: Dimension> BiCell<G> {
+    /// The bi-cell of a facet: the opposing vertices are the first and the last of the `D + 2` corners of an interior one.
+    /// At the hull only the `D + 1` finite corners are listed, in the order of a positive orientation.
+    #[inline(always)]
+    pub(super) fn of(kernel: &Delaunay<G>, facet: Facet) -> Self {
+        let complex = kernel.complex();
+        let (c, i) = (facet.cell(), facet.index());
+        let across = complex.cell(c).neighbour(i);
+        let corners = complex.cell(c).corners;
+        let apex = complex.cell(across.cell()).corners[across.index()];
+        let mut bicell = BiCell { sites: [INFINITE; 5], points: [G::Point::default(); 5], n: 0 };
+        if complex.cell(c).is_ghost() {
+            if i == G::D {
+                bicell.push_all(kernel, complex.cell(across.cell()).corners);
+            } else {
+                // Across a ridge of the hull the other facet's apex is on the inner side.
+                bicell.push_all(kernel, corners.with(G::D, apex).reflected(G::D));
+            }
+        } else if apex == INFINITE {
+            bicell.push_all(kernel, corners);
+        } else {
+            bicell.push(kernel, corners[i]);
+            for k in 1..G::Corners::N {
+                bicell.push(kernel, corners[(i + k) % G::Corners::N]);
+            }
+            bicell.push(kernel, apex);
+        }
+        bicell
+    }
+
+    fn push_all(&mut self, kernel: &Delaunay<G>, corners: G::Corners) {
+        for i in 0..G::Corners::N {
+            self.push(kernel, corners[i]);
+        }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, kernel: &Delaunay<G>, s: u32) {
+        self.sites[self.n] = s;
+        self.points[self.n] = kernel.site(s).point;
+        self.n += 1;
+    }
+
+    /// The finite corners.
+    pub(super) fn sites(&self) -> &[u32] {
+        &self.sites[..self.n]
+    }
+
+    /// The standard delimiter; `None` at the hull.
+    #[inline(always)]
+    pub(super) fn delimiter(&self) -> Option<Delimiter<G::Point>> {
+        (self.n == G::D + 2).then(|| G::delimiter(&self.points[..G::D + 2]))
+    }
+
+    /// Certified lower bound of the tolerance of a bi-cell at the hull.
+    pub(super) fn hull_tolerance(&self) -> f64 {
+        G::orientation_tolerance(&self.points[..G::D + 1])
+    }
+
+    /// Certified lower bound of the tolerance.
+    #[inline(always)]
+    pub(super) fn tolerance(&self) -> f64 {
+        self.delimiter().map_or_else(|| self.hull_tolerance(), |delimiter| delimiter.tolerance)
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Tolerance of a vertex at its current position: a certified lower bound of the distance that all vertices may move
+    /// without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it shares its
+    /// place with another, infinite while there are no cells.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`].
+    pub fn tolerance(&self, vertex: u32) -> Result<f64> {
+        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        if self.hidden.any_at(s) {
+            return Ok(0.0);
+        }
+        Ok(self.tolerance_of_site(s))
+    }
+
+    pub(super) fn tolerance_of_site(&self, s: u32) -> f64 {
+        let mut tolerance = f64::INFINITY;
+        self.kernel.for_star(s, |c, _| {
+            for i in 0..G::Corners::N {
+                tolerance = tolerance.min(BiCell::of(&self.kernel, Facet::new(c, i)).tolerance());
+            }
+        });
+        tolerance
+    }
+
+    /// Annulus width of the bi-cell beyond each facet of each finite cell, as a certified lower bound, in the order of
+    /// [`cells`](Self::cells): entry `i` of a cell is that of the facet opposite corner `i`. Every interior bi-cell is
+    /// listed from both sides; facets of the hull have none and hold NaN.
+    pub fn annulus_widths(&self) -> Vec<f64> {
+        let complex = self.kernel.complex();
+        let mut widths = Vec::with_capacity(complex.n_finite() * G::Corners::N);
+        for c in complex.finite() {
+            for i in 0..G::Corners::N {
+                let delimiter = BiCell::of(&self.kernel, Facet::new(c, i)).delimiter();
+                widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
+            }
+        }
+        widths
+    }
+
+    /// Standard delimiter of the bi-cell of the facet opposite corner `corner` of the finite cell of index `cell` in
+    /// [`cells`](Self::cells); `None` if there is no such facet or it is on the hull.
+    pub fn standard_delimiter(&self, cell: u32, corner: u32) -> Option<Delimiter<G::Point>> {
+        let slot = *self.cell_arrays().slots.get(cell as usize)?;
+        if corner as usize > G::D {
+            return None;
+        }
+        BiCell::of(&self.kernel, Facet::new(slot, corner as usize)).delimiter()
+    }
+}

@@ -1,0 +1,179 @@
+//! The *tolerance* algorithm (report, Algorithm 1), the *safe region* algorithm (Algorithm 2) and both together.
+//!
+//! ```text
+//! for each relocation of z to p:
+//!     m_z <- p
+//!     if m_z is certainly in the tolerance (safe) region of z: done
+//!     else: z joins the queue
+//! for each z in the queue:
+//!     move z with the placement algorithm
+//!     for each new bi-cell: its delimiter; for each vertex of it: a smaller tolerance
+//! ```
+//!
+//! **One embedding.** The report places vertices in the embedding at *fixed* positions, T_f, and so has to queue a vertex
+//! again when a new bi-cell's tolerance falls below its displacement. Here the queue is worked off in the embedding at
+//! the *moving* positions: once every accepted vertex has moved, that is a Delaunay triangulation by Proposition 1 (in
+//! space, with the correction in [`regions`](super::regions)), the queued vertices being where they were; predicates are exact, so it stays one after each placement. New delimiters are
+//! taken at the moving positions, which lie within them by construction, and no vertex is ever queued again. A vertex *w*
+//! that gets a smaller tolerance is fixed anew where it is: the ball around `f_w` of radius ε_w holds the ball around `m_w`
+//! of radius `ε_w − |m_w − f_w|`, so `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
+//!
+//! **Certified.** Tolerances are lower bounds and displacements are compared as upper bounds
+//! ([`predicates::tolerance`](crate::predicates)), so an accepted vertex *provably* changes nothing.
+//!
+//! **Coincident vertices** always take the queue.
+//!
+//! Cost: a test is a squared distance, or one for each bi-cell of the star; a queued vertex costs a placement and about
+//! 12 (plane) or 66 (space) delimiters and more for what the hole is filled with.
+
+use super::regions::Filter;
+use super::{Algorithm, CommitReport, MovingTriangulation};
+use crate::delaunay::{Dimension, Shortcut};
+use crate::error::{Error, Result};
+
+/// Relocations between two calls of the monitor.
+const MONITORED: usize = 256;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Brings the staged vertices to their new positions by a filter and a queue.
+    pub(super) fn commit_by_filter(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.commit_by_rebuilding(0, report);
+        }
+        self.pre_compute(filter)?;
+        self.accept_staged(filter, report);
+        self.place_queued(filter, report)
+    }
+
+    /// Computes tolerances and delimiters unless those of the last commit are valid.
+    fn pre_compute(&mut self, filter: Filter) -> Result<()> {
+        if self.regions.kept_for() == Some(filter) {
+            return Ok(());
+        }
+        self.regions.compute(&self.kernel, filter)
+    }
+
+    /// Moves the vertices that stay in their regions; the others are queued, behind them in the order of staging.
+    fn accept_staged(&mut self, filter: Filter, report: &mut CommitReport) {
+        let mut vertices = std::mem::take(&mut self.staging.vertices);
+        let mut queue = std::mem::take(&mut self.regions.queue);
+        queue.clear();
+        vertices.retain(|&v| {
+            let accepted = self.accept(v, filter, report);
+            if !accepted {
+                queue.push(v);
+            }
+            accepted
+        });
+        self.staging.applied = vertices.len();
+        vertices.append(&mut queue);
+        self.staging.vertices = vertices;
+        self.regions.queue = queue;
+    }
+
+    /// Moves a vertex if it stays in its region.
+    #[inline(always)]
+    fn accept(&mut self, vertex: u32, filter: Filter, report: &mut CommitReport) -> bool {
+        let s = self.site_of[vertex as usize];
+        let p = self.staging.positions[vertex as usize];
+        if self.hidden.any_at(s) {
+            return false;
+        }
+        let within = filter != Filter::SafeRegion && self.regions.is_within_tolerance(s, &p);
+        let accepted =
+            within || filter != Filter::Tolerance && self.regions.is_in_safe_region(&mut self.kernel, s, &p);
+        if accepted {
+            report.moved += u64::from(self.exchange_position(vertex));
+            if within {
+                report.within_tolerance += 1;
+            } else {
+                report.within_safe_region += 1;
+            }
+            self.kernel.cover(&p, &p);
+        }
+        accepted
+    }
+
+    /// The queue of the report's algorithms.
+    fn place_queued(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
+        let (first, n) = (self.staging.applied, self.staging.vertices.len());
+        for k in first..n {
+            if !self.kernel.has_cells() {
+                self.regions.invalidate();
+                return self.commit_by_rebuilding(k, report);
+            }
+            if (k - first).is_multiple_of(MONITORED) && !self.monitor(k as f64 / n as f64) {
+                return Err(Error::Cancelled);
+            }
+            self.staging.applied = k + 1;
+            let v = self.staging.vertices[k];
+            let old = self.kernel.site(self.site_of[v as usize]).point;
+            let new = std::mem::replace(&mut self.staging.positions[v as usize], old);
+            if new != old {
+                report.moved += 1;
+                self.relocate_and_fix(v, &new, filter, report)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves one vertex at once, by the filter in force if there is one.
+    pub(super) fn relocate_filtered(
+        &mut self,
+        vertex: u32,
+        q: &G::Point,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let Some(filter) = self.filter().filter(|_| self.kernel.has_cells()) else {
+            self.regions.invalidate();
+            return self.relocate(vertex, q, Shortcut::Flips, report);
+        };
+        self.pre_compute(filter)?;
+        self.staging.grow_for(self.site_of.len())?;
+        self.staging.positions[vertex as usize] = *q;
+        if self.accept(vertex, filter, report) {
+            report.moved = 1;
+            return Ok(());
+        }
+        self.relocate_and_fix(vertex, q, filter, report)
+    }
+
+    /// The filter of the algorithm in force.
+    fn filter(&self) -> Option<Filter> {
+        match self.options.algorithm {
+            Algorithm::Tolerance => Some(Filter::Tolerance),
+            Algorithm::RebuildingTolerance => self.switching.has_switched().then_some(Filter::Tolerance),
+            Algorithm::SafeRegion => Some(Filter::SafeRegion),
+            Algorithm::SafeRegionTolerance => Some(Filter::Both),
+            _ => None,
+        }
+    }
+
+    /// Moves a vertex by placement, fixes it there, and lets the new bi-cells lower tolerances.
+    pub(super) fn relocate_and_fix(
+        &mut self,
+        vertex: u32,
+        q: &G::Point,
+        filter: Filter,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let s = self.site_of[vertex as usize];
+        if !self.hidden.any_at(s) && self.regions.move_in_place(&mut self.kernel, filter, s, q, report) {
+            report.unchanged += 1;
+            return Ok(());
+        }
+        self.kernel.record_changes(std::mem::take(&mut self.regions.changed));
+        let relocated = self.relocate(vertex, q, Shortcut::Flips, report);
+        if relocated.is_err() || !self.kernel.has_cells() {
+            self.kernel.take_changes();
+            self.regions.invalidate();
+            return relocated;
+        }
+        let s = self.site_of[vertex as usize];
+        if !self.hidden.any_at(s) {
+            self.regions.grow(&self.kernel, filter)?;
+            self.regions.fix(&self.kernel, s);
+        }
+        self.regions.add_changes(&mut self.kernel, filter, report)
+    }
+}

@@ -1,0 +1,120 @@
+//! The maintenance algorithms of the report, each by itself over many timestamps: its cells are those of a fresh build.
+//!
+//! Displacements are of the size of tolerances, so that every commit has vertices on both sides of the tests.
+
+mod common;
+
+use common::{Rng, assert_same_cells, cell_set, fresh_cells};
+use deldrift::delaunay::{Coordinates, Dimension, Plane, Space};
+use deldrift::motion::{Algorithm, CommitReport, Level, MovingTriangulation, Options, SwitchingRule};
+
+const MAINTENANCE: [Algorithm; 4] = [
+    Algorithm::Tolerance,
+    Algorithm::SafeRegion,
+    Algorithm::SafeRegionTolerance,
+    Algorithm::RebuildingTolerance,
+];
+
+/// Points at unit density: anywhere, on a grid, or a grid that is a little off.
+fn positions<G: Dimension>(kind: u64, n: usize, rng: &mut Rng) -> Vec<Option<G::Point>> {
+    let side = (n as f64).powf(1.0 / G::D as f64).ceil();
+    (0..n)
+        .map(|i| {
+            let mut p = G::Point::default();
+            let mut rest = i;
+            for k in 0..G::D {
+                let on_grid = (rest % side as usize) as f64;
+                rest /= side as usize;
+                p[k] = match kind % 3 {
+                    0 => rng.unit() * side,
+                    1 => on_grid,
+                    _ => on_grid + 1e-9 * rng.unit(),
+                };
+            }
+            Some(p)
+        })
+        .collect()
+}
+
+fn nudge<P: Coordinates>(p: &mut P, d: usize, size: f64, rng: &mut Rng) {
+    for k in 0..d {
+        p[k] += size * (rng.unit() - 0.5);
+    }
+}
+
+fn agree<G: Dimension>(algorithm: Algorithm, seed: u64, n: usize) -> CommitReport {
+    let rng = &mut Rng::new(seed);
+    let mut now = positions::<G>(seed, n, rng);
+    let start: Vec<G::Point> = now.iter().map(|p| p.expect("present")).collect();
+    let switching = SwitchingRule { seed, ..SwitchingRule::default() };
+    let options = Options { algorithm, switching, ..Options::default() };
+    let mut t = MovingTriangulation::<G>::new(&start, options).expect("a build");
+    for step in 0..12 {
+        let context = || format!("{algorithm:?} in {} dimensions, seed {seed}, step {step}", G::D);
+        let present: Vec<usize> = (0..now.len()).filter(|&v| now[v].is_some()).collect();
+        // From far within all tolerances to far beyond.
+        let size = 10f64.powf(-4.0 + 4.0 * rng.unit());
+        match rng.below(8) {
+            0 => {
+                let v = present[rng.below(present.len())];
+                t.remove_vertex(v as u32).expect("a removal");
+                now[v] = None;
+            }
+            1 => {
+                let mut p = now[present[rng.below(present.len())]].expect("present");
+                nudge(&mut p, G::D, size, rng);
+                assert_eq!(t.insert_vertex(&p).expect("an insertion") as usize, now.len());
+                now.push(Some(p));
+            }
+            2 => {
+                for &v in present.iter().take(10) {
+                    let p = now[v].as_mut().expect("present");
+                    nudge(p, G::D, size, rng);
+                    t.relocate_vertex(v as u32, p).expect("a relocation");
+                }
+            }
+            3 => {
+                // Two meet, or part again.
+                let [a, b] = [0, 1].map(|_| present[rng.below(present.len())]);
+                now[a] = now[b];
+                t.move_vertices(&[a as u32], &[now[b].expect("present")]).expect("a move");
+                t.commit_timestamp().expect("a commit");
+            }
+            _ => {
+                let share = 1 + rng.below(3);
+                for &v in present.iter().filter(|&v| v % share == 0) {
+                    nudge(now[v].as_mut().expect("present"), G::D, size, rng);
+                    t.move_vertices(&[v as u32], &[now[v].expect("present")]).expect("a move");
+                }
+                t.commit_timestamp().expect("a commit");
+            }
+        }
+        t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("{}: {v}", context()));
+        assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&now), context);
+    }
+    t.statistics()
+}
+
+fn all_agree<G: Dimension>() {
+    for algorithm in MAINTENANCE {
+        let (mut within, mut beyond) = (0, 0);
+        for seed in 0..200u64 {
+            let n = if seed % 20 == 0 { 400 } else { 20 + seed as usize % 60 };
+            let sums = agree::<G>(algorithm, seed, n);
+            within += sums.within_tolerance + sums.within_safe_region;
+            beyond += sums.placements + sums.flips;
+        }
+        // Both ways through the algorithms have been taken often.
+        assert!(within > 1000 && beyond > 1000, "{algorithm:?}: {within} within, {beyond} beyond");
+    }
+}
+
+#[test]
+fn maintenance_in_the_plane_matches_fresh_builds() {
+    all_agree::<Plane>();
+}
+
+#[test]
+fn maintenance_in_space_matches_fresh_builds() {
+    all_agree::<Space>();
+}
