@@ -107,7 +107,7 @@ enum deldrift_status
     DELDRIFT_REMOVED_VERTEX = 11,
     /// A move of this vertex is already staged for the next timestamp.
     DELDRIFT_DUPLICATE_MOVE = 12,
-    /// An array with one entry per vertex has another number of entries.
+    /// An array without a list of ids has more entries than there are ids.
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
@@ -130,6 +130,10 @@ enum deldrift_status
     DELDRIFT_POISONED = 22,
     /// A defect of the library; please report the message.
     DELDRIFT_INTERNAL_ERROR = 23,
+    /// There is no cell of this index, or cells have no corner of this number.
+    DELDRIFT_NO_SUCH_FACET = 24,
+    /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
+    DELDRIFT_NO_DELIMITER = 25,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -180,16 +184,25 @@ enum deldrift_algorithm
     /// As placement, but a star whose cells stay positively oriented is repaired by flips (in 3D the
     /// same as placement).
     DELDRIFT_PLACEMENT_FLIPS = 3,
-    /// Keeps for each vertex a certified tolerance, within which it may move without any change of
-    /// connectivity. A vertex within it costs a distance, one beyond it a placement and the tolerances around
-    /// it. For small displacements, and for schemes that converge.
+    /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
+    /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the
+    /// tolerances around it. For displacements so small that at least half of the vertices stay within, and
+    /// for schemes that converge. All tolerances are computed by the first commit, and by the first one
+    /// after an insertion or a removal.
     DELDRIFT_TOLERANCE = 4,
-    /// As tolerance, but a vertex may move in all of its safe region: a larger one, and a dearer test.
+    /// As tolerance, with a larger region for each vertex: inside the delimiters of the facets it is on,
+    /// outside those of the facets opposite it (see deldrift_standard_delimiter). More vertices stay within,
+    /// at the cost of a distance for every facet of the star of each, and of the memory of a delimiter for
+    /// every facet of every cell. For displacements that are often just above the tolerances.
     DELDRIFT_SAFE_REGION = 5,
-    /// The safe region is tested where the tolerance test fails.
+    /// The safe region is tested only where the tolerance test fails: as many vertices stay within as with
+    /// either, and most cost one distance. Memory as for the safe region. For displacements that are small
+    /// for most vertices and not for all.
     DELDRIFT_SAFE_REGION_TOLERANCE = 6,
-    /// Rebuilds until a sample of the vertices stays within tolerance, then tolerance: for schemes that start
-    /// with large displacements and converge.
+    /// Rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the rule is
+    /// that of switch_share and the options behind it. A sample costs the tolerances of a few vertices. For
+    /// schemes that begin with large displacements and converge. To choose another algorithm and this one
+    /// again starts over.
     DELDRIFT_REBUILDING_TOLERANCE = 7,
 };
 #ifndef __cplusplus
@@ -255,6 +268,15 @@ typedef struct deldrift_options {
     void (*progress)(void *user_data, double fraction);
     /// Handed to the callbacks as it is.
     void *user_data;
+    /// DELDRIFT_REBUILDING_TOLERANCE stops rebuilding at the first sample of which at least this share stays
+    /// within tolerance: above 0 and at most 1. 0, the default, stands for 0.75 in 2D and 0.55 in 3D.
+    double switch_share;
+    /// Seed of its random samples: with the same seed, the same calls do the same. Default 0.
+    uint64_t switch_seed;
+    /// How many vertices it samples each time. 0, the default, stands for 40.
+    uint32_t switch_sample;
+    /// It takes a sample at the first of every so many commits. 0, the default, stands for 4.
+    uint32_t switch_period;
 } deldrift_options;
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
@@ -344,8 +366,8 @@ const char *deldrift_version(void);
 /// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
 /// them for the life of the triangulation. Any set is legal, the empty one, coincident points and points
 /// on one line or plane included; where the points do not span the dimension there are no cells. Every
-/// coordinate must be 0 or of a magnitude for which signs are exact; the message of
-/// DELDRIFT_OUT_OF_RANGE gives the limits. options: NULL for the defaults; read during the call only.
+/// finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
+/// defaults; read during the call only.
 ///
 /// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
 /// success only.
@@ -370,7 +392,8 @@ void deldrift_destroy(deldrift_triangulation *t);
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 deldrift_status deldrift_dimension(const deldrift_triangulation *t, uint32_t *dimension);
 
-/// Changes the algorithm of later commits. Staged moves stay.
+/// Changes the algorithm of later commits. Staged moves stay. Tolerances and delimiters that the new
+/// algorithm needs and the old one did not keep are computed by the next commit.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this
 /// version. Not to be called at the same time as any other call on t.
@@ -397,8 +420,9 @@ deldrift_status deldrift_move_vertex(deldrift_triangulation *t,
 
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
 ///
-/// vertices: count ids, each at most once; NULL stands for 0, 1, ..., count - 1, and count must then be
-/// that of all ids ever given (deldrift_id_count), where the entries of removed vertices are not read.
+/// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
+/// that of all ids ever given (deldrift_id_count), no move of the vertices from count on is staged, and the
+/// entries of removed vertices are not read.
 /// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
 /// and may be NULL if count is 0, when nothing is staged.
 ///
@@ -564,6 +588,55 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
                               size_t capacity,
                               size_t *count);
 
+/// The tolerance of a vertex, to *out: while every vertex stays closer to its current position than its
+/// tolerance, no cell changes.
+///
+/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
+/// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
+/// cells. Computed from the star of the vertex, whatever the algorithm in force.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX.
+deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
+                                   uint32_t vertex,
+                                   double *out);
+
+/// The annulus widths of all bi-cells: entry i of the row of a cell, in the order of deldrift_cells, is
+/// that of the bi-cell at the facet opposite corner i. Each bi-cell is there twice, from either side;
+/// facets of the hull have none, and their entries are NaN.
+///
+/// A bi-cell is a facet with the two cells that share it. Its annulus is between two circles or spheres
+/// with the same centre: the inner one through the vertices of the facet, the outer one through the two
+/// vertices opposite it. The widths are certified lower bounds, 0 where nothing is certain.
+///
+/// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D)
+/// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
+/// for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_annulus_widths(const deldrift_triangulation *t,
+                                        double *widths,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// The standard delimiter of a bi-cell: the circle or sphere in the middle of its annulus, see
+/// deldrift_annulus_widths, which has the vertices of the facet inside and the two opposite it outside.
+///
+/// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
+/// centre: receives 2 or 3 numbers, which are not finite where none could be computed. tolerance: receives
+/// the certified tolerance of the bi-cell, which those of its vertices do not exceed; half the annulus
+/// width in 2D, and at most that in 3D, where other changes may come sooner.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
+/// DELDRIFT_NO_DELIMITER for a facet of the hull. After a change the first call also does what the first
+/// deldrift_cells does.
+deldrift_status deldrift_standard_delimiter(const deldrift_triangulation *t,
+                                            uint32_t cell,
+                                            uint32_t corner,
+                                            double *centre,
+                                            double *radius,
+                                            double *tolerance);
+
 /// Where a point lies, exactly, to *location.
 ///
 /// position: 2 or 3 numbers.
@@ -630,6 +703,10 @@ static inline void deldrift_options_init(deldrift_options *options) {
     options->cancel = NULL;
     options->progress = NULL;
     options->user_data = NULL;
+    options->switch_share = 0;
+    options->switch_seed = 0;
+    options->switch_sample = 0;
+    options->switch_period = 0;
 }
 
 #endif // DELDRIFT_H

@@ -10,7 +10,7 @@ static void version_is_that_of_the_header(void) {
 }
 
 static void every_status_has_a_text_of_its_own(void) {
-    for (uint32_t s = DELDRIFT_OK; s <= DELDRIFT_INTERNAL_ERROR; s++) {
+    for (uint32_t s = DELDRIFT_OK; s <= DELDRIFT_NO_DELIMITER; s++) {
         CHECK(strlen(deldrift_status_string((deldrift_status)s)) > 0);
         CHECK(strcmp(deldrift_status_string((deldrift_status)s), "unknown status") != 0);
         for (uint32_t other = DELDRIFT_OK; other < s; other++) {
@@ -18,7 +18,7 @@ static void every_status_has_a_text_of_its_own(void) {
                          deldrift_status_string((deldrift_status)other)) != 0);
         }
     }
-    CHECK(strcmp(deldrift_status_string((deldrift_status)(DELDRIFT_INTERNAL_ERROR + 1)), "unknown status") == 0);
+    CHECK(strcmp(deldrift_status_string((deldrift_status)(DELDRIFT_NO_DELIMITER + 1)), "unknown status") == 0);
     CHECK(strcmp(deldrift_status_string((deldrift_status)UINT32_MAX), "unknown status") == 0);
 }
 
@@ -95,6 +95,23 @@ static void bad_positions_are_refused(void) {
     }
 }
 
+static void the_whole_range_is_accepted(void) {
+    static const double good[] = {0, -0.0, 1e57, -1e57, 1e-42, 1e-300, 2.2250738585072014e-308, -4.9406564584124654e-324};
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        double positions[sizeof SQUARE / sizeof *SQUARE], position[2] = {NAN, NAN};
+        memcpy(positions, SQUARE, sizeof SQUARE);
+        positions[8] = good[i];
+        deldrift_triangulation *t = create(2, positions, SQUARE_COUNT, NULL);
+        OK(deldrift_position(t, 4, position));
+        CHECK(position[0] == good[i] && position[1] == 2);
+        OK(deldrift_validate(t, 3));
+        OK(deldrift_move_vertex(t, 0, position));
+        OK(deldrift_commit_timestamp(t, NULL));
+        OK(deldrift_validate(t, 3));
+        deldrift_destroy(t);
+    }
+}
+
 static void absurd_counts_are_refused(void) {
     deldrift_triangulation *t = NULL;
     CHECK_STATUS(deldrift_create(2, SQUARE, SIZE_MAX, NULL, &t), DELDRIFT_TOO_MANY_VERTICES);
@@ -119,6 +136,7 @@ int main(void) {
     few_points_are_legal_and_have_no_cells();
     positions_are_copied();
     bad_positions_are_refused();
+    the_whole_range_is_accepted();
     absurd_counts_are_refused();
     a_failure_leaves_the_triangulation_destroyable();
     return 0;

@@ -82,13 +82,24 @@ static void moves_are_staged_all_or_none(void) {
     deldrift_destroy(t);
 }
 
-static void all_vertices_move_without_a_list_of_ids(void) {
-    double moved[2 * SQUARE_COUNT + 2];
+static void the_first_vertices_move_without_a_list_of_ids(void) {
+    double moved[2 * SQUARE_COUNT + 2] = {0};
     for (size_t i = 0; i < 2 * SQUARE_COUNT; i++) moved[i] = 2 * SQUARE[i] + 1;
     deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
     CHECK_STATUS(deldrift_move_vertices(t, NULL, moved, SQUARE_COUNT + 1), DELDRIFT_WRONG_COUNT);
     CHECK_MESSAGE("count is 6");
     CHECK(staged_count(t) == 0);
+
+    // Those behind them stay.
+    OK(deldrift_move_vertices(t, NULL, moved, 2));
+    CHECK(staged_count(t) == 2);
+    CHECK_STATUS(deldrift_move_vertices(t, NULL, moved, 1), DELDRIFT_DUPLICATE_MOVE);
+    CHECK_MESSAGE("vertices[0] is 0");
+    OK(deldrift_commit_timestamp(t, NULL));
+    CHECK(is_at(t, 0, 1, 1) && is_at(t, 1, 9, 1) && is_at(t, 2, 5, 5));
+    OK(deldrift_validate(t, 3));
+    OK(deldrift_move_vertices(t, NULL, SQUARE, SQUARE_COUNT));
+    OK(deldrift_commit_timestamp(t, NULL));
 
     // The entry of a removed vertex is not read.
     OK(deldrift_remove_vertex(t, 1));
@@ -231,14 +242,60 @@ static void statistics_sum_up(void) {
     deldrift_destroy(t);
 }
 
+// Of a vertex in the middle of a square of side 8 the tolerance is less than 4, half of the way to the corners
+// less than 2, and one hundredth in any case within.
+static void reports_count_what_was_within(deldrift_algorithm algorithm, bool tolerance, bool safe_region) {
+    static const double positions[] = {-4, -4, 4, -4, 5, 5, -4, 4, 0, 0};
+    static const double near[] = {0.01, 0}, far[] = {3, 3.5};
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.algorithm = algorithm;
+    deldrift_triangulation *t = create(2, positions, SQUARE_COUNT, &options);
+    deldrift_commit_report report, sums;
+    OK(deldrift_move_vertex(t, 4, near));
+    OK(deldrift_commit_timestamp(t, &report));
+    CHECK(report.moved == 1 && report.placements == 0 && report.rebuilds == 0);
+    CHECK(report.within_tolerance == (tolerance ? 1 : 0) && report.within_safe_region == (safe_region ? 1 : 0));
+    OK(deldrift_move_vertex(t, 4, far));
+    OK(deldrift_commit_timestamp(t, &report));
+    CHECK(report.moved == 1 && report.within_tolerance == 0 && report.within_safe_region == 0);
+    CHECK(report.placements + report.flips + report.unchanged > 0);
+    CHECK(report.tolerances > 0 || !(tolerance || safe_region));
+    OK(deldrift_statistics(t, &sums));
+    CHECK(sums.moved == 2 && sums.timestamp == 2 && sums.tolerances >= report.tolerances);
+    CHECK(sums.within_tolerance == (tolerance ? 1 : 0) && sums.within_safe_region == (safe_region ? 1 : 0));
+    CHECK(sums.certificates >= report.certificates);
+    OK(deldrift_validate(t, 3));
+    deldrift_destroy(t);
+}
+
+static void relocated_stars_are_certified(void) {
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.algorithm = DELDRIFT_PLACEMENT;
+    deldrift_triangulation *t = create(3, TETRAHEDRON, TETRAHEDRON_COUNT, &options);
+    static const double aim[3] = {0.5, 0.75, 0.75};
+    deldrift_commit_report report;
+    OK(deldrift_move_vertex(t, 4, aim));
+    OK(deldrift_commit_timestamp(t, &report));
+    CHECK(report.moved == 1 && report.unchanged == 1 && report.certificates > 0);
+    CHECK(report.within_tolerance == 0 && report.within_safe_region == 0 && report.tolerances == 0);
+    deldrift_destroy(t);
+}
+
 int main(void) {
     staged_moves_are_seen_after_the_commit();
     moves_are_staged_all_or_none();
-    all_vertices_move_without_a_list_of_ids();
+    the_first_vertices_move_without_a_list_of_ids();
     a_vertex_relocates_at_once();
     vertices_come_and_go();
     coincident_vertices_hide_behind_the_lowest_id();
     coincident_vertices_can_be_refused();
     statistics_sum_up();
+    reports_count_what_was_within(DELDRIFT_PLACEMENT, false, false);
+    reports_count_what_was_within(DELDRIFT_TOLERANCE, true, false);
+    reports_count_what_was_within(DELDRIFT_SAFE_REGION, false, true);
+    reports_count_what_was_within(DELDRIFT_SAFE_REGION_TOLERANCE, true, false);
+    relocated_stars_are_certified();
     return 0;
 }

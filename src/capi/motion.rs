@@ -87,8 +87,9 @@ pub unsafe extern "C" fn deldrift_move_vertex(
 
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
 ///
-/// vertices: count ids, each at most once; NULL stands for 0, 1, ..., count - 1, and count must then be
-/// that of all ids ever given (deldrift_id_count), where the entries of removed vertices are not read.
+/// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
+/// that of all ids ever given (deldrift_id_count), no move of the vertices from count on is staged, and the
+/// entries of removed vertices are not read.
 /// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
 /// and may be NULL if count is 0, when nothing is staged.
 ///

@@ -24,16 +24,25 @@ pub enum deldrift_algorithm {
     /// As placement, but a star whose cells stay positively oriented is repaired by flips (in 3D the
     /// same as placement).
     DELDRIFT_PLACEMENT_FLIPS = 3,
-    /// Keeps for each vertex a certified tolerance, within which it may move without any change of
-    /// connectivity. A vertex within it costs a distance, one beyond it a placement and the tolerances around
-    /// it. For small displacements, and for schemes that converge.
+    /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
+    /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the
+    /// tolerances around it. For displacements so small that at least half of the vertices stay within, and
+    /// for schemes that converge. All tolerances are computed by the first commit, and by the first one
+    /// after an insertion or a removal.
     DELDRIFT_TOLERANCE = 4,
-    /// As tolerance, but a vertex may move in all of its safe region: a larger one, and a dearer test.
+    /// As tolerance, with a larger region for each vertex: inside the delimiters of the facets it is on,
+    /// outside those of the facets opposite it (see deldrift_standard_delimiter). More vertices stay within,
+    /// at the cost of a distance for every facet of the star of each, and of the memory of a delimiter for
+    /// every facet of every cell. For displacements that are often just above the tolerances.
     DELDRIFT_SAFE_REGION = 5,
-    /// The safe region is tested where the tolerance test fails.
+    /// The safe region is tested only where the tolerance test fails: as many vertices stay within as with
+    /// either, and most cost one distance. Memory as for the safe region. For displacements that are small
+    /// for most vertices and not for all.
     DELDRIFT_SAFE_REGION_TOLERANCE = 6,
-    /// Rebuilds until a sample of the vertices stays within tolerance, then tolerance: for schemes that start
-    /// with large displacements and converge.
+    /// Rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the rule is
+    /// that of switch_share and the options behind it. A sample costs the tolerances of a few vertices. For
+    /// schemes that begin with large displacements and converge. To choose another algorithm and this one
+    /// again starts over.
     DELDRIFT_REBUILDING_TOLERANCE = 7,
 }
 
@@ -87,6 +96,15 @@ pub struct deldrift_options {
     pub progress: Option<unsafe extern "C" fn(user_data: *mut c_void, fraction: f64)>,
     /// Handed to the callbacks as it is.
     pub user_data: *mut c_void,
+    /// DELDRIFT_REBUILDING_TOLERANCE stops rebuilding at the first sample of which at least this share stays
+    /// within tolerance: above 0 and at most 1. 0, the default, stands for 0.75 in 2D and 0.55 in 3D.
+    pub switch_share: f64,
+    /// Seed of its random samples: with the same seed, the same calls do the same. Default 0.
+    pub switch_seed: u64,
+    /// How many vertices it samples each time. 0, the default, stands for 40.
+    pub switch_sample: u32,
+    /// It takes a sample at the first of every so many commits. 0, the default, stands for 4.
+    pub switch_period: u32,
 }
 
 /// Greatest `struct_size` that is taken for a size: anything above it is more likely to be garbage, and
@@ -103,10 +121,14 @@ impl deldrift_options {
         cancel: None,
         progress: None,
         user_data: ptr::null_mut(),
+        switch_share: 0.0,
+        switch_seed: 0,
+        switch_sample: 0,
+        switch_period: 0,
     };
 
     /// Where a `struct_size` may end: behind any field.
-    const ENDS: [usize; 8] = [
+    const ENDS: [usize; 12] = [
         size_of::<usize>(),
         offset_of!(deldrift_options, threads),
         offset_of!(deldrift_options, coincidence),
@@ -114,6 +136,10 @@ impl deldrift_options {
         offset_of!(deldrift_options, cancel),
         offset_of!(deldrift_options, progress),
         offset_of!(deldrift_options, user_data),
+        offset_of!(deldrift_options, switch_share),
+        offset_of!(deldrift_options, switch_seed),
+        offset_of!(deldrift_options, switch_sample),
+        offset_of!(deldrift_options, switch_period),
         size_of::<deldrift_options>(),
     ];
 
@@ -139,7 +165,7 @@ impl deldrift_options {
         }
         let mut read = MaybeUninit::new(Self::DEFAULT);
         // SAFETY: `known` is no longer than the structure and ends behind a field, so that what is
-        // assembled has whole fields from either side; integers and nullable pointers allow any bits.
+        // assembled has whole fields from either side; numbers and nullable pointers allow any bits.
         unsafe {
             ptr::copy_nonoverlapping(known.as_ptr(), read.as_mut_ptr().cast::<u8>(), known.len());
             Ok(read.assume_init())
@@ -164,8 +190,24 @@ impl deldrift_options {
             threads: self.threads,
             coincidence,
             track_changes,
-            switching: SwitchingRule::default(),
+            switching: self.switching()?,
             monitor: self.monitor(),
+        })
+    }
+
+    fn switching(&self) -> Result<SwitchingRule, Failure> {
+        let share = match self.switch_share {
+            0.0 => None,
+            share if share > 0.0 && share <= 1.0 => Some(share),
+            value => return Err(Failure::Share { field: "options.switch_share", value }),
+        };
+        let default = SwitchingRule::default();
+        let given_or = |given, default| if given == 0 { default } else { given };
+        Ok(SwitchingRule {
+            sample: given_or(self.switch_sample, default.sample),
+            period: given_or(self.switch_period, default.period),
+            share,
+            seed: self.switch_seed,
         })
     }
 
@@ -247,6 +289,27 @@ mod tests {
             assert_eq!(algorithm("", code).map(algorithm_code).ok(), Some(code));
         }
         assert!(algorithm("", 8).is_err());
+    }
+
+    #[test]
+    fn switching_rule_is_taken_over() {
+        let rule = |options: deldrift_options| options.convert().map(|options| options.switching).ok();
+        assert_eq!(rule(deldrift_options::DEFAULT), Some(SwitchingRule::default()));
+        let options = deldrift_options {
+            switch_share: 0.25,
+            switch_seed: u64::MAX,
+            switch_sample: 7,
+            switch_period: 9,
+            ..deldrift_options::DEFAULT
+        };
+        let wanted = SwitchingRule { sample: 7, period: 9, share: Some(0.25), seed: u64::MAX };
+        assert_eq!(rule(options), Some(wanted));
+        for switch_share in [f64::MIN_POSITIVE, 1.0, -0.0] {
+            assert!(rule(deldrift_options { switch_share, ..options }).is_some(), "{switch_share}");
+        }
+        for switch_share in [f64::NAN, f64::INFINITY, -f64::MIN_POSITIVE, 1.0 + f64::EPSILON] {
+            assert!(rule(deldrift_options { switch_share, ..options }).is_none(), "{switch_share}");
+        }
     }
 
     #[test]

@@ -314,6 +314,100 @@ pub unsafe extern "C" fn deldrift_star(
     }
 }
 
+/// The tolerance of a vertex, to *out: while every vertex stays closer to its current position than its
+/// tolerance, no cell changes.
+///
+/// It is a certified lower bound: rounding can make it smaller, but never too large. It is 0 where nothing
+/// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
+/// cells. Computed from the star of the vertex, whatever the algorithm in force.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_tolerance(
+    t: *const deldrift_triangulation,
+    vertex: u32,
+    out: *mut f64,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe { fence::tell(t, "out", out, |kernel| Ok(in_its_dimension!(kernel, t => t.tolerance(vertex))?)) }
+}
+
+/// The annulus widths of all bi-cells: entry i of the row of a cell, in the order of deldrift_cells, is
+/// that of the bi-cell at the facet opposite corner i. Each bi-cell is there twice, from either side;
+/// facets of the hull have none, and their entries are NaN.
+///
+/// A bi-cell is a facet with the two cells that share it. Its annulus is between two circles or spheres
+/// with the same centre: the inner one through the vertices of the facet, the outer one through the two
+/// vertices opposite it. The widths are certified lower bounds, 0 where nothing is certain.
+///
+/// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D)
+/// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
+/// for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_annulus_widths(
+    t: *const deldrift_triangulation,
+    widths: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let needed = t.cell_count() * (dimension_of(t) + 1);
+                copy_out(Room { capacity, count }, needed, &[("widths", widths.cast())], || {
+                    pointers::fill("widths", widths, &t.annulus_widths())
+                })
+            })
+        })
+    }
+}
+
+/// The standard delimiter of a bi-cell: the circle or sphere in the middle of its annulus, see
+/// deldrift_annulus_widths, which has the vertices of the facet inside and the two opposite it outside.
+///
+/// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
+/// centre: receives 2 or 3 numbers, which are not finite where none could be computed. tolerance: receives
+/// the certified tolerance of the bi-cell, which those of its vertices do not exceed; half the annulus
+/// width in 2D, and at most that in 3D, where other changes may come sooner.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
+/// DELDRIFT_NO_DELIMITER for a facet of the hull. After a change the first call also does what the first
+/// deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_standard_delimiter(
+    t: *const deldrift_triangulation,
+    cell: u32,
+    corner: u32,
+    centre: *mut f64,
+    radius: *mut f64,
+    tolerance: *mut f64,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let centre = pointers::output("centre", pointer_for(t, centre))?;
+                let radius = pointers::output("radius", radius)?;
+                let tolerance = pointers::output("tolerance", tolerance)?;
+                let (cells, corners) = (t.cell_count(), dimension_of(t) + 1);
+                if cell as usize >= cells || corner as usize >= corners {
+                    return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
+                }
+                let delimiter =
+                    t.standard_delimiter(cell, corner).ok_or(Failure::HullFacet { cell, corner })?;
+                centre.write(delimiter.centre);
+                radius.write(delimiter.radius);
+                tolerance.write(delimiter.tolerance);
+            });
+            Ok(())
+        })
+    }
+}
+
 /// Where a point lies, exactly, to *location.
 ///
 /// position: 2 or 3 numbers.

@@ -40,7 +40,7 @@ pub enum deldrift_status {
     DELDRIFT_REMOVED_VERTEX = 11,
     /// A move of this vertex is already staged for the next timestamp.
     DELDRIFT_DUPLICATE_MOVE = 12,
-    /// An array with one entry per vertex has another number of entries.
+    /// An array without a list of ids has more entries than there are ids.
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
@@ -63,6 +63,10 @@ pub enum deldrift_status {
     DELDRIFT_POISONED = 22,
     /// A defect of the library; please report the message.
     DELDRIFT_INTERNAL_ERROR = 23,
+    /// There is no cell of this index, or cells have no corner of this number.
+    DELDRIFT_NO_SUCH_FACET = 24,
+    /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
+    DELDRIFT_NO_DELIMITER = 25,
 }
 
 use deldrift_status::*;
@@ -72,7 +76,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 24] = [
+    const ALL: [deldrift_status; 26] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -97,6 +101,8 @@ impl deldrift_status {
         DELDRIFT_BUSY,
         DELDRIFT_POISONED,
         DELDRIFT_INTERNAL_ERROR,
+        DELDRIFT_NO_SUCH_FACET,
+        DELDRIFT_NO_DELIMITER,
     ];
 
     fn text(self) -> &'static CStr {
@@ -125,6 +131,8 @@ impl deldrift_status {
             DELDRIFT_BUSY => c"the triangulation is being changed",
             DELDRIFT_POISONED => c"an internal error has made the triangulation unusable",
             DELDRIFT_INTERNAL_ERROR => c"internal error",
+            DELDRIFT_NO_SUCH_FACET => c"no cell has this facet",
+            DELDRIFT_NO_DELIMITER => c"a facet of the hull has no delimiter",
         }
     }
 }
@@ -137,8 +145,11 @@ pub(super) enum Failure {
     SizeOverflow { argument: &'static str, count: usize, size: usize },
     Dimension { given: u32 },
     Option { field: &'static str, value: u64, wanted: &'static str },
+    Share { field: &'static str, value: f64 },
     Level { given: u32 },
     BufferTooSmall { argument: &'static str, capacity: usize, needed: usize },
+    NoSuchFacet { cell: u32, corner: u32, cells: usize, corners: usize },
+    HullFacet { cell: u32, corner: u32 },
     Invalid(Violation),
     Busy,
     Poisoned,
@@ -158,9 +169,11 @@ impl Failure {
             Failure::Misaligned { .. } => DELDRIFT_MISALIGNED_ARGUMENT,
             Failure::SizeOverflow { .. } => DELDRIFT_SIZE_OVERFLOW,
             Failure::Dimension { .. } => DELDRIFT_INVALID_DIMENSION,
-            Failure::Option { .. } => DELDRIFT_INVALID_OPTIONS,
+            Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
             Failure::BufferTooSmall { .. } => DELDRIFT_BUFFER_TOO_SMALL,
+            Failure::NoSuchFacet { .. } => DELDRIFT_NO_SUCH_FACET,
+            Failure::HullFacet { .. } => DELDRIFT_NO_DELIMITER,
             Failure::Invalid(_) => DELDRIFT_INVALID,
             Failure::Busy => DELDRIFT_BUSY,
             Failure::Poisoned => DELDRIFT_POISONED,
@@ -194,9 +207,19 @@ impl fmt::Display for Failure {
             }
             Failure::Dimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
             Failure::Option { field, value, wanted } => write!(f, "{field} is {value}, but must be {wanted}"),
+            Failure::Share { field, value } => {
+                write!(f, "{field} is {value:?}, but must be 0, or above 0 and at most 1")
+            }
             Failure::Level { given } => write!(f, "level is {given}, but must be 1, 2 or 3"),
             Failure::BufferTooSmall { argument, capacity, needed } => {
                 write!(f, "{argument} is {capacity}, but {needed} entries are to be written")
+            }
+            Failure::NoSuchFacet { cell, corner, cells, corners } => write!(
+                f,
+                "cell is {cell} and corner is {corner}, but there are {cells} cells of {corners} corners"
+            ),
+            Failure::HullFacet { cell, corner } => {
+                write!(f, "cell is {cell} and corner is {corner}, which is opposite a facet of the hull")
             }
             Failure::Invalid(violation) => write!(f, "{}", violation.message),
             Failure::Busy => write!(f, "t is in use by a call that is changing it"),

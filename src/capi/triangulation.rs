@@ -106,8 +106,8 @@ pub(super) unsafe fn points<'a, G: Dimension>(
 /// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
 /// them for the life of the triangulation. Any set is legal, the empty one, coincident points and points
 /// on one line or plane included; where the points do not span the dimension there are no cells. Every
-/// coordinate must be 0 or of a magnitude for which signs are exact; the message of
-/// DELDRIFT_OUT_OF_RANGE gives the limits. options: NULL for the defaults; read during the call only.
+/// finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
+/// defaults; read during the call only.
 ///
 /// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
 /// success only.
@@ -214,7 +214,8 @@ pub(super) fn dimension_of<G: Dimension>(_t: &MovingTriangulation<G>) -> usize {
     G::D
 }
 
-/// Changes the algorithm of later commits. Staged moves stay.
+/// Changes the algorithm of later commits. Staged moves stay. Tolerances and delimiters that the new
+/// algorithm needs and the old one did not keep are computed by the next commit.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this
 /// version. Not to be called at the same time as any other call on t.

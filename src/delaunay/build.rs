@@ -5,8 +5,8 @@
 //! the walks tells when to sort again.
 
 use super::order::{hilbert_order, in_rounds};
-use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, INFINITE, NONE};
+use super::{Delaunay, Dimension, Insertion};
+use crate::complex::{Corners, INFINITE, NONE, memory};
 use crate::error::{Error, Result};
 
 /// A vertex that is hidden by one of a lower id at the same place.
@@ -21,16 +21,24 @@ pub struct Merge {
 /// Insertions between two calls of a monitor.
 const MONITORED: usize = 1024;
 
+/// Builds up to this size prepare what speeds up their insertions. Beyond it the memory for that, as much as for the
+/// cells, takes longer to get than it saves.
+const PREPARED: usize = 1 << 18;
+
 impl<G: Dimension> Delaunay<G> {
     /// Puts the live sites along a Hilbert curve, from index 1 on without gaps. All indices change and the cells
     /// go: [`rebuild`](Self::rebuild) must follow.
-    pub fn sort_sites(&mut self) {
-        let live: Vec<Site<G>> = self.sites[1..].iter().filter(|s| s.is_live()).copied().collect();
-        let points: Vec<G::Point> = live.iter().map(|s| s.point).collect();
-        self.sites.truncate(1);
-        self.sites.extend(hilbert_order::<G>(&points).into_iter().map(|i| live[i as usize]));
+    pub fn sort_sites(&mut self) -> Result<()> {
+        let sites = &self.sites;
+        let keyed = hilbert_order::<G>(self.live_sites(), |s| &sites[s as usize].point);
+        let mut sorted = Vec::new();
+        memory::reserve_exact(&mut sorted, keyed.len() + 1)?;
+        sorted.push(sites[INFINITE as usize]);
+        sorted.extend(keyed.into_iter().map(|(_, s)| sites[s as usize]));
+        self.sites = sorted;
         self.free_sites.clear();
         self.complex.clear();
+        Ok(())
     }
 
     /// Triangulates the live sites anew. Coincident sites are dropped in favour of the lowest id and reported.
@@ -75,15 +83,24 @@ impl<G: Dimension> Delaunay<G> {
             site.cell = NONE;
         }
         self.start()?;
-        G::begin_build(self)?;
-        let inserted = self.insert_all(order, monitor);
-        G::end_build(self);
+        let inserted = if order.len() <= PREPARED {
+            G::begin_build(self)?;
+            let inserted = self.insert_all::<true>(order, monitor);
+            G::end_build(self);
+            inserted
+        } else {
+            self.insert_all::<false>(order, monitor)
+        };
         let coincident = inserted?;
         self.merge(coincident)
     }
 
     /// Inserts all sites but those of the first cell; returns pairs of coincident sites, the second in the cells.
-    fn insert_all(&mut self, order: &[u32], monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<(u32, u32)>> {
+    fn insert_all<const BUILD: bool>(
+        &mut self,
+        order: &[u32],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<(u32, u32)>> {
         let mut coincident = Vec::new();
         self.cavity.steps = 0;
         for (done, &s) in order.iter().enumerate() {
@@ -91,7 +108,7 @@ impl<G: Dimension> Delaunay<G> {
                 return Err(Error::Cancelled);
             }
             if self.site(s).cell == NONE
-                && let Insertion::Coincident(t) = self.insert_into_cells::<true>(s, self.recent)?
+                && let Insertion::Coincident(t) = self.insert_into_cells::<BUILD>(s, self.recent)?
             {
                 coincident.push((s, t));
             }

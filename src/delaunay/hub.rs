@@ -55,7 +55,7 @@ impl<G: Dimension> Delaunay<G> {
         for &s in &finite {
             local.add_site(self.site(s).point, self.site(s).id)?;
         }
-        local.sort_sites();
+        local.sort_sites()?;
         local.rebuild(&mut |_| true)?;
         let mut at_id = HashMap::with_capacity(finite.len());
         for &s in &finite {

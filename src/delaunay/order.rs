@@ -29,18 +29,21 @@ where
     corners
 }
 
-/// Indices of the points along a Hilbert curve.
-pub fn hilbert_order<G: Dimension>(points: &[G::Point]) -> Vec<u32> {
-    let mut keyed: Vec<(u64, u32)> = (0..points.len() as u32).map(|i| (0, i)).collect();
-    sort_in_box::<G>(points, &mut keyed);
-    keyed.into_iter().map(|(_, i)| i).collect()
+/// The items, each with a key that is of no use any more, along the Hilbert curve of their points.
+pub fn hilbert_order<'p, G: Dimension>(
+    items: impl Iterator<Item = u32>,
+    point: impl Fn(u32) -> &'p G::Point + Copy,
+) -> Vec<(u64, u32)> {
+    let mut keyed: Vec<(u64, u32)> = items.map(|i| (0, i)).collect();
+    sort_in_box::<G>(point, &mut keyed);
+    keyed
 }
 
 /// Runs of one key up to this length stay unsorted: a walk through them is short anyway.
 const SHORT_RUN: usize = 8;
 
-fn sort_in_box<G: Dimension>(points: &[G::Point], keyed: &mut [(u64, u32)]) {
-    let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|&(_, i)| &points[i as usize])) else {
+fn sort_in_box<'p, G: Dimension>(point: impl Fn(u32) -> &'p G::Point + Copy, keyed: &mut [(u64, u32)]) {
+    let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|&(_, i)| point(i))) else {
         return;
     };
     let extent = (0..G::D).map(|k| upper[k] - lower[k]).fold(0.0, f64::max);
@@ -51,7 +54,7 @@ fn sort_in_box<G: Dimension>(points: &[G::Point], keyed: &mut [(u64, u32)]) {
     let bits = if G::D == 2 { per_axis.next_multiple_of(4).min(28) } else { per_axis.min(21) };
     let scale = ((1u64 << bits) - 1) as f64 / extent;
     for (key, i) in keyed.iter_mut() {
-        let p = &points[*i as usize];
+        let p = point(*i);
         let mut cell = [0u32; 3];
         for k in 0..G::D {
             cell[k] = ((p[k] - lower[k]) * scale) as u32;
@@ -61,7 +64,7 @@ fn sort_in_box<G: Dimension>(points: &[G::Point], keyed: &mut [(u64, u32)]) {
     radsort::sort_by_key(keyed, |&(key, _)| key);
     for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
         if run.len() > SHORT_RUN {
-            sort_in_box::<G>(points, run);
+            sort_in_box::<G>(point, run);
         }
     }
 }
@@ -212,7 +215,8 @@ mod tests {
                 points.push([f64::from(cluster) * 1e12 + x, y]);
             }
         }
-        let order = hilbert_order::<Plane>(&points);
+        let keyed = hilbert_order::<Plane>(0..points.len() as u32, |i| &points[i as usize]);
+        let order: Vec<u32> = keyed.into_iter().map(|(_, i)| i).collect();
         let mut seen = order.clone();
         seen.sort_unstable();
         assert!(seen.iter().copied().eq(0..points.len() as u32));

@@ -209,7 +209,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Sorts the sites along a Hilbert curve and rebuilds.
     fn sort_and_rebuild(&mut self) -> Result<()> {
-        self.kernel.sort_sites();
+        self.kernel.sort_sites()?;
         for s in self.kernel.live_sites() {
             self.site_of[self.kernel.site(s).id as usize] = s;
         }

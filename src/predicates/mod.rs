@@ -86,8 +86,9 @@ pub use plane::{incircle, orient2d};
 pub use space::{insphere, orient3d};
 pub use sphere::{Circle, Sphere, circle, half_plane, half_space, side_of_circle, side_of_sphere, sphere};
 pub use tolerance::{
-    Delimiter, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
-    is_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
+    Delimiter, Separator, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
+    is_certainly_outside, is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d,
+    separator3d, squared_distance,
 };
 
 /// Largest magnitude of an accepted coordinate.

@@ -35,27 +35,41 @@
 //! # In space it does not
 //!
 //! There, λ may be negative for two vertices a, b of the facet and positive for the third, e: the line `cd`
-//! passes the facet beyond the edge `ab`, as it does in nearly half of all bi-cells, where the flip would be 3-2.
+//! passes the facet beyond the edge `ab`, as it does in two thirds of the bi-cells of random points (a flip
+//! would be 3-2 there).
 //! A sphere that holds `a`, `b`, `e` and neither `c` nor `d` then says *nothing* about the sign of Δ. With
 //! a, b = (0, 0, ±1) and c, d, e at distance 1 + s around the z axis, 120° apart, all three facets at the edge
 //! `ab` have annuli of half-width ¾ s to first order, and yet moving every vertex by ½ s makes all five
 //! cospherical. So in space the report's Proposition 1 is wrong, and its tolerance is not one.
 //!
-//! Δ > 0 holds whatever the signs of λ if the points are separated for *each* of the four partitions: `abe | cd` by
-//! the delimiter, and for each vertex e of the facet `ab | ecd`
+//! Let the points be separated for *each* of four partitions: `abe | cd`, and for each vertex e of the facet
+//! `ab | ecd`. Then Δ > 0 whatever the signs of λ, as long as λ_c, λ_d > 0. A partition is separated
 //!
-//! - either by a sphere with `a`, `b` inside and the others outside, which gives the sign as before,
-//! - or by a plane: the hulls of both parts do not meet, so these are not the signs of λ. The slab parallel to
-//!   `ab` and `cd` has `c` and `d` at height \[abcd\] and `e` at \[abed\] − \[abec\], over the area of
-//!   |ab × cd|; by its half-width it excludes the partition at hardly any cost, unless `cd` passes close to `ab`.
+//! - by a sphere with the first part (the facet, or `ab`) inside and the second outside: if the signs of λ are those
+//!   of the partition, all terms of Δ are positive;
+//! - or by a plane: then the hulls of both parts do not meet, so they are not the signs of λ. In the slab parallel to `ab`
+//!   and `cd` let `ab` be at height 0. Then `c` and `d` are at height h = \[abcd\] / |ab × cd|, and e is at
+//!   H = \[abec − abed\] / |ab × cd|. Choose the orientation so that H > 0. If h > 0, the plane at half the lesser of
+//!   both excludes `ab | ecd`; if h < 0, that at h / 2 excludes `abe | cd`. This costs hardly anything, as
+//!   the vectors and volumes are those of the centre, and is enough unless `cd` passes close to `ab`.
 //!
-//! The least of the three is the [`reach`](Delimiter::reach) of the bi-cell, and its tolerance is the lesser of
-//! half-width and reach. For the proof that tolerances preserve a whole triangulation, move all vertices at
-//! constant speed and look at the first moment at which some cell has no volume or some Δ vanishes. Not Δ alone,
-//! by the above. The empty sphere of a flat cell tends to a sphere or a half-space. If a sphere, its corners are
-//! cocircular, hence of a partition 2 | 2, which is one of those above, excluded. If a half-space, the hull has
-//! changed, which the [orientation tolerances](orientation_tolerance3d) of cells and ridges on the hull
-//! exclude.
+//! A sphere needs a margin only for the partition in force, that of the signs of λ: its sphere is the
+//! [separator](separator3d). The least width that any other partition has is the [`reach`](Delimiter::reach),
+//! and the tolerance is the lesser of half-width and reach. A safe region is the side of the separator *within reach* of
+//! the position for which it was computed.
+//!
+//! # From bi-cells to the triangulation
+//!
+//! Move all vertices from the old to the new positions at constant speed and look at the first moment at which some Δ
+//! vanishes or some cell has no volume. By the above it is the latter. The empty sphere of the flat cell tends to a
+//! sphere or to a half-space. If to a sphere, its corners are cocircular or two of them equal, and some partition
+//! 2 | 2 or 1 | 1 of them is not separated; but those above contain it. If to a half-space, cells have flattened up to
+//! the hull, which the [orientation tolerances](orientation_tolerance3d) of its cells and at its ridges exclude.
+//!
+//! So points must be on their sides *all the way*. Inside a sphere, and in a ball around the old position, they are
+//! if they are at the end; outside a sphere they need not be. For safe regions, which are larger than the balls of
+//! the tolerances, this is a second gap in Proposition 1, in both dimensions: a vertex can jump across a delimiter,
+//! out on the other side, and invert a cell. See [`is_path_certainly_outside`].
 //!
 //! # Orientation
 //!
@@ -76,7 +90,7 @@
 //! whose square is 2¹⁴⁰ times that error with u taken off, and determinants above 1e-250, where such an error has been
 //! multiplied by a difference of at most 2e57.
 
-use super::filter::{extents, largest, orient2d_bound, orient3d_bound};
+use super::filter::{extents, largest};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,9 +102,8 @@ pub struct Delimiter<P> {
     /// Certified lower bound of the distance of the D + 2 points from this sphere, half the annulus width; 0 if none
     /// is certain.
     pub half_width: f64,
-    /// Certified: whatever the orientation of other simplices becomes, the bi-cell stays Delaunay as long as its points
-    /// move by less than this, its cells keep their orientation, *and* the points stay on their sides of the
-    /// sphere. Infinite in the plane; see the module on why not in space.
+    /// Certified displacement of all D + 2 points up to which their sides of this sphere decide, see the module; infinite
+    /// in the plane.
     pub reach: f64,
     /// Certified lower bound of the tolerance: the lesser of half-width and reach.
     pub tolerance: f64,
@@ -115,6 +128,10 @@ const fn half_width_error(dimension: usize) -> f64 {
     (dimension + 6) as f64 / 2.0 * UNIT * ROUND_UP
 }
 
+/// Bounds of determinants / product of extents: 6 u and 40 u to first order (`filter.rs`). Underflow is left to
+/// [`LEAST_DETERMINANT`], as the bounds there multiply a subnormal number, which takes longer than all the rest.
+const ORIENT_2D: f64 = 7.0 * UNIT;
+const ORIENT_3D: f64 = 41.0 * UNIT;
 /// Bound of a component of a vector product of differences / largest extent², times √3 or more.
 const CROSS: f64 = 14.0 * UNIT;
 /// The same for the sum of three.
@@ -170,6 +187,23 @@ pub fn is_certainly_outside<const D: usize>(centre: &[f64; D], radius: f64, p: &
     square > radius * radius * SQUARE_ABOVE + LEAST * LEAST && square < f64::INFINITY
 }
 
+/// Whether a point that goes straight from one place to the other is certainly strictly outside the sphere all the way.
+///
+/// By Stewart's theorem the middle of a segment is nowhere nearer, in squares, than the nearer end less a quarter of
+/// the squared length.
+#[inline(always)]
+pub fn is_path_certainly_outside<const D: usize>(
+    centre: &[f64; D],
+    radius: f64,
+    from: &[f64; D],
+    to: &[f64; D],
+) -> bool {
+    let square = min(squared_distance(centre, from), squared_distance(centre, to));
+    // (1 ± u)⁵ twice and three roundings.
+    let limit = (radius * radius + 0.25 * squared_distance(from, to)) * (1.0 + 16.0 * UNIT);
+    square > limit + LEAST * LEAST && square < f64::INFINITY
+}
+
 /// Standard delimiter and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
 #[inline(always)]
 pub fn delimiter2d(c: &[f64; 2], facet: [&[f64; 2]; 2], d: &[f64; 2]) -> Delimiter<[f64; 2]> {
@@ -187,105 +221,189 @@ pub fn delimiter2d(c: &[f64; 2], facet: [&[f64; 2]; 2], d: &[f64; 2]) -> Delimit
 }
 
 /// Standard delimiter and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
+///
+/// [`separator3d`] is faster, and better where the report's sphere is not the one that limits the tolerance.
 #[inline]
 pub fn delimiter3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3]) -> Delimiter<[f64; 3]> {
-    let annulus = Annulus::new(facet, [c, d]);
-    let inner = max(max(annulus.triple[0], annulus.triple[1]), annulus.triple[2]);
-    let outer = min(annulus.pair[0], annulus.pair[1]);
-    let (radius, half_width) = middle::<3>(inner, outer);
-    let planes = annulus.planes(c, facet, d);
-    let least = min(min(planes[0], planes[1]), planes[2]);
-    let reach = if least >= (2.0 * half_width) * (2.0 * half_width) {
-        half_of_square(least)
-    } else {
-        reach_by_spheres(c, facet, d, planes, half_width)
-    };
-    Delimiter { centre: annulus.centre, radius, half_width, reach, tolerance: min(half_width, reach) }
+    let points = [facet[0], facet[1], facet[2], c, d];
+    let mut delimiter = Annulus::new(points, STANDARD).delimiter(STANDARD);
+    let planes = Slabs::new(points).squared_widths(STANDARD);
+    delimiter.reach = reach(points, STANDARD, &planes, delimiter.half_width);
+    delimiter.tolerance = min(delimiter.half_width, delimiter.reach);
+    delimiter
 }
 
-/// The reach where a plane does not do: for such an edge `ab` of the facet, the better of the plane and the sphere with
-/// `a` and `b` inside and the other three outside.
+/// The delimiter that decides about a bi-cell: with the interior facet inside, but for one of its vertices where the line
+/// `cd` passes the facet beyond the edge opposite that vertex; the opposing vertices and that one are outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separator<P> {
+    /// The sphere, and how far the points may move before another one decides.
+    pub delimiter: Delimiter<P>,
+    /// Index of the vertex of the facet that is outside, D if none is.
+    pub exception: u8,
+}
+
+/// Separator and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
+///
+/// A tolerance of at least `enough` is not improved any further, which halves the cost.
+#[inline]
+pub fn separator3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3], enough: f64) -> Separator<[f64; 3]> {
+    let points = [facet[0], facet[1], facet[2], c, d];
+    let slabs = Slabs::new(points);
+    match slabs.partition() {
+        0 => separator::<0>(points, &slabs, enough),
+        1 => separator::<1>(points, &slabs, enough),
+        2 => separator::<2>(points, &slabs, enough),
+        _ => separator::<STANDARD>(points, &slabs, enough),
+    }
+}
+
+#[inline(always)]
+fn separator<const P: usize>(points: [&[f64; 3]; 5], slabs: &Slabs, enough: f64) -> Separator<[f64; 3]> {
+    let mut delimiter = Annulus::new(points, P).delimiter(P);
+    let wanted = min(delimiter.half_width, enough);
+    delimiter.reach = reach(points, P, &slabs.squared_widths(P), wanted);
+    delimiter.tolerance = min(delimiter.half_width, delimiter.reach);
+    Separator { delimiter, exception: P as u8 }
+}
+
+/// The partition of the standard delimiter. The others have the number of the vertex of the facet that is outside.
+const STANDARD: usize = 3;
+
+/// The points of each partition, first the side of three, then that of two: the vertices of the facet are 0 to 2, `c` and `d`
+/// are 3 and 4.
+const SIDES: [[usize; 5]; 4] = [[0, 3, 4, 1, 2], [1, 3, 4, 2, 0], [2, 3, 4, 0, 1], [0, 1, 2, 3, 4]];
+
+/// The least of what excludes the partitions other than the given one: a plane or, where that leaves less than
+/// wanted, a sphere if it leaves more.
+#[inline(always)]
+fn reach(points: [&[f64; 3]; 5], partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
+    let least = min(min(planes[0], planes[1]), min(planes[2], planes[3]));
+    let reach = half_of_square(least);
+    if reach >= wanted { reach } else { reach_by_spheres(points, partition, planes, wanted) }
+}
+
+#[cold]
 #[inline(never)]
-fn reach_by_spheres(
-    c: &[f64; 3],
-    facet: [&[f64; 3]; 3],
-    d: &[f64; 3],
-    planes: [f64; 3],
-    half_width: f64,
-) -> f64 {
+fn reach_by_spheres(points: [&[f64; 3]; 5], partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
     let mut reach = f64::INFINITY;
-    for (k, plane) in planes.into_iter().enumerate() {
+    for (k, &plane) in planes.iter().enumerate().filter(|(k, _)| *k != partition) {
         let mut width = half_of_square(plane);
-        if width < half_width {
-            let annulus = Annulus::new([facet[k], c, d], [facet[(k + 1) % 3], facet[(k + 2) % 3]]);
-            let outer = min(min(annulus.triple[0], annulus.triple[1]), annulus.triple[2]);
-            let (_, sphere) = middle::<3>(max(annulus.pair[0], annulus.pair[1]), outer);
-            width = max(width, sphere);
+        if width < wanted {
+            width = max(width, Annulus::new(points, k).delimiter(k).half_width);
         }
         reach = min(reach, width);
     }
     reach
 }
 
-/// Half the width of which this is the square, as a lower bound.
+/// Half the width of which this is the square, as a lower bound; infinite if that is.
 #[inline(always)]
 fn half_of_square(square: f64) -> f64 {
-    non_negative(square.sqrt() * (0.5 - 8.0 * UNIT) - LEAST)
+    max(square.sqrt() * (0.5 - 8.0 * UNIT) - LEAST, 0.0)
 }
 
-/// Five points around the point that is equidistant from three of them and from the other two.
+/// Five points around the point that is equidistant from the three on one side and from the two on the other.
 struct Annulus {
     centre: [f64; 3],
     /// Squared distances from the centre.
-    triple: [f64; 3],
-    pair: [f64; 2],
-    /// Normals of the slabs parallel to the line of the pair and to the edge opposite each of the three.
-    normals: [[f64; 3]; 3],
-    /// Six times the volume of both cells, signed.
-    volume: f64,
+    three: [f64; 3],
+    two: [f64; 2],
 }
 
 impl Annulus {
     #[inline(always)]
-    fn new(triple: [&[f64; 3]; 3], pair: [&[f64; 3]; 2]) -> Self {
-        let ([o, f, g], [c, d]) = (triple, pair);
+    fn new(points: [&[f64; 3]; 5], partition: usize) -> Self {
+        let [o, f, g, c, d] = SIDES[partition].map(|i| points[i]);
         let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
         let (p, q) = (minus(c, o), minus(d, o));
         // u·x = |u|² / 2, v·x = |v|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
         let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
-        let volume = dot(&u, &vw);
-        let scale = 0.5 / volume;
+        let scale = 0.5 / dot(&u, &vw);
         let (uu, vv) = (dot(&u, &u), dot(&v, &v));
         let ws = w[0] * (p[0] + q[0]) + w[1] * (p[1] + q[1]) + w[2] * (p[2] + q[2]);
         let centre: [f64; 3] = std::array::from_fn(|k| o[k] + (uu * vw[k] + vv * wu[k] + ws * uv[k]) * scale);
         Annulus {
             centre,
-            triple: triple.map(|p| squared_distance(&centre, p)),
-            pair: pair.map(|p| squared_distance(&centre, p)),
-            // Opposite o, f, g.
-            normals: [cross(&minus(g, f), &w), vw, wu],
-            volume,
+            three: [o, f, g].map(|p| squared_distance(&centre, p)),
+            two: [c, d].map(|p| squared_distance(&centre, p)),
         }
     }
 
-    /// Lower bounds of the squared widths of the three slabs, to 16 u; 0 where a plane does not separate.
+    /// The sphere in the middle, if it has the right side inside: the side of two but in the standard partition.
     #[inline(always)]
-    fn planes(&self, c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3]) -> [f64; 3] {
-        let [o, f, g] = facet;
-        let extents = extents([c, o, f, g, d]);
-        let bound = orient3d_bound(extents) + LEAST_DETERMINANT;
+    fn delimiter(&self, partition: usize) -> Delimiter<[f64; 3]> {
+        let Annulus { centre, three: [a, b, c], two: [d, e] } = *self;
+        let (inner, outer) = if partition == STANDARD {
+            (max(max(a, b), c), min(d, e))
+        } else {
+            (max(d, e), min(min(a, b), c))
+        };
+        let (radius, half_width) = middle::<3>(inner, outer);
+        Delimiter { centre, radius, half_width, reach: 0.0, tolerance: 0.0 }
+    }
+}
+
+/// The slabs parallel to the line `cd` and to one edge of the facet each.
+struct Slabs {
+    /// By the vertex opposite the edge. Heights are above the edge, in units of 1 / |normal|.
+    normals: [[f64; 3]; 3],
+    /// Height of the line.
+    heights: [f64; 3],
+    /// Height of the vertex: six times the volume of both cells.
+    volume: f64,
+    /// Error bound of heights.
+    bound: f64,
+    /// Error bound of squared norms of normals.
+    blur: f64,
+}
+
+impl Slabs {
+    #[inline(always)]
+    fn new(points: [&[f64; 3]; 5]) -> Self {
+        let [o, f, g, c, d] = points;
+        let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
+        let normals = [cross(&minus(g, f), &w), cross(&v, &w), cross(&w, &u)];
+        let volume = dot(&u, &normals[1]);
+        let heights =
+            [-dot(&minus(c, f), &normals[0]), dot(&minus(c, g), &normals[1]), dot(&minus(c, o), &normals[2])];
+        let sign = 1f64.copysign(volume);
+        let extents = extents(points);
         let square = largest(extents) * largest(extents);
-        // (|n| + CROSS square)², where |n| is below 3.47 square.
-        let blur = (7.0 * CROSS) * (square * square) + LEAST * LEAST;
-        let sign = 1f64.copysign(self.volume);
-        std::array::from_fn(|k| {
+        Slabs {
+            normals,
+            heights: heights.map(|height| height * sign),
+            volume: volume.abs(),
+            bound: ORIENT_3D * (extents[0] * extents[1] * extents[2]) + LEAST_DETERMINANT,
+            // (|n| + CROSS square)², where |n| is below 3.47 square.
+            blur: (7.0 * CROSS) * (square * square) + LEAST * LEAST,
+        }
+    }
+
+    /// The partition by the signs of the affine dependency.
+    #[inline(always)]
+    fn partition(&self) -> usize {
+        const FIRST: [u8; 8] = [3, 0, 1, 0, 2, 0, 1, 0];
+        let [x, y, z] = self.heights.map(|height| usize::from(height < 0.0));
+        usize::from(FIRST[x + 2 * y + 4 * z])
+    }
+
+    /// Lower bounds, to 16 u, of the squared widths of the slabs that exclude the partitions; 0 for a partition whose slab does
+    /// not separate its sides, infinity for the given one.
+    #[inline(always)]
+    fn squared_widths(&self, partition: usize) -> [f64; 4] {
+        let mut widths = [0.0; 4];
+        // The width of the slab of the given partition, if it has one, is that of the standard partition: a negative
+        // height has the line beyond the edge, and the slab separates it from the whole facet.
+        for k in 0..3 {
             let n = &self.normals[k];
-            let from = minus(c, facet[(k + 1) % 3]);
-            // Height of the pair above the edge, in units of 1 / |n|; the third vertex is at the volume.
-            let height = if k == 0 { -dot(&from, n) } else { dot(&from, n) };
-            let height = max(min(height * sign, self.volume * sign) - bound, 0.0);
-            height / (dot(n, n) + blur) * height
-        })
+            let height = max(min(self.heights[k].abs(), self.volume) - self.bound, 0.0);
+            let width = height / (dot(n, n) + self.blur) * height;
+            widths[k] = if self.heights[k] > 0.0 { width } else { 0.0 };
+            widths[3] = if partition == k { width } else { widths[3] };
+        }
+        widths[partition] = f64::INFINITY;
+        widths
     }
 }
 
@@ -305,7 +423,8 @@ fn middle<const D: usize>(inner: f64, outer: f64) -> (f64, f64) {
 pub fn orientation_tolerance2d([a, b, c]: [&[f64; 2]; 3]) -> f64 {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
     let volume = u[0] * v[1] - u[1] * v[0];
-    let bound = orient2d_bound(extents([a, b, c])) + LEAST_DETERMINANT;
+    let [x, y] = extents([a, b, c]);
+    let bound = ORIENT_2D * (x * y) + LEAST_DETERMINANT;
     let square = max(max(squared_distance(a, b), squared_distance(a, c)), squared_distance(b, c));
     non_negative((volume - bound) / (square.sqrt() + LEAST) * HALF)
 }
@@ -318,7 +437,7 @@ pub fn orientation_tolerance3d([a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
     let (uv, vw, wu) = (cross(&u, &v), cross(&v, &w), cross(&w, &u));
     let volume = dot(&w, &uv);
     let extents = extents([a, b, c, d]);
-    let bound = orient3d_bound(extents) + LEAST_DETERMINANT;
+    let bound = ORIENT_3D * (extents[0] * extents[1] * extents[2]) + LEAST_DETERMINANT;
     let plus = |p: &[f64; 3], q: &[f64; 3]| [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
     let sum = plus(&uv, &vw);
     let normals = [uv, vw, wu, sum, plus(&vw, &wu), plus(&wu, &uv), plus(&sum, &wu)];
