@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -95,6 +96,13 @@ private:
     deldrift_cells_view view_;
 };
 
+// The circle or sphere of a bi-cell; see deldrift_standard_delimiter.
+struct Delimiter {
+    std::vector<double> centre;
+    double radius;
+    double tolerance;
+};
+
 // The default options, to be changed and passed on.
 inline deldrift_options default_options() noexcept {
     deldrift_options options;
@@ -127,7 +135,7 @@ public:
     void move_vertex(std::uint32_t vertex, span<const double> position) {
         check(deldrift_move_vertex(native(), vertex, point(position)));
     }
-    // positions: those of all ids, or of the ids in vertices.
+    // positions: those of the first ids, as many as there are, or of the ids in vertices.
     void move_vertices(span<const double> positions) {
         check(deldrift_move_vertices(native(), nullptr, positions.data(), count_of("positions", positions)));
     }
@@ -187,6 +195,23 @@ public:
         }
         check(status);
         return star;
+    }
+    double tolerance(std::uint32_t vertex) const { return ask<double>(deldrift_tolerance, vertex); }
+    // A number for each corner of each cell, NaN for facets of the hull.
+    std::vector<double> annulus_widths() const {
+        std::size_t count = cell_count() * (dimension_ + std::size_t{1});
+        std::vector<double> widths(count);
+        check(deldrift_annulus_widths(native(), widths.data(), count, &count));
+        return widths;
+    }
+    // Nothing for a facet of the hull.
+    std::optional<Delimiter> standard_delimiter(std::uint32_t cell, std::uint32_t corner) const {
+        Delimiter delimiter{std::vector<double>(dimension_), 0, 0};
+        const deldrift_status status = deldrift_standard_delimiter(
+            native(), cell, corner, delimiter.centre.data(), &delimiter.radius, &delimiter.tolerance);
+        if (status == DELDRIFT_NO_DELIMITER) return std::nullopt;
+        check(status);
+        return delimiter;
     }
     deldrift_location locate(span<const double> position) const {
         return ask<deldrift_location>(deldrift_locate, point(position));

@@ -40,8 +40,21 @@ static void has_the_cells_of_a_fresh_creation(const deldrift_triangulation *t, u
     deldrift_destroy(fresh);
 }
 
-// Timestamps of a random walk; on a grid if there are to be ties, and with coincident vertices then.
-static void random_walk(uint32_t dimension, size_t count, deldrift_algorithm algorithm, bool on_grid) {
+// A random walk with long steps, one with steps of which some are within tolerance, and one on a grid, where there
+// are ties and coincident vertices.
+typedef enum { FAR, NEAR, ON_GRID } motion;
+
+// What has been seen of one algorithm.
+typedef struct {
+    uint64_t within_tolerance;
+    uint64_t within_safe_region;
+    uint64_t placements;
+    uint64_t rebuilds;
+} sums;
+
+// Timestamps, with vertices in between that are moved at once or come and go.
+static sums random_walk(uint32_t dimension, size_t count, deldrift_algorithm algorithm, motion motion) {
+    bool on_grid = motion == ON_GRID;
     uint64_t state = 11;
     double *positions = random_positions(dimension, count, 8);
     size_t n = count * dimension;
@@ -56,7 +69,7 @@ static void random_walk(uint32_t dimension, size_t count, deldrift_algorithm alg
     for (int step = 0; step < 6; step++) {
         for (size_t i = 0; i < n; i++) {
             double by = next_random(&state) - 0.5;
-            positions[i] += on_grid ? floor(by * 1.2 + 0.5) : 0.1 * by;
+            positions[i] += on_grid ? floor(by * 1.2 + 0.5) : (motion == FAR ? 0.1 : 0.004) * by;
         }
         OK(deldrift_move_vertices(t, NULL, positions, count));
         OK(deldrift_commit_timestamp(t, NULL));
@@ -67,20 +80,41 @@ static void random_walk(uint32_t dimension, size_t count, deldrift_algorithm alg
         for (uint32_t k = 0; k < dimension; k++) positions[v * dimension + k] = on_grid ? 3 : 0.4;
         OK(deldrift_relocate_vertex(t, v, positions + v * dimension));
         has_the_cells_of_a_fresh_creation(t, dimension, positions, count);
+
+        if (step % 2 == 1) {
+            // Of an id behind all others, which the next step does not move.
+            OK(deldrift_insert_vertex(t, (const double[]){0.6, 0.7, 0.5}, &v));
+            CHECK(v == count + (size_t)step / 2);
+            OK(deldrift_validate(t, 3));
+            OK(deldrift_remove_vertex(t, v));
+            has_the_cells_of_a_fresh_creation(t, dimension, positions, count);
+        }
     }
+    deldrift_commit_report report;
+    OK(deldrift_statistics(t, &report));
     deldrift_destroy(t);
     free(positions);
+    return (sums){report.within_tolerance, report.within_safe_region, report.placements, report.rebuilds};
+}
+
+// That each does what it is called after.
+static void is_what_it_says(deldrift_algorithm algorithm, sums near) {
+    bool by_tolerance = algorithm == DELDRIFT_TOLERANCE || algorithm == DELDRIFT_SAFE_REGION_TOLERANCE;
+    bool by_safe_region = algorithm == DELDRIFT_SAFE_REGION || algorithm == DELDRIFT_SAFE_REGION_TOLERANCE;
+    if (algorithm != DELDRIFT_REBUILDING_TOLERANCE) CHECK((near.within_tolerance > 0) == by_tolerance);
+    CHECK((near.within_safe_region > 0) == by_safe_region);
+    if (algorithm == DELDRIFT_REBUILDING || algorithm == DELDRIFT_AUTO) CHECK(near.rebuilds == 6);
+    if (by_tolerance || by_safe_region) CHECK(near.rebuilds == 0 && near.placements > 0);
 }
 
 int main(void) {
-    static const deldrift_algorithm all[] = {DELDRIFT_AUTO, DELDRIFT_REBUILDING, DELDRIFT_PLACEMENT,
-                                             DELDRIFT_PLACEMENT_FLIPS,
-        DELDRIFT_TOLERANCE, DELDRIFT_SAFE_REGION, DELDRIFT_SAFE_REGION_TOLERANCE, DELDRIFT_REBUILDING_TOLERANCE};
+    static const deldrift_algorithm all[] = ALL_ALGORITHMS;
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
         corners = dimension + 1;
         for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-            random_walk(dimension, 150, all[i], false);
-            random_walk(dimension, 150, all[i], true);
+            random_walk(dimension, 150, all[i], FAR);
+            random_walk(dimension, 150, all[i], ON_GRID);
+            is_what_it_says(all[i], random_walk(dimension, 150, all[i], NEAR));
         }
     }
     return 0;

@@ -242,8 +242,7 @@ static void statistics_sum_up(void) {
     deldrift_destroy(t);
 }
 
-// Of a vertex in the middle of a square of side 8 the tolerance is less than 4, half of the way to the corners
-// less than 2, and one hundredth in any case within.
+// A vertex inside a quadrilateral moves first by less than its tolerance, then to near a corner.
 static void reports_count_what_was_within(deldrift_algorithm algorithm, bool tolerance, bool safe_region) {
     static const double positions[] = {-4, -4, 4, -4, 5, 5, -4, 4, 0, 0};
     static const double near[] = {0.01, 0}, far[] = {3, 3.5};

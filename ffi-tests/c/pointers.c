@@ -58,6 +58,10 @@ static void handles(void) {
     REFUSES("t", deldrift_triangulation, deldrift_cells(pointer, &cells));
     REFUSES("t", deldrift_triangulation, deldrift_copy_cells(pointer, NULL, NULL, 0, &count));
     REFUSES("t", deldrift_triangulation, deldrift_star(pointer, 0, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_tolerance(pointer, 0, coordinates));
+    REFUSES("t", deldrift_triangulation, deldrift_annulus_widths(pointer, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation,
+            deldrift_standard_delimiter(pointer, 0, 0, coordinates, coordinates, coordinates));
     REFUSES("t", deldrift_triangulation, deldrift_locate(pointer, position, &location));
     REFUSES("t", deldrift_triangulation, deldrift_nearest_vertex(pointer, position, &number));
     REFUSES("t", deldrift_triangulation, deldrift_coincident_representative(pointer, 0, &number));
@@ -95,6 +99,7 @@ static void inputs(void) {
 
 static void outputs(void) {
     static const double position[2] = {1, 1};
+    double numbers[3];
 
     REFUSES("out", deldrift_triangulation *, deldrift_create(2, SQUARE, SQUARE_COUNT, NULL, pointer));
     REFUSES("dimension", uint32_t, deldrift_dimension(t, pointer));
@@ -114,6 +119,12 @@ static void outputs(void) {
     REFUSES("count", size_t, deldrift_copy_cells(t, NULL, NULL, 0, pointer));
     REFUSES("cells", uint32_t, deldrift_star(t, 0, pointer, 64, &count));
     REFUSES("count", size_t, deldrift_star(t, 0, NULL, 0, pointer));
+    REFUSES("out", double, deldrift_tolerance(t, 0, pointer));
+    REFUSES("widths", double, deldrift_annulus_widths(t, pointer, 64, &count));
+    REFUSES("count", size_t, deldrift_annulus_widths(t, NULL, 0, pointer));
+    REFUSES("centre", double, deldrift_standard_delimiter(t, 0, 0, pointer, numbers, numbers));
+    REFUSES("radius", double, deldrift_standard_delimiter(t, 0, 0, numbers, pointer, numbers));
+    REFUSES("tolerance", double, deldrift_standard_delimiter(t, 0, 0, numbers, numbers, pointer));
     REFUSES("location", deldrift_location, deldrift_locate(t, position, pointer));
     REFUSES("vertex", uint32_t, deldrift_nearest_vertex(t, position, pointer));
     REFUSES("representative", uint32_t, deldrift_coincident_representative(t, 0, pointer));
@@ -124,6 +135,8 @@ static void outputs(void) {
     CHECK_MESSAGE("view is NULL");
     CHECK_STATUS(deldrift_copy_cells(t, NULL, NULL, 1, &count), DELDRIFT_NULL_ARGUMENT);
     CHECK_MESSAGE("vertices is NULL");
+    CHECK_STATUS(deldrift_annulus_widths(t, NULL, 1, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("widths is NULL");
     uint32_t *odd = (uint32_t *)(void *)((char *)&storage + 1);
     CHECK_STATUS(deldrift_copy_cells(t, odd, NULL, 64, &count), DELDRIFT_MISALIGNED_ARGUMENT);
     CHECK_STATUS(deldrift_copy_cells(t, NULL, odd, 64, &count), DELDRIFT_MISALIGNED_ARGUMENT);

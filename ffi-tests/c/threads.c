@@ -33,8 +33,15 @@ static void *read_everything(void *argument) {
         CHECK(location.kind == DELDRIFT_LOCATION_VERTEX && location.index == v);
         OK(deldrift_nearest_vertex(t, position, &nearest));
         OK(deldrift_coincident_representative(t, v, &representative));
+        double tolerance, centre[3], radius;
+        OK(deldrift_tolerance(t, v, &tolerance));
+        deldrift_status status = deldrift_standard_delimiter(t, star[0], 0, centre, &radius, &tolerance);
+        CHECK(status == DELDRIFT_OK || status == DELDRIFT_NO_DELIMITER);
         CHECK(nearest == v && representative == v);
     }
+    size_t widths = 0;
+    OK(deldrift_annulus_widths(t, NULL, 0, &widths));
+    CHECK(widths == 4 * view.count);
     deldrift_indices_view changed;
     OK(deldrift_changed_cells(t, &changed));
     OK(deldrift_validate(t, 2));

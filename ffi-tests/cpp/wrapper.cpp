@@ -1,10 +1,12 @@
 // The C++ wrapper: every member, exceptions, ownership.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <deldrift.hpp>
 #include <iostream>
+#include <random>
 #include <type_traits>
 
 #define CHECK(condition)                                                                   \
@@ -61,6 +63,9 @@ static void motion() {
     CHECK((t.position(4) == std::vector<double>{2, 3}));
     t.move_vertices(square);
     t.discard_moves();
+    t.move_vertices({0.0, 0.0});
+    CHECK(t.staged_count() == 1);
+    t.discard_moves();
     t.move_vertices({0, 4}, {0.5, 0.5, 1.0, 2.0});
     CHECK(t.commit_timestamp().timestamp == 2 && t.timestamp() == 2 && t.statistics().moved == 3);
     t.relocate_vertex(0, std::array<double, 2>{0, 0});
@@ -87,6 +92,74 @@ static void queries() {
     CHECK(t.algorithm() == DELDRIFT_PLACEMENT);
 }
 
+static void tolerances() {
+    Triangulation t(2, square);
+    const deldrift::Cells cells = t.cells();
+    const std::vector<double> widths = t.annulus_widths();
+    CHECK(widths.size() == 12);
+    double least = INFINITY;
+    for (std::uint32_t cell = 0; cell < cells.size(); cell++) {
+        for (std::uint32_t corner = 0; corner < 3; corner++) {
+            const auto delimiter = t.standard_delimiter(cell, corner);
+            const double width = widths[3 * cell + corner];
+            CHECK(delimiter.has_value() == (cells.neighbours_of(cell)[corner] != DELDRIFT_NONE));
+            CHECK(delimiter.has_value() != std::isnan(width));
+            if (!delimiter) continue;
+            const std::vector<double> opposite = t.position(cells[cell][corner]);
+            const double x = opposite[0] - delimiter->centre[0], y = opposite[1] - delimiter->centre[1];
+            CHECK(delimiter->centre.size() == 2 && 2 * delimiter->tolerance == width);
+            CHECK(std::fabs(std::hypot(x, y) - delimiter->radius - width / 2) < 1e-13 * delimiter->radius);
+            least = std::fmin(least, delimiter->tolerance);
+        }
+    }
+    CHECK(t.tolerance(4) > 0 && t.tolerance(4) <= least);
+    CHECK_THROWS(t.tolerance(9), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
+    CHECK_THROWS(t.standard_delimiter(4, 0), DELDRIFT_NO_SUCH_FACET, "cell is 4");
+    CHECK_THROWS(t.standard_delimiter(0, 3), DELDRIFT_NO_SUCH_FACET, "corner is 3");
+    CHECK(Triangulation(3, {}).annulus_widths().empty());
+}
+
+// Positions that move by less and less, by every algorithm: the cells are those of rebuilding.
+static void algorithms(std::uint32_t dimension) {
+    using Cell = std::vector<std::uint32_t>;
+    const auto sorted = [](const Triangulation &t) {
+        std::vector<Cell> all;
+        for (auto cell : t.cells()) {
+            all.emplace_back(cell.begin(), cell.end());
+            std::sort(all.back().begin(), all.back().end());
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    std::mt19937_64 random(18);
+    std::uniform_real_distribution<double> anywhere(-1, 1);
+    std::vector<double> positions(dimension * 200);
+    for (double &x : positions) x = anywhere(random);
+    std::vector<Triangulation> all;
+    for (std::uint32_t algorithm = DELDRIFT_AUTO; algorithm <= DELDRIFT_REBUILDING_TOLERANCE; algorithm++) {
+        deldrift_options options = deldrift::default_options();
+        options.algorithm = static_cast<deldrift_algorithm>(algorithm);
+        options.switch_share = 0.5;
+        options.switch_seed = 19;
+        options.switch_sample = 100;
+        options.switch_period = 1;
+        all.emplace_back(dimension, positions, options);
+        CHECK(all.back().algorithm() == options.algorithm);
+    }
+    for (double step = 0.2; step > 1e-4; step /= 2) {
+        for (double &x : positions) x += step * anywhere(random);
+        for (Triangulation &t : all) {
+            t.move_vertices(positions);
+            t.commit_timestamp();
+        }
+        const std::vector<Cell> wanted = sorted(all[DELDRIFT_REBUILDING]);
+        for (const Triangulation &t : all) CHECK(sorted(t) == wanted);
+        all[DELDRIFT_SAFE_REGION].validate(3);
+    }
+    const deldrift_commit_report sums = all[DELDRIFT_REBUILDING_TOLERANCE].statistics();
+    CHECK(sums.rebuilds > 0 && sums.rebuilds < sums.timestamp && sums.within_tolerance > 0);
+}
+
 // A wheel has a vertex with more cells than any first guess.
 static void large_stars_are_whole() {
     std::vector<double> wheel{0, 0};
@@ -107,6 +180,9 @@ static void failures_are_exceptions() {
     CHECK_THROWS(t.move_vertex(9, {1.0, 1.0}), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
     CHECK_THROWS(t.move_vertex(4, {1.0, 1.0, 1.0}), DELDRIFT_WRONG_COUNT, "position has 3 numbers");
     CHECK_THROWS(t.move_vertices({0, 1}, {1.0, 1.0}), DELDRIFT_WRONG_COUNT, "must have 4");
+    deldrift_options options = deldrift::default_options();
+    options.switch_share = 1.5;
+    CHECK_THROWS(Triangulation(2, square, options), DELDRIFT_INVALID_OPTIONS, "options.switch_share is 1.5");
     CHECK_THROWS(t.star(9), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
     CHECK_THROWS(t.changed_cells(), DELDRIFT_CHANGES_NOT_TRACKED, "track_changes");
     CHECK_THROWS(t.validate(9), DELDRIFT_INVALID_LEVEL, "level is 9");
@@ -136,6 +212,9 @@ int main() {
     cells_are_spans();
     motion();
     queries();
+    tolerances();
+    algorithms(2);
+    algorithms(3);
     large_stars_are_whole();
     failures_are_exceptions();
     ownership_moves();

@@ -31,9 +31,10 @@ pub enum deldrift_algorithm {
     /// after an insertion or a removal.
     DELDRIFT_TOLERANCE = 4,
     /// As tolerance, with a larger region for each vertex: inside the delimiters of the facets it is on,
-    /// outside those of the facets opposite it (see deldrift_standard_delimiter). More vertices stay within,
-    /// at the cost of a distance for every facet of the star of each, and of the memory of a delimiter for
-    /// every facet of every cell. For displacements that are often just above the tolerances.
+    /// outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not so far that
+    /// delimiters prove too little. More vertices stay within, at the cost of a distance for every facet of
+    /// the star of each, and of the memory of a delimiter for every facet of every cell. For displacements
+    /// that are often just above the tolerances.
     DELDRIFT_SAFE_REGION = 5,
     /// The safe region is tested only where the tolerance test fails: as many vertices stay within as with
     /// either, and most cost one distance. Memory as for the safe region. For displacements that are small
