@@ -653,7 +653,7 @@ fn distances_are_certified<const D: usize>(n: usize) {
             let t = square.sqrt() * (1.0 + f64::from(k) * f64::EPSILON / 2.0);
             let order = compare_distance(&p, &q, t);
             let (inside, outside) = (is_certainly_inside(&p, t, &q), is_certainly_outside(&p, t, &q));
-            assert!(!(square < displacement_limit(t)) || order == Less);
+            assert!(square >= displacement_limit(t) || order == Less);
             assert!(!inside || order == Less);
             assert!(!outside || order == Greater);
             n_undecided += usize::from(!inside && !outside);

@@ -86,7 +86,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// place with another, infinite while there are no cells.
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`].
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn tolerance(&self, vertex: u32) -> Result<f64> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
         if self.hidden.any_at(s) {
