@@ -96,8 +96,13 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn distance_above(p: &Self::Point, q: &Self::Point) -> f64;
     /// As [`predicates::is_certainly_inside`].
     fn is_certainly_inside(centre: &Self::Point, radius: f64, p: &Self::Point) -> bool;
-    /// As [`predicates::is_certainly_outside`].
-    fn is_certainly_outside(centre: &Self::Point, radius: f64, p: &Self::Point) -> bool;
+    /// As [`predicates::is_path_certainly_outside`].
+    fn is_path_certainly_outside(
+        centre: &Self::Point,
+        radius: f64,
+        from: &Self::Point,
+        to: &Self::Point,
+    ) -> bool;
     /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
     /// change, in a dimension where flips can be stuck.
     fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64>;
@@ -184,8 +189,8 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn is_certainly_outside(centre: &[f64; 2], radius: f64, p: &[f64; 2]) -> bool {
-        predicates::is_certainly_outside(centre, radius, p)
+    fn is_path_certainly_outside(centre: &[f64; 2], radius: f64, from: &[f64; 2], to: &[f64; 2]) -> bool {
+        predicates::is_path_certainly_outside(centre, radius, from, to)
     }
 
     fn compare_distance(q: &[f64; 2], a: &[f64; 2], b: &[f64; 2]) -> Ordering {
@@ -304,8 +309,8 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn is_certainly_outside(centre: &[f64; 3], radius: f64, p: &[f64; 3]) -> bool {
-        predicates::is_certainly_outside(centre, radius, p)
+    fn is_path_certainly_outside(centre: &[f64; 3], radius: f64, from: &[f64; 3], to: &[f64; 3]) -> bool {
+        predicates::is_path_certainly_outside(centre, radius, from, to)
     }
 
     fn compare_distance(q: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> Ordering {

@@ -169,6 +169,8 @@ impl<G: Dimension> Regions<G> {
         if G::squared_distance(from, p) >= displacement_limit(self.reach[s as usize]) {
             return false;
         }
+        // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
+        let here = kernel.site(s).point;
         kernel.gather_star(s);
         let complex = kernel.complex();
         kernel.gathered_star().iter().filter(|(c, _)| !complex.cell(*c).is_ghost()).all(|&(c, at)| {
@@ -179,7 +181,7 @@ impl<G: Dimension> Regions<G> {
                 }
                 let (centre, radius) = &self.delimiters[facet.code().min(across.code()) as usize];
                 if i == at as usize {
-                    G::is_certainly_outside(centre, *radius, p)
+                    G::is_path_certainly_outside(centre, *radius, &here, p)
                 } else {
                     G::is_certainly_inside(centre, *radius, p)
                 }

@@ -89,6 +89,12 @@
 //! magnitude up to 1e57, subnormal ones included: distances are only trusted above 1e-140 ([`LEAST`]),
 //! whose square is 2¹⁴⁰ times that error with u taken off, and determinants above 1e-250, where such an error has been
 //! multiplied by a difference of at most 2e57.
+//!
+//! # Cost
+//!
+//! Time per call for the bi-cells and cells of random points, on one core of a recent x86-64 server: [`delimiter2d`] 9 ns;
+//! [`delimiter3d`] 74 ns; [`separator3d`] 73 ns, 46 ns if 0.01 spacings are enough, 40 ns if anything is;
+//! [`orientation_tolerance2d`] 5 ns, [`orientation_tolerance3d`] 14 ns.
 
 use super::filter::{extents, largest};
 
