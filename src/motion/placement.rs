@@ -20,14 +20,22 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         self.regions.invalidate();
         self.order_staged_by_site();
-        let n = self.staging.vertices.len();
-        for k in 0..n {
+        self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
+    }
+
+    /// Relocates the staged vertices that are not applied yet, one after the other.
+    pub(super) fn place_staged(
+        &mut self,
+        report: &mut CommitReport,
+        mut relocate: impl FnMut(&mut Self, u32, &G::Point, &mut CommitReport) -> Result<()>,
+    ) -> Result<()> {
+        let (first, n) = (self.staging.applied, self.staging.vertices.len());
+        for k in first..n {
             if !self.kernel.has_cells() {
                 // Nothing to walk in: what is left is placed at once.
                 return self.commit_by_rebuilding(k, report);
             }
-            if k % MONITORED == 0 && !self.monitor(k as f64 / n as f64) {
-                self.staging.applied = k;
+            if (k - first).is_multiple_of(MONITORED) && !self.monitor(k as f64 / n as f64) {
                 return Err(Error::Cancelled);
             }
             self.staging.applied = k + 1;
@@ -36,7 +44,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let new = std::mem::replace(&mut self.staging.positions[v as usize], old);
             if new != old {
                 report.moved += 1;
-                self.relocate(v, &new, shortcut, report)?;
+                relocate(self, v, &new, report)?;
             }
         }
         Ok(())

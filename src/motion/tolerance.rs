@@ -29,10 +29,7 @@
 use super::regions::Filter;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
-use crate::error::{Error, Result};
-
-/// Relocations between two calls of the monitor.
-const MONITORED: usize = 256;
+use crate::error::Result;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a filter and a queue.
@@ -42,7 +39,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.pre_compute(filter)?;
         self.accept_staged(filter, report);
-        self.place_queued(filter, report)
+        self.place_staged(report, |t, v, new, report| t.relocate_and_fix(v, new, filter, report))
     }
 
     /// Computes tolerances and delimiters unless those of the last commit are valid.
@@ -92,29 +89,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.kernel.cover(&p, &p);
         }
         accepted
-    }
-
-    /// The queue of the report's algorithms.
-    fn place_queued(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
-        let (first, n) = (self.staging.applied, self.staging.vertices.len());
-        for k in first..n {
-            if !self.kernel.has_cells() {
-                self.regions.invalidate();
-                return self.commit_by_rebuilding(k, report);
-            }
-            if (k - first).is_multiple_of(MONITORED) && !self.monitor(k as f64 / n as f64) {
-                return Err(Error::Cancelled);
-            }
-            self.staging.applied = k + 1;
-            let v = self.staging.vertices[k];
-            let old = self.kernel.site(self.site_of[v as usize]).point;
-            let new = std::mem::replace(&mut self.staging.positions[v as usize], old);
-            if new != old {
-                report.moved += 1;
-                self.relocate_and_fix(v, &new, filter, report)?;
-            }
-        }
-        Ok(())
     }
 
     /// Moves one vertex at once, by the filter in force if there is one.
