@@ -1,103 +1,193 @@
 //! Conflict zones in the plane.
 //!
-//! The rim is a cycle of edges around the site. Each new triangle starts at one site of it and ends at the next: its
-//! neighbour is the triangle that starts where it ends, found through the sites' `cell` fields, which the insertion
-//! overwrites anyway.
+//! No vertex goes when one comes, so a zone has none inside it: it is a polygon, and its triangles are joined like a
+//! tree. Walked depth first and always to the right first, it is found without a mark, and its rim comes in order, edge
+//! after edge around the new site: each new triangle has those before and after it for neighbours.
+//!
+//! The walk carries what it knows of the edge that it is about to cross, as seen from the new site: both ends, the
+//! squares of their distances and their cross product. A test has only the third corner to look at, and what it
+//! computes is what is known of the two edges behind.
 
-use super::cavity::{Cavity, IN_ZONE, Rim};
-use super::{Delaunay, Plane};
-use crate::complex::{Facet, INFINITE, NONE};
+#![allow(unsafe_code)]
 
-/// The corners with `s` in place of corner `i`, turned to have `s` first; but a ghost corner stays last.
-#[inline(always)]
-fn joined([a, b, c]: [u32; 3], i: usize, s: u32) -> ([u32; 3], u32) {
-    match i {
-        0 => ([s, b, c], 0),
-        1 if c == INFINITE => ([a, s, c], 1),
-        1 => ([s, c, a], 0),
-        _ => ([s, a, b], 0),
-    }
+use super::cavity::Cavity;
+use super::{Delaunay, Dimension, Plane};
+use crate::complex::{Facet, INFINITE};
+use crate::error::Result;
+use crate::predicates::{Lifted, side_of_circle};
+
+/// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    /// Edges where the walk through the zone turned right, to be taken up when it comes back.
+    turns: Vec<Edge>,
+    /// The rim counter-clockwise: the start of each edge, and the edge seen from outside the zone.
+    rim: Vec<(u32, Facet)>,
 }
 
-/// Finds the zone of `q` from one cell of it, and its rim.
-#[inline(always)]
-pub(super) fn dig(
-    t: &mut Delaunay<Plane>,
-    cavity: &mut Cavity<Plane>,
+/// The zone found, by the length of its lists: `n_cells + 2` edges of the rim.
+struct Zone {
+    n_cells: usize,
+    n_ghosts: usize,
+}
+
+/// An edge to be crossed outwards, from `right` to `left`, both seen from the new site.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    /// The edge seen from outside.
+    out: Facet,
+    /// The corner on the right, where it starts.
     start: u32,
-    s: u32,
-    q: &[f64; 2],
-    id: u32,
-) {
-    let Cavity { zone, rim, .. } = cavity;
-    let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
-    make_room(zone, rim, n_zone, n_rim);
-    zone[0] = start;
-    t.complex.set_mark(start, IN_ZONE);
-    while next < n_zone {
-        make_room(zone, rim, n_zone, n_rim);
-        let cell = *t.complex.cell(zone[next]);
-        n_ghosts += cell.is_ghost() as usize;
-        next += 1;
-        for i in 0..3 {
-            let out = cell.neighbour(i);
-            if t.complex.mark(out.cell()) == IN_ZONE {
-                continue;
-            }
-            if t.is_in_conflict(out.cell(), q, id) {
-                t.complex.set_mark(out.cell(), IN_ZONE);
-                zone[n_zone] = out.cell();
-                n_zone += 1;
-            } else {
-                let (corners, at) = joined(cell.corners, i, s);
-                rim[n_rim] = Rim { corners, out, at };
-                n_rim += 1;
-            }
-        }
-    }
-    (cavity.n_zone, cavity.n_rim, cavity.n_ghosts) = (n_zone, n_rim, n_ghosts);
+    right: Lifted,
+    left: Lifted,
+    /// Cross product of right and left.
+    cross: f64,
 }
 
-/// Makes room for the three neighbours of a cell.
-#[inline(always)]
-fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim<[u32; 3]>>, n_zone: usize, n_rim: usize) {
-    if zone.len() < n_zone + 3 {
-        zone.resize(2 * n_zone + 64, 0);
-    }
-    if rim.len() < n_rim + 3 {
-        rim.resize(2 * n_rim + 64, Rim { corners: [0; 3], out: Facet::new(0, 0), at: 0 });
+impl Edge {
+    /// The edge opposite corner `i` of a cell; what is seen of the ghost vertex is meaningless.
+    #[inline(always)]
+    fn of(t: &Delaunay<Plane>, cell: u32, i: usize, q: &[f64; 2]) -> Self {
+        let cell = t.complex.cell(cell);
+        let [start, end] = [cell.corners[(i + 1) % 3], cell.corners[(i + 2) % 3]];
+        let [right, left] = [start, end].map(|s| Lifted::new(t.view().point(s), q));
+        Edge { out: cell.neighbour(i), start, right, left, cross: right.cross(&left) }
     }
 }
 
-/// Makes the new triangles and glues them.
+/// Replaces the zone of the site `s`, of which the cell `start` is one, by the triangles that join its rim to the site.
 #[inline(always)]
-pub(super) fn glue(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>) {
-    let Cavity { rim, n_rim, cells, .. } = cavity;
-    let rim = &rim[..*n_rim];
-    for (facet, &cell) in rim.iter().zip(cells) {
-        if facet.at == 0 {
-            t.complex.put_glued(cell, facet.corners, [facet.out.code(), NONE, NONE]);
-            t.corner_mut(facet.corners[1]).cell = Facet::new(cell, 2).code();
+pub(super) fn insert(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Result<()> {
+    // A polygon has two edges more than triangles.
+    t.complex.reserve(2)?;
+    let zone = dig(t, cavity, start, s);
+    for k in zone.n_cells..zone.n_cells + 2 {
+        cavity.cells[k] = t.complex.create_blank();
+    }
+    cavity.n_cells = zone.n_cells + 2;
+    fill(t, cavity, s);
+    if zone.n_ghosts > 0 {
+        t.complex.retire_ghosts(zone.n_ghosts);
+        put_ghosts(t, cavity, s);
+    }
+    Ok(())
+}
+
+/// Finds the zone of `s` from one cell of it, and its rim.
+#[inline(always)]
+fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Zone {
+    let (q, id) = (&t.site(s).point, t.site(s).id);
+    let mut n_ghosts = t.complex.cell(start).is_ghost() as usize;
+    let (mut n_cells, mut n_turns, mut n_rim) = (1, 2, 0);
+    make_room(cavity, n_cells);
+    cavity.cells[0] = start;
+    cavity.scratch.turns[0] = Edge::of(t, start, 1, q);
+    cavity.scratch.turns[1] = Edge::of(t, start, 0, q);
+    let mut edge = Edge::of(t, start, 2, q);
+    loop {
+        let beyond = edge.out.cell();
+        let (tip_at, [first, second]) = (edge.out.index(), OTHERS[edge.out.index()]);
+        let cell = t.complex.cell(beyond);
+        let behind = if cell.is_ghost() {
+            let is_in_zone = t.is_in_conflict_with_ghost(beyond, q, id);
+            n_ghosts += is_in_zone as usize;
+            is_in_zone.then(|| [first, second].map(|i| Edge::of(t, beyond, i, q)))
         } else {
-            put_ghost(t, facet, cell);
+            let tip_site = cell.corners[tip_at];
+            let tip = Lifted::new(t.view().point(tip_site), q);
+            let (right, left) = (edge.right.cross(&tip), tip.cross(&edge.left));
+            let side = side_of_circle([&edge.left, &edge.right, &tip], [-edge.cross, right, left]);
+            let bound = t.filter.prepared;
+            let is_in_zone = side > bound || side >= -bound && is_in_uncertain_conflict(t, beyond, q, id);
+            is_in_zone.then(|| {
+                let [out_first, out_second] = [first, second].map(|i| cell.neighbour(i));
+                [
+                    Edge { out: out_first, left: tip, cross: right, ..edge },
+                    Edge { out: out_second, start: tip_site, right: tip, left: edge.left, cross: left },
+                ]
+            })
+        };
+        if let Some([next, turn]) = behind {
+            make_room(cavity, n_cells + 1);
+            // SAFETY: there is room for one more cell, and for as many turns as cells and one more.
+            unsafe {
+                *cavity.cells.get_unchecked_mut(n_cells) = beyond;
+                *cavity.scratch.turns.get_unchecked_mut(n_turns) = turn;
+            }
+            n_cells += 1;
+            n_turns += 1;
+            edge = next;
+        } else {
+            // SAFETY: the rim so far and the turns to come are at most two more than the cells, which is the room made.
+            *unsafe { cavity.scratch.rim.get_unchecked_mut(n_rim) } = (edge.start, edge.out);
+            n_rim += 1;
+            if n_turns == 0 {
+                return Zone { n_cells, n_ghosts };
+            }
+            n_turns -= 1;
+            // SAFETY: below the turns written.
+            edge = *unsafe { cavity.scratch.turns.get_unchecked(n_turns) };
         }
-    }
-    for (facet, &cell) in rim.iter().zip(cells) {
-        let (start, end) = if facet.at == 0 { (1, 2) } else { (2, 0) };
-        let next = Facet::from_code(t.corner_mut(facet.corners[end]).cell);
-        t.complex.glue(Facet::new(cell, start), next);
-    }
-    for (facet, &cell) in rim.iter().zip(cells) {
-        let start = if facet.at == 0 { 1 } else { 2 };
-        t.corner_mut(facet.corners[start]).cell = cell;
     }
 }
 
-/// A triangle that starts at the ghost vertex.
+/// Makes room for a zone of so many cells: two more edges in the rim, and no more turns than that.
+#[inline(always)]
+fn make_room(cavity: &mut Cavity<Plane>, n_cells: usize) {
+    if cavity.cells.len() < n_cells + 2 {
+        grow(cavity, n_cells);
+    }
+}
+
 #[cold]
 #[inline(never)]
-fn put_ghost(t: &mut Delaunay<Plane>, facet: &Rim<[u32; 3]>, cell: u32) {
-    t.complex.put(cell, facet.corners);
-    t.complex.glue(Facet::new(cell, 1), facet.out);
-    t.corner_mut(INFINITE).cell = Facet::new(cell, 0).code();
+fn grow(Cavity { cells, scratch: Scratch { turns, rim }, .. }: &mut Cavity<Plane>, n_cells: usize) {
+    let room = 2 * n_cells + 64;
+    let facet = Facet::new(0, 0);
+    let seen = Lifted::new(&[0.0; 2], &[0.0; 2]);
+    rim.resize(room, (0, facet));
+    turns.resize(room, Edge { out: facet, start: 0, right: seen, left: seen, cross: 0.0 });
+    cells.resize(room, 0);
+}
+
+/// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.
+const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
+
+#[cold]
+#[inline(never)]
+fn is_in_uncertain_conflict(t: &Delaunay<Plane>, cell: u32, q: &[f64; 2], id: u32) -> bool {
+    Plane::is_in_sphere(&t.filter, t.view(), &t.complex.cell(cell).corners, q, id)
+}
+
+/// Joins each edge of the rim to the site; the new triangles turn around it, so each is glued to the one before and to
+/// the one after it.
+#[inline(always)]
+fn fill(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, s: u32) {
+    let (cells, rim) = (cavity.made(), &cavity.scratch.rim[..cavity.n_cells]);
+    let (mut before, mut cell, mut start, mut out) = (cells[cells.len() - 1], cells[0], rim[0].0, rim[0].1);
+    let mut put = |after: u32, next: (u32, Facet)| {
+        let neighbours = [out.code(), Facet::new(after, 2).code(), Facet::new(before, 1).code()];
+        t.complex.put_glued(cell, [s, start, next.0], neighbours);
+        t.corner_mut(start).cell = cell;
+        (before, cell) = (cell, after);
+        (start, out) = next;
+    };
+    for (&after, &next) in cells[1..].iter().zip(&rim[1..]) {
+        put(after, next);
+    }
+    put(cells[0], rim[0]);
+}
+
+/// Turns the triangle that starts at the ghost vertex, so that this comes last, and counts both ghosts.
+#[cold]
+#[inline(never)]
+fn put_ghosts(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>, s: u32) {
+    let (cells, rim) = (cavity.made(), &cavity.scratch.rim[..cavity.n_cells]);
+    let n = rim.len();
+    let k = rim.iter().position(|&(start, _)| start == INFINITE).expect("ghosts in the zone have the ghost vertex");
+    let (before, cell, after) = (cells[(k + n - 1) % n], cells[k], cells[(k + 1) % n]);
+    t.complex.put(cell, [rim[(k + 1) % n].0, s, INFINITE]);
+    t.complex.glue(Facet::new(cell, 0), Facet::new(before, 1));
+    t.complex.glue(Facet::new(cell, 1), rim[k].1);
+    t.complex.glue(Facet::new(cell, 2), Facet::new(after, 2));
 }

@@ -10,7 +10,7 @@
 
 #![allow(unsafe_code)]
 
-use super::cavity::{Cavity, IN_ZONE, Rim};
+use super::cavity::Cavity;
 use super::{Delaunay, Space};
 use crate::complex::{Facet, INFINITE, memory};
 use crate::error::Result;
@@ -21,17 +21,42 @@ const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
 const MAX_LABELS: usize = 64;
 const TABLE: usize = MAX_LABELS * MAX_LABELS;
 
-/// Scratch memory: where the two facets of a ridge meet, and the spheres of a build.
+/// A facet of the rim.
+#[derive(Clone, Copy, Debug)]
+struct Rim {
+    /// Corners of the new cell.
+    corners: [u32; 4],
+    /// The facet seen from outside the zone.
+    out: Facet,
+}
+
+const IN_ZONE: u8 = 1;
+
+/// Scratch memory.
 #[derive(Debug, Default)]
 pub struct Scratch {
+    /// Cells in conflict: the first `n_zone` entries. The rest is room to write before it is known whether to keep it.
+    zone: Vec<u32>,
+    n_zone: usize,
+    /// How many of them are ghosts.
+    n_ghosts: usize,
+    /// Likewise, the rim's facets.
+    rim: Vec<Rim>,
+    n_rim: usize,
+    meetings: Meetings,
+    /// Prepared spheres of all cells, during a build.
+    spheres: Vec<Sphere>,
+}
+
+/// Where the two facets of a ridge meet.
+#[derive(Debug, Default)]
+struct Meetings {
     /// Code of the facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
     table: Vec<u32>,
     /// The site of each label.
     labels: Vec<u32>,
     /// Labels of the last three corners of each new cell.
     local: Vec<[u8; 4]>,
-    /// Prepared spheres of all cells, during a build.
-    spheres: Vec<Sphere>,
 }
 
 /// Prepares the spheres of all cells there are, with room for those to come.
@@ -89,17 +114,44 @@ fn joined([a, b, c, d]: [u32; 4], i: usize, s: u32) -> [u32; 4] {
     }
 }
 
-/// Finds the zone of `q` from one cell of it, and its rim.
+/// Replaces the zone of the site `s`, of which the cell `start` is one, by the cells that join its rim to the site.
 #[inline(always)]
-pub(super) fn dig<const BUILD: bool>(
+pub(super) fn insert<const BUILD: bool>(
     t: &mut Delaunay<Space>,
     cavity: &mut Cavity<Space>,
     start: u32,
     s: u32,
-    q: &[f64; 3],
-    id: u32,
-) {
-    let Cavity { zone, rim, scratch, .. } = cavity;
+) -> Result<()> {
+    let Cavity { cells, scratch, .. } = cavity;
+    dig::<BUILD>(t, scratch, start, s);
+    let (zone, n_rim) = (&scratch.zone[..scratch.n_zone], scratch.n_rim);
+    if let Err(error) = t.complex.reserve(n_rim) {
+        for &c in zone {
+            t.complex.set_mark(c, 0);
+        }
+        return Err(error);
+    }
+    t.complex.retire_ghosts(scratch.n_ghosts);
+    // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
+    let reused = zone.len().min(n_rim);
+    for &c in &zone[reused..] {
+        t.complex.release(c);
+    }
+    cells.clear();
+    cells.extend_from_slice(&zone[..reused]);
+    for _ in reused..n_rim {
+        cells.push(t.complex.create_blank());
+    }
+    glue::<BUILD>(t, cells, scratch);
+    cavity.n_cells = n_rim;
+    Ok(())
+}
+
+/// Finds the zone of `s` from one cell of it, and its rim.
+#[inline(always)]
+fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: u32, s: u32) {
+    let Scratch { zone, rim, spheres, .. } = scratch;
+    let (q, id) = (&{ t.site(s).point }, t.site(s).id);
     let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
     make_room(zone, rim, n_zone, n_rim);
     zone[0] = start;
@@ -114,54 +166,54 @@ pub(super) fn dig<const BUILD: bool>(
             let known = t.complex.mark(out.cell());
             // A prepared test is cheaper than a wrong guess whether the cell is known.
             let in_zone = if BUILD {
-                is_in_prepared_conflict(t, &scratch.spheres, out.cell(), q, id)
+                is_in_prepared_conflict(t, spheres, out.cell(), q, id)
             } else {
                 known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
             };
             t.complex.set_mark(out.cell(), in_zone as u8);
             zone[n_zone] = out.cell();
-            rim[n_rim] = Rim { corners: joined(cell.corners, i, s), out, at: 0 };
+            rim[n_rim] = Rim { corners: joined(cell.corners, i, s), out };
             n_zone += (in_zone as u8 & !known) as usize;
             n_rim += !in_zone as usize;
         }
     }
-    (cavity.n_zone, cavity.n_rim, cavity.n_ghosts) = (n_zone, n_rim, n_ghosts);
+    (scratch.n_zone, scratch.n_rim, scratch.n_ghosts) = (n_zone, n_rim, n_ghosts);
 }
 
 /// Makes room for the four neighbours of a cell.
 #[inline(always)]
-fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim<[u32; 4]>>, n_zone: usize, n_rim: usize) {
+fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim>, n_zone: usize, n_rim: usize) {
     if zone.len() < n_zone + 4 {
         zone.resize(2 * n_zone + 64, 0);
     }
     if rim.len() < n_rim + 4 {
-        rim.resize(2 * n_rim + 64, Rim { corners: [0; 4], out: Facet::new(0, 0), at: 0 });
+        rim.resize(2 * n_rim + 64, Rim { corners: [0; 4], out: Facet::new(0, 0) });
     }
 }
 
 /// Makes the new cells and glues them.
 #[inline(always)]
-pub(super) fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cavity: &mut Cavity<Space>) {
-    let Cavity { rim, n_rim, cells, scratch, .. } = cavity;
+fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cells: &[u32], scratch: &mut Scratch) {
+    let Scratch { rim, n_rim, spheres, meetings, .. } = scratch;
     let rim = &rim[..*n_rim];
     if rim.len() > SMALL_RIM {
         glue_sorted(t, rim, cells);
     } else {
-        glue_by_table(t, rim, cells, scratch);
+        glue_by_table(t, rim, cells, meetings);
     }
     if BUILD {
-        scratch.spheres.resize(t.complex.n_slots(), Sphere::default());
-        for (facet, &cell) in rim.iter().zip(&*cells) {
-            debug_assert!((cell as usize) < scratch.spheres.len());
+        spheres.resize(t.complex.n_slots(), Sphere::default());
+        for (facet, &cell) in rim.iter().zip(cells) {
+            debug_assert!((cell as usize) < spheres.len());
             // SAFETY: the spheres are as many as the cells.
-            *unsafe { scratch.spheres.get_unchecked_mut(cell as usize) } = sphere_of(t, &facet.corners);
+            *unsafe { spheres.get_unchecked_mut(cell as usize) } = sphere_of(t, &facet.corners);
         }
     }
 }
 
 #[inline(always)]
-fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim<[u32; 4]>], cells: &[u32], scratch: &mut Scratch) {
-    let Scratch { table, labels, local, .. } = scratch;
+fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32], meetings: &mut Meetings) {
+    let Meetings { table, labels, local } = meetings;
     // Of fixed lengths, so that the compiler sees masked indices in bounds.
     table.resize(TABLE, 0);
     labels.resize(MAX_LABELS, 0);
@@ -199,7 +251,7 @@ fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim<[u32; 4]>], cells: &[u32], 
 
 /// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order.
 #[cold]
-fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim<[u32; 4]>], cells: &[u32]) {
+fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32]) {
     let mut ridges: Vec<([u32; 2], Facet)> = Vec::with_capacity(3 * rim.len());
     for (facet, &cell) in rim.iter().zip(cells) {
         let v = facet.corners;

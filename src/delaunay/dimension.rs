@@ -75,17 +75,14 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn begin_build(t: &mut Delaunay<Self>) -> Result<()>;
     /// Frees what [`begin_build`](Self::begin_build) made.
     fn end_build(t: &mut Delaunay<Self>);
-    /// Finds the conflict zone of `q` and its rim, from the cell `start` in conflict.
-    fn dig<const BUILD: bool>(
+    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site. Lists
+    /// the new cells in `cavity`. After an error nothing has changed.
+    fn insert<const BUILD: bool>(
         t: &mut Delaunay<Self>,
         cavity: &mut Cavity<Self>,
         start: u32,
         s: u32,
-        q: &Self::Point,
-        id: u32,
-    );
-    /// Joins the rim to the site: puts the new cells and glues them to each other and to what is outside.
-    fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>);
+    ) -> Result<()>;
     /// Standard delimiter of a bi-cell: its `D + 2` corners, the opposing vertices first and last.
     fn delimiter(points: &[Self::Point]) -> Delimiter<Self::Point>;
     /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
@@ -120,7 +117,7 @@ impl Dimension for Plane {
     const D: usize = 2;
     type Point = [f64; 2];
     type Corners = [u32; 3];
-    type Scratch = ();
+    type Scratch = cavity_plane::Scratch;
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
@@ -204,20 +201,13 @@ impl Dimension for Plane {
     fn end_build(_: &mut Delaunay<Self>) {}
 
     #[inline(always)]
-    fn dig<const BUILD: bool>(
+    fn insert<const BUILD: bool>(
         t: &mut Delaunay<Self>,
         cavity: &mut Cavity<Self>,
         start: u32,
         s: u32,
-        q: &[f64; 2],
-        id: u32,
-    ) {
-        cavity_plane::dig(t, cavity, start, s, q, id);
-    }
-
-    #[inline(always)]
-    fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
-        cavity_plane::glue(t, cavity);
+    ) -> Result<()> {
+        cavity_plane::insert(t, cavity, start, s)
     }
 
     fn is_crossed(
@@ -326,20 +316,13 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn dig<const BUILD: bool>(
+    fn insert<const BUILD: bool>(
         t: &mut Delaunay<Self>,
         cavity: &mut Cavity<Self>,
         start: u32,
         s: u32,
-        q: &[f64; 3],
-        id: u32,
-    ) {
-        cavity_space::dig::<BUILD>(t, cavity, start, s, q, id);
-    }
-
-    #[inline(always)]
-    fn glue<const BUILD: bool>(t: &mut Delaunay<Self>, cavity: &mut Cavity<Self>) {
-        cavity_space::glue::<BUILD>(t, cavity);
+    ) -> Result<()> {
+        cavity_space::insert::<BUILD>(t, cavity, start, s)
     }
 
     fn is_crossed(

@@ -88,12 +88,10 @@ const IN_SPHERE: f64 = {
     term.plus(term).last_plus(term)
 };
 
-/// Bound of a prepared circle / (extent x · extent y · largest extent²), see `sphere.rs`.
-const PREPARED_2D: f64 = {
-    let lift = SQUARE.plus(SQUARE);
-    let part = lift.times(DIFFERENCE);
-    let term = part.plus(part).times(DIFFERENCE);
-    term.plus(term).last_plus(lift.times(SQUARE.plus(SQUARE)))
+/// Bound of `side_of_circle` / (extent x · extent y · largest extent²), see `lifted.rs`.
+const LIFTED: f64 = {
+    let term = SQUARE.plus(SQUARE).times(MINOR);
+    term.plus(term).last_plus(term)
 };
 
 /// Bound of a prepared sphere / (extent x · extent y · extent z · largest extent²), see `sphere.rs`.
@@ -106,11 +104,9 @@ const PREPARED_3D: f64 = {
     term.plus(term).plus(term).last_plus(lift.times(volume))
 };
 
-/// Lines and planes in place of circles and spheres keep the bounds of those, see `sphere.rs`. The rounded
-/// square of the largest extent is their exact scale: [`SQUARE`] grants it an error that it has not.
+/// Planes in place of spheres keep the bound of those, see `sphere.rs`. The rounded square of the largest extent is
+/// their exact scale: [`SQUARE`] grants it an error that it has not.
 const _: () = {
-    let term = SQUARE.times(DIFFERENCE).times(DIFFERENCE);
-    assert!(term.last_plus(term) <= PREPARED_2D);
     let term = MINOR.times(SQUARE).times(DIFFERENCE);
     assert!(term.plus(term).last_plus(term) <= PREPARED_3D);
 };
@@ -185,7 +181,7 @@ impl StaticFilter {
         Self {
             orient: orient2d_bound(extents),
             in_sphere: incircle_bound(extents),
-            prepared: lifted_bound_2d(PREPARED_2D, extents),
+            prepared: lifted_bound_2d(LIFTED, extents),
             largest_square: largest(extents) * largest(extents),
         }
     }
