@@ -30,11 +30,11 @@ impl<G: Dimension> Delaunay<G> {
     /// go: [`rebuild`](Self::rebuild) must follow.
     pub fn sort_sites(&mut self) -> Result<()> {
         let sites = &self.sites;
-        let keyed = hilbert_order::<G>(self.live_sites(), |s| &sites[s as usize].point);
+        let keyed = hilbert_order::<G>(self.live_sites(), sites.len(), |s| &sites[s as usize].point)?;
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, keyed.len() + 1)?;
         sorted.push(sites[INFINITE as usize]);
-        sorted.extend(keyed.into_iter().map(|(_, s)| sites[s as usize]));
+        sorted.extend(keyed.into_iter().map(|k| sites[k.item() as usize]));
         self.sites = sorted;
         self.free_sites.clear();
         self.complex.clear();
@@ -46,7 +46,7 @@ impl<G: Dimension> Delaunay<G> {
     pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
         self.tighten_filter();
         self.flat.clear();
-        let order = in_rounds::<G>(self.live_sites());
+        let order = in_rounds::<G>(self.live_sites())?;
         if order.iter().any(|&s| self.extend_basis(s)) {
             return self.triangulate(&order, monitor);
         }
@@ -102,17 +102,19 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(u32, u32)>> {
         let mut coincident = Vec::new();
-        self.cavity.steps = 0;
+        let mut cavity = std::mem::take(&mut self.cavity);
+        cavity.steps = 0;
         for (done, &s) in order.iter().enumerate() {
             if done % MONITORED == 0 && !monitor(done as f64 / order.len() as f64) {
                 return Err(Error::Cancelled);
             }
             if self.site(s).cell == NONE
-                && let Insertion::Coincident(t) = self.insert_into_cells::<BUILD>(s, self.recent)?
+                && let Insertion::Coincident(t) = self.insert_into_cells::<BUILD>(&mut cavity, s, self.recent)?
             {
                 coincident.push((s, t));
             }
         }
+        self.cavity = cavity;
         Ok(coincident)
     }
 

@@ -53,12 +53,13 @@ impl<G: Dimension> Delaunay<G> {
         let q = self.site(s).point;
         self.cover(&q, &q);
         let inserted = if self.has_cells() {
-            let inserted = self.insert_into_cells::<false>(s, if near == NONE { self.recent } else { near });
-            if inserted == Ok(Insertion::New)
-                && let Some(changed) = &mut self.changed
-            {
-                changed.extend_from_slice(self.cavity.made());
+            let near = if near == NONE { self.recent } else { near };
+            let mut cavity = std::mem::take(&mut self.cavity);
+            let inserted = self.insert_into_cells::<false>(&mut cavity, s, near);
+            if inserted == Ok(Insertion::New) {
+                self.record(cavity.made().iter().copied());
             }
+            self.cavity = cavity;
             inserted
         } else {
             self.insert_flat(s)
@@ -69,19 +70,11 @@ impl<G: Dimension> Delaunay<G> {
         inserted
     }
 
-    /// Inserts a site that has been added, walking from the cell `near`. There must be cells, and the filter must
-    /// cover the site. `BUILD` if between [`begin_build`](Dimension::begin_build) and
+    /// Inserts a site that has been added, walking from the cell `near`, with the scratch memory at hand. There must be
+    /// cells, and the filter must cover the site. `BUILD` if between [`begin_build`](Dimension::begin_build) and
     /// [`end_build`](Dimension::end_build).
-    pub(super) fn insert_into_cells<const BUILD: bool>(&mut self, s: u32, near: u32) -> Result<Insertion> {
-        let mut cavity = std::mem::take(&mut self.cavity);
-        let inserted = self.insert_with::<BUILD>(&mut cavity, s, near);
-        self.cavity = cavity;
-        inserted
-    }
-
-    /// As [`insert_into_cells`](Self::insert_into_cells), with the scratch memory at hand.
     #[inline(always)]
-    pub(super) fn insert_with<const BUILD: bool>(
+    pub(super) fn insert_into_cells<const BUILD: bool>(
         &mut self,
         cavity: &mut Cavity<G>,
         s: u32,

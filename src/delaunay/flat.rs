@@ -75,7 +75,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.sites[s as usize].cell = NONE;
         if self.extend_basis(s) {
-            let order = in_rounds::<G>(self.live_sites());
+            let order = in_rounds::<G>(self.live_sites())?;
             let merges = self.triangulate(&order, &mut |_| true)?;
             debug_assert!(merges.is_empty());
         }

@@ -9,7 +9,9 @@
 //! uneven densities have, are sorted again in their own bounding box, so that clusters within clusters are still
 //! visited along a curve.
 
+use crate::complex::memory;
 use crate::delaunay::Dimension;
+use crate::error::Result;
 
 /// Lower and upper corner of the bounding box.
 pub fn bounding_box<'p, G: Dimension>(
@@ -29,40 +31,60 @@ where
     corners
 }
 
-/// The items, each with a key that is of no use any more, along the Hilbert curve of their points.
+/// An item and its position along the curve, in the upper half.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Keyed(u64);
+
+impl Keyed {
+    /// The item.
+    pub fn item(self) -> u32 {
+        self.0 as u32
+    }
+
+    fn key(self) -> u32 {
+        (self.0 >> 32) as u32
+    }
+}
+
+/// The items, of which there are at most `count`, along the Hilbert curve of their points.
 pub fn hilbert_order<'p, G: Dimension>(
     items: impl Iterator<Item = u32>,
+    count: usize,
     point: impl Fn(u32) -> &'p G::Point + Copy,
-) -> Vec<(u64, u32)> {
-    let mut keyed: Vec<(u64, u32)> = items.map(|i| (0, i)).collect();
+) -> Result<Vec<Keyed>> {
+    let mut keyed = Vec::new();
+    memory::reserve_exact(&mut keyed, count)?;
+    keyed.extend(items.map(|item| Keyed(u64::from(item))));
     sort_in_box::<G>(point, &mut keyed);
-    keyed
+    Ok(keyed)
 }
 
 /// Runs of one key up to this length stay unsorted: a walk through them is short anyway.
 const SHORT_RUN: usize = 8;
 
-fn sort_in_box<'p, G: Dimension>(point: impl Fn(u32) -> &'p G::Point + Copy, keyed: &mut [(u64, u32)]) {
-    let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|&(_, i)| point(i))) else {
+fn sort_in_box<'p, G: Dimension>(point: impl Fn(u32) -> &'p G::Point + Copy, keyed: &mut [Keyed]) {
+    let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|k| point(k.item()))) else {
         return;
     };
     let extent = (0..G::D).map(|k| upper[k] - lower[k]).fold(0.0, f64::max);
     if extent == 0.0 {
         return;
     }
-    let per_axis = ((keyed.len() as f64).log2() / G::D as f64).ceil() as u32 + 4;
-    let bits = if G::D == 2 { per_axis.next_multiple_of(4).min(28) } else { per_axis.min(21) };
+    // Several boxes of the grid to a point of a uniform set, and keys of 32 bits at most.
+    let per_axis = ((keyed.len() as f64).log2() / G::D as f64).ceil() as u32 + 2;
+    let bits = if G::D == 2 { per_axis.next_multiple_of(4).min(16) } else { per_axis.min(10) };
     let scale = ((1u64 << bits) - 1) as f64 / extent;
-    for (key, i) in keyed.iter_mut() {
-        let p = point(*i);
+    for k in keyed.iter_mut() {
+        let p = point(k.item());
         let mut cell = [0u32; 3];
-        for k in 0..G::D {
-            cell[k] = ((p[k] - lower[k]) * scale) as u32;
+        for axis in 0..G::D {
+            cell[axis] = ((p[axis] - lower[axis]) * scale) as u32;
         }
-        *key = if G::D == 2 { hilbert_key_2(cell[0], cell[1], bits) } else { hilbert_key_3(cell, bits) };
+        let key = if G::D == 2 { hilbert_key_2(cell[0], cell[1], bits) } else { hilbert_key_3(cell, bits) };
+        k.0 = u64::from(key) << 32 | u64::from(k.item());
     }
-    radsort::sort_by_key(keyed, |&(key, _)| key);
-    for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
+    radsort::sort_by_key(keyed, |k| k.key());
+    for run in keyed.chunk_by_mut(|a, b| a.key() == b.key()) {
         if run.len() > SHORT_RUN {
             sort_in_box::<G>(point, run);
         }
@@ -103,20 +125,20 @@ static CURVE: [[u16; 256]; 4] = {
 
 /// Position along the plane's Hilbert curve of the cell `(x, y)` of a grid of `2^bits` cells a side; `bits` is a multiple
 /// of 4.
-fn hilbert_key_2(x: u32, y: u32, bits: u32) -> u64 {
-    let (mut key, mut state) = (0u64, 0);
+fn hilbert_key_2(x: u32, y: u32, bits: u32) -> u32 {
+    let (mut key, mut state) = (0, 0);
     let mut shift = bits;
     while shift > 0 {
         shift -= 4;
         let entry = CURVE[state & 3][((x >> shift & 15) << 4 | y >> shift & 15) as usize];
-        key = key << 8 | u64::from(entry & 255);
+        key = key << 8 | u32::from(entry & 255);
         state = usize::from(entry >> 8);
     }
     key
 }
 
 /// Position along the space's Hilbert curve (Skilling's transform, 10.1063/1.1751381).
-fn hilbert_key_3(mut x: [u32; 3], bits: u32) -> u64 {
+fn hilbert_key_3(mut x: [u32; 3], bits: u32) -> u32 {
     let mut q = 1u32 << (bits - 1);
     while q > 1 {
         let p = q - 1;
@@ -142,19 +164,18 @@ fn hilbert_key_3(mut x: [u32; 3], bits: u32) -> u64 {
     spread_3(x[0]) << 2 | spread_3(x[1]) << 1 | spread_3(x[2])
 }
 
-/// The low 21 bits, three places apart.
-fn spread_3(x: u32) -> u64 {
-    let mut x = u64::from(x) & 0x1f_ffff;
-    x = (x | x << 32) & 0x001f_0000_0000_ffff;
-    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
-    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
-    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
-    (x | x << 2) & 0x1249_2492_4924_9249
+/// The low 10 bits, three places apart.
+fn spread_3(x: u32) -> u32 {
+    let mut x = x & 0x3ff;
+    x = (x | x << 16) & 0x0300_00ff;
+    x = (x | x << 8) & 0x0300_f00f;
+    x = (x | x << 4) & 0x030c_30c3;
+    (x | x << 2) & 0x0924_9249
 }
 
 /// Splits `sites`, which is in storage order, into rounds, each `2^D` times as large as the one before in the mean;
 /// the order within a round stays.
-pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = u32> + Clone) -> Vec<u32> {
+pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = u32> + Clone) -> Result<Vec<u32>> {
     const ROUNDS: usize = 16;
     let round = |s: u32| {
         let hash = u64::from(s).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -169,13 +190,15 @@ pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = u32> + Clone) -> Vec<
     for r in 0..ROUNDS {
         starts[r + 1] += starts[r];
     }
-    let mut order = vec![0; starts[ROUNDS]];
+    let mut order = Vec::new();
+    memory::reserve_exact(&mut order, starts[ROUNDS])?;
+    order.resize(starts[ROUNDS], 0);
     for s in sites {
         let at = &mut starts[round(s)];
         order[*at] = s;
         *at += 1;
     }
-    order
+    Ok(order)
 }
 
 #[cfg(test)]
@@ -215,8 +238,9 @@ mod tests {
                 points.push([f64::from(cluster) * 1e12 + x, y]);
             }
         }
-        let keyed = hilbert_order::<Plane>(0..points.len() as u32, |i| &points[i as usize]);
-        let order: Vec<u32> = keyed.into_iter().map(|(_, i)| i).collect();
+        let n = points.len();
+        let keyed = hilbert_order::<Plane>(0..n as u32, n, |i| &points[i as usize]).expect("room for it");
+        let order: Vec<u32> = keyed.into_iter().map(Keyed::item).collect();
         let mut seen = order.clone();
         seen.sort_unstable();
         assert!(seen.iter().copied().eq(0..points.len() as u32));
