@@ -12,6 +12,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+
+#include <malloc.h>
 
 namespace bench {
 namespace {
@@ -152,9 +155,17 @@ private:
     std::vector<Checks> checks_;
 };
 
+/// From here on memory that is freed stays with the process. By default glibc gives back what was allocated in large
+/// pieces, and engines that do so would pay for fresh pages at every repeat, those that do not at the first one only.
+void keep_memory() {
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
+
 }  // namespace
 
 void run_scenarios(const Options &options) {
+    keep_memory();
     Session session(options);
     session.run();
     session.report();

@@ -5,7 +5,7 @@
 //! the walks tells when to sort again.
 
 use super::order::{hilbert_order, in_rounds};
-use super::{Delaunay, Dimension, Insertion};
+use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE, NONE, memory};
 use crate::error::{Error, Result};
 
@@ -21,11 +21,23 @@ pub struct Merge {
 /// Insertions between two calls of a monitor.
 const MONITORED: usize = 1024;
 
-/// Builds up to this size prepare what speeds up their insertions. Beyond it the memory for that, as much as for the
-/// cells, takes longer to get than it saves.
-const PREPARED: usize = 1 << 18;
-
 impl<G: Dimension> Delaunay<G> {
+    /// Adds a site for each of the points to a triangulation without any: along a Hilbert curve, each with the index of
+    /// its point for id, and with the sign of zeros made positive. [`rebuild`](Self::rebuild) must follow.
+    pub fn add_sites(&mut self, points: &[G::Point]) -> Result<()> {
+        let n = points.len();
+        let keyed = hilbert_order::<G>(0..n as u32, n, |i| &points[i as usize])?;
+        self.reserve_sites(n)?;
+        self.sites.extend(keyed.into_iter().map(|k| {
+            let mut point = points[k.item() as usize];
+            for axis in 0..G::D {
+                point[axis] += 0.0;
+            }
+            Site::new(point, k.item())
+        }));
+        Ok(())
+    }
+
     /// Puts the live sites along a Hilbert curve, from index 1 on without gaps. All indices change and the cells
     /// go: [`rebuild`](Self::rebuild) must follow.
     pub fn sort_sites(&mut self) -> Result<()> {
@@ -83,20 +95,15 @@ impl<G: Dimension> Delaunay<G> {
             site.cell = NONE;
         }
         self.start()?;
-        let inserted = if order.len() <= PREPARED {
-            G::begin_build(self)?;
-            let inserted = self.insert_all::<true>(order, monitor);
-            G::end_build(self);
-            inserted
-        } else {
-            self.insert_all::<false>(order, monitor)
-        };
+        G::begin_build(self)?;
+        let inserted = self.insert_all(order, monitor);
+        G::end_build(self);
         let coincident = inserted?;
         self.merge(coincident)
     }
 
     /// Inserts all sites but those of the first cell; returns pairs of coincident sites, the second in the cells.
-    fn insert_all<const BUILD: bool>(
+    fn insert_all(
         &mut self,
         order: &[u32],
         monitor: &mut dyn FnMut(f64) -> bool,
@@ -109,7 +116,7 @@ impl<G: Dimension> Delaunay<G> {
                 return Err(Error::Cancelled);
             }
             if self.site(s).cell == NONE
-                && let Insertion::Coincident(t) = self.insert_into_cells::<BUILD>(&mut cavity, s, self.recent)?
+                && let Insertion::Coincident(t) = self.insert_into_cells::<true>(&mut cavity, s, self.recent)?
             {
                 coincident.push((s, t));
             }

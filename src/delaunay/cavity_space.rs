@@ -8,13 +8,11 @@
 //!
 //! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept.
 
-#![allow(unsafe_code)]
-
 use super::cavity::Cavity;
+use super::spheres::Spheres;
 use super::{Delaunay, Space};
-use crate::complex::{Facet, INFINITE, memory};
+use crate::complex::Facet;
 use crate::error::Result;
-use crate::predicates::{self, Sphere};
 
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
 const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
@@ -44,8 +42,7 @@ pub struct Scratch {
     rim: Vec<Rim>,
     n_rim: usize,
     meetings: Meetings,
-    /// Prepared spheres of all cells, during a build.
-    spheres: Vec<Sphere>,
+    pub(super) spheres: Spheres,
 }
 
 /// Where the two facets of a ridge meet.
@@ -57,50 +54,6 @@ struct Meetings {
     labels: Vec<u32>,
     /// Labels of the last three corners of each new cell.
     local: Vec<[u8; 4]>,
-}
-
-/// Prepares the spheres of all cells there are, with room for those to come.
-pub(super) fn prepare_spheres(t: &mut Delaunay<Space>) -> Result<()> {
-    let mut spheres = std::mem::take(&mut t.cavity.scratch.spheres);
-    memory::reserve_exact(&mut spheres, t.complex.n_cells_reserved())?;
-    spheres.extend((0..t.complex.n_slots() as u32).map(|c| sphere_of(t, &t.complex.cell(c).corners)));
-    t.cavity.scratch.spheres = spheres;
-    Ok(())
-}
-
-/// Frees the spheres: they would be stale after the first relocation, and are as large as the cells.
-pub(super) fn forget_spheres(t: &mut Delaunay<Space>) {
-    t.cavity.scratch.spheres = Vec::new();
-}
-
-/// Prepares the sphere of a cell, or what lies beyond the facet of a ghost cell.
-#[inline(always)]
-fn sphere_of(t: &Delaunay<Space>, v: &[u32; 4]) -> Sphere {
-    let [a, b, c, d] = v.map(|s| t.view().point(s));
-    if v[3] == INFINITE { predicates::half_space(&t.filter, a, b, c) } else { predicates::sphere(a, b, c, d) }
-}
-
-/// Whether `q` is in conflict with a cell, by its prepared sphere if that is certain.
-#[inline(always)]
-fn is_in_prepared_conflict(
-    t: &Delaunay<Space>,
-    spheres: &[Sphere],
-    cell: u32,
-    q: &[f64; 3],
-    id: u32,
-) -> bool {
-    let first = t.view().point(t.complex.cell(cell).corners[0]);
-    debug_assert!((cell as usize) < spheres.len());
-    // SAFETY: in a build there is a sphere for each cell.
-    let sphere = unsafe { spheres.get_unchecked(cell as usize) };
-    let side = predicates::side_of_sphere(sphere, first, q);
-    if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id) }
-}
-
-#[cold]
-#[inline(never)]
-fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
-    t.is_in_conflict(cell, q, id)
 }
 
 /// The corners with `s` in place of corner `i`, in an even order that has `s` first.
@@ -166,7 +119,7 @@ fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start:
             let known = t.complex.mark(out.cell());
             // A prepared test is cheaper than a wrong guess whether the cell is known.
             let in_zone = if BUILD {
-                is_in_prepared_conflict(t, spheres, out.cell(), q, id)
+                spheres.is_in_conflict(t, out.cell(), q, id)
             } else {
                 known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
             };
@@ -202,11 +155,8 @@ fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cells: &[u32], scratch: &mut
         glue_by_table(t, rim, cells, meetings);
     }
     if BUILD {
-        spheres.resize(t.complex.n_slots(), Sphere::default());
         for (facet, &cell) in rim.iter().zip(cells) {
-            debug_assert!((cell as usize) < spheres.len());
-            // SAFETY: the spheres are as many as the cells.
-            *unsafe { spheres.get_unchecked_mut(cell as usize) } = sphere_of(t, &facet.corners);
+            spheres.put(t, cell, &facet.corners);
         }
     }
 }

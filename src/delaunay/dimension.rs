@@ -308,11 +308,11 @@ impl Dimension for Space {
     }
 
     fn begin_build(t: &mut Delaunay<Self>) -> Result<()> {
-        cavity_space::prepare_spheres(t)
+        t.cavity.scratch.spheres.begin(t.complex.n_cells_reserved())
     }
 
     fn end_build(t: &mut Delaunay<Self>) {
-        cavity_space::forget_spheres(t);
+        t.cavity.scratch.spheres.end();
     }
 
     #[inline(always)]

@@ -35,6 +35,7 @@ pub mod order;
 mod relocate;
 mod remove;
 pub mod site;
+mod spheres;
 mod validate;
 
 pub use build::Merge;

@@ -41,7 +41,7 @@ pub use cells::{CellsView, NO_CELL};
 pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
 pub use query::Location;
 
-use crate::complex::NONE;
+use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use cells::{Baseline, Cells};
@@ -98,14 +98,13 @@ impl<G: Dimension> MovingTriangulation<G> {
             baseline: None,
             changed: OnceLock::new(),
         };
-        let bytes = positions.len() * size_of::<u32>();
-        t.site_of.try_reserve_exact(positions.len()).map_err(|_| Error::OutOfMemory { bytes })?;
-        t.kernel.reserve_sites(positions.len())?;
         for (i, p) in positions.iter().enumerate() {
-            let p = check_position::<G>("positions", i, p)?;
-            t.site_of.push(t.kernel.add_site(p, i as u32)?);
+            check_position::<G>("positions", i, p)?;
         }
-        t.sort_and_rebuild()?;
+        t.kernel.add_sites(positions)?;
+        memory::reserve_exact(&mut t.site_of, positions.len())?;
+        t.site_of.resize(positions.len(), NONE);
+        t.build_sorted()?;
         t.reject_coincidence()?;
         t.statistics.coincident = t.hidden.count() as u64;
         Ok(t)
@@ -210,6 +209,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Sorts the sites along a Hilbert curve and rebuilds.
     fn sort_and_rebuild(&mut self) -> Result<()> {
         self.kernel.sort_sites()?;
+        self.build_sorted()
+    }
+
+    /// Builds the cells of sites in sorted storage.
+    fn build_sorted(&mut self) -> Result<()> {
         for s in self.kernel.live_sites() {
             self.site_of[self.kernel.site(s).id as usize] = s;
         }

@@ -1,0 +1,91 @@
+//! Prepared spheres of the cells that a build is busy with.
+//!
+//! A build along a curve tests the cells of one neighbourhood again and again. A cell's sphere, prepared once, makes
+//! each of these tests a few operations on one line of cache (see [`predicates::sphere`]). They are kept in a table of
+//! fixed size, each at its cell's index modulo that; what is not there is prepared when it is asked for. The table is
+//! valid while sites do not move and every cell made is [`put`](Spheres::put) there.
+
+#![allow(unsafe_code)]
+
+use super::{Delaunay, Space};
+use crate::complex::{INFINITE, NONE, memory};
+use crate::error::Result;
+use crate::predicates::{self, Sphere};
+
+/// Entries of the table at most: 256 KiB, a part of a core's own cache. Sixteen times as many are no faster.
+const MOST_ENTRIES: usize = 1 << 12;
+
+/// A cell, its sphere, and the place of its first corner.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Entry {
+    sphere: Sphere,
+    first: [f64; 3],
+    cell: u32,
+}
+
+/// The table; without entries outside a build.
+#[derive(Debug, Default)]
+pub struct Spheres {
+    /// A power of two of them.
+    entries: Vec<Entry>,
+}
+
+impl Spheres {
+    /// Gets ready for a build of about so many cells.
+    pub(super) fn begin(&mut self, n_cells: usize) -> Result<()> {
+        let n = n_cells.next_power_of_two().min(MOST_ENTRIES);
+        self.entries.clear();
+        memory::reserve_exact(&mut self.entries, n)?;
+        self.entries.resize(n, Entry { sphere: [0.0; 4], first: [0.0; 3], cell: NONE });
+        Ok(())
+    }
+
+    /// Frees the table: what it holds would be stale after the first relocation.
+    pub(super) fn end(&mut self) {
+        self.entries = Vec::new();
+    }
+
+    #[inline(always)]
+    fn entry(&mut self, cell: u32) -> &mut Entry {
+        debug_assert!(!self.entries.is_empty(), "only a build asks");
+        let at = cell as usize & (self.entries.len() - 1);
+        // SAFETY: the length is a power of two.
+        unsafe { self.entries.get_unchecked_mut(at) }
+    }
+
+    /// Prepares the sphere of a cell with these corners, or what lies beyond the facet of a ghost cell.
+    #[inline(always)]
+    pub(super) fn put(&mut self, t: &Delaunay<Space>, cell: u32, corners: &[u32; 4]) {
+        let [a, b, c, d] = corners.map(|s| t.view().point(s));
+        let sphere = if corners[3] == INFINITE {
+            predicates::half_space(&t.filter, a, b, c)
+        } else {
+            predicates::sphere(a, b, c, d)
+        };
+        *self.entry(cell) = Entry { sphere, first: *a, cell };
+    }
+
+    /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
+    #[inline(always)]
+    pub(super) fn is_in_conflict(&mut self, t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+        if self.entry(cell).cell != cell {
+            self.prepare(t, cell);
+        }
+        let entry = self.entry(cell);
+        let side = predicates::side_of_sphere(&entry.sphere, &entry.first, q);
+        if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id) }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn prepare(&mut self, t: &Delaunay<Space>, cell: u32) {
+        self.put(t, cell, &t.complex.cell(cell).corners);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+    t.is_in_conflict(cell, q, id)
+}
