@@ -106,7 +106,7 @@ fn builds_agree<G: Dimension>(n_seeds: u64, limit: usize) {
 
 /// Immediate calls and commits, each followed by the comparison.
 fn histories_agree<G: Dimension>(n_seeds: u64, limit: usize) {
-    const ALGORITHMS: [Algorithm; 8] = [
+    const ALGORITHMS: [Algorithm; 9] = [
         Algorithm::Rebuilding,
         Algorithm::Placement,
         Algorithm::PlacementFlips,
@@ -114,6 +114,7 @@ fn histories_agree<G: Dimension>(n_seeds: u64, limit: usize) {
         Algorithm::SafeRegion,
         Algorithm::SafeRegionTolerance,
         Algorithm::RebuildingTolerance,
+        Algorithm::Repair,
         Algorithm::Auto,
     ];
     for (kind, draw) in KINDS {

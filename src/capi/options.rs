@@ -45,6 +45,9 @@ pub enum deldrift_algorithm {
     /// schemes that begin with large displacements and converge. To choose another algorithm and this one
     /// again starts over.
     DELDRIFT_REBUILDING_TOLERANCE = 7,
+    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and placements. Rebuilds
+    /// where too much fails.
+    DELDRIFT_REPAIR = 8,
 }
 
 /// What happens when vertices come to lie at the same place.
@@ -257,6 +260,7 @@ pub(super) fn algorithm(field: &'static str, code: AlgorithmCode) -> Result<Algo
         5 => Ok(Algorithm::SafeRegion),
         6 => Ok(Algorithm::SafeRegionTolerance),
         7 => Ok(Algorithm::RebuildingTolerance),
+        8 => Ok(Algorithm::Repair),
         other => Err(invalid(field, other, "a deldrift_algorithm")),
     }
 }
@@ -272,6 +276,7 @@ pub(super) fn algorithm_code(algorithm: Algorithm) -> AlgorithmCode {
         Algorithm::SafeRegion => deldrift_algorithm::DELDRIFT_SAFE_REGION,
         Algorithm::SafeRegionTolerance => deldrift_algorithm::DELDRIFT_SAFE_REGION_TOLERANCE,
         Algorithm::RebuildingTolerance => deldrift_algorithm::DELDRIFT_REBUILDING_TOLERANCE,
+        Algorithm::Repair => deldrift_algorithm::DELDRIFT_REPAIR,
     };
     code as AlgorithmCode
 }

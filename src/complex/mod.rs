@@ -18,11 +18,13 @@
 
 mod corners;
 mod flips;
+mod journal;
 pub(crate) mod memory;
 
 use std::fmt;
 
 pub use corners::Corners;
+pub use journal::Journal;
 
 use crate::error::{Error, Result};
 
@@ -87,6 +89,11 @@ pub struct Cell<C: Corners> {
 }
 
 impl<C: Corners> Cell<C> {
+    /// No cell.
+    fn free() -> Self {
+        Cell { alignment: [], corners: C::filled(NONE), neighbours: C::filled(NONE) }
+    }
+
     /// Whether the last corner is the ghost vertex.
     #[inline(always)]
     pub fn is_ghost(&self) -> bool {
@@ -245,7 +252,7 @@ impl<C: Corners> Complex<C> {
     pub(crate) fn create_blank(&mut self) -> u32 {
         self.free.pop().unwrap_or_else(|| {
             let cell = self.cells.len() as u32;
-            self.cells.push(Cell { alignment: [], corners: C::filled(NONE), neighbours: C::filled(NONE) });
+            self.cells.push(Cell::free());
             self.marks.push(0);
             cell
         })

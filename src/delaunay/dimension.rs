@@ -10,8 +10,8 @@ use std::ops::{Index, IndexMut};
 
 use super::cavity::Cavity;
 use super::site::Sites;
-use super::{Delaunay, cavity_plane, cavity_space};
-use crate::complex::{Corners, INFINITE};
+use super::{Delaunay, cavity_plane, cavity_space, certify};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::predicates::{self, Delimiter, StaticFilter};
 
@@ -100,6 +100,14 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         from: &Self::Point,
         to: &Self::Point,
     ) -> bool;
+    /// Whether a finite cell is positively oriented, and a bit for each facet, to a finite cell of a lower index, that
+    /// fails the empty-sphere test.
+    fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8);
+    /// Flips until no facet of a triangulation fails, where `suspects` are all that may. Appends those that fail still,
+    /// where flips are stuck, to `stuck`; never in the plane. Returns the number of flips.
+    fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64>;
+    /// Undoes the flips of the last [`flip_all`](Self::flip_all).
+    fn unflip(t: &mut Delaunay<Self>);
     /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
     /// change, in a dimension where flips can be stuck.
     fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64>;
@@ -221,8 +229,19 @@ impl Dimension for Plane {
         all_positive([predicates::orient2d(f, o, aim, a), predicates::orient2d(f, o, b, aim)])
     }
 
+    #[inline(always)]
+    fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8) {
+        certify::certify_triangle(t, cell)
+    }
+
+    fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, _: &mut Vec<Facet>) -> Result<u64> {
+        Ok(t.lawson(suspects))
+    }
+
+    fn unflip(_: &mut Delaunay<Self>) {}
+
     fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64> {
-        Some(t.lawson())
+        Some(t.lawson_from_star())
     }
 }
 
@@ -335,6 +354,19 @@ impl Dimension for Space {
         let [a, b, c] = [0, 1, 2].map(|i| sites.point(v[i]));
         let side = |x, y| predicates::orient3d(f, o, aim, x, y);
         all_positive([side(a, b), side(b, c), side(c, a)])
+    }
+
+    #[inline(always)]
+    fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8) {
+        certify::certify_tetrahedron(t, cell)
+    }
+
+    fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64> {
+        t.flip_while_possible(suspects, stuck)
+    }
+
+    fn unflip(t: &mut Delaunay<Self>) {
+        t.undo_flips();
     }
 
     fn flip_to_delaunay(_: &mut Delaunay<Self>) -> Option<u64> {

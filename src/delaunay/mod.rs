@@ -12,7 +12,9 @@
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
 //! | `remove` | removal: fill the star by gift wrapping |
 //! | `hub` | removal of a vertex with very many neighbours |
-//! | `relocate` | one site to a new place; flips |
+//! | `relocate` | one site to a new place; flips in the plane |
+//! | `certify` | all certificates at once |
+//! | `flip_space` | flips in space, and the way back |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
 //!
@@ -27,8 +29,10 @@ mod build;
 mod cavity;
 mod cavity_plane;
 mod cavity_space;
+mod certify;
 mod dimension;
 mod flat;
+mod flip_space;
 mod hub;
 mod locate;
 pub mod order;
@@ -40,13 +44,14 @@ mod validate;
 
 pub use build::Merge;
 pub use cavity::Insertion;
+pub use certify::Failures;
 pub use dimension::{Coordinates, Dimension, Plane, Space};
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, INFINITE, memory};
+use crate::complex::{Complex, INFINITE, Journal, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
 use cavity::Cavity;
@@ -68,6 +73,7 @@ pub struct Delaunay<G: Dimension> {
     recent: u32,
     cavity: Cavity<G>,
     hole: Hole<G>,
+    journal: Journal<G::Corners>,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
     changed: Option<Vec<u32>>,
     /// Certificates evaluated by relocations so far.
@@ -88,6 +94,7 @@ impl<G: Dimension> Default for Delaunay<G> {
             recent: 0,
             cavity: Cavity::default(),
             hole: Hole::default(),
+            journal: Journal::default(),
             changed: None,
             certificates: 0,
         }

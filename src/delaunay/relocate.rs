@@ -152,12 +152,19 @@ impl<G: Dimension> Delaunay<G> {
 
 impl Delaunay<super::Plane> {
     /// Lawson's flips, from the edges of the gathered star outwards.
-    pub(super) fn lawson(&mut self) -> u64 {
+    pub(super) fn lawson_from_star(&mut self) -> u64 {
         let mut edges: Vec<Facet> = std::mem::take(&mut self.hole.edges);
         edges.clear();
         for &(c, _) in &self.hole.star {
             edges.extend((0..3).map(|i| Facet::new(c, i)));
         }
+        let flips = self.lawson(&mut edges);
+        self.hole.edges = edges;
+        flips
+    }
+
+    /// Lawson's flips, from these edges outwards; empties the list.
+    pub(super) fn lawson(&mut self, edges: &mut Vec<Facet>) -> u64 {
         let mut flips = 0;
         while let Some(edge) = edges.pop() {
             let (c, i) = (edge.cell(), edge.index());
@@ -183,7 +190,6 @@ impl Delaunay<super::Plane> {
                 Facet::new(d, (j + 2) % 3),
             ]);
         }
-        self.hole.edges = edges;
         flips
     }
 }

@@ -216,16 +216,34 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Whether the hull, of which these are all ghost cells and which is convex at every ridge, winds once around a point
+    /// inside a cell; `false` also if every cell is so thin that no double lies inside.
+    pub(crate) fn winds_once(&self, ghosts: &[u32]) -> bool {
+        self.inner_point().is_some_and(|o| {
+            let is_inside = |&g: &u32| {
+                let corners = &self.complex.cell(g).corners;
+                G::orientation_with(&self.filter, self.view(), corners, Self::LAST, &o) < 0.0
+            };
+            ghosts.iter().all(is_inside) && self.crossings_of(ghosts, &o).0 == 1
+        })
+    }
+
     /// A ray from `o` crosses exactly one hull facet.
     fn check_winding(&self, o: &G::Point) -> Check {
-        let (crossings, aim) = (0..1024).find_map(|attempt| self.crossings(o, attempt)).unwrap_or((0, *o));
+        let ghosts: Vec<u32> = self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()).collect();
+        let (crossings, aim) = self.crossings_of(&ghosts, o);
         ensure(crossings == 1, Level::Embedding, || {
             format!("the ray from {o:?} towards {aim:?} crosses {crossings} hull facets, not one")
         })
     }
 
-    /// How many hull facets the ray from `o` through a far point crosses, and that point; `None` if it meets a ridge.
-    fn crossings(&self, o: &G::Point, attempt: u32) -> Option<(usize, G::Point)> {
+    /// How many of the ghosts' facets a ray from `o` that meets no ridge crosses, and a point on it.
+    fn crossings_of(&self, ghosts: &[u32], o: &G::Point) -> (usize, G::Point) {
+        (0..1024).find_map(|attempt| self.crossings(ghosts, o, attempt)).unwrap_or((0, *o))
+    }
+
+    /// How many facets the ray from `o` through a far point crosses, and that point; `None` if it meets a ridge.
+    fn crossings(&self, ghosts: &[u32], o: &G::Point, attempt: u32) -> Option<(usize, G::Point)> {
         // The aim is a point near the box's surface, drawn by a fixed rule: any direction serves as well.
         let mut aim = G::Point::default();
         for k in 0..G::D {
@@ -237,7 +255,7 @@ impl<G: Dimension> Delaunay<G> {
             return None;
         }
         let mut crossings = 0;
-        for c in self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()) {
+        for &c in ghosts {
             match G::is_crossed(&self.filter, self.view(), &self.complex.cell(c).corners, o, &aim) {
                 Some(true) => crossings += 1,
                 Some(false) => {}

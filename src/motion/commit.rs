@@ -47,6 +47,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             Algorithm::SafeRegion => self.commit_by_filter(Filter::SafeRegion, report)?,
             Algorithm::SafeRegionTolerance => self.commit_by_filter(Filter::Both, report)?,
             Algorithm::RebuildingTolerance => self.commit_by_switching(report)?,
+            Algorithm::Repair => self.commit_by_repair(report)?,
             Algorithm::Rebuilding | Algorithm::Auto => self.commit_by_rebuilding(0, report)?,
         }
         self.reject_coincidence()

@@ -30,6 +30,7 @@ mod placement;
 mod query;
 mod rebuilding;
 mod regions;
+mod repair;
 mod staging;
 mod switching;
 mod tolerance;
@@ -47,6 +48,7 @@ use crate::error::{Error, Result};
 use cells::{Baseline, Cells};
 use coincidence::Hidden;
 use regions::Regions;
+use repair::Repair;
 use staging::{Staging, check_position};
 use switching::Switching;
 
@@ -64,6 +66,7 @@ pub struct MovingTriangulation<G: Dimension> {
     staging: Staging<G>,
     regions: Regions<G>,
     switching: Switching,
+    repair: Repair,
     options: Options,
     statistics: CommitReport,
     /// Mean walk of the latest build in freshly sorted storage: the measure of lost locality.
@@ -91,6 +94,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             staging: Staging::default(),
             regions: Regions::default(),
             switching: Switching::default(),
+            repair: Repair::default(),
             options,
             statistics: CommitReport::default(),
             sorted_walk: 0.0,

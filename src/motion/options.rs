@@ -27,6 +27,8 @@ pub enum Algorithm {
     SafeRegionTolerance,
     /// Rebuilding until most vertices stay within their tolerance, then *tolerance* (report, section 5.2).
     RebuildingTolerance,
+    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and placements.
+    Repair,
 }
 
 /// When *rebuilding + tolerance* swaps from the one to the other.

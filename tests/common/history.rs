@@ -7,7 +7,7 @@ use deldrift::delaunay::Dimension;
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
 use std::collections::BTreeMap;
 
-pub const ALGORITHMS: [Algorithm; 8] = [
+pub const ALGORITHMS: [Algorithm; 9] = [
     Algorithm::Rebuilding,
     Algorithm::Placement,
     Algorithm::PlacementFlips,
@@ -15,6 +15,7 @@ pub const ALGORITHMS: [Algorithm; 8] = [
     Algorithm::SafeRegion,
     Algorithm::SafeRegionTolerance,
     Algorithm::RebuildingTolerance,
+    Algorithm::Repair,
     Algorithm::Auto,
 ];
 

@@ -1,0 +1,133 @@
+//! Certificates of many cells at once, after sites have moved and before any cell has changed.
+//!
+//! Cells are a triangulation again if every finite one is positively oriented, the hull is convex at every ridge, and it
+//! winds once: it is then the boundary of a convex set, and the cells, all of one orientation, cover that as often as
+//! their boundary winds. They are the Delaunay triangulation if also no facet fails the empty-sphere test (Delaunay's
+//! lemma, ties broken by id).
+
+use super::{Delaunay, Dimension, Plane, Space};
+use crate::complex::{Corners, Facet};
+use crate::predicates;
+
+/// What does not hold.
+#[derive(Debug, Default)]
+pub struct Failures {
+    /// Finite cells that are not positively oriented.
+    pub cells: Vec<u32>,
+    /// Facets between finite cells that fail the empty-sphere test.
+    pub facets: Vec<Facet>,
+    /// Ridges of the hull that are not convex, as facets of ghost cells.
+    pub ridges: Vec<Facet>,
+    /// The ghost cells, after a sweep.
+    pub ghosts: Vec<u32>,
+}
+
+impl Failures {
+    /// Forgets everything; keeps the memory.
+    pub fn clear(&mut self) {
+        self.cells.clear();
+        self.facets.clear();
+        self.ridges.clear();
+        self.ghosts.clear();
+    }
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end,
+    /// when more than `most` cells have failed.
+    pub(crate) fn sweep(&mut self, failures: &mut Failures, most: usize) -> bool {
+        failures.clear();
+        for c in 0..self.complex.n_slots() as u32 {
+            if self.complex.is_free(c) {
+                continue;
+            }
+            if self.complex.cell(c).is_ghost() {
+                failures.ghosts.push(c);
+                continue;
+            }
+            let (is_positive, failing) = G::certify(self, c);
+            if !is_positive {
+                failures.cells.push(c);
+                if failures.cells.len() > most {
+                    return false;
+                }
+            }
+            if failing != 0 {
+                failures.facets.extend(
+                    (0..G::Corners::N).filter(|i| failing >> i & 1 == 1).map(|i| Facet::new(c, i)),
+                );
+            }
+        }
+        self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
+        true
+    }
+
+    /// Checks the ridges of the ghost cells found by the sweep. Finite cells must be positive.
+    pub(crate) fn check_ridges(&self, failures: &mut Failures) {
+        for &g in &failures.ghosts {
+            let ridges = (0..Self::LAST).map(|i| Facet::new(g, i));
+            failures.ridges.extend(ridges.filter(|&ridge| !self.is_convex(ridge)));
+        }
+    }
+
+    /// Checks the cells of the star of a site; all its facets may fail.
+    pub(crate) fn check_star(&mut self, s: u32, failures: &mut Failures) {
+        self.gather_star(s);
+        for &(c, _) in self.gathered_star() {
+            if self.complex.cell(c).is_ghost() {
+                continue;
+            }
+            if !self.is_positive(c) {
+                failures.cells.push(c);
+            }
+            failures.facets.extend((0..G::Corners::N).map(|i| Facet::new(c, i)));
+        }
+        self.certificates += self.gathered_star().len() as u64;
+    }
+
+    /// Whether a finite cell is positively oriented.
+    pub(crate) fn is_positive(&self, cell: u32) -> bool {
+        G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
+    }
+
+    /// Whether the hull is convex at the ridge that is this facet of a ghost cell; in a flat part of the hull, whether
+    /// the facets there are those of the Delaunay triangulation.
+    pub(crate) fn is_convex(&self, ridge: Facet) -> bool {
+        let across = self.complex.cell(ridge.cell()).neighbour(ridge.index());
+        let apex = self.site(self.complex.cell(across.cell()).corners[across.index()]);
+        !self.is_in_conflict_with_ghost(ridge.cell(), &apex.point, apex.id)
+    }
+}
+
+/// Whether a finite triangle is positively oriented, and a bit for each edge, to a triangle of a lower index, that fails.
+#[inline(always)]
+pub(super) fn certify_triangle(t: &Delaunay<Plane>, c: u32) -> (bool, u8) {
+    let mut failing = 0;
+    for i in 0..3 {
+        if t.complex.cell(c).neighbour(i).cell() < c && !t.is_locally_delaunay(Facet::new(c, i)) {
+            failing |= 1 << i;
+        }
+    }
+    (t.is_positive(c), failing)
+}
+
+/// Likewise for a tetrahedron: its sphere is prepared once, and holds its orientation.
+#[inline(always)]
+pub(super) fn certify_tetrahedron(t: &Delaunay<Space>, c: u32) -> (bool, u8) {
+    let cell = t.complex.cell(c);
+    let [a, b, c1, d] = cell.corners.map(|s| t.view().point(s));
+    let sphere = predicates::sphere(a, b, c1, d);
+    let mut failing = 0;
+    for i in 0..4 {
+        let across = cell.neighbour(i);
+        if across.cell() >= c {
+            continue;
+        }
+        let apex = t.complex.cell(across.cell()).corners[across.index()];
+        let side = predicates::side_of_sphere(&sphere, a, t.view().point(apex));
+        if side >= -t.filter.prepared && !t.is_locally_delaunay(Facet::new(c, i)) {
+            failing |= 1 << i;
+        }
+    }
+    (sphere[3] > t.filter.orient || t.is_positive(c), failing)
+}

@@ -1,0 +1,235 @@
+//! *Repair*: move everything at once, look at every certificate once, and mend what broke.
+//!
+//! ```text
+//! move all staged vertices
+//! sweep: orientation of every cell, empty sphere of every facet, convexity of every ridge of the hull
+//! while a cell is inverted or a ridge is not convex:
+//!     take a vertex of it back to its old place
+//! flip until no facet fails; where flips are stuck, undo them, take a vertex back, and again
+//! place the vertices that were taken back, one by one
+//! ```
+//!
+//! Invariant: with every vertex taken back all is as before the commit, so taking back comes to an end; and when it
+//! has, the cells are the Delaunay triangulation of the vertices where they are
+//! ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the one that moved farthest is
+//! taken back, so that a vertex that jumps across the domain goes first.
+//!
+//! Cost: a sweep is 3 to 8 % of a rebuild; a flip a hundredth of a vertex rebuilt in space and a tenth in the plane; a
+//! vertex taken back costs a placement, two or three vertices rebuilt. Where more break than is worth mending, the
+//! triangulation is rebuilt.
+
+use super::{CommitReport, MovingTriangulation};
+use crate::complex::{Corners, Facet, INFINITE};
+use crate::delaunay::{Dimension, Failures, Shortcut};
+use crate::error::Result;
+
+/// Rebuild when more than one vertex in so many would have to be placed.
+const PLACED: usize = 6;
+
+/// Times that flips may be stuck before the triangulation is rebuilt.
+const ROUNDS: usize = 8;
+
+/// Where a vertex is while a commit is under way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum At {
+    /// It has not moved.
+    Rest,
+    New,
+    /// Taken back, or never moved because it shares its place: to be placed.
+    Old,
+}
+
+/// Scratch memory of repairs.
+#[derive(Debug, Default)]
+pub(super) struct Repair {
+    failures: Failures,
+    suspects: Vec<Facet>,
+    stuck: Vec<Facet>,
+    /// By vertex id.
+    at: Vec<At>,
+    n_new: usize,
+    n_old: usize,
+    /// Sites to be taken back.
+    sites: Vec<u32>,
+    /// Vertices to be placed.
+    queue: Vec<u32>,
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Brings the staged vertices to their new positions by a sweep and repair of what failed.
+    pub(super) fn commit_by_repair(&mut self, report: &mut CommitReport) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.commit_by_rebuilding(0, report);
+        }
+        self.regions.invalidate();
+        let mut repair = std::mem::take(&mut self.repair);
+        let mended = self.mend(&mut repair, report);
+        self.settle(&mut repair);
+        self.repair = repair;
+        if !mended? {
+            return self.commit_by_rebuilding(self.staging.applied, report);
+        }
+        self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
+    }
+
+    /// Moves all but the vertices to be placed; `false` if those would be too many.
+    fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
+        let most = self.n_present / PLACED;
+        self.move_staged(repair);
+        if !self.kernel.sweep(&mut repair.failures, most) {
+            return Ok(false);
+        }
+        for _ in 0..ROUNDS {
+            if !self.take_back_failed(repair, most) || !self.kernel.winds_once(&repair.failures.ghosts) {
+                return Ok(false);
+            }
+            repair.suspects.clone_from(&repair.failures.facets);
+            repair.stuck.clear();
+            let flips = G::flip_all(&mut self.kernel, &mut repair.suspects, &mut repair.stuck)?;
+            if repair.stuck.is_empty() {
+                report.flips += flips;
+                report.moved += repair.n_new as u64;
+                report.unchanged += repair.n_new as u64;
+                return Ok(true);
+            }
+            self.list_stuck(repair);
+            G::unflip(&mut self.kernel);
+            if repair.sites.is_empty() {
+                return Ok(false);
+            }
+            self.take_back_listed(repair);
+        }
+        Ok(false)
+    }
+
+    /// Moves all staged vertices that have sites of their own.
+    fn move_staged(&mut self, repair: &mut Repair) {
+        repair.at.clear();
+        repair.at.resize(self.site_of.len(), At::Rest);
+        (repair.n_new, repair.n_old) = (0, 0);
+        for k in 0..self.staging.vertices.len() {
+            let v = self.staging.vertices[k];
+            if self.hidden.any_at(self.site_of[v as usize]) {
+                repair.at[v as usize] = At::Old;
+                repair.n_old += 1;
+                continue;
+            }
+            let p = self.staging.positions[v as usize];
+            self.kernel.cover(&p, &p);
+            if self.exchange_position(v) {
+                repair.at[v as usize] = At::New;
+                repair.n_new += 1;
+            }
+        }
+    }
+
+    /// Takes vertices back until every cell is positive and the hull convex; `false` if more than `most` are back.
+    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> bool {
+        loop {
+            while let Some(c) = repair.failures.cells.pop() {
+                if self.kernel.is_positive(c) {
+                    continue;
+                }
+                let corners = self.kernel.complex().cell(c).corners;
+                let s = self.farthest(repair, corners.as_ref()).expect("old places have positive cells");
+                repair.failures.cells.push(c);
+                self.take_back(repair, s);
+                if repair.n_old > most {
+                    return false;
+                }
+            }
+            self.kernel.check_ridges(&mut repair.failures);
+            if repair.failures.ridges.is_empty() {
+                return true;
+            }
+            while let Some(ridge) = repair.failures.ridges.pop() {
+                if self.kernel.is_convex(ridge) {
+                    continue;
+                }
+                let complex = self.kernel.complex();
+                let across = complex.cell(ridge.cell()).neighbour(ridge.index());
+                let behind = complex.cell(ridge.cell()).neighbour(G::D).cell();
+                // The last corner of a ghost cell is the ghost vertex. The cell behind decides ties.
+                let mut corners = [INFINITE; 8];
+                let n = G::Corners::N;
+                corners[..n].copy_from_slice(complex.cell(behind).corners.as_ref());
+                corners[n] = complex.cell(across.cell()).corners[across.index()];
+                let Some(s) = self.farthest(repair, &corners[..=n]) else {
+                    unreachable!("old places have a convex hull");
+                };
+                repair.failures.ridges.push(ridge);
+                self.take_back(repair, s);
+                if repair.n_old > most {
+                    return false;
+                }
+                if !repair.failures.cells.is_empty() {
+                    break;
+                }
+            }
+            repair.failures.ridges.clear();
+        }
+    }
+
+    /// Of these sites, the one that has moved farthest and is at its new place.
+    fn farthest(&self, repair: &Repair, sites: &[u32]) -> Option<u32> {
+        let displacement = |s: u32| {
+            let site = self.kernel.site(s);
+            let is_new = s != INFINITE && repair.at[site.id as usize] == At::New;
+            is_new.then(|| G::squared_distance(&site.point, &self.staging.positions[site.id as usize]))
+        };
+        let with_displacement = sites.iter().filter_map(|&s| displacement(s).map(|d| (d, s)));
+        with_displacement.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
+    }
+
+    /// Takes a vertex back to its old place, and looks at its star.
+    fn take_back(&mut self, repair: &mut Repair, s: u32) {
+        let v = self.kernel.site(s).id;
+        self.exchange_position(v);
+        repair.at[v as usize] = At::Old;
+        repair.n_new -= 1;
+        repair.n_old += 1;
+        self.kernel.check_star(s, &mut repair.failures);
+    }
+
+    /// Lists a vertex of each facet where flips are stuck.
+    fn list_stuck(&mut self, repair: &mut Repair) {
+        repair.sites.clear();
+        for k in 0..repair.stuck.len() {
+            let facet = repair.stuck[k];
+            let complex = self.kernel.complex();
+            let across = complex.cell(facet.cell()).neighbour(facet.index());
+            let mut corners = [INFINITE; 5];
+            corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
+            corners[4] = complex.cell(across.cell()).corners[across.index()];
+            if corners.iter().any(|s| repair.sites.contains(s)) {
+                continue;
+            }
+            repair.sites.extend(self.farthest(repair, &corners));
+        }
+    }
+
+    /// Takes the listed vertices back.
+    fn take_back_listed(&mut self, repair: &mut Repair) {
+        let sites = std::mem::take(&mut repair.sites);
+        for &s in &sites {
+            self.take_back(repair, s);
+        }
+        repair.sites = sites;
+    }
+
+    /// Puts the vertices that are to be placed behind the others.
+    fn settle(&mut self, repair: &mut Repair) {
+        let vertices = &mut self.staging.vertices;
+        let queue = &mut repair.queue;
+        queue.clear();
+        vertices.retain(|&v| {
+            let is_old = repair.at[v as usize] == At::Old;
+            if is_old {
+                queue.push(v);
+            }
+            !is_old
+        });
+        self.staging.applied = vertices.len();
+        vertices.append(queue);
+    }
+}
