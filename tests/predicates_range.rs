@@ -269,8 +269,14 @@ fn insphere_has_the_exact_sign() {
 fn circles_seen_from_the_point_are_certain_or_open() {
     let side = |_: &StaticFilter, [a, b, c, q]: &[[f64; 2]; 4]| {
         let [u, v, w] = [a, b, c].map(|p| Lifted::new(p, q));
-        side_of_circle([&u, &v, &w], [u.cross(&v), v.cross(&w), w.cross(&u)])
+        side_of_seen_circle([&u, &v, &w], [u.cross(&v), v.cross(&w), w.cross(&u)])
     };
+    Prepared { filter: StaticFilter::plane, side }.check();
+}
+
+#[test]
+fn prepared_circles_are_certain_or_open() {
+    let side = |_: &StaticFilter, [a, b, c, q]: &[[f64; 2]; 4]| side_of_circle(&circle(a, b, c), a, q);
     Prepared { filter: StaticFilter::plane, side }.check();
 }
 

@@ -173,6 +173,12 @@ impl<C: Corners> Complex<C> {
         unsafe { self.cells.get_unchecked(cell as usize) }
     }
 
+    /// The corner of a facet's cell that is opposite the facet.
+    #[inline(always)]
+    pub(crate) fn apex(&self, facet: Facet) -> u32 {
+        self.cell(facet.cell()).corners[facet.index()]
+    }
+
     #[inline(always)]
     fn cell_mut(&mut self, cell: u32) -> &mut Cell<C> {
         debug_assert!((cell as usize) < self.cells.len());

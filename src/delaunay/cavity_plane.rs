@@ -14,7 +14,7 @@ use super::cavity::Cavity;
 use super::{Delaunay, Dimension, Plane};
 use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
-use crate::predicates::{Lifted, side_of_circle};
+use crate::predicates::{Lifted, side_of_seen_circle};
 
 /// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.
 #[derive(Debug, Default)]
@@ -96,7 +96,7 @@ fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Z
             let tip_site = cell.corners[tip_at];
             let tip = Lifted::new(t.view().point(tip_site), q);
             let (right, left) = (edge.right.cross(&tip), tip.cross(&edge.left));
-            let side = side_of_circle([&edge.left, &edge.right, &tip], [-edge.cross, right, left]);
+            let side = side_of_seen_circle([&edge.left, &edge.right, &tip], [-edge.cross, right, left]);
             let bound = t.filter.prepared;
             let is_in_zone = side > bound || side >= -bound && is_in_uncertain_conflict(t, beyond, q, id);
             is_in_zone.then(|| {

@@ -6,7 +6,7 @@
 //! lemma, ties broken by id).
 
 use super::{Delaunay, Dimension, Plane, Space};
-use crate::complex::{Corners, Facet};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::predicates;
 
 /// What does not hold.
@@ -85,6 +85,20 @@ impl<G: Dimension> Delaunay<G> {
         self.certificates += self.gathered_star().len() as u64;
     }
 
+    /// As [`Dimension::certify`], with exact predicates.
+    #[cold]
+    #[inline(never)]
+    fn certify_exactly(&self, c: u32) -> (bool, u8) {
+        let cell = self.complex.cell(c);
+        let mut failing = 0;
+        for i in 0..G::Corners::N {
+            if cell.neighbour(i).cell() < c && !self.is_locally_delaunay(Facet::new(c, i)) {
+                failing |= 1 << i;
+            }
+        }
+        (self.is_positive(c), failing)
+    }
+
     /// Whether a finite cell is positively oriented.
     pub(crate) fn is_positive(&self, cell: u32) -> bool {
         G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
@@ -100,34 +114,46 @@ impl<G: Dimension> Delaunay<G> {
 }
 
 /// Whether a finite triangle is positively oriented, and a bit for each edge, to a triangle of a lower index, that fails.
+///
+/// The circle is prepared once, and holds the orientation. All edges are tested, from both sides: which side has the
+/// lower index cannot be predicted, and a wrong guess costs more than a test.
 #[inline(always)]
 pub(super) fn certify_triangle(t: &Delaunay<Plane>, c: u32) -> (bool, u8) {
-    let mut failing = 0;
-    for i in 0..3 {
-        if t.complex.cell(c).neighbour(i).cell() < c && !t.is_locally_delaunay(Facet::new(c, i)) {
-            failing |= 1 << i;
-        }
+    let cell = t.complex.cell(c);
+    let [a, b, d] = cell.corners.map(|s| t.view().point(s));
+    let circle = predicates::circle(a, b, d);
+    let side = |i| {
+        let apex = t.complex.apex(cell.neighbour(i));
+        let side = predicates::side_of_circle(&circle, a, t.view().point(apex));
+        if apex == INFINITE { f64::NEG_INFINITY } else { side }
+    };
+    let greatest = max(max(side(0), side(1)), side(2));
+    if circle[2] > t.filter.orient && greatest < -t.filter.prepared {
+        return (true, 0);
     }
-    (t.is_positive(c), failing)
+    t.certify_exactly(c)
 }
 
-/// Likewise for a tetrahedron: its sphere is prepared once, and holds its orientation.
+/// Likewise for a tetrahedron.
 #[inline(always)]
 pub(super) fn certify_tetrahedron(t: &Delaunay<Space>, c: u32) -> (bool, u8) {
     let cell = t.complex.cell(c);
-    let [a, b, c1, d] = cell.corners.map(|s| t.view().point(s));
-    let sphere = predicates::sphere(a, b, c1, d);
-    let mut failing = 0;
-    for i in 0..4 {
-        let across = cell.neighbour(i);
-        if across.cell() >= c {
-            continue;
-        }
-        let apex = t.complex.cell(across.cell()).corners[across.index()];
+    let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
+    let sphere = predicates::sphere(a, b, d, e);
+    let side = |i| {
+        let apex = t.complex.apex(cell.neighbour(i));
         let side = predicates::side_of_sphere(&sphere, a, t.view().point(apex));
-        if side >= -t.filter.prepared && !t.is_locally_delaunay(Facet::new(c, i)) {
-            failing |= 1 << i;
-        }
+        if apex == INFINITE { f64::NEG_INFINITY } else { side }
+    };
+    let greatest = max(max(side(0), side(1)), max(side(2), side(3)));
+    if sphere[3] > t.filter.orient && greatest < -t.filter.prepared {
+        return (true, 0);
     }
-    (sphere[3] > t.filter.orient || t.is_positive(c), failing)
+    t.certify_exactly(c)
+}
+
+/// The greater one, in one instruction.
+#[inline(always)]
+fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }

@@ -88,10 +88,18 @@ const IN_SPHERE: f64 = {
     term.plus(term).last_plus(term)
 };
 
-/// Bound of `side_of_circle` / (extent x · extent y · largest extent²), see `lifted.rs`.
+/// Bound of `side_of_seen_circle` / (extent x · extent y · largest extent²), see `lifted.rs`.
 const LIFTED: f64 = {
     let term = SQUARE.plus(SQUARE).times(MINOR);
     term.plus(term).last_plus(term)
+};
+
+/// Bound of a prepared circle / (extent x · extent y · largest extent²), see `sphere.rs`.
+const PREPARED_2D: f64 = {
+    let lift = SQUARE.plus(SQUARE);
+    let part = lift.times(DIFFERENCE);
+    let term = part.plus(part).times(DIFFERENCE);
+    term.plus(term).last_plus(lift.times(SQUARE.plus(SQUARE)))
 };
 
 /// Bound of a prepared sphere / (extent x · extent y · extent z · largest extent²), see `sphere.rs`.
@@ -168,7 +176,7 @@ pub struct StaticFilter {
     pub orient: f64,
     /// Bound of `incircle` or `insphere`.
     pub in_sphere: f64,
-    /// Bound of `side_of_circle` or `side_of_sphere`.
+    /// Bound of `side_of_circle` and `side_of_seen_circle`, or of `side_of_sphere`.
     pub prepared: f64,
     /// Square of the largest extent.
     pub largest_square: f64,
@@ -181,7 +189,7 @@ impl StaticFilter {
         Self {
             orient: orient2d_bound(extents),
             in_sphere: incircle_bound(extents),
-            prepared: lifted_bound_2d(LIFTED, extents),
+            prepared: lifted_bound_2d(PREPARED_2D.max(LIFTED), extents),
             largest_square: largest(extents) * largest(extents),
         }
     }

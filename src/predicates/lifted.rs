@@ -32,7 +32,7 @@ impl Lifted {
 /// `w`, negative if outside; open if the magnitude is not above [`StaticFilter::prepared`](super::StaticFilter). The
 /// cross products are those of `u` and `v`, `v` and `w`, `w` and `u`.
 #[inline(always)]
-pub fn side_of_circle([u, v, w]: [&Lifted; 3], [uv, vw, wu]: [f64; 3]) -> f64 {
+pub fn side_of_seen_circle([u, v, w]: [&Lifted; 3], [uv, vw, wu]: [f64; 3]) -> f64 {
     u.square * vw + v.square * wu + w.square * uv
 }
 
@@ -62,7 +62,7 @@ mod tests {
             });
             let [a, b, c, q] = &p;
             let [u, v, w] = [a, b, c].map(|p| Lifted::new(p, q));
-            let side = side_of_circle([&u, &v, &w], [u.cross(&v), v.cross(&w), w.cross(&u)]);
+            let side = side_of_seen_circle([&u, &v, &w], [u.cross(&v), v.cross(&w), w.cross(&u)]);
             if side.abs() > f.prepared {
                 n_certain += 1;
                 let exact = incircle(&f, a, b, c, q);

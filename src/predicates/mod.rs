@@ -82,11 +82,11 @@ mod tolerance;
 
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
-pub use lifted::{Lifted, side_of_circle};
+pub use lifted::{Lifted, side_of_seen_circle};
 pub use perturbation::{incircle_perturbed, insphere_perturbed};
 pub use plane::{incircle, orient2d};
 pub use space::{insphere, orient3d};
-pub use sphere::{Sphere, half_space, side_of_sphere, sphere};
+pub use sphere::{Circle, Sphere, circle, half_space, side_of_circle, side_of_sphere, sphere};
 pub use tolerance::{
     Delimiter, Separator, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
     is_certainly_outside, is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d,
