@@ -84,9 +84,11 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         s: u32,
     ) -> Result<()>;
     /// Standard delimiter of a bi-cell: its `D + 2` corners, the opposing vertices first and last.
-    fn delimiter(points: &[Self::Point]) -> Delimiter<Self::Point>;
+    fn delimiter(points: &[&Self::Point]) -> Delimiter<Self::Point>;
+    /// Certified lower bound of the tolerance of such a bi-cell; it need not be sharp if it is `enough`.
+    fn tolerance(points: &[&Self::Point], enough: f64) -> f64;
     /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
-    fn orientation_tolerance(points: &[Self::Point]) -> f64;
+    fn orientation_tolerance(points: &[&Self::Point]) -> f64;
     /// As [`predicates::squared_distance`].
     fn squared_distance(p: &Self::Point, q: &Self::Point) -> f64;
     /// As [`predicates::distance_above`].
@@ -167,15 +169,19 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn delimiter(points: &[[f64; 2]]) -> Delimiter<[f64; 2]> {
-        let [c, a, b, d]: &[_; 4] = points.try_into().expect("two cells");
+    fn delimiter(points: &[&[f64; 2]]) -> Delimiter<[f64; 2]> {
+        let &[c, a, b, d] = points else { unreachable!("two cells") };
         predicates::delimiter2d(c, [a, b], d)
     }
 
     #[inline(always)]
-    fn orientation_tolerance(points: &[[f64; 2]]) -> f64 {
-        let [a, b, c]: &[_; 3] = points.try_into().expect("one cell");
-        predicates::orientation_tolerance2d([a, b, c])
+    fn tolerance(points: &[&[f64; 2]], _: f64) -> f64 {
+        Self::delimiter(points).tolerance
+    }
+
+    #[inline(always)]
+    fn orientation_tolerance(points: &[&[f64; 2]]) -> f64 {
+        predicates::orientation_tolerance2d(points.try_into().expect("one cell"))
     }
 
     #[inline(always)]
@@ -291,15 +297,20 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn delimiter(points: &[[f64; 3]]) -> Delimiter<[f64; 3]> {
-        let [d, a, b, c, e]: &[_; 5] = points.try_into().expect("two cells");
+    fn delimiter(points: &[&[f64; 3]]) -> Delimiter<[f64; 3]> {
+        let &[d, a, b, c, e] = points else { unreachable!("two cells") };
         predicates::delimiter3d(d, [a, b, c], e)
     }
 
     #[inline(always)]
-    fn orientation_tolerance(points: &[[f64; 3]]) -> f64 {
-        let [a, b, c, d]: &[_; 4] = points.try_into().expect("one cell");
-        predicates::orientation_tolerance3d([a, b, c, d])
+    fn tolerance(points: &[&[f64; 3]], enough: f64) -> f64 {
+        let &[d, a, b, c, e] = points else { unreachable!("two cells") };
+        predicates::separator3d(d, [a, b, c], e, enough).delimiter.tolerance
+    }
+
+    #[inline(always)]
+    fn orientation_tolerance(points: &[&[f64; 3]]) -> f64 {
+        predicates::orientation_tolerance3d(points.try_into().expect("one cell"))
     }
 
     #[inline(always)]

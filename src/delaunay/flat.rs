@@ -105,6 +105,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Gives up the cells when the last finite one is gone. `except` is a site that is on its way elsewhere.
     pub(super) fn become_flat(&mut self, except: u32) {
         self.complex.clear();
+        self.changed = None;
         self.flat.clear();
         for s in 1..self.sites.len() as u32 {
             self.sites[s as usize].cell = NONE;

@@ -51,12 +51,15 @@ pub use relocate::{Relocation, Shortcut};
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, INFINITE, Journal, memory};
+use crate::complex::{Complex, Corners, Facet, INFINITE, Journal, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
 use cavity::Cavity;
 use flat::Flat;
 use remove::Hole;
+
+/// Lists of more than one cell in so many are put in storage order.
+const SPARSE: usize = 32;
 
 /// A Delaunay triangulation of sites.
 #[derive(Debug)]
@@ -119,6 +122,12 @@ impl<G: Dimension> Delaunay<G> {
     #[inline(always)]
     fn view(&self) -> site::Sites<'_, G> {
         site::Sites::new(&self.sites)
+    }
+
+    /// The place of a corner of a cell, not the ghost vertex.
+    #[inline(always)]
+    pub(crate) fn place(&self, s: u32) -> &G::Point {
+        self.view().point(s)
     }
 
     /// The site of an index.
@@ -245,9 +254,47 @@ impl<G: Dimension> Delaunay<G> {
         self.changed = Some(buffer);
     }
 
-    /// Ends the record and returns it: cells, some of them more than once, some free again by now.
-    pub fn take_changes(&mut self) -> Vec<u32> {
-        self.changed.take().unwrap_or_default()
+    /// Ends the record and returns it: cells, some of them more than once, some free again by now. `None` if all cells
+    /// are new since it was started, or it was not.
+    pub fn take_changes(&mut self) -> Option<Vec<u32>> {
+        self.changed.take()
+    }
+
+    /// Reduces a record to its live cells, each once.
+    pub(crate) fn tidy_changes(&mut self, changed: &mut Vec<u32>) {
+        let complex = &mut self.complex;
+        changed.retain(|&c| {
+            let is_first = complex.is_live(c) && complex.mark(c) == 0;
+            if is_first {
+                complex.set_mark(c, 1);
+            }
+            is_first
+        });
+        if changed.len() * SPARSE > complex.n_slots() {
+            changed.clear();
+            changed.extend((0..complex.n_slots() as u32).filter(|&c| complex.mark(c) != 0));
+        }
+        for &c in changed.iter() {
+            complex.set_mark(c, 0);
+        }
+    }
+
+    /// Visits each facet of these cells, which are live and listed once, exactly once.
+    pub(crate) fn for_facets_of(&mut self, cells: &[u32], mut visit: impl FnMut(&Self, Facet)) {
+        for &c in cells {
+            self.complex.set_mark(c, 1);
+        }
+        for &c in cells {
+            for i in 0..G::Corners::N {
+                let across = self.complex.cell(c).neighbour(i).cell();
+                if c < across || self.complex.mark(across) == 0 {
+                    visit(self, Facet::new(c, i));
+                }
+            }
+        }
+        for &c in cells {
+            self.complex.set_mark(c, 0);
+        }
     }
 
     /// Enters cells into the record, if there is one.

@@ -59,22 +59,6 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Moves a site, without a look at spheres, if it is not on the hull and its star, which is gathered, stays positively
-    /// oriented; the cells are then a triangulation still.
-    pub(crate) fn move_within_link(&mut self, s: u32, q: &G::Point) -> bool {
-        self.cover(q, q);
-        self.gather_star(s);
-        if self.hole.star.iter().any(|&(c, _)| self.complex.cell(c).is_ghost()) {
-            return false;
-        }
-        let old = std::mem::replace(&mut self.sites[s as usize].point, *q);
-        if !self.star_is_positive() {
-            self.sites[s as usize].point = old;
-            return false;
-        }
-        true
-    }
-
     /// Gives a site the id of another vertex.
     pub fn rename_site(&mut self, s: u32, id: u32) -> Result<()> {
         let q = self.site(s).point;

@@ -8,56 +8,52 @@ use crate::predicates::Delimiter;
 
 /// The corners of a bi-cell that are not the ghost vertex.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BiCell<G: Dimension> {
+pub(super) struct BiCell<'k, G: Dimension> {
     sites: [u32; 5],
-    points: [G::Point; 5],
+    points: [&'k G::Point; 5],
     n: usize,
 }
 
-impl<G: Dimension> BiCell<G> {
+impl<'k, G: Dimension> BiCell<'k, G> {
     /// The bi-cell of a facet: the opposing vertices are the first and the last of the `D + 2` corners of an interior one.
     /// At the hull only the `D + 1` finite corners are listed, in the order of a positive orientation.
     #[inline(always)]
-    pub(super) fn of(kernel: &Delaunay<G>, facet: Facet) -> Self {
+    pub(super) fn of(kernel: &'k Delaunay<G>, facet: Facet) -> Self {
         let complex = kernel.complex();
         let (c, i) = (facet.cell(), facet.index());
-        let across = complex.cell(c).neighbour(i);
-        let corners = complex.cell(c).corners;
+        let cell = complex.cell(c);
+        let across = cell.neighbour(i);
         let apex = complex.cell(across.cell()).corners[across.index()];
-        let mut bicell = BiCell { sites: [INFINITE; 5], points: [G::Point::default(); 5], n: 0 };
-        if complex.cell(c).is_ghost() {
-            if i == G::D {
-                bicell.push_all(kernel, complex.cell(across.cell()).corners);
-            } else {
-                // Across a ridge of the hull the other facet's apex is on the inner side.
-                bicell.push_all(kernel, corners.with(G::D, apex).reflected(G::D));
-            }
-        } else if apex == INFINITE {
-            bicell.push_all(kernel, corners);
+        if cell.is_ghost() || apex == INFINITE {
+            return Self::at_hull(kernel, facet, apex);
+        }
+        let mut sites = [apex; 5];
+        for k in 0..G::Corners::N {
+            sites[k] = cell.corners[(i + k) % G::Corners::N];
+        }
+        BiCell { sites, points: sites.map(|s| kernel.place(s)), n: G::D + 2 }
+    }
+
+    #[cold]
+    fn at_hull(kernel: &'k Delaunay<G>, facet: Facet, apex: u32) -> Self {
+        let complex = kernel.complex();
+        let (c, i) = (facet.cell(), facet.index());
+        let corners = complex.cell(c).corners;
+        let finite = if !complex.cell(c).is_ghost() {
+            corners
+        } else if i == G::D {
+            complex.cell(complex.cell(c).neighbour(i).cell()).corners
         } else {
-            bicell.push(kernel, corners[i]);
-            for k in 1..G::Corners::N {
-                bicell.push(kernel, corners[(i + k) % G::Corners::N]);
-            }
-            bicell.push(kernel, apex);
-        }
-        bicell
-    }
-
-    fn push_all(&mut self, kernel: &Delaunay<G>, corners: G::Corners) {
-        for i in 0..G::Corners::N {
-            self.push(kernel, corners[i]);
-        }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, kernel: &Delaunay<G>, s: u32) {
-        self.sites[self.n] = s;
-        self.points[self.n] = kernel.site(s).point;
-        self.n += 1;
+            // Across a ridge of the hull the other facet's apex is on the inner side.
+            corners.with(G::D, apex).reflected(G::D)
+        };
+        let mut sites = [finite[0]; 5];
+        sites[..G::Corners::N].copy_from_slice(finite.as_ref());
+        BiCell { sites, points: sites.map(|s| kernel.place(s)), n: G::D + 1 }
     }
 
     /// The finite corners.
+    #[inline(always)]
     pub(super) fn sites(&self) -> &[u32] {
         &self.sites[..self.n]
     }
@@ -73,10 +69,10 @@ impl<G: Dimension> BiCell<G> {
         G::orientation_tolerance(&self.points[..G::D + 1])
     }
 
-    /// Certified lower bound of the tolerance.
+    /// Certified lower bound of the tolerance; it need not be sharp if it is `enough`.
     #[inline(always)]
-    pub(super) fn tolerance(&self) -> f64 {
-        self.delimiter().map_or_else(|| self.hull_tolerance(), |delimiter| delimiter.tolerance)
+    pub(super) fn tolerance(&self, enough: f64) -> f64 {
+        if self.n == G::D + 2 { G::tolerance(&self.points[..G::D + 2], enough) } else { self.hull_tolerance() }
     }
 }
 
@@ -99,7 +95,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut tolerance = f64::INFINITY;
         self.kernel.for_star(s, |c, _| {
             for i in 0..G::Corners::N {
-                tolerance = tolerance.min(BiCell::of(&self.kernel, Facet::new(c, i)).tolerance());
+                tolerance = tolerance.min(BiCell::of(&self.kernel, Facet::new(c, i)).tolerance(tolerance));
             }
         });
         tolerance

@@ -160,21 +160,25 @@ impl<G: Dimension> MovingTriangulation<G> {
         let s = self.kernel.add_site(q, id)?;
         self.site_of.push(s);
         self.n_present += 1;
-        self.regions.invalidate();
-        match self.kernel.insert_site(s, NONE) {
-            Ok(Insertion::New) => {}
-            // The new id is the highest of all, so it is the one to hide: nothing else changes.
-            Ok(Insertion::Coincident(t)) => self.hide(id, t)?,
-            Err(error) => {
-                self.site_of.pop();
-                self.n_present -= 1;
-                self.kernel.discard_site(s);
-                self.rebuild_quietly()?;
-                return Err(error);
+        let mut report = CommitReport::default();
+        let inserted = self.with_regions(&mut report, |t, _| {
+            let inserted = t.kernel.insert_site(s, NONE)?;
+            if let Insertion::Coincident(at) = inserted {
+                // The new id is the highest of all, so it is the one to hide: nothing else changes.
+                t.hide(id, at)?;
             }
+            t.regions.note_relocated(id);
+            Ok(())
+        });
+        if let Err(error) = inserted {
+            self.site_of.pop();
+            self.n_present -= 1;
+            self.kernel.discard_site(s);
+            self.rebuild_quietly()?;
+            return Err(error);
         }
         self.staging.grow(self.site_of.len());
-        self.count(CommitReport::default());
+        self.count(report);
         Ok(id)
     }
 
@@ -185,19 +189,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
         self.forget_views();
-        self.regions.invalidate();
-        let removed = if self.hidden.any_at(s) {
-            match self.hidden.leave(s, vertex, self.kernel.site(s).id) {
-                Some(next) => self.kernel.rename_site(s, next),
+        let mut report = CommitReport::default();
+        let removed = self.with_regions(&mut report, |t, _| {
+            if !t.hidden.any_at(s) {
+                return t.kernel.remove_site(s);
+            }
+            match t.hidden.leave(s, vertex, t.kernel.site(s).id) {
+                Some(next) => t.kernel.rename_site(s, next),
                 None => Ok(()),
             }
-        } else {
-            self.kernel.remove_site(s)
-        };
+        });
         self.site_of[vertex as usize] = NONE;
         self.n_present -= 1;
         self.staging.unstage(vertex);
-        self.count(CommitReport::default());
+        self.count(report);
         removed
     }
 

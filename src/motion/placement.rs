@@ -19,7 +19,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         self.regions.invalidate();
-        self.order_staged_by_site();
+        self.order_queue_by_site();
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
     }
 
@@ -99,9 +99,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Puts the staged vertices in storage order if they are many, so that each starts near the one before.
-    fn order_staged_by_site(&mut self) {
-        let site_of = &self.site_of;
-        self.staging.vertices.sort_unstable_by_key(|&v| (site_of[v as usize], v));
+    /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one before.
+    pub(super) fn order_queue_by_site(&mut self) {
+        let (site_of, staging) = (&self.site_of, &mut self.staging);
+        radsort::sort_by_key(&mut staging.vertices[staging.applied..], |&v| site_of[v as usize]);
     }
 }

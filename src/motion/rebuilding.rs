@@ -39,6 +39,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates the sites where they are; every vertex has one of its own. The monitor may cancel.
     pub(super) fn rebuild(&mut self) -> Result<()> {
         self.regions.invalidate();
+        self.kernel.take_changes();
         let mut quiet = |_| true;
         let merges = match &mut self.options.monitor {
             Some(monitor) => self.kernel.rebuild(monitor)?,

@@ -12,12 +12,12 @@
 //! At the hull a bi-cell has no sphere. Its certificate is the orientation of `D + 1` points, and its tolerance and its
 //! reach are half the least width of their simplex.
 
-use super::CommitReport;
 use super::bicell::BiCell;
+use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
-use crate::predicates::{Delimiter, displacement_limit};
+use crate::predicates::displacement_limit;
 
 /// Which regions let a vertex pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,33 +37,6 @@ struct Fixed<G: Dimension> {
     tolerance: f64,
 }
 
-/// A bi-cell and what was computed for it.
-#[derive(Clone, Copy, Debug)]
-struct Measured<G: Dimension> {
-    facet: Facet,
-    bicell: BiCell<G>,
-    /// `None` at the hull.
-    delimiter: Option<Delimiter<G::Point>>,
-    tolerance: f64,
-    reach: f64,
-}
-
-impl<G: Dimension> Measured<G> {
-    #[inline(always)]
-    fn of(kernel: &Delaunay<G>, facet: Facet) -> Self {
-        let bicell = BiCell::of(kernel, facet);
-        let delimiter = bicell.delimiter();
-        let (tolerance, reach) = match &delimiter {
-            Some(delimiter) => (delimiter.tolerance, delimiter.reach),
-            None => {
-                let width = bicell.hull_tolerance();
-                (width, width)
-            }
-        };
-        Measured { facet, bicell, delimiter, tolerance, reach }
-    }
-}
-
 /// What the filters know of the triangulation.
 #[derive(Debug)]
 pub(super) struct Regions<G: Dimension> {
@@ -75,12 +48,10 @@ pub(super) struct Regions<G: Dimension> {
     reach: Vec<f64>,
     /// By the lower facet code of an interior bi-cell, for safe regions: centre and radius of the delimiter.
     delimiters: Vec<(G::Point, f64)>,
-    /// New bi-cells, until all of them are known to have a delimiter.
-    pending: Vec<Measured<G>>,
-    /// Memory of the record of changed cells.
-    pub(super) changed: Vec<u32>,
-    /// Vertices to be placed.
-    pub(super) queue: Vec<u32>,
+    /// Memory of the kernel's record of changed cells.
+    changed: Vec<u32>,
+    /// Vertices that have been relocated during the change under way.
+    relocated: Vec<u32>,
 }
 
 impl<G: Dimension> Default for Regions<G> {
@@ -90,9 +61,8 @@ impl<G: Dimension> Default for Regions<G> {
             fixed: Vec::new(),
             reach: Vec::new(),
             delimiters: Vec::new(),
-            pending: Vec::new(),
             changed: Vec::new(),
-            queue: Vec::new(),
+            relocated: Vec::new(),
         }
     }
 }
@@ -101,6 +71,11 @@ impl<G: Dimension> Regions<G> {
     /// The triangulation has changed without the regions.
     pub(super) fn invalidate(&mut self) {
         self.valid_for = None;
+    }
+
+    /// A vertex has been relocated: all bi-cells of its site are among the changes.
+    pub(super) fn note_relocated(&mut self, vertex: u32) {
+        self.relocated.push(vertex);
     }
 
     /// The filter that the regions are kept for.
@@ -135,7 +110,12 @@ impl<G: Dimension> Regions<G> {
     }
 
     /// The report's pre-computations: every site is fixed where it is, and every bi-cell lowers tolerances.
-    pub(super) fn compute(&mut self, kernel: &Delaunay<G>, filter: Filter) -> Result<()> {
+    pub(super) fn compute(
+        &mut self,
+        kernel: &Delaunay<G>,
+        filter: Filter,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         self.valid_for = None;
         self.fixed.clear();
         self.reach.clear();
@@ -147,7 +127,8 @@ impl<G: Dimension> Regions<G> {
         for c in kernel.complex().live() {
             for i in 0..G::Corners::N {
                 if c < kernel.complex().cell(c).neighbour(i).cell() {
-                    self.keep(kernel, filter, &Measured::of(kernel, Facet::new(c, i)));
+                    self.measure(kernel, filter, Facet::new(c, i));
+                    report.tolerances += 1;
                 }
             }
         }
@@ -189,63 +170,43 @@ impl<G: Dimension> Regions<G> {
         })
     }
 
-    /// Moves a site to `q` if every bi-cell of it certainly has a delimiter there, which proves its certificates: the
-    /// empty spheres need no other test. Fixes it, and lets the bi-cells lower tolerances.
-    pub(super) fn move_in_place(
-        &mut self,
-        kernel: &mut Delaunay<G>,
-        filter: Filter,
-        s: u32,
-        q: &G::Point,
-        report: &mut CommitReport,
-    ) -> bool {
-        let old = kernel.site(s).point;
-        if !kernel.move_within_link(s, q) {
-            return false;
-        }
-        self.pending.clear();
-        for &(c, at) in kernel.gathered_star() {
-            for i in 0..G::Corners::N {
-                if i != at as usize && kernel.complex().cell(c).neighbour(i).cell() < c {
-                    continue;
-                }
-                let measured = Measured::of(kernel, Facet::new(c, i));
-                if measured.tolerance <= 0.0 {
-                    kernel.set_point(s, old);
-                    return false;
-                }
-                self.pending.push(measured);
-            }
-        }
-        self.fix(kernel, s);
-        let pending = std::mem::take(&mut self.pending);
-        for measured in &pending {
-            self.keep(kernel, filter, measured);
-        }
-        report.tolerances += pending.len() as u64;
-        self.pending = pending;
-        true
-    }
-
-    /// Lets a new bi-cell lower the tolerances of its vertices, and keeps its delimiter.
+    /// Computes a bi-cell: lets it lower the tolerances of its vertices, and keeps its delimiter.
     #[inline(always)]
-    fn keep(&mut self, kernel: &Delaunay<G>, filter: Filter, measured: &Measured<G>) {
-        for &s in measured.bicell.sites() {
+    fn measure(&mut self, kernel: &Delaunay<G>, filter: Filter, facet: Facet) {
+        let bicell = BiCell::of(kernel, facet);
+        let mut enough = 0.0;
+        for &s in bicell.sites() {
             self.fix_anew(kernel, filter, s);
-            let fixed = &mut self.fixed[s as usize];
-            fixed.tolerance = fixed.tolerance.min(measured.tolerance);
+            enough = self.fixed[s as usize].tolerance.max(enough);
         }
-        if filter != Filter::Tolerance {
-            for &s in measured.bicell.sites() {
-                let reach = &mut self.reach[s as usize];
-                *reach = reach.min(measured.reach);
-            }
-            if let Some(delimiter) = &measured.delimiter {
-                let facet = measured.facet;
+        if filter == Filter::Tolerance {
+            self.lower(&bicell, bicell.tolerance(enough));
+            return;
+        }
+        let (tolerance, reach) = match bicell.delimiter() {
+            Some(delimiter) => {
                 let across = kernel.complex().cell(facet.cell()).neighbour(facet.index());
                 self.delimiters[facet.code().min(across.code()) as usize] =
                     (delimiter.centre, delimiter.radius);
+                (delimiter.tolerance, delimiter.reach)
             }
+            None => {
+                let width = bicell.hull_tolerance();
+                (width, width)
+            }
+        };
+        self.lower(&bicell, tolerance);
+        for &s in bicell.sites() {
+            let least = &mut self.reach[s as usize];
+            *least = least.min(reach);
+        }
+    }
+
+    #[inline(always)]
+    fn lower(&mut self, bicell: &BiCell<G>, tolerance: f64) {
+        for &s in bicell.sites() {
+            let fixed = &mut self.fixed[s as usize];
+            fixed.tolerance = fixed.tolerance.min(tolerance);
         }
     }
 
@@ -265,37 +226,62 @@ impl<G: Dimension> Regions<G> {
         }
     }
 
-    /// Fixes a site where it is; all its bi-cells are to be added again.
-    pub(super) fn fix(&mut self, kernel: &Delaunay<G>, s: u32) {
+    /// Fixes a site where it is, all bi-cells of which are going to be computed.
+    fn fix(&mut self, kernel: &Delaunay<G>, s: u32) {
         self.fixed[s as usize] = Fixed { point: kernel.site(s).point, tolerance: f64::INFINITY };
         if let Some(reach) = self.reach.get_mut(s as usize) {
             *reach = f64::INFINITY;
         }
     }
 
-    /// Adds the bi-cells of all facets of the cells that the kernel has recorded.
-    pub(super) fn add_changes(
+    /// Computes the bi-cells of all facets of the cells that the kernel has recorded, once each.
+    fn follow(
         &mut self,
         kernel: &mut Delaunay<G>,
         filter: Filter,
+        mut changed: Vec<u32>,
+        relocated: impl Iterator<Item = u32>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let mut changed = kernel.take_changes();
-        self.grow(kernel, filter)?;
-        changed.retain(|&c| kernel.complex().is_live(c));
-        changed.sort_unstable();
-        changed.dedup();
-        for &c in &changed {
-            for i in 0..G::Corners::N {
-                let across = kernel.complex().cell(c).neighbour(i).cell();
-                if across < c && changed.binary_search(&across).is_ok() {
-                    continue;
-                }
-                self.keep(kernel, filter, &Measured::of(kernel, Facet::new(c, i)));
+        kernel.tidy_changes(&mut changed);
+        if 2 * changed.len() > kernel.complex().n_finite() {
+            self.compute(kernel, filter, report)?;
+        } else {
+            self.grow(kernel, filter)?;
+            relocated.for_each(|s| self.fix(kernel, s));
+            kernel.for_facets_of(&changed, |kernel, facet| {
+                self.measure(kernel, filter, facet);
                 report.tolerances += 1;
-            }
+            });
+            self.valid_for = Some(filter);
         }
         self.changed = changed;
         Ok(())
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Makes a change that the regions follow if they are valid. If it fails they are not any more.
+    pub(super) fn with_regions<T>(
+        &mut self,
+        report: &mut CommitReport,
+        change: impl FnOnce(&mut Self, &mut CommitReport) -> Result<T>,
+    ) -> Result<T> {
+        let Some(filter) = self.regions.valid_for.take() else {
+            return change(self, report);
+        };
+        self.regions.relocated.clear();
+        self.kernel.record_changes(std::mem::take(&mut self.regions.changed));
+        let done = change(self, report);
+        if let Some(changed) = self.kernel.take_changes()
+            && done.is_ok()
+        {
+            let relocated = std::mem::take(&mut self.regions.relocated);
+            let sites = relocated.iter().map(|&v| self.site_of[v as usize]).filter(|&s| !self.hidden.any_at(s));
+            // Without the memory for it the regions stay invalid, and the next commit says so.
+            let _ = self.regions.follow(&mut self.kernel, filter, changed, sites, report);
+            self.regions.relocated = relocated;
+        }
+        done
     }
 }

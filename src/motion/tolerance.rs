@@ -37,35 +37,30 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.kernel.has_cells() {
             return self.commit_by_rebuilding(0, report);
         }
-        self.pre_compute(filter)?;
+        self.pre_compute(filter, report)?;
         self.accept_staged(filter, report);
-        self.place_staged(report, |t, v, new, report| t.relocate_and_fix(v, new, filter, report))
+        self.order_queue_by_site();
+        self.with_regions(report, |t, report| {
+            t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
+        })
     }
 
     /// Computes tolerances and delimiters unless those of the last commit are valid.
-    fn pre_compute(&mut self, filter: Filter) -> Result<()> {
+    fn pre_compute(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
         if self.regions.kept_for() == Some(filter) {
             return Ok(());
         }
-        self.regions.compute(&self.kernel, filter)
+        self.regions.compute(&self.kernel, filter, report)
     }
 
-    /// Moves the vertices that stay in their regions; the others are queued, behind them in the order of staging.
+    /// Moves the vertices that stay in their regions; the others are queued, behind them.
     fn accept_staged(&mut self, filter: Filter, report: &mut CommitReport) {
-        let mut vertices = std::mem::take(&mut self.staging.vertices);
-        let mut queue = std::mem::take(&mut self.regions.queue);
-        queue.clear();
-        vertices.retain(|&v| {
-            let accepted = self.accept(v, filter, report);
-            if !accepted {
-                queue.push(v);
+        for k in 0..self.staging.vertices.len() {
+            if self.accept(self.staging.vertices[k], filter, report) {
+                self.staging.vertices.swap(self.staging.applied, k);
+                self.staging.applied += 1;
             }
-            accepted
-        });
-        self.staging.applied = vertices.len();
-        vertices.append(&mut queue);
-        self.staging.vertices = vertices;
-        self.regions.queue = queue;
+        }
     }
 
     /// Moves a vertex if it stays in its region.
@@ -102,14 +97,21 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.regions.invalidate();
             return self.relocate(vertex, q, Shortcut::Flips, report);
         };
-        self.pre_compute(filter)?;
+        self.pre_compute(filter, report)?;
         self.staging.grow_for(self.site_of.len())?;
         self.staging.positions[vertex as usize] = *q;
         if self.accept(vertex, filter, report) {
             report.moved = 1;
             return Ok(());
         }
-        self.relocate_and_fix(vertex, q, filter, report)
+        self.with_regions(report, |t, report| t.relocate_noted(vertex, q, report))
+    }
+
+    /// Relocates a vertex; the regions are told.
+    fn relocate_noted(&mut self, vertex: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+        self.relocate(vertex, q, Shortcut::Flips, report)?;
+        self.regions.note_relocated(vertex);
+        Ok(())
     }
 
     /// The filter of the algorithm in force.
@@ -121,33 +123,5 @@ impl<G: Dimension> MovingTriangulation<G> {
             Algorithm::SafeRegionTolerance => Some(Filter::Both),
             _ => None,
         }
-    }
-
-    /// Moves a vertex by placement, fixes it there, and lets the new bi-cells lower tolerances.
-    pub(super) fn relocate_and_fix(
-        &mut self,
-        vertex: u32,
-        q: &G::Point,
-        filter: Filter,
-        report: &mut CommitReport,
-    ) -> Result<()> {
-        let s = self.site_of[vertex as usize];
-        if !self.hidden.any_at(s) && self.regions.move_in_place(&mut self.kernel, filter, s, q, report) {
-            report.unchanged += 1;
-            return Ok(());
-        }
-        self.kernel.record_changes(std::mem::take(&mut self.regions.changed));
-        let relocated = self.relocate(vertex, q, Shortcut::Flips, report);
-        if relocated.is_err() || !self.kernel.has_cells() {
-            self.kernel.take_changes();
-            self.regions.invalidate();
-            return relocated;
-        }
-        let s = self.site_of[vertex as usize];
-        if !self.hidden.any_at(s) {
-            self.regions.grow(&self.kernel, filter)?;
-            self.regions.fix(&self.kernel, s);
-        }
-        self.regions.add_changes(&mut self.kernel, filter, report)
     }
 }
