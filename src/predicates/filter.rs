@@ -37,8 +37,8 @@
 //!
 //! The determinants collect fewer than 300 η·Mᵏ⁻² in this way, and evaluating a bound, whose products
 //! underflow like any others, loses no more than 4. Instead of the precise number, all bounds add
-//! [`UNDERFLOW`] = 2¹¹ η times Mᵏ⁻²; the compiler checks that it is plenty. That much leaves determinants
-//! uncertain that are below 10⁻³²⁰ where extents are up to 1, and below 10⁻¹⁴⁸ where one is as large as can
+//! [`UNDERFLOW`] = 2⁵³ η times Mᵏ⁻²; the compiler checks that it is plenty. That much leaves determinants
+//! uncertain that are below 10⁻³⁰⁷ where extents are up to 1, and below 10⁻¹³⁴ where one is as large as can
 //! be.
 //!
 //! # Rounding of the bounds
@@ -60,8 +60,9 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 /// Covers the rounding of the bounds themselves.
 const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 
-/// What bounds allow for underflow, times a power of the largest extent: 2¹¹ η.
-pub(super) const UNDERFLOW: f64 = f64::from_bits(1 << 10);
+/// What bounds allow for underflow, times a power of the largest extent: 2⁵³ η, the least normal number. Processors take
+/// longer to multiply a subnormal one than to evaluate all the rest of a bound.
+pub(super) const UNDERFLOW: f64 = f64::MIN_POSITIVE;
 
 /// Bound of `orient2d` / (extent x · extent y).
 const ORIENT_2D: f64 = SQUARE.last_plus(SQUARE);
@@ -161,7 +162,7 @@ impl Computed {
 
     /// What the magnitude of a sum must exceed for its sign to be right, beside the term for underflow.
     const fn last_plus(self, other: Self) -> f64 {
-        assert!(self.underflow + other.underflow < 1_000.0, "half of UNDERFLOW");
+        assert!(self.underflow + other.underflow < 1_000.0, "less than UNDERFLOW");
         (self.error + other.error) / (1.0 - UNIT) * ROUND_UP
     }
 }
