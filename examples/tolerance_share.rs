@@ -147,7 +147,10 @@ fn test_alone<G: Dimension>() {
         staging = staging.min(1e9 * staged.as_secs_f64() / N as f64);
         commit = commit.min(1e9 * committed.as_secs_f64() / N as f64);
     }
-    println!("{}D, {N} points, all within tolerance: staging {staging:.2}, commit {commit:.2} ns per vertex", G::D);
+    println!(
+        "{}D, {N} points, all within tolerance: staging {staging:.2}, commit {commit:.2} ns per vertex",
+        G::D
+    );
 }
 
 fn main() {

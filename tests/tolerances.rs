@@ -7,9 +7,9 @@ mod common;
 
 use common::Rng;
 use deldrift::predicates::{
-    delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside, is_certainly_outside,
-    is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, separator3d,
-    squared_distance,
+    BiCells, LANES, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
+    is_certainly_outside, is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d,
+    separator3d, squared_distance, tolerances2d, tolerances3d,
 };
 use num_bigint::{BigInt, Sign};
 use std::array::from_fn;
@@ -388,6 +388,34 @@ fn delimiters_and_separators_of_space_are_certified() {
     assert!(n_exceptions > 1000);
     ratios.report("space, tolerance");
     standard.report("space, standard half-width");
+}
+
+/// What is computed for several bi-cells at a time is, bit for bit, what is computed for one.
+#[test]
+fn tolerances_of_several_bicells_are_those_of_each() {
+    let mut several = BiCells::<2, 4>::default();
+    let all: Vec<_> = bicells::<2, 4>(40_000, 8).map(|(_, p)| p).collect();
+    for group in all.chunks_exact(LANES) {
+        group.iter().enumerate().for_each(|(i, p)| several.set(i, p.each_ref()));
+        let each: Vec<f64> =
+            group.iter().map(|p| delimiter2d(&p[2], [&p[0], &p[1]], &p[3]).tolerance).collect();
+        assert_eq!(tolerances2d(&several).map(f64::to_bits), from_fn(|i| each[i].to_bits()), "{group:?}");
+    }
+    let (mut several, rng) = (BiCells::<3, 5>::default(), &mut Rng::new(8));
+    let all: Vec<_> = bicells::<3, 5>(40_000, 9).map(|(_, p)| p).collect();
+    let mut n_positive = 0;
+    for group in all.chunks_exact(LANES) {
+        group.iter().enumerate().for_each(|(i, p)| several.set(i, p.each_ref()));
+        let enough: [f64; LANES] = from_fn(|_| [0.0, f64::INFINITY, power(rng, -3.0, 0.0)][rng.below(3)]);
+        let each = |i: usize| {
+            let [o, f, g, c, d] = &group[i];
+            separator3d(c, [o, f, g], d, enough[i]).delimiter.tolerance
+        };
+        let tolerances = tolerances3d(&several, enough);
+        n_positive += tolerances.iter().filter(|t| **t > 0.0).count();
+        assert_eq!(tolerances.map(f64::to_bits), from_fn(|i| each(i).to_bits()), "{group:?}");
+    }
+    assert!(n_positive > 10_000, "{n_positive}");
 }
 
 /// `p` moved towards `aim` by less than `t`, exactly, if it can be told; by `factor` t at most.

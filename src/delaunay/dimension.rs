@@ -13,7 +13,7 @@ use super::site::Sites;
 use super::{Delaunay, cavity_plane, cavity_space, certify};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
-use crate::predicates::{self, Delimiter, StaticFilter};
+use crate::predicates::{self, Delimiter, LANES, StaticFilter};
 
 /// Coordinates of one point: `[f64; D]`.
 pub trait Coordinates:
@@ -36,6 +36,8 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     type Corners: Corners;
     /// Scratch memory of insertions.
     type Scratch: Debug + Default + Send + Sync;
+    /// Bi-cells whose tolerances are computed together.
+    type BiCells: Debug + Default;
     /// Error bounds for points inside the box.
     fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
     /// Sign of the orientation of the cell: positive in a valid finite cell.
@@ -87,6 +89,10 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn delimiter(points: &[&Self::Point]) -> Delimiter<Self::Point>;
     /// Certified lower bound of the tolerance of such a bi-cell; it need not be sharp if it is `enough`.
     fn tolerance(points: &[&Self::Point], enough: f64) -> f64;
+    /// Sets a bi-cell, given likewise, of those whose tolerances are computed together.
+    fn set_bicell(bicells: &mut Self::BiCells, lane: usize, points: &[&Self::Point]);
+    /// As [`tolerance`](Self::tolerance), of all of them.
+    fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES];
     /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
     fn orientation_tolerance(points: &[&Self::Point]) -> f64;
     /// As [`predicates::squared_distance`].
@@ -128,6 +134,7 @@ impl Dimension for Plane {
     type Point = [f64; 2];
     type Corners = [u32; 3];
     type Scratch = cavity_plane::Scratch;
+    type BiCells = predicates::BiCells<2, 4>;
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
@@ -177,6 +184,17 @@ impl Dimension for Plane {
     #[inline(always)]
     fn tolerance(points: &[&[f64; 2]], _: f64) -> f64 {
         Self::delimiter(points).tolerance
+    }
+
+    #[inline(always)]
+    fn set_bicell(bicells: &mut Self::BiCells, lane: usize, points: &[&[f64; 2]]) {
+        let &[c, a, b, d] = points else { unreachable!("two cells") };
+        bicells.set(lane, [a, b, c, d]);
+    }
+
+    #[inline(always)]
+    fn tolerances(bicells: &Self::BiCells, _: [f64; LANES]) -> [f64; LANES] {
+        predicates::tolerances2d(bicells)
     }
 
     #[inline(always)]
@@ -256,6 +274,7 @@ impl Dimension for Space {
     type Point = [f64; 3];
     type Corners = [u32; 4];
     type Scratch = cavity_space::Scratch;
+    type BiCells = predicates::BiCells<3, 5>;
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
         StaticFilter::space(*lower, *upper)
@@ -306,6 +325,17 @@ impl Dimension for Space {
     fn tolerance(points: &[&[f64; 3]], enough: f64) -> f64 {
         let &[d, a, b, c, e] = points else { unreachable!("two cells") };
         predicates::separator3d(d, [a, b, c], e, enough).delimiter.tolerance
+    }
+
+    #[inline(always)]
+    fn set_bicell(bicells: &mut Self::BiCells, lane: usize, points: &[&[f64; 3]]) {
+        let &[d, a, b, c, e] = points else { unreachable!("two cells") };
+        bicells.set(lane, [a, b, c, d, e]);
+    }
+
+    #[inline(always)]
+    fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES] {
+        predicates::tolerances3d(bicells, enough)
     }
 
     #[inline(always)]

@@ -28,8 +28,8 @@ impl<'k, G: Dimension> BiCell<'k, G> {
             return Self::at_hull(kernel, facet, apex);
         }
         let mut sites = [apex; 5];
-        for k in 0..G::Corners::N {
-            sites[k] = cell.corners[(i + k) % G::Corners::N];
+        for (k, s) in sites.iter_mut().enumerate().take(G::Corners::N) {
+            *s = cell.corners[(i + k) % G::Corners::N];
         }
         BiCell { sites, points: sites.map(|s| kernel.place(s)), n: G::D + 2 }
     }
@@ -58,6 +58,12 @@ impl<'k, G: Dimension> BiCell<'k, G> {
         &self.sites[..self.n]
     }
 
+    /// The corners of an interior bi-cell; `None` at the hull.
+    #[inline(always)]
+    pub(super) fn interior(&self) -> Option<([u32; 5], &[&'k G::Point])> {
+        (self.n == G::D + 2).then(|| (self.sites, &self.points[..G::D + 2]))
+    }
+
     /// The standard delimiter; `None` at the hull.
     #[inline(always)]
     pub(super) fn delimiter(&self) -> Option<Delimiter<G::Point>> {
@@ -72,7 +78,11 @@ impl<'k, G: Dimension> BiCell<'k, G> {
     /// Certified lower bound of the tolerance; it need not be sharp if it is `enough`.
     #[inline(always)]
     pub(super) fn tolerance(&self, enough: f64) -> f64 {
-        if self.n == G::D + 2 { G::tolerance(&self.points[..G::D + 2], enough) } else { self.hull_tolerance() }
+        if self.n == G::D + 2 {
+            G::tolerance(&self.points[..G::D + 2], enough)
+        } else {
+            self.hull_tolerance()
+        }
     }
 }
 

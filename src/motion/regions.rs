@@ -17,7 +17,7 @@ use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
-use crate::predicates::displacement_limit;
+use crate::predicates::{LANES, displacement_limit};
 
 /// Which regions let a vertex pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +35,23 @@ pub(super) enum Filter {
 struct Fixed<G: Dimension> {
     point: G::Point,
     tolerance: f64,
+}
+
+/// Bi-cells whose tolerances are to be computed together.
+#[derive(Debug, Default)]
+struct Batch<G: Dimension> {
+    bicells: G::BiCells,
+    sites: [[u32; 5]; LANES],
+    n: usize,
+}
+
+impl<G: Dimension> Batch<G> {
+    #[inline(always)]
+    fn push(&mut self, sites: [u32; 5], points: &[&G::Point]) {
+        G::set_bicell(&mut self.bicells, self.n, points);
+        self.sites[self.n] = sites;
+        self.n += 1;
+    }
 }
 
 /// What the filters know of the triangulation.
@@ -124,14 +141,16 @@ impl<G: Dimension> Regions<G> {
         for (fixed, site) in self.fixed.iter_mut().zip(kernel.sites()) {
             fixed.point = site.point;
         }
+        let mut batch = Batch::default();
         for c in kernel.complex().live() {
             for i in 0..G::Corners::N {
                 if c < kernel.complex().cell(c).neighbour(i).cell() {
-                    self.measure(kernel, filter, Facet::new(c, i));
+                    self.measure::<false>(kernel, filter, Facet::new(c, i), &mut batch);
                     report.tolerances += 1;
                 }
             }
         }
+        self.lower_batch(&mut batch);
         self.valid_for = Some(filter);
         Ok(())
     }
@@ -170,17 +189,32 @@ impl<G: Dimension> Regions<G> {
         })
     }
 
-    /// Computes a bi-cell: lets it lower the tolerances of its vertices, and keeps its delimiter.
+    /// Computes a bi-cell: lets it lower the tolerances of its vertices, and keeps its delimiter. `ANEW` unless all sites
+    /// are fixed where they are.
     #[inline(always)]
-    fn measure(&mut self, kernel: &Delaunay<G>, filter: Filter, facet: Facet) {
+    fn measure<const ANEW: bool>(
+        &mut self,
+        kernel: &Delaunay<G>,
+        filter: Filter,
+        facet: Facet,
+        batch: &mut Batch<G>,
+    ) {
         let bicell = BiCell::of(kernel, facet);
-        let mut enough = 0.0;
-        for &s in bicell.sites() {
-            self.fix_anew(kernel, filter, s);
-            enough = self.fixed[s as usize].tolerance.max(enough);
+        if ANEW {
+            for &s in bicell.sites() {
+                self.fix_anew(kernel, filter, s);
+            }
         }
         if filter == Filter::Tolerance {
-            self.lower(&bicell, bicell.tolerance(enough));
+            match bicell.interior() {
+                Some((sites, points)) => {
+                    batch.push(sites, points);
+                    if batch.n == LANES {
+                        self.lower_batch(batch);
+                    }
+                }
+                None => self.lower(bicell.sites(), bicell.hull_tolerance()),
+            }
             return;
         }
         let (tolerance, reach) = match bicell.delimiter() {
@@ -195,7 +229,7 @@ impl<G: Dimension> Regions<G> {
                 (width, width)
             }
         };
-        self.lower(&bicell, tolerance);
+        self.lower(bicell.sites(), tolerance);
         for &s in bicell.sites() {
             let least = &mut self.reach[s as usize];
             *least = least.min(reach);
@@ -203,11 +237,26 @@ impl<G: Dimension> Regions<G> {
     }
 
     #[inline(always)]
-    fn lower(&mut self, bicell: &BiCell<G>, tolerance: f64) {
-        for &s in bicell.sites() {
+    fn lower(&mut self, sites: &[u32], tolerance: f64) {
+        for &s in sites {
             let fixed = &mut self.fixed[s as usize];
             fixed.tolerance = fixed.tolerance.min(tolerance);
         }
+    }
+
+    /// Computes the tolerances of a batch, which is empty then.
+    fn lower_batch(&mut self, batch: &mut Batch<G>) {
+        let mut enough = [0.0; LANES];
+        for (enough, sites) in enough.iter_mut().zip(&batch.sites[..batch.n]) {
+            for &s in &sites[..G::D + 2] {
+                *enough = self.fixed[s as usize].tolerance.max(*enough);
+            }
+        }
+        let tolerances = G::tolerances(&batch.bicells, enough);
+        for (k, tolerance) in tolerances.into_iter().enumerate().take(batch.n) {
+            self.lower(&batch.sites[k][..G::D + 2], tolerance);
+        }
+        batch.n = 0;
     }
 
     /// Fixes a site where it is: what is left of its ball, as a lower bound, is its tolerance.
@@ -249,10 +298,12 @@ impl<G: Dimension> Regions<G> {
         } else {
             self.grow(kernel, filter)?;
             relocated.for_each(|s| self.fix(kernel, s));
+            let mut batch = Batch::default();
             kernel.for_facets_of(&changed, |kernel, facet| {
-                self.measure(kernel, filter, facet);
+                self.measure::<true>(kernel, filter, facet, &mut batch);
                 report.tolerances += 1;
             });
+            self.lower_batch(&mut batch);
             self.valid_for = Some(filter);
         }
         self.changed = changed;
@@ -277,7 +328,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             && done.is_ok()
         {
             let relocated = std::mem::take(&mut self.regions.relocated);
-            let sites = relocated.iter().map(|&v| self.site_of[v as usize]).filter(|&s| !self.hidden.any_at(s));
+            let sites =
+                relocated.iter().map(|&v| self.site_of[v as usize]).filter(|&s| !self.hidden.any_at(s));
             // Without the memory for it the regions stay invalid, and the next commit says so.
             let _ = self.regions.follow(&mut self.kernel, filter, changed, sites, report);
             self.regions.relocated = relocated;

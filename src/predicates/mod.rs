@@ -73,24 +73,28 @@ mod big;
 mod distance;
 mod filter;
 mod integer;
+mod lanes;
 mod lifted;
 mod perturbation;
 mod plane;
+mod separator;
 mod space;
 mod sphere;
 mod tolerance;
 
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
+pub use lanes::{BiCells, LANES};
 pub use lifted::{Lifted, side_of_seen_circle};
 pub use perturbation::{incircle_perturbed, insphere_perturbed};
 pub use plane::{incircle, orient2d};
+pub use separator::{Separator, delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{Circle, Sphere, circle, half_space, side_of_circle, side_of_sphere, sphere};
 pub use tolerance::{
-    Delimiter, Separator, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
-    is_certainly_outside, is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d,
-    separator3d, squared_distance,
+    Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside, is_certainly_outside,
+    is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
+    tolerances2d,
 };
 
 /// Largest magnitude of an accepted coordinate.

@@ -96,7 +96,12 @@
 //! [`delimiter3d`] 74 ns; [`separator3d`] 73 ns, 46 ns if 0.01 spacings are enough, 40 ns if anything is;
 //! [`orientation_tolerance2d`] 5 ns, [`orientation_tolerance3d`] 14 ns.
 
+#![allow(unsafe_code)]
+
 use super::filter::{extents, largest};
+#[cfg(target_arch = "x86_64")]
+use super::lanes::avx2;
+use super::lanes::{BiCells, LANES, Real};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,13 +121,13 @@ pub struct Delimiter<P> {
 }
 
 /// Unit roundoff, u.
-const UNIT: f64 = f64::EPSILON / 2.0;
+pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Second-order terms, and the rounding of bounds.
 const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 /// Distances below this are taken for it.
-const LEAST: f64 = 1e-140;
+pub(super) const LEAST: f64 = 1e-140;
 /// A determinant below this may be all underflow.
-const LEAST_DETERMINANT: f64 = 1e-250;
+pub(super) const LEAST_DETERMINANT: f64 = 1e-250;
 /// (1 − u)⁻ᵏ for distances, 3.5 u, and a product.
 const ABOVE: f64 = 1.0 + 6.0 * UNIT;
 /// (1 ± u)⁵ for squared distances, and two products.
@@ -135,11 +140,11 @@ const fn half_width_error(dimension: usize) -> f64 {
 }
 
 /// Bounds of determinants / product of extents: 6 u and 40 u to first order (`filter.rs`). Underflow is left to
-/// [`LEAST_DETERMINANT`], as the bounds there multiply a subnormal number, which takes longer than all the rest.
+/// [`LEAST_DETERMINANT`].
 const ORIENT_2D: f64 = 7.0 * UNIT;
-const ORIENT_3D: f64 = 41.0 * UNIT;
+pub(super) const ORIENT_3D: f64 = 41.0 * UNIT;
 /// Bound of a component of a vector product of differences / largest extent², times √3 or more.
-const CROSS: f64 = 14.0 * UNIT;
+pub(super) const CROSS: f64 = 14.0 * UNIT;
 /// The same for the sum of three.
 const CROSS_SUM: f64 = 60.0 * UNIT;
 /// Half, less 8 u: two roundings of the numerator, 4 of the denominator, a quotient and a product.
@@ -148,9 +153,15 @@ const HALF: f64 = 0.5 - 4.0 * UNIT;
 /// Squared distance, in the order of operations that the thresholds of this module certify.
 #[inline(always)]
 pub fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
+    square_between(p, q)
+}
+
+/// The same for any [`Real`].
+#[inline(always)]
+pub(super) fn square_between<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
     let mut sum = (p[0] - q[0]) * (p[0] - q[0]);
     for axis in 1..D {
-        sum += (p[axis] - q[axis]) * (p[axis] - q[axis]);
+        sum = sum + (p[axis] - q[axis]) * (p[axis] - q[axis]);
     }
     sum
 }
@@ -204,7 +215,7 @@ pub fn is_path_certainly_outside<const D: usize>(
     from: &[f64; D],
     to: &[f64; D],
 ) -> bool {
-    let square = min(squared_distance(centre, from), squared_distance(centre, to));
+    let square = Real::min(squared_distance(centre, from), squared_distance(centre, to));
     // (1 ± u)⁵ twice and three roundings.
     let limit = (radius * radius + 0.25 * squared_distance(from, to)) * (1.0 + 16.0 * UNIT);
     square > limit + LEAST * LEAST && square < f64::INFINITY
@@ -213,214 +224,52 @@ pub fn is_path_certainly_outside<const D: usize>(
 /// Standard delimiter and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
 #[inline(always)]
 pub fn delimiter2d(c: &[f64; 2], facet: [&[f64; 2]; 2], d: &[f64; 2]) -> Delimiter<[f64; 2]> {
-    let [o, f] = facet;
+    let (centre, radius, half_width) = annulus2d(&[*facet[0], *facet[1], *c, *d]);
+    Delimiter { centre, radius, half_width, reach: f64::INFINITY, tolerance: half_width }
+}
+
+/// Tolerances of [`LANES`] bi-cells, as [`delimiter2d`] has them.
+#[inline]
+pub fn tolerances2d(bicells: &BiCells<2, 4>) -> [f64; LANES] {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2")]
+        fn all(bicells: &BiCells<2, 4>) -> [f64; LANES] {
+            annulus2d(&bicells.lanes()).2.store()
+        }
+        if avx2::is_there() {
+            // SAFETY: it is.
+            return unsafe { all(bicells) };
+        }
+    }
+    std::array::from_fn(|i| annulus2d(&bicells.lane(i)).2)
+}
+
+/// Centre, radius and half-width of the standard delimiter of a facet and two opposing vertices.
+#[inline(always)]
+fn annulus2d<T: Real>([o, f, c, d]: &[[T; 2]; 4]) -> ([T; 2], T, T) {
     let (u, w) = ([f[0] - o[0], f[1] - o[1]], [c[0] - d[0], c[1] - d[1]]);
     let s = [(c[0] - o[0]) + (d[0] - o[0]), (c[1] - o[1]) + (d[1] - o[1])];
     // u·x = |u|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
     let (uu, ws) = (u[0] * u[0] + u[1] * u[1], w[0] * s[0] + w[1] * s[1]);
-    let scale = 0.5 / (u[0] * w[1] - u[1] * w[0]);
+    let scale = T::splat(0.5) / (u[0] * w[1] - u[1] * w[0]);
     let centre = [o[0] + (uu * w[1] - ws * u[1]) * scale, o[1] + (ws * u[0] - uu * w[0]) * scale];
-    let inner = max(squared_distance(&centre, o), squared_distance(&centre, f));
-    let outer = min(squared_distance(&centre, c), squared_distance(&centre, d));
-    let (radius, half_width) = middle::<2>(inner, outer);
-    Delimiter { centre, radius, half_width, reach: f64::INFINITY, tolerance: half_width }
-}
-
-/// Standard delimiter and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
-///
-/// [`separator3d`] is faster, and better where the report's sphere is not the one that limits the tolerance.
-#[inline]
-pub fn delimiter3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3]) -> Delimiter<[f64; 3]> {
-    let points = [facet[0], facet[1], facet[2], c, d];
-    let mut delimiter = Annulus::new(points, STANDARD).delimiter(STANDARD);
-    let planes = Slabs::new(points).squared_widths(STANDARD);
-    delimiter.reach = reach(points, STANDARD, &planes, delimiter.half_width);
-    delimiter.tolerance = min(delimiter.half_width, delimiter.reach);
-    delimiter
-}
-
-/// The delimiter that decides about a bi-cell: with the interior facet inside, but for one of its vertices where the line
-/// `cd` passes the facet beyond the edge opposite that vertex; the opposing vertices and that one are outside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Separator<P> {
-    /// The sphere, and how far the points may move before another one decides.
-    pub delimiter: Delimiter<P>,
-    /// Index of the vertex of the facet that is outside, D if none is.
-    pub exception: u8,
-}
-
-/// Separator and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
-///
-/// A tolerance of at least `enough` is not improved any further, which halves the cost.
-#[inline]
-pub fn separator3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3], enough: f64) -> Separator<[f64; 3]> {
-    let points = [facet[0], facet[1], facet[2], c, d];
-    let slabs = Slabs::new(points);
-    match slabs.partition() {
-        0 => separator::<0>(points, &slabs, enough),
-        1 => separator::<1>(points, &slabs, enough),
-        2 => separator::<2>(points, &slabs, enough),
-        _ => separator::<STANDARD>(points, &slabs, enough),
-    }
-}
-
-#[inline(always)]
-fn separator<const P: usize>(points: [&[f64; 3]; 5], slabs: &Slabs, enough: f64) -> Separator<[f64; 3]> {
-    let mut delimiter = Annulus::new(points, P).delimiter(P);
-    let wanted = min(delimiter.half_width, enough);
-    delimiter.reach = reach(points, P, &slabs.squared_widths(P), wanted);
-    delimiter.tolerance = min(delimiter.half_width, delimiter.reach);
-    Separator { delimiter, exception: P as u8 }
-}
-
-/// The partition of the standard delimiter. The others have the number of the vertex of the facet that is outside.
-const STANDARD: usize = 3;
-
-/// The points of each partition, first the side of three, then that of two: the vertices of the facet are 0 to 2, `c` and `d`
-/// are 3 and 4.
-const SIDES: [[usize; 5]; 4] = [[0, 3, 4, 1, 2], [1, 3, 4, 2, 0], [2, 3, 4, 0, 1], [0, 1, 2, 3, 4]];
-
-/// The least of what excludes the partitions other than the given one: a plane or, where that leaves less than
-/// wanted, a sphere if it leaves more.
-#[inline(always)]
-fn reach(points: [&[f64; 3]; 5], partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
-    let least = min(min(planes[0], planes[1]), min(planes[2], planes[3]));
-    let reach = half_of_square(least);
-    if reach >= wanted { reach } else { reach_by_spheres(points, partition, planes, wanted) }
-}
-
-#[cold]
-#[inline(never)]
-fn reach_by_spheres(points: [&[f64; 3]; 5], partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
-    let mut reach = f64::INFINITY;
-    for (k, &plane) in planes.iter().enumerate().filter(|(k, _)| *k != partition) {
-        let mut width = half_of_square(plane);
-        if width < wanted {
-            width = max(width, Annulus::new(points, k).delimiter(k).half_width);
-        }
-        reach = min(reach, width);
-    }
-    reach
-}
-
-/// Half the width of which this is the square, as a lower bound; infinite if that is.
-#[inline(always)]
-fn half_of_square(square: f64) -> f64 {
-    max(square.sqrt() * (0.5 - 8.0 * UNIT) - LEAST, 0.0)
-}
-
-/// Five points around the point that is equidistant from the three on one side and from the two on the other.
-struct Annulus {
-    centre: [f64; 3],
-    /// Squared distances from the centre.
-    three: [f64; 3],
-    two: [f64; 2],
-}
-
-impl Annulus {
-    #[inline(always)]
-    fn new(points: [&[f64; 3]; 5], partition: usize) -> Self {
-        let [o, f, g, c, d] = SIDES[partition].map(|i| points[i]);
-        let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
-        let (p, q) = (minus(c, o), minus(d, o));
-        // u·x = |u|² / 2, v·x = |v|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
-        let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
-        let scale = 0.5 / dot(&u, &vw);
-        let (uu, vv) = (dot(&u, &u), dot(&v, &v));
-        let ws = w[0] * (p[0] + q[0]) + w[1] * (p[1] + q[1]) + w[2] * (p[2] + q[2]);
-        let centre: [f64; 3] = std::array::from_fn(|k| o[k] + (uu * vw[k] + vv * wu[k] + ws * uv[k]) * scale);
-        Annulus {
-            centre,
-            three: [o, f, g].map(|p| squared_distance(&centre, p)),
-            two: [c, d].map(|p| squared_distance(&centre, p)),
-        }
-    }
-
-    /// The sphere in the middle, if it has the right side inside: the side of two but in the standard partition.
-    #[inline(always)]
-    fn delimiter(&self, partition: usize) -> Delimiter<[f64; 3]> {
-        let Annulus { centre, three: [a, b, c], two: [d, e] } = *self;
-        let (inner, outer) = if partition == STANDARD {
-            (max(max(a, b), c), min(d, e))
-        } else {
-            (max(d, e), min(min(a, b), c))
-        };
-        let (radius, half_width) = middle::<3>(inner, outer);
-        Delimiter { centre, radius, half_width, reach: 0.0, tolerance: 0.0 }
-    }
-}
-
-/// The slabs parallel to the line `cd` and to one edge of the facet each.
-struct Slabs {
-    /// By the vertex opposite the edge. Heights are above the edge, in units of 1 / |normal|.
-    normals: [[f64; 3]; 3],
-    /// Height of the line.
-    heights: [f64; 3],
-    /// Height of the vertex: six times the volume of both cells.
-    volume: f64,
-    /// Error bound of heights.
-    bound: f64,
-    /// Error bound of squared norms of normals.
-    blur: f64,
-}
-
-impl Slabs {
-    #[inline(always)]
-    fn new(points: [&[f64; 3]; 5]) -> Self {
-        let [o, f, g, c, d] = points;
-        let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
-        let normals = [cross(&minus(g, f), &w), cross(&v, &w), cross(&w, &u)];
-        let volume = dot(&u, &normals[1]);
-        let heights =
-            [-dot(&minus(c, f), &normals[0]), dot(&minus(c, g), &normals[1]), dot(&minus(c, o), &normals[2])];
-        let sign = 1f64.copysign(volume);
-        let extents = extents(points);
-        let square = largest(extents) * largest(extents);
-        Slabs {
-            normals,
-            heights: heights.map(|height| height * sign),
-            volume: volume.abs(),
-            bound: ORIENT_3D * (extents[0] * extents[1] * extents[2]) + LEAST_DETERMINANT,
-            // (|n| + CROSS square)², where |n| is below 3.47 square.
-            blur: (7.0 * CROSS) * (square * square) + LEAST * LEAST,
-        }
-    }
-
-    /// The partition by the signs of the affine dependency.
-    #[inline(always)]
-    fn partition(&self) -> usize {
-        const FIRST: [u8; 8] = [3, 0, 1, 0, 2, 0, 1, 0];
-        let [x, y, z] = self.heights.map(|height| usize::from(height < 0.0));
-        usize::from(FIRST[x + 2 * y + 4 * z])
-    }
-
-    /// Lower bounds, to 16 u, of the squared widths of the slabs that exclude the partitions; 0 for a partition whose slab does
-    /// not separate its sides, infinity for the given one.
-    #[inline(always)]
-    fn squared_widths(&self, partition: usize) -> [f64; 4] {
-        let mut widths = [0.0; 4];
-        // The width of the slab of the given partition, if it has one, is that of the standard partition: a negative
-        // height has the line beyond the edge, and the slab separates it from the whole facet.
-        for k in 0..3 {
-            let n = &self.normals[k];
-            let height = max(min(self.heights[k].abs(), self.volume) - self.bound, 0.0);
-            let width = height / (dot(n, n) + self.blur) * height;
-            widths[k] = if self.heights[k] > 0.0 { width } else { 0.0 };
-            widths[3] = if partition == k { width } else { widths[3] };
-        }
-        widths[partition] = f64::INFINITY;
-        widths
-    }
+    let inner = square_between(&centre, o).max(square_between(&centre, f));
+    let outer = square_between(&centre, c).min(square_between(&centre, d));
+    let (radius, half_width) = middle::<T, 2>(inner, outer);
+    (centre, radius, half_width)
 }
 
 /// Radius of the sphere in the middle and certified half-width, from the greatest squared distance of points inside
 /// and the least of points outside.
 #[inline(always)]
-fn middle<const D: usize>(inner: f64, outer: f64) -> (f64, f64) {
+pub(super) fn middle<T: Real, const D: usize>(inner: T, outer: T) -> (T, T) {
     let (r, big) = (inner.sqrt(), outer.sqrt());
-    let radius = 0.5 * (r + big);
-    let half_width = min(radius - r, big - radius) - (big * const { half_width_error(D) } + 2.0 * LEAST);
-    (radius, if half_width > 0.0 { half_width } else { 0.0 })
+    let radius = T::splat(0.5) * (r + big);
+    let lost = big * T::splat(const { half_width_error(D) }) + T::splat(2.0 * LEAST);
+    let half_width = (radius - r).min(big - radius) - lost;
+    // Also for NaN.
+    (radius, half_width.max(T::splat(0.0)))
 }
 
 /// Certified lower bound of the tolerance of the orientation of a triangle: half its least height. 0 unless the triangle
@@ -431,7 +280,7 @@ pub fn orientation_tolerance2d([a, b, c]: [&[f64; 2]; 3]) -> f64 {
     let volume = u[0] * v[1] - u[1] * v[0];
     let [x, y] = extents([a, b, c]);
     let bound = ORIENT_2D * (x * y) + LEAST_DETERMINANT;
-    let square = max(max(squared_distance(a, b), squared_distance(a, c)), squared_distance(b, c));
+    let square = Real::max(Real::max(squared_distance(a, b), squared_distance(a, c)), squared_distance(b, c));
     non_negative((volume - bound) / (square.sqrt() + LEAST) * HALF)
 }
 
@@ -447,7 +296,7 @@ pub fn orientation_tolerance3d([a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
     let plus = |p: &[f64; 3], q: &[f64; 3]| [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
     let sum = plus(&uv, &vw);
     let normals = [uv, vw, wu, sum, plus(&vw, &wu), plus(&wu, &uv), plus(&sum, &wu)];
-    let square = normals.iter().fold(0.0, |square, n| max(square, dot(n, n)));
+    let square = normals.iter().fold(0.0, |square, n| Real::max(square, dot(n, n)));
     let largest = largest(extents);
     non_negative((volume - bound) / (square.sqrt() + (CROSS_SUM * (largest * largest) + LEAST)) * HALF)
 }
@@ -458,28 +307,17 @@ fn non_negative(x: f64) -> f64 {
     if x > 0.0 && x < f64::INFINITY { x } else { 0.0 }
 }
 
-// One instruction each, unlike those of `f64` with their regard for NaN.
 #[inline(always)]
-fn min(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn max(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn minus(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+pub(super) fn minus<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
 #[inline(always)]
-fn dot(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+pub(super) fn dot<T: Real>(p: &[T; 3], q: &[T; 3]) -> T {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
 
 #[inline(always)]
-fn cross(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
+pub(super) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }

@@ -1,0 +1,227 @@
+//! Arithmetic on one number or on four at a time, with the same roundings.
+//!
+//! What is written over [`Real`] compiles to scalar code for `f64`, and to one instruction for four numbers in functions that
+//! may use AVX2. Rust contracts no operations, so each of the four is bit for bit what `f64` gives.
+
+#![allow(unsafe_code)]
+
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
+
+/// Numbers with the roundings of `f64`.
+pub(super) trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// Answers to a comparison.
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+    /// The same number in all lanes.
+    fn splat(x: f64) -> Self;
+    fn sqrt(self) -> Self;
+    fn abs(self) -> Self;
+    fn is_less(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask is set, `no` elsewhere.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    // One instruction each, unlike those of `f64` with their regard for NaN.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(self.is_less(other), self, other)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(other.is_less(self), self, other)
+    }
+}
+
+impl Real for f64 {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(x: f64) -> f64 {
+        x
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn is_less(self, other: f64) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn select(mask: bool, yes: f64, no: f64) -> f64 {
+        if mask { yes } else { no }
+    }
+}
+
+/// Bi-cells treated at a time.
+pub const LANES: usize = 4;
+
+/// A number for each lane, as in memory.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(32))]
+struct Stored([f64; LANES]);
+
+/// The points of as many bi-cells as there are lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct BiCells<const D: usize, const P: usize>([[Stored; D]; P]);
+
+impl<const D: usize, const P: usize> Default for BiCells<D, P> {
+    fn default() -> Self {
+        BiCells([[Stored::default(); D]; P])
+    }
+}
+
+impl<const D: usize, const P: usize> BiCells<D, P> {
+    /// Sets the bi-cell of a lane, below [`LANES`]: the vertices of the facet, then the opposing ones.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, points: [&[f64; D]; P]) {
+        for (stored, p) in self.0.iter_mut().zip(points) {
+            for (stored, &x) in stored.iter_mut().zip(p) {
+                stored.0[lane] = x;
+            }
+        }
+    }
+
+    /// The bi-cell of a lane.
+    pub(super) fn lane(&self, lane: usize) -> [[f64; D]; P] {
+        self.0.map(|p| p.map(|stored| stored.0[lane]))
+    }
+}
+
+/// Four numbers at a time, by AVX2.
+#[cfg(target_arch = "x86_64")]
+pub(super) mod avx2 {
+    use super::{BiCells, LANES, Real, Stored};
+    use std::arch::x86_64::*;
+    use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
+
+    /// Whether the processor has it. Nothing else of this module may be used if it has not.
+    #[inline(always)]
+    pub(in super::super) fn is_there() -> bool {
+        is_x86_feature_detected!("avx2")
+    }
+
+    /// Four numbers, or, as a mask, all bits set or none in each.
+    #[derive(Clone, Copy)]
+    pub(in super::super) struct Lanes(__m256d);
+
+    impl Lanes {
+        #[inline(always)]
+        pub(in super::super) fn load(x: &[f64; LANES]) -> Self {
+            // SAFETY: AVX2 is there; the address is that of four numbers.
+            Lanes(unsafe { _mm256_loadu_pd(x.as_ptr()) })
+        }
+
+        #[inline(always)]
+        pub(in super::super) fn store(self) -> [f64; LANES] {
+            let mut x = Stored::default();
+            // SAFETY: AVX2 is there; the address is that of four numbers, aligned.
+            unsafe { _mm256_store_pd(x.0.as_mut_ptr(), self.0) };
+            x.0
+        }
+
+        /// One bit for each lane of a mask.
+        #[inline(always)]
+        pub(in super::super) fn bits(self) -> u32 {
+            // SAFETY: AVX2 is there.
+            unsafe { _mm256_movemask_pd(self.0) as u32 }
+        }
+    }
+
+    impl<const D: usize, const P: usize> BiCells<D, P> {
+        /// The points, in lanes.
+        #[inline(always)]
+        pub(in super::super) fn lanes(&self) -> [[Lanes; D]; P] {
+            let mut lanes = [[Lanes::splat(0.0); D]; P];
+            for (lanes, p) in lanes.iter_mut().zip(&self.0) {
+                for (lanes, stored) in lanes.iter_mut().zip(p) {
+                    *lanes = Lanes::load(&stored.0);
+                }
+            }
+            lanes
+        }
+    }
+
+    macro_rules! operators {
+        ($($trait:ident $name:ident $intrinsic:ident),*) => {
+            $(impl $trait for Lanes {
+                type Output = Lanes;
+
+                #[inline(always)]
+                fn $name(self, other: Lanes) -> Lanes {
+                    // SAFETY: AVX2 is there.
+                    Lanes(unsafe { $intrinsic(self.0, other.0) })
+                }
+            })*
+        };
+    }
+    operators!(
+        Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd,
+        BitAnd bitand _mm256_and_pd, BitOr bitor _mm256_or_pd
+    );
+
+    impl Not for Lanes {
+        type Output = Lanes;
+
+        #[inline(always)]
+        fn not(self) -> Lanes {
+            // SAFETY: AVX2 is there.
+            Lanes(unsafe { _mm256_xor_pd(self.0, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))) })
+        }
+    }
+
+    impl Real for Lanes {
+        type Mask = Lanes;
+
+        #[inline(always)]
+        fn splat(x: f64) -> Lanes {
+            // SAFETY: AVX2 is there.
+            Lanes(unsafe { _mm256_set1_pd(x) })
+        }
+
+        #[inline(always)]
+        fn sqrt(self) -> Lanes {
+            // SAFETY: AVX2 is there.
+            Lanes(unsafe { _mm256_sqrt_pd(self.0) })
+        }
+
+        #[inline(always)]
+        fn abs(self) -> Lanes {
+            // SAFETY: AVX2 is there.
+            Lanes(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+        }
+
+        #[inline(always)]
+        fn is_less(self, other: Lanes) -> Lanes {
+            // SAFETY: AVX2 is there.
+            Lanes(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn select(mask: Lanes, yes: Lanes, no: Lanes) -> Lanes {
+            // SAFETY: AVX2 is there.
+            Lanes(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+        }
+
+        #[inline(always)]
+        fn min(self, other: Lanes) -> Lanes {
+            // SAFETY: AVX2 is there. Gives the second number unless the first is less.
+            Lanes(unsafe { _mm256_min_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn max(self, other: Lanes) -> Lanes {
+            // SAFETY: AVX2 is there. Gives the second number unless the first is greater.
+            Lanes(unsafe { _mm256_max_pd(self.0, other.0) })
+        }
+    }
+}

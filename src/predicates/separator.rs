@@ -1,0 +1,265 @@
+//! Delimiters and separators of space: see [`tolerance`](super::tolerance).
+
+#![allow(unsafe_code)]
+
+#[cfg(target_arch = "x86_64")]
+use super::lanes::avx2;
+use super::lanes::{BiCells, LANES, Real};
+use super::tolerance::{
+    CROSS, Delimiter, LEAST, LEAST_DETERMINANT, ORIENT_3D, UNIT, cross, dot, middle, minus, square_between,
+};
+
+/// The points of a bi-cell: the vertices of the facet, then the opposing ones, `c` and `d`.
+type Points<T> = [[T; 3]; 5];
+
+/// Standard delimiter and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
+///
+/// [`separator3d`] is better where the report's sphere is not the one that limits the tolerance.
+#[inline]
+pub fn delimiter3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3]) -> Delimiter<[f64; 3]> {
+    let points = [*facet[0], *facet[1], *facet[2], *c, *d];
+    separate::<f64, false>(&points, f64::INFINITY).delimiter(&points, STANDARD, f64::INFINITY)
+}
+
+/// The delimiter that decides about a bi-cell: with the interior facet inside, but for one of its vertices where the line
+/// `cd` passes the facet beyond the edge opposite that vertex; the opposing vertices and that one are outside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separator<P> {
+    /// The sphere, and how far the points may move before another one decides.
+    pub delimiter: Delimiter<P>,
+    /// Index of the vertex of the facet that is outside, D if none is.
+    pub exception: u8,
+}
+
+/// Separator and tolerance of the bi-cell of a facet with opposing vertices `c` and `d`.
+///
+/// A tolerance of at least `enough` is not improved any further.
+#[inline]
+pub fn separator3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3], enough: f64) -> Separator<[f64; 3]> {
+    let points = [*facet[0], *facet[1], *facet[2], *c, *d];
+    let separated = separate::<f64, true>(&points, enough);
+    let exception = separated.outside.iter().position(|&k| k).unwrap_or(STANDARD);
+    Separator { delimiter: separated.delimiter(&points, exception, enough), exception: exception as u8 }
+}
+
+/// Tolerances of [`LANES`] bi-cells, as [`separator3d`] has them.
+#[inline]
+pub fn tolerances3d(bicells: &BiCells<3, 5>, enough: [f64; LANES]) -> [f64; LANES] {
+    #[cfg(target_arch = "x86_64")]
+    if avx2::is_there() {
+        // SAFETY: it is.
+        return unsafe { tolerances_by_avx2(bicells, &enough) };
+    }
+    std::array::from_fn(|i| {
+        let [o, f, g, c, d] = bicells.lane(i);
+        separator3d(&c, [&o, &f, &g], &d, enough[i]).delimiter.tolerance
+    })
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn tolerances_by_avx2(bicells: &BiCells<3, 5>, enough: &[f64; LANES]) -> [f64; LANES] {
+    let separated = separate::<avx2::Lanes, true>(&bicells.lanes(), avx2::Lanes::load(enough));
+    let mut tolerances = separated.half_width.min(separated.reach).store();
+    let is_enough = separated.is_enough.bits();
+    if is_enough != (1 << LANES) - 1 {
+        let [x, y, z] = separated.outside;
+        let outside = [x.bits(), y.bits(), z.bits()];
+        let [o, f, g, s] = separated.planes;
+        let planes = [o.store(), f.store(), g.store(), s.store()];
+        let half_widths = separated.half_width.store();
+        for i in (0..LANES).filter(|i| is_enough >> i & 1 == 0) {
+            let partition = outside.iter().position(|bits| bits >> i & 1 != 0).unwrap_or(STANDARD);
+            let wanted = Real::min(half_widths[i], enough[i]);
+            let reach = reach_by_spheres(&bicells.lane(i), partition, &planes.map(|p| p[i]), wanted);
+            tolerances[i] = Real::min(half_widths[i], reach);
+        }
+    }
+    tolerances
+}
+
+/// The partition of the standard delimiter. The others have the number of the vertex of the facet that is outside.
+const STANDARD: usize = 3;
+
+/// The points of each partition, first the side of three, then that of two: the vertices of the facet are 0 to 2, `c` and `d`
+/// are 3 and 4.
+const SIDES: [[usize; 5]; 4] = [[0, 3, 4, 1, 2], [1, 3, 4, 2, 0], [2, 3, 4, 0, 1], [0, 1, 2, 3, 4]];
+
+/// The sphere of one partition, and the planes that exclude the others.
+struct Separated<T: Real> {
+    centre: [T; 3],
+    radius: T,
+    half_width: T,
+    /// Whether the partition is that of each vertex of the facet; the standard one if none is set.
+    outside: [T::Mask; 3],
+    /// Lower bounds, to 16 u, of the squared widths of the slabs that exclude the partitions; 0 for a partition whose slab
+    /// does not separate its sides, infinity for the given one.
+    planes: [T; 4],
+    /// What the planes leave.
+    reach: T,
+    /// Whether that is as much as wanted.
+    is_enough: T::Mask,
+}
+
+/// Separates a bi-cell by the signs of its affine dependency, or as the standard partition has it.
+#[inline(always)]
+fn separate<T: Real, const BY_SIGNS: bool>(points: &Points<T>, enough: T) -> Separated<T> {
+    let slabs = Slabs::new(points);
+    let outside = if BY_SIGNS { slabs.exception() } else { [slabs.nowhere(); 3] };
+    let [o, f, g, c, d] = points;
+    let is_standard = !(outside[0] | outside[1] | outside[2]);
+    let pick = |mask, yes: &[T; 3], no: &[T; 3]| {
+        [T::select(mask, yes[0], no[0]), T::select(mask, yes[1], no[1]), T::select(mask, yes[2], no[2])]
+    };
+    let choose = |first, second, third, standard| {
+        pick(outside[0], first, &pick(outside[1], second, &pick(outside[2], third, standard)))
+    };
+    let three = [choose(o, f, g, o), pick(is_standard, f, c), pick(is_standard, g, d)];
+    let two = [choose(f, g, o, c), choose(g, o, f, d)];
+    let (centre, radius, half_width) = annulus(&three, &two, is_standard);
+    let planes = slabs.squared_widths(outside, is_standard);
+    let reach = half_of_square(planes[0].min(planes[1]).min(planes[2].min(planes[3])));
+    let is_enough = !reach.is_less(half_width.min(enough));
+    Separated { centre, radius, half_width, outside, planes, reach, is_enough }
+}
+
+impl Separated<f64> {
+    /// With the reach that spheres leave where planes are not enough.
+    #[inline(always)]
+    fn delimiter(&self, points: &Points<f64>, partition: usize, enough: f64) -> Delimiter<[f64; 3]> {
+        let &Separated { centre, radius, half_width, ref planes, .. } = self;
+        let reach = if self.is_enough {
+            self.reach
+        } else {
+            reach_by_spheres(points, partition, planes, Real::min(half_width, enough))
+        };
+        Delimiter { centre, radius, half_width, reach, tolerance: Real::min(half_width, reach) }
+    }
+}
+
+/// The least of what excludes the partitions other than the given one: a plane or, where that leaves less than
+/// wanted, a sphere if it leaves more.
+#[cold]
+#[inline(never)]
+fn reach_by_spheres(points: &Points<f64>, partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
+    let mut reach = f64::INFINITY;
+    for (k, &plane) in planes.iter().enumerate().filter(|(k, _)| *k != partition) {
+        let mut width = half_of_square(plane);
+        if width < wanted {
+            let [three @ .., a, b] = SIDES[k].map(|i| points[i]);
+            width = Real::max(width, annulus(&three, &[a, b], k == STANDARD).2);
+        }
+        reach = Real::min(reach, width);
+    }
+    reach
+}
+
+/// Half the width of which this is the square, as a lower bound; infinite if that is.
+#[inline(always)]
+fn half_of_square<T: Real>(square: T) -> T {
+    (square.sqrt() * T::splat(0.5 - 8.0 * UNIT) - T::splat(LEAST)).max(T::splat(0.0))
+}
+
+/// Centre, radius and half-width of the sphere in the middle between those about the point that is equidistant from the
+/// three on one side and from the two on the other. The three are inside in the standard partition, the two in others.
+#[inline(always)]
+fn annulus<T: Real>(three: &[[T; 3]; 3], two: &[[T; 3]; 2], is_standard: T::Mask) -> ([T; 3], T, T) {
+    let ([o, f, g], [c, d]) = (three, two);
+    let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
+    let (p, q) = (minus(c, o), minus(d, o));
+    // u·x = |u|² / 2, v·x = |v|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
+    let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
+    let scale = T::splat(0.5) / dot(&u, &vw);
+    let (uu, vv) = (dot(&u, &u), dot(&v, &v));
+    let ws = w[0] * (p[0] + q[0]) + w[1] * (p[1] + q[1]) + w[2] * (p[2] + q[2]);
+    let coordinate = |k: usize| o[k] + (uu * vw[k] + vv * wu[k] + ws * uv[k]) * scale;
+    let centre = [coordinate(0), coordinate(1), coordinate(2)];
+    let from = |p| square_between(&centre, p);
+    let (a, b, e, x, y) = (from(o), from(f), from(g), from(c), from(d));
+    let inner = T::select(is_standard, a.max(b).max(e), x.max(y));
+    let outer = T::select(is_standard, x.min(y), a.min(b).min(e));
+    let (radius, half_width) = middle::<T, 3>(inner, outer);
+    (centre, radius, half_width)
+}
+
+/// Extent of the points' bounding box along an axis.
+#[inline(always)]
+fn extent<T: Real>([o, f, g, c, d]: &Points<T>, k: usize) -> T {
+    let upper = o[k].max(f[k]).max(g[k].max(c[k])).max(d[k]);
+    upper - o[k].min(f[k]).min(g[k].min(c[k])).min(d[k])
+}
+
+/// The slabs parallel to the line `cd` and to one edge of the facet each.
+struct Slabs<T> {
+    /// By the vertex opposite the edge. Heights are above the edge, in units of 1 / |normal|.
+    normals: [[T; 3]; 3],
+    /// Height of the line.
+    heights: [T; 3],
+    /// Height of the vertex: six times the volume of both cells.
+    volume: T,
+    /// Error bound of heights.
+    bound: T,
+    /// Error bound of squared norms of normals.
+    blur: T,
+}
+
+impl<T: Real> Slabs<T> {
+    #[inline(always)]
+    fn new(points: &Points<T>) -> Self {
+        let [o, f, g, c, d] = points;
+        let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
+        let normals = [cross(&minus(g, f), &w), cross(&v, &w), cross(&w, &u)];
+        let volume = dot(&u, &normals[1]);
+        let [x, y, z] =
+            [dot(&minus(f, c), &normals[0]), dot(&minus(c, g), &normals[1]), dot(&minus(c, o), &normals[2])];
+        let zero = T::splat(0.0);
+        let is_negative = volume.is_less(zero);
+        let above = |height| T::select(is_negative, zero - height, height);
+        let extents = [extent(points, 0), extent(points, 1), extent(points, 2)];
+        let largest = extents[0].max(extents[1]).max(extents[2]);
+        let square = largest * largest;
+        Slabs {
+            normals,
+            heights: [above(x), above(y), above(z)],
+            volume: volume.abs(),
+            bound: T::splat(ORIENT_3D) * (extents[0] * extents[1] * extents[2]) + T::splat(LEAST_DETERMINANT),
+            // (|n| + CROSS square)², where |n| is below 3.47 square.
+            blur: T::splat(7.0 * CROSS) * (square * square) + T::splat(LEAST * LEAST),
+        }
+    }
+
+    /// A mask that is nowhere set.
+    #[inline(always)]
+    fn nowhere(&self) -> T::Mask {
+        self.volume.is_less(T::splat(0.0))
+    }
+
+    /// The partition by the signs of the affine dependency: which vertex is outside.
+    #[inline(always)]
+    fn exception(&self) -> [T::Mask; 3] {
+        let zero = T::splat(0.0);
+        let is_beyond = |k: usize| self.heights[k].is_less(zero);
+        let (x, y, z) = (is_beyond(0), is_beyond(1), is_beyond(2));
+        [x, y & !x, z & !(x | y)]
+    }
+
+    /// As [`Separated::planes`].
+    #[inline(always)]
+    fn squared_widths(&self, outside: [T::Mask; 3], is_standard: T::Mask) -> [T; 4] {
+        let (zero, infinity) = (T::splat(0.0), T::splat(f64::INFINITY));
+        // The width of the slab of the given partition, if it has one, is that of the standard partition: a negative
+        // height has the line beyond the edge, and the slab separates it from the whole facet.
+        let mut standard = infinity;
+        let mut widths = [infinity; 4];
+        for k in 0..3 {
+            let n = &self.normals[k];
+            let height = (self.heights[k].abs().min(self.volume) - self.bound).max(zero);
+            let width = height / (dot(n, n) + self.blur) * height;
+            let separating = T::select(zero.is_less(self.heights[k]), width, zero);
+            widths[k] = T::select(outside[k], infinity, separating);
+            standard = T::select(outside[k], width, standard);
+        }
+        widths[3] = T::select(is_standard, infinity, standard);
+        widths
+    }
+}
