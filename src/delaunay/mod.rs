@@ -118,6 +118,11 @@ impl<G: Dimension> Delaunay<G> {
         &self.sites
     }
 
+    /// The same, to write places without any change to the cells.
+    pub(crate) fn sites_mut(&mut self) -> &mut [Site<G>] {
+        &mut self.sites
+    }
+
     /// The sites, as predicates read them.
     #[inline(always)]
     fn view(&self) -> site::Sites<'_, G> {
@@ -193,6 +198,16 @@ impl<G: Dimension> Delaunay<G> {
     #[inline(always)]
     pub fn set_point(&mut self, s: u32, point: G::Point) {
         self.sites[s as usize].point = point;
+    }
+
+    /// Least coordinates of the points for which the static filter is valid.
+    pub fn lower(&self) -> G::Point {
+        self.lower
+    }
+
+    /// Greatest coordinates of the points for which the static filter is valid.
+    pub fn upper(&self) -> G::Point {
+        self.upper
     }
 
     /// Makes the static filter valid for points in a box.

@@ -27,6 +27,7 @@ mod coincidence;
 mod commit;
 mod options;
 mod placement;
+mod prefetch;
 mod query;
 mod rebuilding;
 mod regions;

@@ -13,6 +13,7 @@
 //! reach are half the least width of their simplex.
 
 use super::bicell::BiCell;
+use super::prefetch::prefetch;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension};
@@ -30,8 +31,9 @@ pub(super) enum Filter {
     Both,
 }
 
-/// Fixed position and tolerance of a site.
+/// Fixed position and tolerance of a site, in one line of the cache.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 struct Fixed<G: Dimension> {
     point: G::Point,
     tolerance: f64,
@@ -153,6 +155,12 @@ impl<G: Dimension> Regions<G> {
         self.lower_batch(&mut batch);
         self.valid_for = Some(filter);
         Ok(())
+    }
+
+    /// The tolerance of a site is going to be asked for.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, s: usize) {
+        prefetch(&self.fixed, s);
     }
 
     /// Whether a site may move to `p` as far as its tolerance goes.

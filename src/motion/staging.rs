@@ -65,8 +65,10 @@ impl<G: Dimension> Staging<G> {
 
     /// Takes back all but the first `kept` moves.
     fn truncate(&mut self, kept: usize) {
-        for &v in &self.vertices[kept..] {
-            self.is_staged[v as usize] = false;
+        if kept == 0 && self.vertices.len() > self.is_staged.len() / 8 {
+            self.is_staged.fill(false);
+        } else {
+            self.vertices[kept..].iter().for_each(|&v| self.is_staged[v as usize] = false);
         }
         self.vertices.truncate(kept);
     }

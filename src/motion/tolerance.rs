@@ -26,6 +26,7 @@
 //! Cost: a test is a squared distance, or one for each bi-cell of the star; a queued vertex costs a placement and about
 //! 12 (plane) or 66 (space) delimiters and more for what the hole is filled with.
 
+use super::prefetch::prefetch;
 use super::regions::Filter;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
@@ -55,12 +56,61 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves the vertices that stay in their regions; the others are queued, behind them.
     fn accept_staged(&mut self, filter: Filter, report: &mut CommitReport) {
-        for k in 0..self.staging.vertices.len() {
-            if self.accept(self.staging.vertices[k], filter, report) {
-                self.staging.vertices.swap(self.staging.applied, k);
-                self.staging.applied += 1;
+        let mut vertices = std::mem::take(&mut self.staging.vertices);
+        if filter != Filter::SafeRegion && self.hidden.count() == 0 {
+            self.staging.applied = self.accept_within_tolerance(&mut vertices, report);
+        }
+        if filter != Filter::Tolerance || self.hidden.count() != 0 {
+            for k in self.staging.applied..vertices.len() {
+                if self.accept(vertices[k], filter, report) {
+                    vertices.swap(self.staging.applied, k);
+                    self.staging.applied += 1;
+                }
             }
         }
+        self.staging.vertices = vertices;
+    }
+
+    /// Moves the vertices that stay within their tolerance to the front and to their new positions, and counts them. None
+    /// may share its site.
+    ///
+    /// This loop is what a timestamp costs that changes nothing: it holds what it reads in registers, and asks for the sites
+    /// in advance, as they are in another order than the vertices.
+    fn accept_within_tolerance(&mut self, vertices: &mut [u32], report: &mut CommitReport) -> usize {
+        const AHEAD: usize = 24;
+        let (site_of, positions, regions) =
+            (&self.site_of[..], &mut self.staging.positions[..], &self.regions);
+        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
+        let sites = self.kernel.sites_mut();
+        let (mut applied, mut moved) = (0, 0);
+        for k in 0..vertices.len() {
+            if let Some(&next) = vertices.get(k + AHEAD) {
+                let s = site_of[next as usize] as usize;
+                prefetch(sites, s);
+                regions.prefetch(s);
+            }
+            let v = vertices[k];
+            let s = site_of[v as usize];
+            let p = &mut positions[v as usize];
+            if !regions.is_within_tolerance(s, p) {
+                continue;
+            }
+            for axis in 0..G::D {
+                lower[axis] = if p[axis] < lower[axis] { p[axis] } else { lower[axis] };
+                upper[axis] = if p[axis] > upper[axis] { p[axis] } else { upper[axis] };
+            }
+            let point = &mut sites[s as usize].point;
+            moved += u64::from(point != p);
+            std::mem::swap(point, p);
+            if applied < k {
+                vertices.swap(applied, k);
+            }
+            applied += 1;
+        }
+        self.kernel.cover(&lower, &upper);
+        report.moved += moved;
+        report.within_tolerance += applied as u64;
+        applied
     }
 
     /// Moves a vertex if it stays in its region.
@@ -71,19 +121,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.hidden.any_at(s) {
             return false;
         }
-        let within = filter != Filter::SafeRegion && self.regions.is_within_tolerance(s, &p);
-        let accepted =
-            within || filter != Filter::Tolerance && self.regions.is_in_safe_region(&mut self.kernel, s, &p);
-        if accepted {
-            report.moved += u64::from(self.exchange_position(vertex));
-            if within {
-                report.within_tolerance += 1;
-            } else {
-                report.within_safe_region += 1;
-            }
-            self.kernel.cover(&p, &p);
+        if filter != Filter::SafeRegion && self.regions.is_within_tolerance(s, &p) {
+            report.within_tolerance += 1;
+        } else if filter != Filter::Tolerance && self.regions.is_in_safe_region(&mut self.kernel, s, &p) {
+            report.within_safe_region += 1;
+        } else {
+            return false;
         }
-        accepted
+        self.kernel.cover(&p, &p);
+        report.moved += u64::from(self.exchange_position(vertex));
+        true
     }
 
     /// Moves one vertex at once, by the filter in force if there is one.

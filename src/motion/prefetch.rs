@@ -1,0 +1,16 @@
+//! A hint to the processor, for arrays that are read out of order.
+
+#![allow(unsafe_code)]
+
+/// Asks for an entry that is going to be used soon; any index will do.
+#[inline(always)]
+pub(super) fn prefetch<T>(array: &[T], at: usize) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a prefetch is a hint: it reads nothing that can be seen, and no address is wrong.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(array.as_ptr().wrapping_add(at).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (array, at);
+}
