@@ -281,6 +281,8 @@ typedef struct deldrift_options {
 } deldrift_options;
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
+///
+/// A vertex that leaves its tolerance or safe region is relocated once; none ever has to be a second time.
 typedef struct deldrift_commit_report {
     /// Number of the timestamp reached: 0 at creation, one more at each commit.
     uint64_t timestamp;
@@ -304,8 +306,10 @@ typedef struct deldrift_commit_report {
     uint64_t tolerances;
     /// Orientations and in-sphere tests of the stars of relocated vertices.
     uint64_t certificates;
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them.
+    uint64_t exact_calls;
     /// Zero; later versions may count more.
-    uint64_t reserved[5];
+    uint64_t reserved[4];
 } deldrift_commit_report;
 
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid

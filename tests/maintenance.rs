@@ -118,3 +118,33 @@ fn maintenance_in_the_plane_matches_fresh_builds() {
 fn maintenance_in_space_matches_fresh_builds() {
     all_agree::<Space>();
 }
+
+/// Exact arithmetic is for ties: all fours (eights) of a grid, none of random points.
+#[test]
+fn exact_signs_are_counted() {
+    fn count<G: Dimension>(kind: u64, algorithm: Algorithm) -> u64 {
+        let points: Vec<G::Point> =
+            positions::<G>(kind, 1000, &mut Rng::new(kind)).into_iter().flatten().collect();
+        let options = Options { algorithm, ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(&points, options).expect("a build");
+        assert_eq!(t.statistics().exact_calls, 0);
+        // Half of the way to a neighbour on the grid makes ties there.
+        let mut half = points[500];
+        for k in 0..G::D {
+            half[k] = 0.5 * (half[k] + points[501][k]);
+        }
+        t.move_vertices(&[500], &[half]).expect("a move");
+        let report = t.commit_timestamp().expect("a commit");
+        assert_eq!(report.exact_calls, t.statistics().exact_calls);
+        t.relocate_vertex(500, &points[500]).expect("a relocation");
+        let v = t.insert_vertex(&points[3]).expect("an insertion");
+        t.remove_vertex(v).expect("a removal");
+        assert!(t.statistics().exact_calls >= report.exact_calls);
+        report.exact_calls
+    }
+    for (algorithm, least) in [(Algorithm::Rebuilding, 1000), (Algorithm::Placement, 1)] {
+        let of_random = count::<Plane>(0, algorithm).max(count::<Space>(0, algorithm));
+        let of_grids = count::<Plane>(1, algorithm).min(count::<Space>(1, algorithm));
+        assert!(of_random <= 2 && of_grids >= least, "{algorithm:?}: {of_random} and {of_grids}");
+    }
+}

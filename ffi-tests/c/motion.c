@@ -282,6 +282,24 @@ static void relocated_stars_are_certified(void) {
     deldrift_destroy(t);
 }
 
+// The points of a grid are cocircular by fours; the same points out of line are not.
+static void ties_are_counted(void) {
+    static const double grid[] = {0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2, 2, 2};
+    static const double others[] = {0, 0, 1.1, -.2, 2.3, .1, -.4, 1.2, 1.3, .7, 2.4, 1.4, .3, 2.2, .9, 2.6, 1.8, 2.1};
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.algorithm = DELDRIFT_REBUILDING;
+    for (int is_grid = 0; is_grid < 2; is_grid++) {
+        deldrift_triangulation *t = create(2, is_grid ? grid : others, 9, &options);
+        deldrift_commit_report report, sums;
+        OK(deldrift_commit_timestamp(t, &report));
+        CHECK((report.exact_calls > 0) == is_grid);
+        OK(deldrift_statistics(t, &sums));
+        CHECK(sums.exact_calls == report.exact_calls);
+        deldrift_destroy(t);
+    }
+}
+
 int main(void) {
     staged_moves_are_seen_after_the_commit();
     moves_are_staged_all_or_none();
@@ -296,5 +314,6 @@ int main(void) {
     reports_count_what_was_within(DELDRIFT_SAFE_REGION, false, true);
     reports_count_what_was_within(DELDRIFT_SAFE_REGION_TOLERANCE, true, false);
     relocated_stars_are_certified();
+    ties_are_counted();
     return 0;
 }

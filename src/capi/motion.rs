@@ -11,6 +11,8 @@ use crate::error::Error;
 use crate::motion::{CommitReport, MovingTriangulation};
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
+///
+/// A vertex that leaves its tolerance or safe region is relocated once; none ever has to be a second time.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct deldrift_commit_report {
@@ -36,8 +38,10 @@ pub struct deldrift_commit_report {
     pub tolerances: u64,
     /// Orientations and in-sphere tests of the stars of relocated vertices.
     pub certificates: u64,
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them.
+    pub exact_calls: u64,
     /// Zero; later versions may count more.
-    pub reserved: [u64; 5],
+    pub reserved: [u64; 4],
 }
 
 impl From<CommitReport> for deldrift_commit_report {
@@ -54,7 +58,8 @@ impl From<CommitReport> for deldrift_commit_report {
             within_safe_region: report.within_safe_region,
             tolerances: report.tolerances,
             certificates: report.certificates,
-            reserved: [0; 5],
+            exact_calls: report.exact_calls,
+            reserved: [0; 4],
         }
     }
 }

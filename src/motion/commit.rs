@@ -22,13 +22,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         let baseline = self.options.track_changes.then(|| Baseline::of(self));
         self.forget_views();
         let mut report = CommitReport::default();
-        let before = self.kernel.certificates();
+        let before = self.evaluations();
         self.staging.applied = 0;
         if let Err(error) = self.advance(&mut report) {
             self.go_back()?;
             return Err(error);
         }
-        report.certificates = self.kernel.certificates() - before;
+        self.enter_evaluations(&mut report, before);
         self.staging.clear();
         self.baseline = baseline;
         self.statistics.timestamp += 1;

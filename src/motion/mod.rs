@@ -46,6 +46,7 @@ pub use query::Location;
 use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
+use crate::predicates::exact_calls;
 use cells::{Baseline, Cells};
 use coincidence::Hidden;
 use regions::Regions;
@@ -132,7 +133,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.reject_occupied(vertex, &q)?;
         self.forget_views();
-        let before = self.kernel.certificates();
+        let before = self.evaluations();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };
         if let Err(error) = self.relocate_filtered(vertex, &q, &mut report) {
             self.spread_hidden()?;
@@ -140,7 +141,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.rebuild_quietly()?;
             return Err(error);
         }
-        report.certificates = self.kernel.certificates() - before;
+        self.enter_evaluations(&mut report, before);
         self.count(report);
         Ok(())
     }
@@ -161,6 +162,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let s = self.kernel.add_site(q, id)?;
         self.site_of.push(s);
         self.n_present += 1;
+        let before = self.evaluations();
         let mut report = CommitReport::default();
         let inserted = self.with_regions(&mut report, |t, _| {
             let inserted = t.kernel.insert_site(s, NONE)?;
@@ -179,6 +181,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(error);
         }
         self.staging.grow(self.site_of.len());
+        self.enter_evaluations(&mut report, before);
         self.count(report);
         Ok(id)
     }
@@ -190,6 +193,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
         self.forget_views();
+        let before = self.evaluations();
         let mut report = CommitReport::default();
         let removed = self.with_regions(&mut report, |t, _| {
             if !t.hidden.any_at(s) {
@@ -203,6 +207,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.site_of[vertex as usize] = NONE;
         self.n_present -= 1;
         self.staging.unstage(vertex);
+        self.enter_evaluations(&mut report, before);
         self.count(report);
         removed
     }
@@ -232,6 +237,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
+    /// Certificates and exact signs evaluated so far.
+    fn evaluations(&self) -> [u64; 2] {
+        [self.kernel.certificates(), exact_calls()]
+    }
+
+    /// Enters what was evaluated since then.
+    fn enter_evaluations(&self, report: &mut CommitReport, [certificates, exact]: [u64; 2]) {
+        report.certificates = self.kernel.certificates() - certificates;
+        report.exact_calls = exact_calls() - exact;
+    }
+
     /// Adds what was done to the sums.
     fn count(&mut self, report: CommitReport) {
         let sum = &mut self.statistics;
@@ -244,6 +260,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.within_safe_region += report.within_safe_region;
         sum.tolerances += report.tolerances;
         sum.certificates += report.certificates;
+        sum.exact_calls += report.exact_calls;
         sum.coincident = self.hidden.count() as u64;
     }
 }

@@ -103,6 +103,9 @@ impl fmt::Debug for Options {
 
 /// What one commit did; summed over all commits and immediate calls in
 /// [`statistics`](super::MovingTriangulation::statistics).
+///
+/// The report counts how often a vertex joins the queue again. None ever does here, as relocations are made at the moving
+/// positions, so there is no counter for it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CommitReport {
     /// Number of the timestamp reached: 0 at creation, one more at each commit.
@@ -125,6 +128,8 @@ pub struct CommitReport {
     pub tolerances: u64,
     /// Certificates evaluated: orientations and in-sphere tests of stars whose vertex was relocated.
     pub certificates: u64,
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic. Ties are among them.
+    pub exact_calls: u64,
     /// Hidden vertices at the end: those that are at the place of a vertex with a lower id.
     pub coincident: u64,
 }

@@ -80,6 +80,7 @@ mod plane;
 mod separator;
 mod space;
 mod sphere;
+mod tally;
 mod tolerance;
 
 pub use distance::{compare_distance, is_collinear3};
@@ -91,6 +92,7 @@ pub use plane::{incircle, orient2d};
 pub use separator::{Separator, delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{Circle, Sphere, circle, half_space, side_of_circle, side_of_sphere, sphere};
+pub use tally::exact_calls;
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside, is_certainly_outside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,

@@ -3,6 +3,7 @@
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
 use super::integer::{Scaled, Wide};
+use super::tally;
 use robust::Coord;
 
 /// Twice the signed area of the triangle `abc`: positive when counter-clockwise, zero when collinear.
@@ -32,6 +33,7 @@ fn orient2d_uncertain(det: f64, points: [&[f64; 2]; 3]) -> f64 {
     if is_certain(det, orient2d_bound(extents), extents) {
         return det;
     }
+    tally::count();
     if !has_room(points, 2) {
         return big::orient2d(det, points);
     }
@@ -46,6 +48,7 @@ fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
     if is_certain(det, incircle_bound(extents), extents) {
         return det;
     }
+    tally::count();
     let [origin, others @ ..] = points;
     if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
         return scaled.value(incircle_integer(&scaled.differences), 4);

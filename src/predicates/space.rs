@@ -6,6 +6,7 @@
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
 use super::integer::{Scaled, Wide};
+use super::tally;
 use robust::Coord3D;
 
 /// Six times the signed volume of the tetrahedron `abcd`, the determinant of `b − a`, `c − a`, `d − a`; zero
@@ -44,6 +45,7 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
     if is_certain(det, orient3d_bound(extents), extents) {
         return det;
     }
+    tally::count();
     let [origin, others @ ..] = points;
     if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
         return scaled.value(orient3d_integer(&scaled.differences), 3);
@@ -63,6 +65,7 @@ fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     if is_certain(det, insphere_bound(extents), extents) {
         return det;
     }
+    tally::count();
     let [origin, others @ ..] = points;
     if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
         return scaled.value(insphere_integer(&scaled.differences), 5);
