@@ -593,6 +593,60 @@ fn a_vertex_may_jump_over_a_delimiter() {
     assert!(is_path_certainly_outside(&delimiter.centre, delimiter.radius, &p[2], &[0.5, 2.1]));
 }
 
+/// Whether all points of the segment are farther from the centre than `radius`, and whether the nearer end is so by a quarter
+/// of the squared length, what [`is_path_certainly_outside`] asks for, with 1e-14 to spare.
+fn is_path_outside<const D: usize>(centre: &[f64; D], radius: f64, ends: [&[f64; D]; 2]) -> (bool, bool) {
+    let numbers: Vec<f64> = centre.iter().chain(ends[0]).chain(ends[1]).chain(&[radius]).copied().collect();
+    let (all, _) = integers(&numbers);
+    let point = |i: usize| all[i * D..][..D].to_vec();
+    let (to_a, to_b) = (minus(&point(1), &point(0)), minus(&point(2), &point(0)));
+    let (way, r2) = (minus(&to_b, &to_a), &all[3 * D] * &all[3 * D]);
+    let (aa, bb, ww) = (dot(&to_a, &to_a), dot(&to_b, &to_b), dot(&way, &way));
+    // The foot of the perpendicular is the fraction -a·w / w·w of the way.
+    let along = -dot(&to_a, &way);
+    let outside = aa > r2
+        && bb > r2
+        && (!is_positive(&along) || along >= ww || &aa * &ww - &along * &along > &r2 * &ww);
+    let part = |x: &BigInt| x / BigInt::from(10u64.pow(14));
+    let least: BigInt = aa.min(bb) * 4;
+    (outside, &least - part(&least) > ww + r2 * 4)
+}
+
+fn paths_are_certified<const D: usize>(n: usize) {
+    let rng = &mut Rng::new(11);
+    let (mut n_certain, mut n_jumps) = (0, 0);
+    for (kind, [centre, from, mut to, rim]) in bicells::<D, 4>(n, 10) {
+        if rng.one_in(3) {
+            // To the other side, where the plain test says yes.
+            to = from_fn(|k| 2.0 * centre[k] - from[k] + 0.1 * (to[k] - centre[k]));
+        }
+        let square =
+            [&from, &to].map(|p| squared_distance(&centre, p)).into_iter().fold(f64::INFINITY, f64::min);
+        let limit = (square - 0.25 * squared_distance(&from, &to)).max(0.0).sqrt();
+        let radius = match rng.below(4) {
+            0 => squared_distance(&centre, &rim).sqrt(),
+            1 => limit,
+            2 => limit * (1.0 + 4.0 * f64::EPSILON * signed(rng)),
+            _ => square.sqrt() * rng.unit(),
+        };
+        let certain = is_path_certainly_outside(&centre, radius, &from, &to);
+        let (outside, with_room) = is_path_outside(&centre, radius, [&from, &to]);
+        assert!(!certain || outside, "{kind:?} {centre:?} {radius} {from:?} {to:?}");
+        assert!(certain || !with_room || square < 1e-250, "{kind:?} {centre:?} {radius} {from:?} {to:?}");
+        n_certain += usize::from(certain);
+        let ends = [&from, &to].map(|p| is_certainly_outside(&centre, radius, p));
+        n_jumps += usize::from(ends == [true, true] && !outside);
+    }
+    assert!(n_certain > n / 20 && n_jumps > n / 20, "{n_certain} certain, {n_jumps} jumps of {n}");
+}
+
+/// No path is taken for outside that is not, and nearly all are that the rule of [`is_path_certainly_outside`] allows.
+#[test]
+fn paths_outside_spheres_are_certified() {
+    paths_are_certified::<2>(60_000);
+    paths_are_certified::<3>(60_000);
+}
+
 /// A simplex moves by just under its tolerance, towards the middle of every slab: it stays positive. And by a little more
 /// than that, where the slab is the narrowest: it does not.
 fn orientation_is_certified<const D: usize, const N: usize>(
