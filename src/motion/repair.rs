@@ -65,6 +65,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut repair = std::mem::take(&mut self.repair);
         let mended = self.mend(&mut repair, report);
         self.settle(&mut repair);
+        report.moved += repair.n_new as u64;
         self.repair = repair;
         if !mended? {
             return self.commit_by_rebuilding(self.staging.applied, report);
@@ -88,7 +89,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             let flips = G::flip_all(&mut self.kernel, &mut repair.suspects, &mut repair.stuck)?;
             if repair.stuck.is_empty() {
                 report.flips += flips;
-                report.moved += repair.n_new as u64;
                 report.unchanged += repair.n_new as u64;
                 return Ok(true);
             }
