@@ -18,13 +18,12 @@
 
 mod corners;
 mod flips;
-mod journal;
 pub(crate) mod memory;
 
 use std::fmt;
 
 pub use corners::Corners;
-pub use journal::Journal;
+pub use flips::Undo;
 
 use crate::error::{Error, Result};
 

@@ -6,7 +6,7 @@
 //! can be as it was.
 
 use super::{Delaunay, Dimension, Space};
-use crate::complex::{Facet, Journal};
+use crate::complex::{Complex, Facet};
 use crate::error::Result;
 
 impl Delaunay<Space> {
@@ -16,30 +16,7 @@ impl Delaunay<Space> {
         suspects: &mut Vec<Facet>,
         stuck: &mut Vec<Facet>,
     ) -> Result<u64> {
-        let mut journal = std::mem::take(&mut self.journal);
-        self.complex.begin(&mut journal);
-        let flips = self.flip_suspects(suspects, stuck, &mut journal);
-        self.journal = journal;
-        flips
-    }
-
-    /// Takes the flips of the last [`flip_while_possible`](Self::flip_while_possible) back.
-    pub(super) fn undo_flips(&mut self) {
-        self.complex.roll_back(&mut self.journal);
-        for k in 0..self.journal.restored().len() {
-            let c = self.journal.restored()[k];
-            for s in self.complex.cell(c).corners {
-                self.corner_mut(s).cell = c;
-            }
-        }
-    }
-
-    fn flip_suspects(
-        &mut self,
-        suspects: &mut Vec<Facet>,
-        stuck: &mut Vec<Facet>,
-        journal: &mut Journal<[u32; 4]>,
-    ) -> Result<u64> {
+        self.journal.clear();
         let (mut flips, mut before) = (0, 0);
         loop {
             while let Some(facet) = suspects.pop() {
@@ -52,18 +29,17 @@ impl Delaunay<Space> {
                     continue;
                 }
                 self.complex.reserve(1)?;
-                let Some((made, n_made)) = self.flip_facet(facet, journal) else {
+                let Some(outer) = self.flip_facet(facet) else {
                     stuck.push(facet);
                     continue;
                 };
                 flips += 1;
-                for &cell in &made[..n_made] {
-                    journal.made(cell);
-                    for (i, s) in self.complex.cell(cell).corners.into_iter().enumerate() {
-                        self.corner_mut(s).cell = cell;
-                        suspects.push(Facet::new(cell, i));
+                for facet in outer {
+                    for s in self.complex.cell(facet.cell()).corners {
+                        self.corner_mut(s).cell = facet.cell();
                     }
                 }
+                suspects.extend(outer);
             }
             if stuck.is_empty() || flips == before {
                 return Ok(flips);
@@ -74,8 +50,8 @@ impl Delaunay<Space> {
         }
     }
 
-    /// Flips a failing facet if that makes positive cells: two or three, which are returned.
-    fn flip_facet(&mut self, facet: Facet, journal: &mut Journal<[u32; 4]>) -> Option<([u32; 3], usize)> {
+    /// Flips a failing facet if that makes positive cells; returns the facets around them.
+    fn flip_facet(&mut self, facet: Facet) -> Option<[Facet; 6]> {
         let (c, i) = (facet.cell(), facet.index());
         let cell = *self.complex.cell(c);
         let across = cell.neighbour(i);
@@ -85,23 +61,27 @@ impl Delaunay<Space> {
         let point = &self.site(q).point;
         let positive = others
             .map(|k| Space::orientation_with(&self.filter, self.view(), &cell.corners, k, point) > 0.0);
-        let [k, l, m] = match positive {
-            [true, true, true] => {
-                self.complex.save(&[c, across.cell()], journal);
-                return Some((self.complex.flip_2_3(facet), 3));
-            }
-            [false, true, true] => others,
-            [true, false, true] => [others[1], others[2], others[0]],
-            [true, true, false] => [others[2], others[0], others[1]],
+        let (outer, undo) = match positive {
+            [true, true, true] => self.complex.flip_2_3(facet),
+            // The segment between the opposing vertices passes the facet beyond the edge opposite one corner.
+            [false, true, true] => self.complex.flip_3_2(facet, others[0])?,
+            [true, false, true] => self.complex.flip_3_2(facet, others[1])?,
+            [true, true, false] => self.complex.flip_3_2(facet, others[2])?,
             _ => return None,
         };
-        // The segment between the opposing vertices passes the facet beyond the edge from l to m.
-        let third = cell.neighbour(k);
-        if self.complex.cell(third.cell()).corners[third.index()] != q {
-            return None;
+        self.journal.push(undo);
+        Some(outer)
+    }
+
+    /// Takes the flips of the last [`flip_while_possible`](Self::flip_while_possible) back.
+    pub(super) fn undo_flips(&mut self) {
+        while let Some(undo) = self.journal.pop() {
+            self.complex.undo(&undo);
+            for cell in Complex::brought_back(&undo) {
+                for s in self.complex.cell(cell).corners {
+                    self.corner_mut(s).cell = cell;
+                }
+            }
         }
-        self.complex.save(&[c, across.cell(), third.cell()], journal);
-        let [a, b] = self.complex.flip_3_2(c, l, m)?;
-        Some(([a, b, a], 2))
     }
 }

@@ -51,7 +51,7 @@ pub use relocate::{Relocation, Shortcut};
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, Corners, Facet, INFINITE, Journal, memory};
+use crate::complex::{Complex, Corners, Facet, INFINITE, Undo, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
 use cavity::Cavity;
@@ -76,7 +76,8 @@ pub struct Delaunay<G: Dimension> {
     recent: u32,
     cavity: Cavity<G>,
     hole: Hole<G>,
-    journal: Journal<G::Corners>,
+    /// The flips in space since the last repair began.
+    journal: Vec<Undo>,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
     changed: Option<Vec<u32>>,
     /// Certificates evaluated by relocations so far.
@@ -97,7 +98,7 @@ impl<G: Dimension> Default for Delaunay<G> {
             recent: 0,
             cavity: Cavity::default(),
             hole: Hole::default(),
-            journal: Journal::default(),
+            journal: Vec::new(),
             changed: None,
             certificates: 0,
         }
