@@ -148,3 +148,48 @@ fn exact_signs_are_counted() {
         assert!(of_random <= 2 && of_grids >= least, "{algorithm:?}: {of_random} and {of_grids}");
     }
 }
+
+/// An insertion and a removal compute the bi-cells of new cells, and no others: the next commit has nothing to compute.
+#[test]
+fn tolerances_follow_insertions_and_removals() {
+    fn check<G: Dimension>(algorithm: Algorithm) {
+        let rng = &mut Rng::new(3);
+        let mut now = positions::<G>(0, 2000, rng);
+        let start: Vec<G::Point> = now.iter().copied().flatten().collect();
+        let options = Options { algorithm, ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(&start, options).expect("a build");
+        let all = t.commit_timestamp().expect("a commit").tolerances;
+        for step in 0..20 {
+            let before = t.statistics().tolerances;
+            let v = rng.below(2000);
+            if now[v].take().is_some() {
+                t.remove_vertex(v as u32).expect("a removal");
+                assert!(t.statistics().tolerances > before, "{algorithm:?}, step {step}");
+            }
+            let removed = t.statistics().tolerances;
+            let mut p = start[v];
+            nudge(&mut p, G::D, 0.3, rng);
+            t.insert_vertex(&p).expect("an insertion");
+            now.push(Some(p));
+            assert!(t.statistics().tolerances > removed, "{algorithm:?}, step {step}");
+            let computed = t.statistics().tolerances - before;
+            assert!(computed < all / 5, "{algorithm:?}, step {step}: {computed} of {all}");
+            // The inserted vertex has a tolerance of its own, as good as new: it stays within it, and leaves it.
+            for (size, within) in [(0.5, 1), (4.0, 0)] {
+                let v = now.len() as u32 - 1;
+                let mut p = now[v as usize].expect("present");
+                p[0] += size * t.tolerance(v).expect("present");
+                now[v as usize] = Some(p);
+                t.move_vertices(&[v], &[p]).expect("a move");
+                let report = t.commit_timestamp().expect("a commit");
+                assert_eq!(report.within_tolerance, within, "{algorithm:?}, step {step}");
+                assert!(within == 0 || report.tolerances == 0);
+                assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&now), || format!("{algorithm:?} {step}"));
+            }
+        }
+    }
+    for algorithm in [Algorithm::Tolerance, Algorithm::SafeRegionTolerance] {
+        check::<Plane>(algorithm);
+        check::<Space>(algorithm);
+    }
+}

@@ -5,6 +5,13 @@
 //! regions. With a filter that keeps safe regions the delimiters are stored; a vertex found inside its safe region may be
 //! outside its ball.
 //!
+//! While cells change (a queue, an insertion, a removal) the regions are not valid. They are again once every bi-cell that
+//! has a new cell or a relocated vertex has been computed at the positions of that moment ([`with_regions`]): the points of
+//! all other bi-cells have stayed, since they were last known to be on their sides, or moved within their regions. Where
+//! most bi-cells are concerned all are computed, which also makes good for tolerances that have only been lowered for long.
+//!
+//! [`with_regions`]: MovingTriangulation::with_regions
+//!
 //! **In space a safe region is not enough.** The report's Proposition 1 fails there for bi-cells whose flip would be 3-2
 //! (see [`predicates::Delimiter::reach`](crate::predicates::Delimiter)): a vertex must also stay within the *reach* of its
 //! bi-cells, which is infinite in the plane.

@@ -7,24 +7,26 @@
 //!     else: z joins the queue
 //! for each z in the queue:
 //!     move z with the placement algorithm
-//!     for each new bi-cell: its delimiter; for each vertex of it: a smaller tolerance
+//! for each bi-cell of a queued vertex or of a new cell: its delimiter; for each vertex of it: a smaller tolerance
 //! ```
 //!
 //! **One embedding.** The report places vertices in the embedding at *fixed* positions, T_f, and so has to queue a vertex
 //! again when a new bi-cell's tolerance falls below its displacement. Here the queue is worked off in the embedding at
 //! the *moving* positions: once every accepted vertex has moved, that is a Delaunay triangulation by Proposition 1 (in
-//! space, with the correction in [`regions`](super::regions)), the queued vertices being where they were; predicates are exact, so it stays one after each placement. New delimiters are
-//! taken at the moving positions, which lie within them by construction, and no vertex is ever queued again. A vertex *w*
-//! that gets a smaller tolerance is fixed anew where it is: the ball around `f_w` of radius ε_w holds the ball around `m_w`
-//! of radius `ε_w − |m_w − f_w|`, so `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
+//! space, with the correction in [`regions`](super::regions)), the queued vertices being where they were; predicates are
+//! exact, so it stays one after each placement, without a look at any delimiter. So delimiters are computed once, after the
+//! last placement, and no vertex is ever queued again. They are taken at the moving positions, which lie within them by
+//! construction. A vertex *w* that gets a smaller tolerance is fixed anew where it is: the ball around `f_w` of radius ε_w
+//! holds the ball around `m_w` of radius `ε_w − |m_w − f_w|`, so `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
 //!
 //! **Certified.** Tolerances are lower bounds and displacements are compared as upper bounds
 //! ([`predicates::tolerance`](crate::predicates)), so an accepted vertex *provably* changes nothing.
 //!
 //! **Coincident vertices** always take the queue.
 //!
-//! Cost: a test is a squared distance, or one for each bi-cell of the star; a queued vertex costs a placement and about
-//! 12 (plane) or 66 (space) delimiters and more for what the hole is filled with.
+//! Cost: a test is a squared distance, or one for each bi-cell of the star; a queued vertex costs a placement, and up to
+//! about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in the queue. `examples/tolerance_share`
+//! measures both.
 
 use super::prefetch::prefetch;
 use super::regions::Filter;

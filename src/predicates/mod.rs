@@ -19,6 +19,8 @@
 //! The error constants are not quoted but computed by the compiler, from the operation order of each
 //! determinant (`filter.rs`, which holds the analysis).
 //!
+//! [`exact_calls`] counts the signs that the last three stages decide.
+//!
 //! A determinant that is exactly zero is a tie. Orientations report it as `0.0`; for in-sphere tests
 //! [`incircle_perturbed`] and [`insphere_perturbed`] decide it by vertex id, as if every vertex had been
 //! lifted by an infinitesimal of its own, so that they never see a tie (`perturbation.rs`).

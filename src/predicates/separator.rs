@@ -114,9 +114,14 @@ fn separate<T: Real, const BY_SIGNS: bool>(points: &Points<T>, enough: T) -> Sep
     let choose = |first, second, third, standard| {
         pick(outside[0], first, &pick(outside[1], second, &pick(outside[2], third, standard)))
     };
-    let three = [choose(o, f, g, o), pick(is_standard, f, c), pick(is_standard, g, d)];
-    let two = [choose(f, g, o, c), choose(g, o, f, d)];
-    let (centre, radius, half_width) = annulus(&three, &two, is_standard);
+    let sides = [
+        &choose(o, f, g, o),
+        &pick(is_standard, f, c),
+        &pick(is_standard, g, d),
+        &choose(f, g, o, c),
+        &choose(g, o, f, d),
+    ];
+    let (centre, radius, half_width) = annulus(sides, is_standard);
     let planes = slabs.squared_widths(outside, is_standard);
     let reach = half_of_square(planes[0].min(planes[1]).min(planes[2].min(planes[3])));
     let is_enough = !reach.is_less(half_width.min(enough));
@@ -146,8 +151,9 @@ fn reach_by_spheres(points: &Points<f64>, partition: usize, planes: &[f64; 4], w
     for (k, &plane) in planes.iter().enumerate().filter(|(k, _)| *k != partition) {
         let mut width = half_of_square(plane);
         if width < wanted {
-            let [three @ .., a, b] = SIDES[k].map(|i| points[i]);
-            width = Real::max(width, annulus(&three, &[a, b], k == STANDARD).2);
+            let [a, b, c, d, e] = SIDES[k];
+            let sides = [&points[a], &points[b], &points[c], &points[d], &points[e]];
+            width = Real::max(width, annulus(sides, k == STANDARD).2);
         }
         reach = Real::min(reach, width);
     }
@@ -163,8 +169,7 @@ fn half_of_square<T: Real>(square: T) -> T {
 /// Centre, radius and half-width of the sphere in the middle between those about the point that is equidistant from the
 /// three on one side and from the two on the other. The three are inside in the standard partition, the two in others.
 #[inline(always)]
-fn annulus<T: Real>(three: &[[T; 3]; 3], two: &[[T; 3]; 2], is_standard: T::Mask) -> ([T; 3], T, T) {
-    let ([o, f, g], [c, d]) = (three, two);
+fn annulus<T: Real>([o, f, g, c, d]: [&[T; 3]; 5], is_standard: T::Mask) -> ([T; 3], T, T) {
     let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
     let (p, q) = (minus(c, o), minus(d, o));
     // u·x = |u|² / 2, v·x = |v|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
