@@ -1,16 +1,17 @@
 //! Figure 7 (c) of the report: tolerances of 10,000 random points at unit density in a disk and in a ball.
 //!
-//! Every facet between two cells is a bi-cell. Two widths are taken of it: that of the generator of its *standard*
-//! delimiter (report, section 2.3: the facet inside, the opposing vertices outside), and that of the *least* annulus
-//! of its points (section 2.2), whatever points are inside. The report takes them for the same. They are not where the
-//! line through the opposing vertices misses the facet; its averages are of the least ones, except that the average
-//! greatest width in space is of standard ones. Its figures stand beside both, with the deviations; that of ε has one or two
-//! digits only.
+//! Every facet between two cells is a bi-cell. Two widths are taken of it: that of the generator of its
+//! *standard* delimiter (report, section 2.3: the facet inside, the opposing vertices outside), and that of
+//! the *least* annulus of its points (section 2.2), whatever points are inside. The report takes them for
+//! the same. They are not where the line through the opposing vertices misses the facet; its averages are of
+//! the least ones, except that the average greatest width in space is of standard ones. Its figures stand
+//! beside both, with the deviations; that of ε has one or two digits only.
 //!
-//! The annulus of least width has all D + 2 points on its two spheres, unless its centre is at infinity, which it comes
-//! near to as closely as one likes. So it is among the annuli of the partitions of the points into two parts, each of which
-//! fixes one centre: equidistant from the points of either part. All of these hold all points, so the least of their widths
-//! is the one. Before the table, random searches for better centres try to refute that.
+//! The annulus of least width has all D + 2 points on its two spheres, unless its centre is at infinity,
+//! which it comes near to as closely as one likes. So it is among the annuli of the partitions of the points
+//! into two parts, each of which fixes one centre: equidistant from the points of either part. All of these
+//! hold all points, so the least of their widths is the one. Before the table, random searches for better
+//! centres try to refute that.
 //!
 //! ε of a vertex is half the least width among the bi-cells that have it. *Certified* is the tolerance that deldrift works
 //! with: a lower bound of what is proved safe, in the plane by standard delimiters, in space by all that
@@ -89,7 +90,8 @@ fn width_about<P: Coordinates>(centre: &P, points: &[P]) -> f64 {
     (greatest - least) / (greatest.sqrt() + least.sqrt())
 }
 
-/// The point that is equidistant from the points of `part`, a set of bits, and from the others; NaN if there is none.
+/// The point that is equidistant from the points of `part`, a set of bits, and from the others; NaN if there
+/// is none.
 fn centre_of<G: Dimension>(points: &[G::Point], part: usize) -> G::Point {
     let in_part = |i: &usize| part >> i & 1 != 0;
     // Bisectors: 2 (p - q)·x = |p|² - |q|², from the first point on.
@@ -175,7 +177,8 @@ const ROWS: [&str; 8] = [
     "average number of adjacent bi-cells",
 ];
 
-/// The rows of the table, over all points and over interior ones; and what searches find, in units of least widths.
+/// The rows of the table, over all points and over interior ones; and what searches find, in units of least
+/// widths.
 fn measure<G: Dimension>(seed: u64, rows: &mut [[Mean; 2]; 8], ratios: &mut Vec<f64>) {
     let unit_ball = if G::D == 2 { std::f64::consts::PI } else { 4.0 / 3.0 * std::f64::consts::PI };
     let radius = (N as f64 / unit_ball).powf(1.0 / G::D as f64);

@@ -149,7 +149,8 @@ fn exact_signs_are_counted() {
     }
 }
 
-/// An insertion and a removal compute the bi-cells of new cells, and no others: the next commit has nothing to compute.
+/// An insertion and a removal compute the bi-cells of new cells, and no others: the next commit has nothing
+/// to compute.
 #[test]
 fn tolerances_follow_insertions_and_removals() {
     fn check<G: Dimension>(algorithm: Algorithm) {
@@ -174,7 +175,8 @@ fn tolerances_follow_insertions_and_removals() {
             assert!(t.statistics().tolerances > removed, "{algorithm:?}, step {step}");
             let computed = t.statistics().tolerances - before;
             assert!(computed < all / 5, "{algorithm:?}, step {step}: {computed} of {all}");
-            // The inserted vertex has a tolerance of its own, as good as new: it stays within it, and leaves it.
+            // The inserted vertex has a tolerance of its own, as good as new: it stays within it, and leaves
+            // it.
             for (size, within) in [(0.5, 1), (4.0, 0)] {
                 let v = now.len() as u32 - 1;
                 let mut p = now[v as usize].expect("present");

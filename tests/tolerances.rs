@@ -593,8 +593,9 @@ fn a_vertex_may_jump_over_a_delimiter() {
     assert!(is_path_certainly_outside(&delimiter.centre, delimiter.radius, &p[2], &[0.5, 2.1]));
 }
 
-/// Whether all points of the segment are farther from the centre than `radius`, and whether the nearer end is so by a quarter
-/// of the squared length, what [`is_path_certainly_outside`] asks for, with 1e-14 to spare.
+/// Whether all points of the segment are farther from the centre than `radius`, and whether the nearer end
+/// is so by a quarter of the squared length, what [`is_path_certainly_outside`] asks for, with 1e-14 to
+/// spare.
 fn is_path_outside<const D: usize>(centre: &[f64; D], radius: f64, ends: [&[f64; D]; 2]) -> (bool, bool) {
     let numbers: Vec<f64> = centre.iter().chain(ends[0]).chain(ends[1]).chain(&[radius]).copied().collect();
     let (all, _) = integers(&numbers);
@@ -640,7 +641,8 @@ fn paths_are_certified<const D: usize>(n: usize) {
     assert!(n_certain > n / 20 && n_jumps > n / 20, "{n_certain} certain, {n_jumps} jumps of {n}");
 }
 
-/// No path is taken for outside that is not, and nearly all are that the rule of [`is_path_certainly_outside`] allows.
+/// No path is taken for outside that is not, and nearly all are that the rule of
+/// [`is_path_certainly_outside`] allows.
 #[test]
 fn paths_outside_spheres_are_certified() {
     paths_are_certified::<2>(60_000);

@@ -270,8 +270,8 @@ impl<G: Dimension> Delaunay<G> {
         self.changed = Some(buffer);
     }
 
-    /// Ends the record and returns it: cells, some of them more than once, some free again by now. `None` if all cells
-    /// are new since it was started, or it was not.
+    /// Ends the record and returns it: cells, some of them more than once, some free again by now. `None` if
+    /// all cells are new since it was started, or it was not.
     pub fn take_changes(&mut self) -> Option<Vec<u32>> {
         self.changed.take()
     }

@@ -104,8 +104,8 @@ impl fmt::Debug for Options {
 /// What one commit did; summed over all commits and immediate calls in
 /// [`statistics`](super::MovingTriangulation::statistics).
 ///
-/// The report counts how often a vertex joins the queue again. None ever does here, as relocations are made at the moving
-/// positions, so there is no counter for it.
+/// The report counts how often a vertex joins the queue again. None ever does here, as relocations are made
+/// at the moving positions, so there is no counter for it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CommitReport {
     /// Number of the timestamp reached: 0 at creation, one more at each commit.

@@ -99,7 +99,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one before.
+    /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one
+    /// before.
     pub(super) fn order_queue_by_site(&mut self) {
         let (site_of, staging) = (&self.site_of, &mut self.staging);
         radsort::sort_by_key(&mut staging.vertices[staging.applied..], |&v| site_of[v as usize]);

@@ -5,10 +5,11 @@
 //! regions. With a filter that keeps safe regions the delimiters are stored; a vertex found inside its safe region may be
 //! outside its ball.
 //!
-//! While cells change (a queue, an insertion, a removal) the regions are not valid. They are again once every bi-cell that
-//! has a new cell or a relocated vertex has been computed at the positions of that moment ([`with_regions`]): the points of
-//! all other bi-cells have stayed, since they were last known to be on their sides, or moved within their regions. Where
-//! most bi-cells are concerned all are computed, which also makes good for tolerances that have only been lowered for long.
+//! While cells change (a queue, an insertion, a removal) the regions are not valid. They are again once
+//! every bi-cell that has a new cell or a relocated vertex has been computed at the positions of that moment
+//! ([`with_regions`]): the points of all other bi-cells have stayed, since they were last known to be on
+//! their sides, or moved within their regions. Where most bi-cells are concerned all are computed, which
+//! also makes good for tolerances that have only been lowered for long.
 //!
 //! [`with_regions`]: MovingTriangulation::with_regions
 //!
@@ -204,8 +205,8 @@ impl<G: Dimension> Regions<G> {
         })
     }
 
-    /// Computes a bi-cell: lets it lower the tolerances of its vertices, and keeps its delimiter. `ANEW` unless all sites
-    /// are fixed where they are.
+    /// Computes a bi-cell: lets it lower the tolerances of its vertices, and keeps its delimiter. `ANEW`
+    /// unless all sites are fixed where they are.
     #[inline(always)]
     fn measure<const ANEW: bool>(
         &mut self,

@@ -7,26 +7,29 @@
 //!     else: z joins the queue
 //! for each z in the queue:
 //!     move z with the placement algorithm
-//! for each bi-cell of a queued vertex or of a new cell: its delimiter; for each vertex of it: a smaller tolerance
+//! for each bi-cell of a queued vertex or a new cell:
+//!     its delimiter; for each vertex of it: a smaller tolerance
 //! ```
 //!
-//! **One embedding.** The report places vertices in the embedding at *fixed* positions, T_f, and so has to queue a vertex
-//! again when a new bi-cell's tolerance falls below its displacement. Here the queue is worked off in the embedding at
-//! the *moving* positions: once every accepted vertex has moved, that is a Delaunay triangulation by Proposition 1 (in
-//! space, with the correction in [`regions`](super::regions)), the queued vertices being where they were; predicates are
-//! exact, so it stays one after each placement, without a look at any delimiter. So delimiters are computed once, after the
-//! last placement, and no vertex is ever queued again. They are taken at the moving positions, which lie within them by
-//! construction. A vertex *w* that gets a smaller tolerance is fixed anew where it is: the ball around `f_w` of radius ε_w
-//! holds the ball around `m_w` of radius `ε_w − |m_w − f_w|`, so `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
+//! **One embedding.** The report places vertices in the embedding at *fixed* positions, T_f, and so has to
+//! queue a vertex again when a new bi-cell's tolerance falls below its displacement. Here the queue is
+//! worked off in the embedding at the *moving* positions: once every accepted vertex has moved, that is a
+//! Delaunay triangulation by Proposition 1 (in space, with the correction in [`regions`](super::regions)),
+//! the queued vertices being where they were; predicates are exact, so it stays one after each placement,
+//! without a look at any delimiter. So delimiters are computed once, after the last placement, and no vertex
+//! is ever queued again. They are taken at the moving positions, which lie within them by construction. A
+//! vertex *w* that gets a smaller tolerance is fixed anew where it is: the ball around `f_w` of radius ε_w
+//! holds the ball around `m_w` of radius `ε_w − |m_w − f_w|`, so
+//! `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
 //!
 //! **Certified.** Tolerances are lower bounds and displacements are compared as upper bounds
 //! ([`predicates::tolerance`](crate::predicates)), so an accepted vertex *provably* changes nothing.
 //!
 //! **Coincident vertices** always take the queue.
 //!
-//! Cost: a test is a squared distance, or one for each bi-cell of the star; a queued vertex costs a placement, and up to
-//! about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in the queue. `examples/tolerance_share`
-//! measures both.
+//! Cost: a test is a squared distance, or one for each bi-cell of the star; a queued vertex costs a
+//! placement, and up to about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in
+//! the queue. `examples/tolerance_share` measures both.
 
 use super::prefetch::prefetch;
 use super::regions::Filter;
@@ -73,11 +76,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staging.vertices = vertices;
     }
 
-    /// Moves the vertices that stay within their tolerance to the front and to their new positions, and counts them. None
-    /// may share its site.
+    /// Moves the vertices that stay within their tolerance to the front and to their new positions, and
+    /// counts them. None may share its site.
     ///
-    /// This loop is what a timestamp costs that changes nothing: it holds what it reads in registers, and asks for the sites
-    /// in advance, as they are in another order than the vertices.
+    /// This loop is what a timestamp costs that changes nothing: it holds what it reads in registers, and
+    /// asks for the sites in advance, as they are in another order than the vertices.
     fn accept_within_tolerance(&mut self, vertices: &mut [u32], report: &mut CommitReport) -> usize {
         const AHEAD: usize = 24;
         let (site_of, positions, regions) =

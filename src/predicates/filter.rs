@@ -60,8 +60,8 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 /// Covers the rounding of the bounds themselves.
 const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 
-/// What bounds allow for underflow, times a power of the largest extent: 2⁵³ η, the least normal number. Processors take
-/// longer to multiply a subnormal one than to evaluate all the rest of a bound.
+/// What bounds allow for underflow, times a power of the largest extent: 2⁵³ η, the least normal number.
+/// Processors take longer to multiply a subnormal one than to evaluate all the rest of a bound.
 pub(super) const UNDERFLOW: f64 = f64::MIN_POSITIVE;
 
 /// Bound of `orient2d` / (extent x · extent y).

@@ -1,7 +1,8 @@
 //! Arithmetic on one number or on four at a time, with the same roundings.
 //!
-//! What is written over [`Real`] compiles to scalar code for `f64`, and to one instruction for four numbers in functions that
-//! may use AVX2. Rust contracts no operations, so each of the four is bit for bit what `f64` gives.
+//! What is written over [`Real`] compiles to scalar code for `f64`, and to one instruction for four numbers
+//! in functions that may use AVX2. Rust contracts no operations, so each of the four is bit for bit what
+//! `f64` gives.
 
 #![allow(unsafe_code)]
 

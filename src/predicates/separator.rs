@@ -21,8 +21,9 @@ pub fn delimiter3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3]) -> Delimit
     separate::<f64, false>(&points, f64::INFINITY).delimiter(&points, STANDARD, f64::INFINITY)
 }
 
-/// The delimiter that decides about a bi-cell: with the interior facet inside, but for one of its vertices where the line
-/// `cd` passes the facet beyond the edge opposite that vertex; the opposing vertices and that one are outside.
+/// The delimiter that decides about a bi-cell: with the interior facet inside, but for one of its vertices
+/// where the line `cd` passes the facet beyond the edge opposite that vertex; the opposing vertices and that
+/// one are outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Separator<P> {
     /// The sphere, and how far the points may move before another one decides.
@@ -78,11 +79,12 @@ fn tolerances_by_avx2(bicells: &BiCells<3, 5>, enough: &[f64; LANES]) -> [f64; L
     tolerances
 }
 
-/// The partition of the standard delimiter. The others have the number of the vertex of the facet that is outside.
+/// The partition of the standard delimiter. The others have the number of the vertex of the facet that is
+/// outside.
 const STANDARD: usize = 3;
 
-/// The points of each partition, first the side of three, then that of two: the vertices of the facet are 0 to 2, `c` and `d`
-/// are 3 and 4.
+/// The points of each partition, first the side of three, then that of two: the vertices of the facet are 0
+/// to 2, `c` and `d` are 3 and 4.
 const SIDES: [[usize; 5]; 4] = [[0, 3, 4, 1, 2], [1, 3, 4, 2, 0], [2, 3, 4, 0, 1], [0, 1, 2, 3, 4]];
 
 /// The sphere of one partition, and the planes that exclude the others.
@@ -92,8 +94,8 @@ struct Separated<T: Real> {
     half_width: T,
     /// Whether the partition is that of each vertex of the facet; the standard one if none is set.
     outside: [T::Mask; 3],
-    /// Lower bounds, to 16 u, of the squared widths of the slabs that exclude the partitions; 0 for a partition whose slab
-    /// does not separate its sides, infinity for the given one.
+    /// Lower bounds, to 16 u, of the squared widths of the slabs that exclude the partitions; 0 for a
+    /// partition whose slab does not separate its sides, infinity for the given one.
     planes: [T; 4],
     /// What the planes leave.
     reach: T,
@@ -142,8 +144,8 @@ impl Separated<f64> {
     }
 }
 
-/// The least of what excludes the partitions other than the given one: a plane or, where that leaves less than
-/// wanted, a sphere if it leaves more.
+/// The least of what excludes the partitions other than the given one: a plane or, where that leaves less
+/// than wanted, a sphere if it leaves more.
 #[cold]
 #[inline(never)]
 fn reach_by_spheres(points: &Points<f64>, partition: usize, planes: &[f64; 4], wanted: f64) -> f64 {
@@ -166,8 +168,9 @@ fn half_of_square<T: Real>(square: T) -> T {
     (square.sqrt() * T::splat(0.5 - 8.0 * UNIT) - T::splat(LEAST)).max(T::splat(0.0))
 }
 
-/// Centre, radius and half-width of the sphere in the middle between those about the point that is equidistant from the
-/// three on one side and from the two on the other. The three are inside in the standard partition, the two in others.
+/// Centre, radius and half-width of the sphere in the middle between those about the point that is
+/// equidistant from the three on one side and from the two on the other. The three are inside in the
+/// standard partition, the two in others.
 #[inline(always)]
 fn annulus<T: Real>([o, f, g, c, d]: [&[T; 3]; 5], is_standard: T::Mask) -> ([T; 3], T, T) {
     let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
@@ -252,8 +255,8 @@ impl<T: Real> Slabs<T> {
     #[inline(always)]
     fn squared_widths(&self, outside: [T::Mask; 3], is_standard: T::Mask) -> [T; 4] {
         let (zero, infinity) = (T::splat(0.0), T::splat(f64::INFINITY));
-        // The width of the slab of the given partition, if it has one, is that of the standard partition: a negative
-        // height has the line beyond the edge, and the slab separates it from the whole facet.
+        // The width of the slab of the given partition, if it has one, is that of the standard partition: a
+        // negative height has the line beyond the edge, and the slab separates it from the whole facet.
         let mut standard = infinity;
         let mut widths = [infinity; 4];
         for k in 0..3 {

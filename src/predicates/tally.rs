@@ -6,8 +6,9 @@ thread_local! {
     static EXACT: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Signs of determinants that the current thread has had to take by exact arithmetic so far, ties included: those that
-/// neither the static nor the semi-static stage decided. Differences of this number tell what some work needed.
+/// Signs of determinants that the current thread has had to take by exact arithmetic so far, ties included:
+/// those that neither the static nor the semi-static stage decided. Differences of this number tell what
+/// some work needed.
 pub fn exact_calls() -> u64 {
     EXACT.get()
 }

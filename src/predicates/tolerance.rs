@@ -54,9 +54,9 @@
 //!   the vectors and volumes are those of the centre, and is enough unless `cd` passes close to `ab`.
 //!
 //! A sphere needs a margin only for the partition in force, that of the signs of λ: its sphere is the
-//! [separator](super::separator3d). The least width that any other partition has is the [`reach`](Delimiter::reach),
-//! and the tolerance is the lesser of half-width and reach. A safe region is the side of the separator *within reach* of
-//! the position for which it was computed.
+//! [separator](super::separator3d). The least width that any other partition has is the
+//! [`reach`](Delimiter::reach), and the tolerance is the lesser of half-width and reach. A safe region is
+//! the side of the separator *within reach* of the position for which it was computed.
 //!
 //! # From bi-cells to the triangulation
 //!
@@ -93,8 +93,9 @@
 //! # Cost
 //!
 //! Time per bi-cell or cell of random points, on one core of a recent x86-64 server: [`delimiter2d`] 9 ns,
-//! [`tolerances2d`] 8 ns; [`delimiter3d`] 82 ns; [`separator3d`] 94 ns, 74 ns if 0.01 spacings are enough, 70 ns if anything
-//! is; [`tolerances3d`] 48, 26 and 21 ns; [`orientation_tolerance2d`] 5 ns, [`orientation_tolerance3d`] 14 ns.
+//! [`tolerances2d`] 8 ns; [`delimiter3d`] 82 ns; [`separator3d`] 94 ns, 74 ns if 0.01 spacings are enough,
+//! 70 ns if anything is; [`tolerances3d`] 48, 26 and 21 ns; [`orientation_tolerance2d`] 5 ns,
+//! [`orientation_tolerance3d`] 14 ns.
 //!
 //! [`delimiter3d`]: super::delimiter3d
 //! [`separator3d`]: super::separator3d
