@@ -6,9 +6,6 @@ use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 
-/// *Auto* rebuilds when more than one vertex in so many is staged: the cost of a placement in rebuilt vertices.
-const PLACEMENT_COST: usize = 5;
-
 impl<G: Dimension> MovingTriangulation<G> {
     /// Makes the staged positions the next timestamp.
     ///
@@ -40,7 +37,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Brings the staged vertices to their new positions.
     fn advance(&mut self, report: &mut CommitReport) -> Result<()> {
-        match self.algorithm_for_commit() {
+        match self.options.algorithm {
             Algorithm::Placement => self.commit_by_placement(Shortcut::Certificates, report)?,
             Algorithm::PlacementFlips => self.commit_by_placement(Shortcut::Flips, report)?,
             Algorithm::Tolerance => self.commit_by_filter(Filter::Tolerance, report)?,
@@ -48,19 +45,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             Algorithm::SafeRegionTolerance => self.commit_by_filter(Filter::Both, report)?,
             Algorithm::RebuildingTolerance => self.commit_by_switching(report)?,
             Algorithm::Repair => self.commit_by_repair(report)?,
-            Algorithm::Rebuilding | Algorithm::Auto => self.commit_by_rebuilding(0, report)?,
+            Algorithm::Rebuilding => self.commit_by_rebuilding(0, report)?,
+            Algorithm::Auto => self.commit_by_auto(report)?,
         }
         self.reject_coincidence()
-    }
-
-    fn algorithm_for_commit(&self) -> Algorithm {
-        match self.options.algorithm {
-            Algorithm::Auto if self.staging.vertices.len() * PLACEMENT_COST < self.n_present => {
-                Algorithm::PlacementFlips
-            }
-            Algorithm::Auto => Algorithm::Rebuilding,
-            chosen => chosen,
-        }
     }
 
     /// Puts the vertices whose moves were applied back where they were, and rebuilds.

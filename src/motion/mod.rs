@@ -21,6 +21,7 @@
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, and once moves are staged a position, a flag and
 //! an id.
 
+mod auto;
 mod bicell;
 mod cells;
 mod coincidence;
@@ -47,6 +48,7 @@ use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use crate::predicates::exact_calls;
+use auto::Auto;
 use cells::{Baseline, Cells};
 use coincidence::Hidden;
 use regions::Regions;
@@ -69,6 +71,7 @@ pub struct MovingTriangulation<G: Dimension> {
     regions: Regions<G>,
     switching: Switching,
     repair: Repair,
+    auto: Auto,
     options: Options,
     statistics: CommitReport,
     /// Mean walk of the latest build in freshly sorted storage: the measure of lost locality.
@@ -97,6 +100,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             regions: Regions::default(),
             switching: Switching::default(),
             repair: Repair::default(),
+            auto: Auto::default(),
             options,
             statistics: CommitReport::default(),
             sorted_walk: 0.0,

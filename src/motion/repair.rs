@@ -21,10 +21,10 @@
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Dimension, Failures, Shortcut};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Rebuild when more than one vertex in so many would have to be placed.
-const PLACED: usize = 6;
+const PLACED: usize = 20;
 
 /// Times that flips may be stuck before the triangulation is rebuilt.
 const ROUNDS: usize = 8;
@@ -56,16 +56,19 @@ pub(super) struct Repair {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Brings the staged vertices to their new positions by a sweep and repair of what failed.
+    /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
+    /// may be taken back like the others.
     pub(super) fn commit_by_repair(&mut self, report: &mut CommitReport) -> Result<()> {
         if !self.kernel.has_cells() {
-            return self.commit_by_rebuilding(0, report);
+            return self.commit_by_rebuilding(self.staging.applied, report);
         }
         self.regions.invalidate();
+        let accepted = report.moved;
         let mut repair = std::mem::take(&mut self.repair);
         let mended = self.mend(&mut repair, report);
         self.settle(&mut repair);
-        report.moved += repair.n_new as u64;
+        report.moved = repair.n_new as u64;
+        report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
         if !mended? {
             return self.commit_by_rebuilding(self.staging.applied, report);
@@ -77,8 +80,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
         let most = self.n_present / PLACED;
         self.move_staged(repair);
-        if !self.kernel.sweep(&mut repair.failures, most) {
+        // Each vertex taken back mends two cells or more.
+        if !self.kernel.sweep(&mut repair.failures, 2 * most) {
             return Ok(false);
+        }
+        if !self.monitor(0.5) {
+            return Err(Error::Cancelled);
         }
         for _ in 0..ROUNDS {
             if !self.take_back_failed(repair, most) || !self.kernel.winds_once(&repair.failures.ghosts) {
@@ -89,7 +96,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             let flips = G::flip_all(&mut self.kernel, &mut repair.suspects, &mut repair.stuck)?;
             if repair.stuck.is_empty() {
                 report.flips += flips;
-                report.unchanged += repair.n_new as u64;
                 return Ok(true);
             }
             self.list_stuck(repair);
@@ -102,12 +108,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(false)
     }
 
-    /// Moves all staged vertices that have sites of their own.
+    /// Moves all staged vertices that have sites of their own and have not moved yet.
     fn move_staged(&mut self, repair: &mut Repair) {
         repair.at.clear();
         repair.at.resize(self.site_of.len(), At::Rest);
         (repair.n_new, repair.n_old) = (0, 0);
-        for k in 0..self.staging.vertices.len() {
+        for &v in &self.staging.vertices[..self.staging.applied] {
+            if self.kernel.site(self.site_of[v as usize]).point != self.staging.positions[v as usize] {
+                repair.at[v as usize] = At::New;
+                repair.n_new += 1;
+            }
+        }
+        for k in self.staging.applied..self.staging.vertices.len() {
             let v = self.staging.vertices[k];
             if self.hidden.any_at(self.site_of[v as usize]) {
                 repair.at[v as usize] = At::Old;

@@ -43,8 +43,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.kernel.has_cells() {
             return self.commit_by_rebuilding(0, report);
         }
+        self.accept_by(filter, report)?;
+        self.place_beyond(report)
+    }
+
+    /// Moves the vertices that stay in their regions; the others are queued, behind them.
+    pub(super) fn accept_by(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
         self.pre_compute(filter, report)?;
         self.accept_staged(filter, report);
+        Ok(())
+    }
+
+    /// Places the queued vertices; the regions follow.
+    pub(super) fn place_beyond(&mut self, report: &mut CommitReport) -> Result<()> {
         self.order_queue_by_site();
         self.with_regions(report, |t, report| {
             t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
@@ -59,7 +70,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.regions.compute(&self.kernel, filter, report)
     }
 
-    /// Moves the vertices that stay in their regions; the others are queued, behind them.
     fn accept_staged(&mut self, filter: Filter, report: &mut CommitReport) {
         let mut vertices = std::mem::take(&mut self.staging.vertices);
         if filter != Filter::SafeRegion && self.hidden.count() == 0 {
@@ -173,6 +183,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             Algorithm::RebuildingTolerance => self.switching.has_switched().then_some(Filter::Tolerance),
             Algorithm::SafeRegion => Some(Filter::SafeRegion),
             Algorithm::SafeRegionTolerance => Some(Filter::Both),
+            Algorithm::Auto => self.regions.kept_for().filter(|&kept| kept == Filter::Tolerance),
             _ => None,
         }
     }

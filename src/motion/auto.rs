@@ -1,0 +1,98 @@
+//! *Auto*: the algorithm for each commit, from what the last ones found.
+//!
+//! | commit | algorithm |
+//! |---|---|
+//! | of few of the vertices | tolerance if it is up to date, else placement by flips |
+//! | while next to all vertices stay within tolerance | tolerance |
+//! | otherwise | repair, which rebuilds where too much fails |
+//! | after such a rebuild | rebuilding, for a while |
+//!
+//! A vertex beyond its tolerance costs *tolerance* a placement and the tolerances around it: 4 ns a vertex and 30 times
+//! that a sweep of its own. So *tolerance* pays while fewer than one vertex in fifty is beyond, and a commit that finds more
+//! goes on as a repair: the vertices accepted are moved already. Few flips in a repair announce that most vertices stay
+//! within tolerance; whether they do is tried, and tried again ever more rarely if they do not. After a repair that had to
+//! rebuild, so many commits rebuild at once as have failed in a row, and twice as many the next time.
+
+use super::regions::Filter;
+use super::{CommitReport, MovingTriangulation};
+use crate::delaunay::{Dimension, Shortcut};
+use crate::error::Result;
+
+/// Fewer than one staged vertex in so many are few: a placement costs about as much as so many vertices swept.
+const FEW: usize = 20;
+/// *Tolerance* pays while fewer than one vertex in so many is beyond.
+const BEYOND: usize = 50;
+/// A repair of fewer flips and placements than one vertex in so many announces that. (A vertex beyond its tolerance
+/// makes about a tenth of a flip.)
+const CALM: usize = 500;
+/// Longest wait for another try, in commits.
+const PATIENCE: u32 = 64;
+/// Most commits rebuilt without a look.
+const REBUILT: u32 = 15;
+
+/// What the last commits found.
+#[derive(Debug, Default)]
+pub(super) struct Auto {
+    /// Whether *tolerance* is in force.
+    is_filtering: bool,
+    /// Commits until *tolerance* may be tried again, and how many they will be next time.
+    wait: u32,
+    next_wait: u32,
+    /// Commits still to be rebuilt without a look, and how many they were last time.
+    rebuilds: u32,
+    last_rebuilds: u32,
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    pub(super) fn commit_by_auto(&mut self, report: &mut CommitReport) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.commit_by_rebuilding(0, report);
+        }
+        if self.staging.vertices.len() * FEW < self.n_present {
+            return if self.regions.kept_for() == Some(Filter::Tolerance) {
+                self.commit_by_filter(Filter::Tolerance, report)
+            } else {
+                self.commit_by_placement(Shortcut::Flips, report)
+            };
+        }
+        if self.auto.rebuilds > 0 {
+            self.auto.rebuilds -= 1;
+            return self.commit_by_rebuilding(0, report);
+        }
+        if self.auto.is_filtering && self.commit_if_calm(report)? {
+            return Ok(());
+        }
+        self.commit_by_repair(report)?;
+        self.learn(report);
+        Ok(())
+    }
+
+    /// Commits by *tolerance* if few vertices are beyond; otherwise those within have moved when it is done.
+    fn commit_if_calm(&mut self, report: &mut CommitReport) -> Result<bool> {
+        self.accept_by(Filter::Tolerance, report)?;
+        let beyond = self.staging.vertices.len() - self.staging.applied;
+        if beyond * BEYOND <= self.n_present {
+            self.auto.next_wait = 0;
+            self.place_beyond(report)?;
+            return Ok(true);
+        }
+        self.auto.is_filtering = false;
+        self.auto.next_wait = (2 * self.auto.next_wait + 1).min(PATIENCE);
+        self.auto.wait = self.auto.next_wait;
+        Ok(false)
+    }
+
+    /// Draws conclusions from a repair.
+    fn learn(&mut self, report: &CommitReport) {
+        let auto = &mut self.auto;
+        if report.rebuilds > 0 {
+            auto.last_rebuilds = (2 * auto.last_rebuilds + 1).min(REBUILT);
+            auto.rebuilds = auto.last_rebuilds;
+            return;
+        }
+        auto.last_rebuilds = 0;
+        auto.wait = auto.wait.saturating_sub(1);
+        let mended = (report.flips + report.placements) as usize;
+        auto.is_filtering = auto.wait == 0 && mended * CALM <= self.n_present;
+    }
+}
