@@ -91,10 +91,8 @@ std::vector<typename CgalSpace<dimension>::InputPoint> input_points(const double
 /// What CGAL's range insertion of bare points does, with ids: the input is sorted spatially in place and every
 /// point is inserted from the vertex before it. CGAL's own range insertion with info sorts indices instead and
 /// reaches for the points through them, which is slower on large inputs.
-template <unsigned dimension>
-void insert_range(typename CgalSpace<dimension>::Triangulation &triangulation,
-                  std::vector<typename CgalSpace<dimension>::InputPoint> &input) {
-    using Space = CgalSpace<dimension>;
+template <typename Space>
+void insert_sorted(typename Space::Triangulation &triangulation, std::vector<typename Space::InputPoint> &input) {
     CGAL::spatial_sort(input.begin(), input.end(), typename Space::SortTraits());
     typename Space::Vertex last;
     for (const auto &[point, info] : input) {
@@ -104,14 +102,25 @@ void insert_range(typename CgalSpace<dimension>::Triangulation &triangulation,
     }
 }
 
-/// Vertex ids of all finite cells, as the vertices carry them.
 template <unsigned dimension>
-std::vector<std::uint32_t> cell_ids(const typename CgalSpace<dimension>::Triangulation &triangulation) {
+void insert_range(typename CgalSpace<dimension>::Triangulation &triangulation,
+                  std::vector<typename CgalSpace<dimension>::InputPoint> &input) {
+    insert_sorted<CgalSpace<dimension>>(triangulation, input);
+}
+
+/// Vertex ids of all finite cells, as the vertices carry them.
+template <typename Space>
+std::vector<std::uint32_t> ids_of_cells(const typename Space::Triangulation &triangulation) {
     std::vector<std::uint32_t> ids;
-    CgalSpace<dimension>::for_each_cell(triangulation, [&](const auto &vertices) {
+    Space::for_each_cell(triangulation, [&](const auto &vertices) {
         for (const auto vertex : vertices) ids.push_back(vertex->info().id);
     });
     return ids;
+}
+
+template <unsigned dimension>
+std::vector<std::uint32_t> cell_ids(const typename CgalSpace<dimension>::Triangulation &triangulation) {
+    return ids_of_cells<CgalSpace<dimension>>(triangulation);
 }
 
 }  // namespace bench

@@ -7,10 +7,14 @@ namespace bench {
 
 const std::vector<EngineKind> &engine_kinds() {
     static const std::vector<EngineKind> kinds = {
-        // engine, algorithm, is_stateless, is_slow_in_3d
+        // engine, algorithm, is_stateless, is_slow_in_3d, make, is_reproduction
         {"cgal", "rebuilding", true, false, make_cgal_rebuilding},
         {"cgal", "placement", false, true, make_cgal_placement},
         {"cgal", "move", false, true, make_cgal_move},
+        {"cgal", "tolerance", false, true, make_cgal_tolerance, true},
+        {"cgal", "safe_region", false, true, make_cgal_safe_region, true},
+        {"cgal", "safe_region_tolerance", false, true, make_cgal_safe_region_tolerance, true},
+        {"cgal", "rebuilding_tolerance", false, false, make_cgal_rebuilding_tolerance, true},
         {"deldrift", "rebuilding", false, false, make_deldrift_rebuilding},
         {"deldrift", "placement", false, true, make_deldrift_placement},
         {"deldrift", "placement_flips", false, true, make_deldrift_placement_flips},

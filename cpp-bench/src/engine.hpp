@@ -24,6 +24,10 @@ public:
     /// From the positions held to these, of the same points. This is what is timed.
     virtual void advance(const double *positions) = 0;
 
+    /// The same where vertices move one after another, in the order of their ids, and the triangulation must be
+    /// that of the positions so far after each of them. Engines that rebuild do so once for all.
+    virtual void advance_sequentially(const double *positions) { advance(positions); }
+
     /// Finite cells, dimension + 1 vertex ids each. Coincident points may appear under any of their ids.
     virtual std::vector<std::uint32_t> cells() = 0;
 
@@ -41,6 +45,7 @@ struct EngineKind {
     bool is_stateless;      // the result does not depend on earlier timestamps: it can be checked out of order
     bool is_slow_in_3d;     // relocates every vertex by itself: timed on a sample of the timestamps in 3D
     std::unique_ptr<Engine> (*make)(unsigned dimension, unsigned n_threads);
+    bool is_reproduction = false;  // the report's algorithm on CGAL: runs in the report, elsewhere where it is named
 
     std::string name() const { return engine + "/" + algorithm; }
 };
@@ -54,6 +59,10 @@ const EngineKind &engine_kind(const std::string &name);
 std::unique_ptr<Engine> make_cgal_rebuilding(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_cgal_placement(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_cgal_move(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_cgal_tolerance(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_cgal_safe_region(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_cgal_safe_region_tolerance(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_cgal_rebuilding_tolerance(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_rebuilding(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_placement(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_placement_flips(unsigned dimension, unsigned n_threads);

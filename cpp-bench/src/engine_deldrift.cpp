@@ -32,12 +32,29 @@ public:
         deldrift_destroy(triangulation_);
         triangulation_ = nullptr;
         n_points_ = n_points;
+        rebuilds_ =
+            options_.algorithm == DELDRIFT_REBUILDING || options_.algorithm == DELDRIFT_REBUILDING_TOLERANCE;
         require(deldrift_create(dimension_, positions, n_points, &options_, &triangulation_), "deldrift_create");
     }
 
     void advance(const double *positions) override {
         require(deldrift_move_vertices(triangulation_, nullptr, positions, n_points_), "deldrift_move_vertices");
         require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp");
+    }
+
+    void advance_sequentially(const double *positions) override {
+        if (rebuilds_) {
+            deldrift_commit_report report;
+            require(deldrift_move_vertices(triangulation_, nullptr, positions, n_points_), "deldrift_move_vertices");
+            require(deldrift_commit_timestamp(triangulation_, &report), "deldrift_commit_timestamp");
+            // Rebuilding and tolerance relocates one by one as soon as it has turned to tolerances.
+            rebuilds_ = options_.algorithm == DELDRIFT_REBUILDING || report.rebuilds > 0;
+            return;
+        }
+        for (std::size_t id = 0; id < n_points_; ++id)
+            require(deldrift_relocate_vertex(triangulation_, static_cast<std::uint32_t>(id),
+                                             positions + id * dimension_),
+                    "deldrift_relocate_vertex");
     }
 
     std::vector<std::uint32_t> cells() override {
@@ -60,6 +77,7 @@ private:
     deldrift_options options_;
     deldrift_triangulation *triangulation_ = nullptr;
     std::size_t n_points_ = 0;
+    bool rebuilds_ = false;
 };
 
 }  // namespace

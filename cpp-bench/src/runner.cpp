@@ -120,7 +120,7 @@ private:
 
     bool is_wanted(const EngineKind &kind) const {
         const auto &wanted = options_.engines;
-        return wanted.empty() || std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end() ||
+        return (wanted.empty() && !kind.is_reproduction) || std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end() ||
                std::find(wanted.begin(), wanted.end(), kind.name()) != wanted.end();
     }
 
