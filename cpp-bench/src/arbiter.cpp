@@ -61,7 +61,32 @@ public:
         return text;
     }
 
+    /// Whether there are facets that are not Delaunay, and the line through the opposing vertices misses them all.
+    bool has_only_missed_facets(const CellSet &cells) const {
+        std::map<Facet, std::vector<std::pair<const Cell *, unsigned>>> sides;
+        for (const Cell &cell : cells)
+            for (unsigned corner = 0; corner < n_corners; ++corner) sides[facet(cell, corner)].push_back({&cell, corner});
+        bool has_any = false;
+        for (const auto &[facet, bicell] : sides) {
+            if (bicell.size() != 2) continue;
+            const Cell &cell = *bicell[0].first;
+            const std::uint32_t other = (*bicell[1].first)[bicell[1].second];
+            if (side_of_sphere(cell, other) * orientation_of(cell) <= 0) continue;
+            has_any = true;
+            if (passes(cell[bicell[0].second], other, facet)) return false;
+        }
+        return has_any;
+    }
+
 private:
+    /// Whether the line through two points passes a triangle.
+    bool passes(std::uint32_t a, std::uint32_t b, const Facet &triangle) const {
+        int signs[3];
+        for (int i = 0; i < 3; ++i)
+            signs[i] = orientation_of({a, b, triangle[i], triangle[(i + 1) % 3]});
+        return signs[0] == signs[1] && signs[1] == signs[2];
+    }
+
     std::string describe(std::uint32_t vertex) const {
         std::string text = std::to_string(vertex) + " at (";
         for (unsigned axis = 0; axis < dimension; ++axis) {
@@ -163,6 +188,16 @@ Verdict compare_in(const double *positions, const CellSet &a, const std::string 
 }
 
 }  // namespace
+
+GapVerdict gap_cells(const double *positions, const CellSet &cells, const CellSet &reference) {
+    const Arbiter<3> arbiter(positions);
+    GapVerdict verdict;
+    verdict.n_cells = difference(cells, reference).size();
+    // Cells overlap or are inverted where absolute volumes add up to more.
+    verdict.is_explained = arbiter.has_only_missed_facets(cells) &&
+                           arbiter.extent(difference(cells, reference)) == arbiter.extent(difference(reference, cells));
+    return verdict;
+}
 
 Verdict compare(unsigned dimension, const double *positions, const CellSet &a, const std::string &name_a,
                 const CellSet &b, const std::string &name_b) {

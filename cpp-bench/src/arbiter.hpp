@@ -23,4 +23,15 @@ struct Verdict {
 Verdict compare(unsigned dimension, const double *positions, const CellSet &a, const std::string &name_a,
                 const CellSet &b, const std::string &name_b);
 
+struct GapVerdict {
+    bool is_explained = false;
+    std::size_t n_cells = 0;  // of `cells` alone
+};
+
+/// In space, a bi-cell whose facet is inside a sphere and whose opposing vertices are outside need not be Delaunay
+/// where the line through the opposing vertices misses the facet: Proposition 1 of the report overlooks that. Explained
+/// are cells that are all positively oriented and fill what `reference` fills, with at least one facet that is not
+/// Delaunay, and only facets of that kind among these. All of it is decided exactly.
+GapVerdict gap_cells(const double *positions, const CellSet &cells, const CellSet &reference);
+
 }  // namespace bench

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace bench {
 namespace {
@@ -99,13 +100,15 @@ public:
     void prepare(const double *positions, std::size_t n_points) override {
         input_.clear();
         input_.reserve(n_points);
-        greatest_ = 0;
+        // Of the positions before as well, as tolerances may be asked for there.
+        greatest_ = std::exchange(greatest_laid_out_, 0);
         for (std::size_t id = 0; id < n_points; ++id) {
             input_.emplace_back(Space::point(positions + id * dimension),
                                 VertexInfo{static_cast<std::uint32_t>(id), 0});
             for (unsigned axis = 0; axis < dimension; ++axis)
-                greatest_ = std::max(greatest_, std::fabs(positions[id * dimension + axis]));
+                greatest_laid_out_ = std::max(greatest_laid_out_, std::fabs(positions[id * dimension + axis]));
         }
+        greatest_ = std::max(greatest_, greatest_laid_out_);
     }
 
     void build(const double *positions, std::size_t n_points) override {
@@ -133,7 +136,7 @@ protected:
     void take_up(const double *positions, std::size_t n_points) {
         if (triangulation_.number_of_vertices() != n_points || triangulation_.dimension() != dimension)
             throw std::runtime_error("two points at one place, or all in a plane: the report's algorithms know none");
-        bound_ = CoordinateBound(2 * greatest_);
+        bound_ = CoordinateBound(greatest_);
         distance_error_ = squared_distance_error<dimension>(bound_);
         vertices_.assign(n_points, Vertex());
         for (auto vertex = triangulation_.finite_vertices_begin(); vertex != triangulation_.finite_vertices_end();
@@ -324,7 +327,8 @@ private:
 
     CoordinateBound bound_;
     double distance_error_ = 0;
-    double greatest_ = 0;  // coordinate of the positions last laid out
+    double greatest_ = 0;  // coordinate of the positions last laid out, and of those before
+    double greatest_laid_out_ = 0;
     std::vector<double> fixed_;
     std::vector<double> moving_;
     std::vector<double> displacement_;    // squares, upper bounds; 0 at the fixed position
@@ -367,8 +371,6 @@ public:
 
 private:
     void try_to_switch(const double *positions) {
-        // The input array is laid out for the next positions: the bound of its coordinates does for both, as it is
-        // twice the greatest.
         this->take_up(held_.data(), n_points_);
         unsigned n_within = 0;
         for (unsigned i = 0; i < sample_size; ++i) {

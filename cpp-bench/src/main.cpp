@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "environment.hpp"
 #include "options.hpp"
+#include "report.hpp"
 #include "resources.hpp"
 #include "runner.hpp"
 #include "self_test.hpp"
@@ -22,6 +23,7 @@ int perform(const bench::Options &options, const std::string &command) {
     switch (options.task) {
         case bench::Task::help: std::fputs(bench::usage, stdout); return 0;
         case bench::Task::self_test: return bench::run_self_test() ? 0 : 1;
+        case bench::Task::report: bench::run_report(options); environment += "_report"; break;
         case bench::Task::memory: bench::run_memory(options); environment += "_memory"; break;
         case bench::Task::large: bench::run_large(options); environment += "_large"; break;
         case bench::Task::run: bench::run_scenarios(options); break;

@@ -33,6 +33,11 @@ const char *const usage =
                            instead of the preset's; series files: all
   --keep-failures DIR      write the positions at which a check fails there, as a series to replay
   --results DIR            where CSV files go
+  --report                 the inputs of the report RR-6750 with all engines instead, to report.csv and the files
+                           beside it (make report makes a page of them). What is there for the same commit,
+                           preset and seed is kept, so that a run can be continued. Scenarios:
+                           lloyd_2d_uniform, lloyd_2d_r2, lloyd_2d_x2, lloyd_2d_sin2, slloyd, snodt, man,
+                           share_2d, share_3d, walk_2d, walk_3d
   --memory                 bytes per vertex at a million points instead, to memory.csv
   --large                  build, validate and commit 50 million points in 2D and 20 million in 3D instead,
                            to large.csv
@@ -48,6 +53,12 @@ const Preset full = {"full", 1000, 1000, 20, 20, 3, {1'000, 10'000, 100'000, 1'0
 
 const std::vector<std::string> scenario_names = {"lloyd_2d_uniform", "walk_3d", "static_2d", "static_3d"};
 
+std::vector<std::string> all_scenario_names() {
+    std::vector<std::string> names = scenario_names;
+    names.insert(names.end(), report_scenario_names().begin(), report_scenario_names().end());
+    return names;
+}
+
 class Parser {
 public:
     Parser(int n_arguments, char **arguments) : words_(arguments + 1, arguments + n_arguments) {}
@@ -55,6 +66,7 @@ public:
     Options parse() {
         options_.preset = quick;
         if (const char *folder = std::getenv("DELDRIFT_BENCH_RESULTS")) options_.results = folder;
+        if (const char *folder = std::getenv("DELDRIFT_BENCH_DATA")) options_.data = folder;
         for (at_ = 0; at_ < words_.size(); ++at_) take(words_[at_]);
         finish();
         return options_;
@@ -63,7 +75,7 @@ public:
 private:
     void take(const std::string &word) {
         if (word == "--preset") take_preset();
-        else if (word == "--scenario") options_.scenarios.push_back(one_of(scenario_names, value()));
+        else if (word == "--scenario") options_.scenarios.push_back(one_of(all_scenario_names(), value()));
         else if (word == "--series") options_.series.push_back({value(), {}, 0});
         else if (word == "--displacement") last_series().displacement_path = value();
         else if (word == "--steps") last_series().n_steps = number(1);
@@ -77,6 +89,7 @@ private:
         else if (word == "--slow-timestamps") n_slow_timestamps_ = number(1);
         else if (word == "--keep-failures") options_.keep_failures = value();
         else if (word == "--results") options_.results = value();
+        else if (word == "--report") options_.task = Task::report;
         else if (word == "--memory") options_.task = Task::memory;
         else if (word == "--large") options_.task = Task::large;
         else if (word == "--large-points-2d") options_.large_points_2d = number(0);
@@ -147,8 +160,15 @@ private:
         if (n_checks_ > 0) options_.preset.n_checks = options_.n_series_checks = n_checks_;
         if (n_slow_timestamps_ > 0)
             options_.preset.n_slow_timestamps = options_.n_series_slow_timestamps = n_slow_timestamps_;
+        options_.report_timestamps = n_timestamps_;
         if (n_timestamps_ > 0) options_.preset.lloyd_timestamps = options_.preset.walk_timestamps = n_timestamps_;
-        if (options_.scenarios.empty() && options_.series.empty()) options_.scenarios = scenario_names;
+        const std::vector<std::string> &known =
+            options_.task == Task::report ? report_scenario_names() : scenario_names;
+        for (const std::string &scenario : options_.scenarios)
+            if (std::find(known.begin(), known.end(), scenario) == known.end())
+                throw std::runtime_error("the scenario " + scenario + " is for runs " +
+                                         (options_.task == Task::report ? "without" : "with") + " --report");
+        if (options_.scenarios.empty() && options_.series.empty()) options_.scenarios = known;
     }
 
     std::vector<std::string> words_;
@@ -162,6 +182,13 @@ private:
 };
 
 }  // namespace
+
+const std::vector<std::string> &report_scenario_names() {
+    static const std::vector<std::string> names = {"lloyd_2d_uniform", "lloyd_2d_r2", "lloyd_2d_x2", "lloyd_2d_sin2",
+                                                   "slloyd",           "snodt",       "man",         "share_2d",
+                                                   "share_3d",         "walk_2d",     "walk_3d"};
+    return names;
+}
 
 Options parse_options(int n_arguments, char **arguments) { return Parser(n_arguments, arguments).parse(); }
 

@@ -26,7 +26,7 @@ struct SeriesFile {
     std::size_t n_steps = 0;
 };
 
-enum class Task { run, memory, large, self_test, help };
+enum class Task { run, report, memory, large, self_test, help };
 
 struct Options {
     Task task = Task::run;
@@ -40,13 +40,18 @@ struct Options {
     double snap = 0;  // coordinates of series files below this magnitude become 0
     std::uint64_t seed = 1;
     std::string results = "results";  // the wrapper script names its own through DELDRIFT_BENCH_RESULTS
+    std::string data = "data";        // where man.off is looked for; from DELDRIFT_BENCH_DATA
     std::string keep_failures;  // folder for positions at which a check failed; empty: not kept
+    std::size_t report_timestamps = 0;  // of the inputs that iterate; 0: the preset's
     std::size_t large_points_2d = 50'000'000;
     std::size_t large_points_3d = 20'000'000;
 };
 
 /// Throws std::runtime_error with what is wrong.
 Options parse_options(int n_arguments, char **arguments);
+
+/// The inputs of the report, in the order of its tables and figures.
+const std::vector<std::string> &report_scenario_names();
 
 extern const char *const usage;
 

@@ -17,6 +17,14 @@ double seconds_since(std::chrono::steady_clock::time_point time) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
 }
 
+/// "about 3 min left", from the part that is done and how long that took; nothing where it is too early to tell.
+std::string time_left(double fraction, double seconds) {
+    if (fraction < 0.05 || fraction >= 1 || seconds < 3) return {};
+    const double left = seconds * (1 - fraction) / fraction;
+    return ", about " + (left < 90 ? std::to_string(static_cast<int>(left) + 1) + " s"
+                                   : std::to_string(static_cast<int>(left / 60 + 0.5)) + " min") + " left";
+}
+
 }  // namespace
 
 Progress::Progress(Output output) : output_(output), is_terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -53,7 +61,7 @@ void Progress::show(const std::string &detail) {
         shown_at_ = std::chrono::steady_clock::now();
         char percent[16];
         std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100 * fraction);
-        std::string line = percent + what_ + (detail.empty() ? "" : "  " + detail);
+        std::string line = percent + what_ + time_left(fraction, seconds_since(begun_)) + (detail.empty() ? "" : "  " + detail);
         line.resize(std::min(line.size(), greatest_length));
         wipe();
         std::fprintf(stderr, "\r%s", line.c_str());
@@ -64,7 +72,8 @@ void Progress::show(const std::string &detail) {
     const int tenths = static_cast<int>(10 * fraction);
     if (tenths > shown_tenths_ && tenths < 10 && seconds_since(begun_) > seconds_before_plain_tenths) {
         shown_tenths_ = tenths;
-        std::fprintf(stderr, "%s: %d %%\n", what_.c_str(), 10 * tenths);
+        std::fprintf(stderr, "%s: %d %%%s\n", what_.c_str(), 10 * tenths,
+                     time_left(fraction, seconds_since(begun_)).c_str());
     }
 }
 

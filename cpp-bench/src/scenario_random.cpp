@@ -7,23 +7,24 @@
 namespace bench {
 namespace {
 
-void random_direction(Random &random, double *direction) {
+void random_direction(Random &random, unsigned dimension, double *direction) {
     double squared;
     do {
-        random.in_ball(3, 1.0, direction);
-        squared = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+        random.in_ball(dimension, 1.0, direction);
+        squared = 0;
+        for (unsigned axis = 0; axis < dimension; ++axis) squared += direction[axis] * direction[axis];
     } while (squared < 1e-6);
-    for (unsigned axis = 0; axis < 3; ++axis) direction[axis] /= std::sqrt(squared);
+    for (unsigned axis = 0; axis < dimension; ++axis) direction[axis] /= std::sqrt(squared);
 }
 
-void step_inside(Random &random, double radius, const double *from, double *to) {
+void step_inside(Random &random, unsigned dimension, double step, double radius, const double *from, double *to) {
     double squared;
     do {
         double direction[3];
-        random_direction(random, direction);
+        random_direction(random, dimension, direction);
         squared = 0;
-        for (unsigned axis = 0; axis < 3; ++axis) {
-            to[axis] = from[axis] + walk_step * direction[axis];
+        for (unsigned axis = 0; axis < dimension; ++axis) {
+            to[axis] = from[axis] + step * direction[axis];
             squared += to[axis] * to[axis];
         }
     } while (squared > radius * radius);
@@ -45,7 +46,38 @@ Series record_walk_3d(std::size_t n_points, std::size_t n_timestamps, std::uint6
     for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
         const double *from = series.frame(timestamp - 1);
         double *to = series.positions.data() + timestamp * series.frame_length();
-        for (std::size_t id = 0; id < n_points; ++id) step_inside(random, radius, from + 3 * id, to + 3 * id);
+        for (std::size_t id = 0; id < n_points; ++id) 
+            step_inside(random, 3, walk_step, radius, from + 3 * id, to + 3 * id);
+        progress.step();
+    }
+    return series;
+}
+
+Series record_segments(const std::string &name, unsigned dimension, std::size_t n_points,
+                       const std::vector<double> &displacements, std::size_t length, std::uint64_t seed,
+                       Progress &progress) {
+    Series series;
+    series.name = name;
+    series.dimension = dimension;
+    series.n_points = n_points;
+    const double radius = unit_density_radius(dimension, n_points);
+    Random random(seed);
+    std::vector<double> start(n_points * dimension);
+    for (std::size_t id = 0; id < n_points; ++id) random.in_ball(dimension, radius, &start[id * dimension]);
+
+    progress.begin(name + ": recording " + std::to_string(displacements.size()) + " displacements",
+                   displacements.size());
+    for (const double displacement : displacements) {
+        series.positions.insert(series.positions.end(), start.begin(), start.end());
+        const std::size_t first = series.n_frames();
+        for (std::size_t timestamp = first; timestamp < first + length; ++timestamp) {
+            series.positions.resize((timestamp + 1) * series.frame_length());
+            const double *from = series.frame(timestamp - 1);
+            double *to = series.positions.data() + timestamp * series.frame_length();
+            for (std::size_t at = 0; at < series.frame_length(); at += dimension)
+                step_inside(random, dimension, displacement, radius, from + at, to + at);
+        }
+        series.segments.push_back({first, first + length - 1, displacement});
         progress.step();
     }
     return series;

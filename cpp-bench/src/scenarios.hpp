@@ -7,7 +7,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace bench {
 
@@ -18,6 +20,46 @@ double unit_density_radius(unsigned dimension, std::size_t n_points);
 /// centroid of its Voronoi cell clipped to the disk.
 Series record_lloyd_2d_uniform(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
                                Progress &progress);
+
+/// A density of Lloyd's iterations, and the scenario that has it.
+struct Density {
+    std::string name;
+    std::function<double(double, double)> value;
+};
+
+/// The report's x^2 + y^2, x^2 and sin^2 of the distance from the centre.
+const std::vector<Density> &lloyd_densities();
+
+/// Lloyd's iterations as above, with a density: initial points are drawn by it, centroids are those of the density
+/// (quadrature: see disk_cell.hpp).
+Series record_lloyd_2d(const Density &density, std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
+                       Progress &progress);
+
+/// Lloyd's iterations of random points in a ball at unit density. The centroid of a Voronoi cell inside the ball is
+/// exact; that of a cell that reaches beyond is by quadrature over directions (ball_cell.hpp).
+Series record_slloyd(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress);
+
+/// ODT in a ball at unit density, vertices moved one after another: the new place of a vertex is the mean of its
+/// star's circumcentres, weighted by volume. A point per unit of area is on the sphere (a spiral lattice) and stays; the
+/// others begin at random places inside. A vertex that would leave the ball stays for this sweep.
+Series record_snodt(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress);
+
+class Body;
+
+/// The same in a body. Points on its surface are drawn evenly (best of ten candidates) and stay.
+Series record_man(const Body &body, std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
+                  Progress &progress);
+
+/// The new place of a vertex by ODT: `star` holds the other three corners of each of its cells. False if the star has
+/// no volume.
+bool odt_place(const double *vertex, const std::vector<const double *> &star, double *place);
+
+/// Random points in a disk or ball at unit density, and segments that all begin there: at each of the `length`
+/// timestamps of a segment every point goes the segment's displacement in a random direction, drawn again where it
+/// would leave.
+Series record_segments(const std::string &name, unsigned dimension, std::size_t n_points,
+                       const std::vector<double> &displacements, std::size_t length, std::uint64_t seed,
+                       Progress &progress);
 
 /// Length of a step of the random walk, as a share of the spacing (1 at unit density).
 constexpr double walk_step = 0.01;

@@ -8,6 +8,14 @@
 
 namespace bench {
 
+/// A part of a series that begins anew: engines are built at frame `first` - 1, and timestamps `first` to `last`
+/// follow. Frames between segments are where the next one begins.
+struct Segment {
+    std::size_t first;
+    std::size_t last;
+    double displacement;  // length of every point's displacement at a timestamp
+};
+
 /// A sequence of frames of the same points. Frame 0 is where the points start; frame t is where they are at
 /// timestamp t. One frame alone is a point set whose triangulation is built once.
 struct Series {
@@ -15,6 +23,9 @@ struct Series {
     unsigned dimension = 2;
     std::size_t n_points = 0;
     std::vector<double> positions;  // frames x points x dimension
+    bool is_sequential = false;     // points move one after another, in the order of their ids
+    std::vector<Segment> segments;  // empty: one, of all timestamps
+    std::string remark;             // what a reader of the results must know of it
 
     std::size_t frame_length() const { return n_points * dimension; }
     std::size_t n_frames() const { return frame_length() == 0 ? 0 : positions.size() / frame_length(); }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verify.hpp"
 
-#include "arbiter.hpp"
-#include "cells.hpp"
+#include "referee.hpp"
 
 #include <algorithm>
 
@@ -29,75 +28,6 @@ struct Runner {
         engine->build(series.frame(wanted), series.n_points);
         timestamp = wanted;
     }
-};
-
-/// Compares whatever is at one timestamp with the two references, which are built once for it.
-class Referee {
-public:
-    Referee(const Series &series, std::size_t timestamp, Checks &checks)
-        : series_(series), timestamp_(timestamp), checks_(checks),
-          representatives_(representatives(series.dimension, series.frame(timestamp), series.n_points)),
-          cgal_(fresh("cgal/rebuilding")), deldrift_(fresh("deldrift/rebuilding")) {
-        checks_.n_degenerate += require_equivalent(deldrift_, "a fresh deldrift build");
-        checks_.n_cells += deldrift_.size();
-        ++checks_.n_timestamps;
-        std::size_t n_coincident = 0;
-        for (std::size_t id = 0; id < representatives_.size(); ++id) n_coincident += representatives_[id] != id;
-        checks_.n_coincident = std::max(checks_.n_coincident, n_coincident);
-    }
-
-    void judge(const Entrant &entrant, Engine &engine) {
-        const CellSet cells = cells_of(engine, entrant.name());
-        if (entrant.kind->engine == "deldrift")
-            require_equal(cells, entrant.name());
-        else
-            require_equivalent(cells, entrant.name());
-        ++checks_.n_comparisons;
-    }
-
-private:
-    CellSet fresh(const std::string &name) {
-        const std::unique_ptr<Engine> engine = engine_kind(name).make(series_.dimension, 1);
-        engine->prepare(series_.frame(timestamp_), series_.n_points);
-        engine->build(series_.frame(timestamp_), series_.n_points);
-        return cells_of(*engine, "a fresh " + name);
-    }
-
-    CellSet cells_of(Engine &engine, const std::string &name) {
-        try {
-            engine.validate();
-            return canonical(series_.dimension, engine.cells(), representatives_);
-        } catch (const std::runtime_error &error) {
-            fail(name + ": " + error.what());
-        }
-    }
-
-    void require_equal(const CellSet &cells, const std::string &name) {
-        if (cells == deldrift_) return;
-        const CellSet extra = difference(cells, deldrift_);
-        const CellSet missing = difference(deldrift_, cells);
-        fail(name + " has " + std::to_string(extra.size()) + " cells that a fresh deldrift build has not, and lacks " +
-             std::to_string(missing.size()) + ", beginning with " +
-             to_string(extra.empty() ? missing.front() : extra.front()));
-    }
-
-    std::size_t require_equivalent(const CellSet &cells, const std::string &name) {
-        const Verdict verdict = compare(series_.dimension, series_.frame(timestamp_), cells, name, cgal_,
-                                        "CGAL's rebuilding");
-        if (!verdict.is_accepted) fail(verdict.complaint);
-        return verdict.n_degenerate;
-    }
-
-    [[noreturn]] void fail(const std::string &what) const {
-        throw Mismatch(series_.name + ", timestamp " + std::to_string(timestamp_) + ": " + what, timestamp_);
-    }
-
-    const Series &series_;
-    std::size_t timestamp_;
-    Checks &checks_;
-    std::vector<std::uint32_t> representatives_;
-    CellSet cgal_;
-    CellSet deldrift_;
 };
 
 bool contains(const std::vector<std::size_t> &ascending, std::size_t value) {

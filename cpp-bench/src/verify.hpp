@@ -6,7 +6,9 @@
 #include "progress.hpp"
 #include "series.hpp"
 
+#include <map>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace bench {
@@ -30,6 +32,8 @@ struct Checks {
     std::size_t n_comparisons = 0;  // of an engine's set of cells
     std::size_t n_cells = 0;        // in deldrift's sets, over those timestamps
     std::size_t n_degenerate = 0;   // cells of these that CGAL has otherwise, all exactly cocircular or cospherical
+    // Cells of the report's algorithms on CGAL that its Proposition 1 wrongly takes for Delaunay, by engine.
+    std::map<std::string, std::size_t> n_unproved;
     std::size_t n_coincident = 0;   // points at the place of one with a lower id, greatest count
 };
 

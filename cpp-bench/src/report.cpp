@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report.hpp"
+
+#include "csv.hpp"
+#include "engine.hpp"
+#include "progress.hpp"
+#include "report_input.hpp"
+#include "report_replay.hpp"
+#include "report_statistics.hpp"
+#include "table.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+namespace bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const CsvFile::Line report_columns = {"scenario",  "dimension", "n",       "timestamps",
+                                      "engine",    "algorithm", "threads", "seconds",
+                                      "ns_per_vertex_timestamp", "speedup_vs_cgal_rebuild",
+                                      "first_timestamp", "last_timestamp"};
+const CsvFile::Line curve_columns = {"scenario", "engine", "algorithm", "first_timestamp", "last_timestamp",
+                                     "timestamps", "ns_per_vertex_timestamp"};
+const CsvFile::Line check_columns = {"scenario", "engine", "algorithm", "compared_timestamps",
+                                     "cells_wrongly_taken_for_delaunay"};
+
+/// The rows that a reader compares with the report's Tables 1 and 2, and one for each segment.
+std::vector<std::pair<std::size_t, std::size_t>> ranges_of(const Series &series) {
+    if (series.segments.empty())
+        return {{1, series.n_timestamps()}, {std::max<std::size_t>(1, series.n_timestamps() / 2), series.n_timestamps()}};
+    std::vector<std::pair<std::size_t, std::size_t>> ranges = {{1, series.n_timestamps()}};
+    for (const Segment &segment : series.segments) ranges.emplace_back(segment.first, segment.last);
+    return ranges;
+}
+
+std::vector<std::size_t> all_timestamps(const Series &series) {
+    std::vector<std::size_t> timestamps;
+    if (series.segments.empty())
+        for (std::size_t t = 1; t <= series.n_timestamps(); ++t) timestamps.push_back(t);
+    for (const Segment &segment : series.segments)
+        for (std::size_t t = segment.first; t <= segment.last; ++t) timestamps.push_back(t);
+    return timestamps;
+}
+
+/// `count` evenly spread ones of a whole series, the last included; the first `count` of every segment.
+std::vector<std::size_t> sampled_timestamps(const Series &series, std::size_t count) {
+    std::vector<std::size_t> timestamps;
+    const std::size_t n = series.n_timestamps();
+    if (series.segments.empty())
+        for (std::size_t i = 1; i <= std::min(count, n); ++i) timestamps.push_back(i * n / std::min(count, n));
+    for (const Segment &segment : series.segments)
+        for (std::size_t t = segment.first; t <= segment.last && t < segment.first + count; ++t)
+            timestamps.push_back(t);
+    return timestamps;
+}
+
+/// Bins of about equal width on a logarithmic axis, beginning with single timestamps.
+std::vector<std::pair<std::size_t, std::size_t>> bins_of(std::size_t n_timestamps) {
+    std::vector<std::pair<std::size_t, std::size_t>> bins;
+    for (std::size_t first = 1; first <= n_timestamps;) {
+        const std::size_t last = std::min(n_timestamps, std::max(first, static_cast<std::size_t>(1.12 * static_cast<double>(first))));
+        bins.emplace_back(first, last);
+        first = last + 1;
+    }
+    return bins;
+}
+
+struct Sum {
+    std::size_t n = 0;
+    double seconds = 0;
+    double baseline = 0;
+};
+
+/// Over the timestamps of a range at which the engine was timed.
+Sum sum_over(const UpdateTimes &times, const UpdateTimes &baseline, std::pair<std::size_t, std::size_t> range) {
+    Sum sum;
+    for (auto at = times.lower_bound(range.first); at != times.end() && at->first <= range.second; ++at) {
+        ++sum.n;
+        sum.seconds += at->second;
+        sum.baseline += baseline.at(at->first);
+    }
+    return sum;
+}
+
+class Report {
+public:
+    explicit Report(const Options &options)
+        : options_(options), begun_(std::chrono::steady_clock::now()) {
+        fs::create_directories(options.results + "/series");
+        begin_anew_if_needed();
+        report_ = std::make_unique<CsvFile>(options.results + "/report.csv", report_columns);
+        curves_ = std::make_unique<CsvFile>(options.results + "/report_curves.csv", curve_columns);
+        checks_ = std::make_unique<CsvFile>(options.results + "/report_checks.csv", check_columns);
+    }
+
+    void run() {
+        double cost_left = 0, cost_done = 0;
+        for (const std::string &scenario : options_.scenarios) cost_left += cost(scenario);
+        for (const std::string &scenario : options_.scenarios) {
+            announce(scenario, cost_done, cost_left);
+            const bool is_done = run_scenario(scenario);
+            cost_left -= cost(scenario);
+            if (!is_done) cost_done += cost(scenario);
+        }
+        std::cout << "written: " << options_.results << "/report.csv and report_*.csv\n";
+    }
+
+private:
+    /// Figures of different commits, presets or seeds do not go together.
+    void begin_anew_if_needed() {
+        const char *commit = std::getenv("DELDRIFT_BENCH_COMMIT");
+        std::ostringstream state;
+        state << "commit: " << (commit ? commit : "unknown") << "\npreset: " << options_.preset.name
+              << "\nseed: " << options_.seed << "\ntimestamps: " << options_.report_timestamps << '\n';
+        const std::string path = options_.results + "/report_state.txt";
+        std::ifstream file(path);
+        std::ostringstream old;
+        old << file.rdbuf();
+        if (old.str() == state.str()) return;
+        if (!old.str().empty()) std::cerr << "beginning anew: commit, preset or seed are others than last time\n";
+        for (const auto &entry : fs::directory_iterator(options_.results))
+            if (entry.path().filename().string().rfind("report", 0) == 0 && entry.path().extension() == ".csv")
+                fs::remove(entry.path());
+        std::ofstream(path) << state.str();
+    }
+
+    double cost(const std::string &scenario) const {
+        const ReportEffort effort = report_effort(scenario, options_);
+        const double segments = scenario.rfind("share_", 0) == 0 || scenario.rfind("walk_", 0) == 0 ? 15 : 1;
+        const bool is_plane = scenario.find("2d") != std::string::npos;
+        return static_cast<double>(effort.n_points * effort.n_timestamps) * segments * (is_plane ? effort.n_repeats : 15);
+    }
+
+    void announce(const std::string &scenario, double cost_done, double cost_left) const {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+        std::cerr << "[" << scenario;
+        if (cost_done > 0) {
+            const double left = seconds * cost_left / cost_done;
+            if (left < 90)
+                std::cerr << "; less than two minutes left in all";
+            else
+                std::cerr << "; about " << std::lround(left / 60) << " min left in all";
+        }
+        std::cerr << "]\n";
+    }
+
+    bool is_wanted(const EngineKind &kind) const {
+        const auto &wanted = options_.engines;
+        return wanted.empty() || std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end() ||
+               std::find(wanted.begin(), wanted.end(), kind.name()) != wanted.end();
+    }
+
+    std::string times_path(const std::string &scenario, const EngineKind &kind) const {
+        return options_.results + "/series/times_" + scenario + "_" + kind.engine + "_" + kind.algorithm + ".csv";
+    }
+
+    bool has_rows(const std::string &scenario, const EngineKind &kind) const {
+        return std::any_of(report_->lines().begin(), report_->lines().end(), [&](const CsvFile::Line &line) {
+            return line.at(0) == scenario && line.at(4) == kind.engine && line.at(5) == kind.algorithm;
+        });
+    }
+
+    /// True if there was nothing to do.
+    bool run_scenario(const std::string &scenario) {
+        const EngineKind &baseline = engine_kinds().front();
+        std::vector<const EngineKind *> missing;
+        for (const EngineKind &kind : engine_kinds())
+            if ((&kind == &baseline || is_wanted(kind)) && !has_rows(scenario, kind)) missing.push_back(&kind);
+        if (missing.empty() && has_statistics(scenario)) {
+            std::cerr << scenario << ": all there\n";
+            return true;
+        }
+        const ReportInput input = report_input(scenario, options_, progress_);
+        write_report_statistics(input, options_.results, progress_);
+        if (!missing.empty()) time_engines(input.series, missing);
+        return false;
+    }
+
+    bool has_statistics(const std::string &scenario) const {
+        std::ifstream file(options_.results + "/report_statistics.csv");
+        for (std::string line; std::getline(file, line);)
+            if (line.rfind(scenario + ",", 0) == 0) return true;
+        return false;
+    }
+
+    void time_engines(const Series &series, const std::vector<const EngineKind *> &kinds) {
+        const ReportEffort effort = report_effort(series.name, options_);
+        std::vector<Entrant> entrants;
+        for (const EngineKind *kind : kinds)
+            entrants.push_back({kind, 1,
+                                is_sampled(*kind, series) ? sampled_timestamps(series, effort.n_slow_timestamps)
+                                                          : all_timestamps(series)});
+        Checks checks;
+        const std::vector<UpdateTimes> times =
+            replay_report(series, entrants, check_timestamps(series, effort), effort.n_repeats, checks, progress_);
+        for (std::size_t i = 0; i < kinds.size(); ++i) save_times(series, *kinds[i], times[i]);
+        const UpdateTimes baseline = load_times(series, engine_kinds().front());
+        for (std::size_t i = 0; i < kinds.size(); ++i) {
+            add_rows(series, *kinds[i], times[i], baseline);
+            add_curve(series, *kinds[i], times[i]);
+            checks_->add({series.name, kinds[i]->engine, kinds[i]->algorithm, std::to_string(checks.n_timestamps),
+                          std::to_string(checks.n_unproved[kinds[i]->name()])});
+        }
+        checks_->save();
+        curves_->save();
+        report_->save();
+    }
+
+    /// Engines that cannot get cheaper with smaller displacements and are far slower than rebuilding; those with
+    /// tolerances live through all timestamps.
+    static bool is_sampled(const EngineKind &kind, const Series &series) {
+        const bool has_memory = kind.algorithm.find("tolerance") != std::string::npos ||
+                                kind.algorithm.find("safe_region") != std::string::npos;
+        if (series.dimension == 2) return false;
+        return kind.is_slow_in_3d && (!has_memory || !series.segments.empty());
+    }
+
+    static std::vector<std::size_t> check_timestamps(const Series &series, const ReportEffort &effort) {
+        if (series.segments.empty()) return sampled_timestamps(series, effort.n_checks);
+        // The end of what slow engines take part in, of every segment but the first.
+        std::vector<std::size_t> timestamps;
+        for (const Segment &segment : series.segments)
+            timestamps.push_back(std::min(segment.last, segment.first + effort.n_slow_timestamps - 1));
+        return timestamps;
+    }
+
+    void save_times(const Series &series, const EngineKind &kind, const UpdateTimes &times) const {
+        std::vector<std::vector<std::string>> lines = {{"timestamp", "seconds"}};
+        for (const auto &[timestamp, seconds] : times)
+            lines.push_back({std::to_string(timestamp), significant(seconds, 9)});
+        write_csv(times_path(series.name, kind), lines);
+    }
+
+    UpdateTimes load_times(const Series &series, const EngineKind &kind) const {
+        UpdateTimes times;
+        const CsvFile file(times_path(series.name, kind), {"timestamp", "seconds"});
+        for (const CsvFile::Line &line : file.lines()) times[std::stoul(line.at(0))] = std::stod(line.at(1));
+        return times;
+    }
+
+    void add_rows(const Series &series, const EngineKind &kind, const UpdateTimes &times,
+                  const UpdateTimes &baseline) {
+        for (const auto &range : ranges_of(series)) {
+            const Sum sum = sum_over(times, baseline, range);
+            if (sum.n == 0) continue;
+            const double ns = 1e9 * sum.seconds / static_cast<double>(sum.n * series.n_points);
+            report_->add({series.name, std::to_string(series.dimension), std::to_string(series.n_points),
+                          std::to_string(sum.n), kind.engine, kind.algorithm, "1", significant(sum.seconds, 6),
+                          significant(ns, 5), significant(sum.baseline / sum.seconds, 5),
+                          std::to_string(range.first), std::to_string(range.second)});
+        }
+    }
+
+    void add_curve(const Series &series, const EngineKind &kind, const UpdateTimes &times) {
+        if (!series.segments.empty()) return;
+        for (const auto &bin : bins_of(series.n_timestamps())) {
+            const Sum sum = sum_over(times, times, bin);
+            if (sum.n == 0) continue;
+            curves_->add({series.name, kind.engine, kind.algorithm, std::to_string(bin.first),
+                          std::to_string(bin.second), std::to_string(sum.n),
+                          significant(1e9 * sum.seconds / static_cast<double>(sum.n * series.n_points), 5)});
+        }
+    }
+
+    const Options &options_;
+    std::chrono::steady_clock::time_point begun_;
+    Progress progress_;
+    std::unique_ptr<CsvFile> report_;
+    std::unique_ptr<CsvFile> curves_;
+    std::unique_ptr<CsvFile> checks_;
+};
+
+}  // namespace
+
+void run_report(const Options &options) { Report(options).run(); }
+
+}  // namespace bench

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ball_cell.hpp"
+#include "random.hpp"
+#include "report_space.hpp"
+#include "scenarios.hpp"
+#include "solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bench {
+namespace {
+
+constexpr std::size_t n_directions = 2048;
+
+/// A Voronoi vertex.
+struct Dual {
+    Vector3 centre{};
+    bool is_inside = false;  // the ball; never of an infinite cell
+};
+
+using Space = ReportSpace<3, Dual>;
+
+class Iteration {
+public:
+    Iteration(const double *from, std::size_t n_points, double radius)
+        : from_(from), moments_(n_points), is_inside_(n_points, 1) {
+        std::vector<Space::InputPoint> input;
+        for (std::size_t id = 0; id < n_points; ++id)
+            input.emplace_back(Space::point(from + 3 * id), VertexInfo{static_cast<std::uint32_t>(id), 0});
+        insert_sorted<Space>(triangulation_, input);
+        find_duals(radius);
+    }
+
+    void run(BallCells &ball_cells, double *to) {
+        add_exact_parts();
+        for (auto vertex = triangulation_.finite_vertices_begin(); vertex != triangulation_.finite_vertices_end();
+             ++vertex) {
+            const std::uint32_t id = vertex->info().id;
+            const Vector3 centroid = is_inside_[id] ? exact(id) : by_quadrature(ball_cells, vertex);
+            std::copy(centroid.begin(), centroid.end(), to + 3 * std::size_t{id});
+        }
+    }
+
+private:
+    struct Moments {
+        double volume = 0;
+        Vector3 first{};  // from the site
+    };
+
+    Vector3 site(std::uint32_t id) const { return vector(from_ + 3 * std::size_t{id}); }
+
+    void find_duals(double radius) {
+        for (auto cell = triangulation_.all_cells_begin(); cell != triangulation_.all_cells_end(); ++cell) {
+            Dual &dual = cell->info();
+            dual = {};
+            if (!triangulation_.is_infinite(cell)) {
+                std::array<Vector3, 4> corner;
+                for (int i = 0; i < 4; ++i) corner[i] = site(cell->vertex(i)->info().id);
+                dual.centre = circumcentre(corner);
+                dual.is_inside = dot(dual.centre, dual.centre) < radius * radius;
+            }
+            if (!dual.is_inside)
+                for (int i = 0; i < 4; ++i)
+                    if (cell->vertex(i) != triangulation_.infinite_vertex())
+                        is_inside_[cell->vertex(i)->info().id] = 0;
+        }
+    }
+
+    /// A facet of a Voronoi cell belongs to an edge, and the edge's midpoint is in its plane. An edge of the facet
+    /// belongs to a triangle: with the midpoint it makes a (signed) triangle of the facet, and with either site a
+    /// tetrahedron of that site's cell.
+    void add_exact_parts() {
+        for (auto cell = triangulation_.finite_cells_begin(); cell != triangulation_.finite_cells_end(); ++cell)
+            for (int corner = 0; corner < 4; ++corner) {
+                const auto other = cell->neighbor(corner);
+                if (triangulation_.is_infinite(other) || !(&*cell < &*other)) continue;
+                // Counter-clockwise seen from the neighbour.
+                const std::array<int, 3> facet = corner % 2 == 0
+                                                     ? std::array<int, 3>{(corner + 1) & 3, (corner + 2) & 3, (corner + 3) & 3}
+                                                     : std::array<int, 3>{(corner + 1) & 3, (corner + 3) & 3, (corner + 2) & 3};
+                for (int i = 0; i < 3; ++i)
+                    add_part(cell->vertex(facet[i])->info().id, cell->vertex(facet[(i + 1) % 3])->info().id,
+                             cell->info().centre, other->info().centre);
+            }
+    }
+
+    void add_part(std::uint32_t v, std::uint32_t w, const Vector3 &below, const Vector3 &above) {
+        if (is_inside_[v]) add_tetrahedron(v, w, below, above);
+        if (is_inside_[w]) add_tetrahedron(w, v, above, below);
+    }
+
+    void add_tetrahedron(std::uint32_t v, std::uint32_t w, const Vector3 &a, const Vector3 &b) {
+        const Vector3 origin = site(v);
+        const Vector3 m = 0.5 * (site(w) - origin), p = a - origin, q = b - origin;
+        const double volume = dot(m, cross(p, q)) / 6;
+        Moments &moments = moments_[v];
+        moments.volume += volume;
+        moments.first = moments.first + (volume / 4) * (m + p + q);
+    }
+
+    Vector3 exact(std::uint32_t id) const {
+        return site(id) + (1 / moments_[id].volume) * moments_[id].first;
+    }
+
+    Vector3 by_quadrature(BallCells &ball_cells, Space::Vertex vertex) {
+        neighbours_.clear();
+        triangulation_.finite_adjacent_vertices(vertex, std::back_inserter(neighbours_));
+        others_.clear();
+        for (const auto neighbour : neighbours_) others_.push_back(from_ + 3 * std::size_t{neighbour->info().id});
+        return ball_cells.cell(from_ + 3 * std::size_t{vertex->info().id}, others_).centroid;
+    }
+
+    const double *from_;
+    Space::Triangulation triangulation_;
+    std::vector<Moments> moments_;
+    std::vector<char> is_inside_;  // all of the cell is in the ball
+    std::vector<Space::Vertex> neighbours_;
+    std::vector<const double *> others_;
+};
+
+}  // namespace
+
+Series record_slloyd(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress) {
+    Series series;
+    series.name = "slloyd";
+    series.dimension = 3;
+    series.n_points = n_points;
+    series.positions.resize((n_timestamps + 1) * 3 * n_points);
+    const double radius = unit_density_radius(3, n_points);
+    Random random(seed);
+    for (std::size_t id = 0; id < n_points; ++id) random.in_ball(3, radius, &series.positions[3 * id]);
+
+    BallCells ball_cells(radius, n_directions);
+    progress.begin(series.name + ": recording " + std::to_string(n_timestamps) + " timestamps", n_timestamps);
+    for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
+        Iteration(series.frame(timestamp - 1), n_points, radius)
+            .run(ball_cells, series.positions.data() + timestamp * series.frame_length());
+        progress.step();
+    }
+    return series;
+}
+
+}  // namespace bench
