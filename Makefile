@@ -1,10 +1,10 @@
 # deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is installed
 # where it is missing, as root or through sudo.
 
-# quick (within three minutes on two cores) or full
+# quick (bench within three minutes on two cores, report within ten) or full (report within two hours)
 PRESET ?= quick
 PREFIX ?= /usr/local
-# Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy"
+# Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy", make report ARGS="--scenario man"
 ARGS ?=
 
 # Where cargo builds, and all others look for the library: one absolute path, CARGO_TARGET_DIR if that is set.
@@ -16,20 +16,28 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test bench memory large table lint header picture install library benchmark clean
+.PHONY: help test bench report memory large table lint header picture install library benchmark clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
 
 test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
-	@.ci/packages cmake g++ libcgal-dev pkg-config valgrind
+	@.ci/packages cmake g++ libcgal-dev pkg-config python3 valgrind
+	-@.ci/packages chromium
 	cargo test
 	cargo test --test ffi -- --include-ignored
 	$(MAKE) benchmark
 	ctest --test-dir cpp-bench/build --output-on-failure
+	cpp-bench/report_page/test_page.py
 
 bench: benchmark ## deldrift beside CGAL: a table, and cpp-bench/results/bench.csv (PRESET=quick or full)
 	cpp-bench/run --preset $(PRESET) $(ARGS)
+
+report: benchmark ## the report RR-6750 anew, beside CGAL: cpp-bench/results/report/index.html (PRESET=quick or full)
+	@.ci/packages python3
+	-@cpp-bench/fetch_man
+	cpp-bench/run --report --preset $(PRESET) $(ARGS)
+	cpp-bench/report_page/page.py
 
 memory: benchmark ## bytes per vertex, beside CGAL's: cpp-bench/results/memory.csv
 	cpp-bench/run --memory $(ARGS)

@@ -35,6 +35,7 @@ public:
         rebuilds_ =
             options_.algorithm == DELDRIFT_REBUILDING || options_.algorithm == DELDRIFT_REBUILDING_TOLERANCE;
         require(deldrift_create(dimension_, positions, n_points, &options_, &triangulation_), "deldrift_create");
+        pre_compute();
     }
 
     void advance(const double *positions) override {
@@ -73,6 +74,13 @@ public:
     }
 
 private:
+    /// What the report calls pre-computations, of tolerances and delimiters, is done by the first commit.
+    void pre_compute() {
+        if (options_.algorithm == DELDRIFT_TOLERANCE || options_.algorithm == DELDRIFT_SAFE_REGION ||
+            options_.algorithm == DELDRIFT_SAFE_REGION_TOLERANCE)
+            require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp");
+    }
+
     unsigned dimension_;
     deldrift_options options_;
     deldrift_triangulation *triangulation_ = nullptr;

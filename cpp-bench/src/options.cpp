@@ -13,7 +13,8 @@ namespace bench {
 const char *const usage =
     R"(cpp-bench/run: deldrift beside CGAL on identical positions.
 
-  --preset quick|full      how much to do (quick: within three minutes; full: 1,000 timestamps)
+  --preset NAME            how much to do. quick: within three minutes, with --report ten; full: 1,000 timestamps,
+                           with --report within two hours; smoke: just enough to see that everything runs
   --scenario NAME          only this one; may be repeated
                            lloyd_2d_uniform, walk_3d, static_2d, static_3d
   --series FILE.npy        replay recorded positions, frames x points x dimension, f64 or f32; may be repeated.
@@ -49,6 +50,7 @@ const char *const usage =
 namespace {
 
 const Preset quick = {"quick", 1000, 50, 5, 10, 3, {1'000, 10'000, 100'000, 1'000'000}};
+const Preset smoke = {"smoke", 20, 5, 2, 2, 1, {1'000}};
 const Preset full = {"full", 1000, 1000, 20, 20, 3, {1'000, 10'000, 100'000, 1'000'000}};
 
 const std::vector<std::string> scenario_names = {"lloyd_2d_uniform", "walk_3d", "static_2d", "static_3d"};
@@ -126,8 +128,8 @@ private:
     }
 
     void take_preset() {
-        const std::string name = one_of({"quick", "full"}, value());
-        options_.preset = name == "full" ? full : quick;
+        const std::string name = one_of({"quick", "full", "smoke"}, value());
+        options_.preset = name == "full" ? full : name == "smoke" ? smoke : quick;
     }
 
     static std::string one_of(const std::vector<std::string> &known, const std::string &name) {

@@ -83,7 +83,8 @@ ReportEffort report_effort(const std::string &scenario, const Options &options) 
     const unsigned dimension = dimension_of(scenario);
     ReportEffort effort{};
     effort.n_checks = is_full ? 10 : 5;
-    effort.n_repeats = dimension == 2 || begins_with(scenario, "walk_") ? (is_full ? 3 : 1) : 1;
+    const bool is_short = dimension == 2 || begins_with(scenario, "walk_");
+    effort.n_repeats = is_short && (is_full || is_segmented(scenario)) ? 3 : 1;
     effort.n_slow_timestamps = is_full ? 20 : 10;
     if (begins_with(scenario, "lloyd_2d")) {
         effort.n_points = 1'000;
@@ -98,6 +99,9 @@ ReportEffort report_effort(const std::string &scenario, const Options &options) 
     } else {
         effort.n_points = is_full ? (scenario == "man" ? 8'000 : 13'000) : (scenario == "man" ? 2'000 : 3'000);
         effort.n_timestamps = is_full ? 1'000 : 100;
+    }
+    if (options.preset.name == "smoke") {
+        effort = {400, is_segmented(scenario) ? std::size_t{2} : std::size_t{12}, 2, 2, 1};
     }
     if (options.report_timestamps > 0 && !is_segmented(scenario)) effort.n_timestamps = options.report_timestamps;
     return effort;

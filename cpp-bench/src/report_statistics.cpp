@@ -131,13 +131,55 @@ std::vector<std::size_t> shown_timestamps(const Series &series) {
     return {timestamps.begin(), timestamps.end()};
 }
 
+/// The plane that is nearest to the points at the beginning, in squares: through their mean, orthogonal to the axis
+/// of inertia along which they vary least.
+class Section {
+public:
+    explicit Section(const Series &series) {
+        for (std::size_t id = 0; id < series.n_points; ++id)
+            mean_ = mean_ + (1 / static_cast<double>(series.n_points)) * vector(series.frame(0) + 3 * id);
+        Matrix m{};
+        for (std::size_t id = 0; id < series.n_points; ++id) {
+            const Vector3 p = vector(series.frame(0) + 3 * id) - mean_;
+            for (int i = 0; i < 3; ++i) m[i] = m[i] + p[i] * p;
+        }
+        // Powers of the matrix, and of the rest of it, turn anything to the axes of the greatest inertia.
+        up_ = greatest_axis(m, {0.1, 0.2, 1});
+        if (up_[2] < 0) up_ = -1 * up_;
+        const Vector3 side = greatest_axis(m, cross(up_, {0.1, 1, 0.1}));
+        right_ = side[0] < 0 ? -1 * side : side;
+        normal_ = cross(right_, up_);
+    }
+
+    /// To the right and upwards in the plane, and away from it.
+    Vector3 place(const Vector3 &p) const {
+        const Vector3 q = p - mean_;
+        return {dot(q, right_), dot(q, up_), dot(q, normal_)};
+    }
+
+private:
+    using Matrix = std::array<Vector3, 3>;
+
+    /// Orthogonal to `up_`, as far as that is known.
+    Vector3 greatest_axis(const Matrix &m, Vector3 axis) const {
+        for (int i = 0; i < 200; ++i) {
+            axis = axis - dot(axis, up_) * up_;
+            axis = {dot(m[0], axis), dot(m[1], axis), dot(m[2], axis)};
+            axis = (1 / std::sqrt(dot(axis, axis))) * axis;
+        }
+        return axis;
+    }
+
+    Vector3 mean_{}, up_{}, right_{}, normal_{};
+};
+
 class Writer {
 public:
     Writer(const ReportInput &input, const std::string &results)
         : series_(input.series), body_(input.body),
           statistics_(results + "/report_statistics.csv",
                       {"scenario", "timestamp", "n", "mean_width", "mean_tolerance", "mean_certified_tolerance",
-                       "mean_widest", "bicells_per_vertex", "mean_displacement", "share_within_tolerance"}),
+                       "mean_widest", "bicells_per_vertex", "mean_displacement", "share_within_tolerance", "remark"}),
           segments_(results + "/report_segments.csv",
                     {"scenario", "first_timestamp", "last_timestamp", "displacement", "displacement_per_tolerance",
                      "share_within_tolerance"}),
@@ -180,7 +222,7 @@ private:
         statistics_.add({series_.name, std::to_string(timestamp), std::to_string(series_.n_points),
                          text(mean(measured.widths())), text(mean(measured.tolerances())),
                          text(measured.mean_certified_tolerance()), text(mean(measured.widest())),
-                         text(measured.bicells_per_vertex()), displacement_text, share_text});
+                         text(measured.bicells_per_vertex()), displacement_text, share_text, series_.remark});
     }
 
     /// All segments begin at the frame that was measured.
@@ -226,29 +268,31 @@ private:
         }
     }
 
-    /// What the plane y = 0 cuts of the cells that have their centre in the body.
+    /// What the plane cuts of the cells that have their centre in the body.
     void add_section(const Measured &measured, std::size_t timestamp) {
         const deldrift_cells_view &cells = measured.cells();
+        const Section section(series_);
         for (std::size_t cell = 0; cell < cells.count; ++cell) {
             std::array<Vector3, 4> corner;
             for (unsigned i = 0; i < 4; ++i)
                 corner[i] = vector(series_.frame(timestamp) + 3 * std::size_t{cells.vertices[4 * cell + i]});
+            const Vector3 centre = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
+            for (Vector3 &p : corner) p = section.place(p);
             const std::vector<Vector3> polygon = cut(corner);
             if (polygon.size() < 3) continue;
-            const Vector3 centre = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
             if (!body_->contains(centre.data())) continue;
             std::string text;
             for (const Vector3 &p : polygon)
-                text += (text.empty() ? "" : " ") + significant(p[0], 4) + " " + significant(p[2], 4);
+                text += (text.empty() ? "" : " ") + significant(p[0], 4) + " " + significant(p[1], 4);
             sections_.add({series_.name, std::to_string(timestamp), significant(radius_ratio(corner), 3), text});
         }
     }
 
     static std::vector<Vector3> cut(const std::array<Vector3, 4> &corner) {
         std::vector<Vector3> below, above, polygon;
-        for (const Vector3 &p : corner) (p[1] < 0 ? below : above).push_back(p);
+        for (const Vector3 &p : corner) (p[2] < 0 ? below : above).push_back(p);
         for (const Vector3 &a : below)
-            for (const Vector3 &b : above) polygon.push_back(a + (a[1] / (a[1] - b[1])) * (b - a));
+            for (const Vector3 &b : above) polygon.push_back(a + (a[2] / (a[2] - b[2])) * (b - a));
         // Two and two: the crossings of a quadrilateral, in order around it.
         if (polygon.size() == 4) std::swap(polygon[2], polygon[3]);
         return polygon;

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables 1 and 2: the report's figures, its algorithms on CGAL here, deldrift."""
+
+from engines import LONG_NAMES, TABLE_CGAL, TABLE_DELDRIFT
+from html import escape
+from published import INPUT_TITLES, INPUTS, MAN_PLACEMENT_NOTE, TABLE_1, TABLE_2
+from words import count, listed, span, times
+
+
+def cell(value, note=""):
+    if value is None:
+        return f'<td class="none">{note or "–"}</td>'
+    return f'<td{" class=faster" if value > 1.005 else ""}>{times(value)}{note}</td>'
+
+
+def group(title, rows, cells_of):
+    body = f'<tr class="group"><th colspan="{len(INPUTS) + 1}">{title}</th></tr>'
+    for algorithm in rows:
+        body += f"<tr><td>{escape(LONG_NAMES[algorithm])}</td>{cells_of(algorithm)}</tr>"
+    return body
+
+
+def table(results, which):
+    published = (TABLE_1, TABLE_2)[which]
+    ranges = [results.range(scenario, which) for scenario in INPUTS]
+    heads = "".join(
+        f'<th>{escape(INPUT_TITLES[s])}<br><span class="small">'
+        + (f"{count(results.size(s))} points<br>{r[0]}–{r[1]}" if r else "not measured") + "</span></th>"
+        for s, r in zip(INPUTS, ranges))
+
+    def measured(engine):
+        def cells(algorithm):
+            html = ""
+            for scenario in INPUTS:
+                row = results.row(scenario, engine, algorithm, which)
+                whole = results.row(scenario, "cgal", "rebuilding", which)
+                is_sample = row and whole and row["timestamps"] != whole["timestamps"]
+                html += cell(results.speedup(scenario, engine, algorithm, which), "*" if is_sample else "")
+            return html
+        return cells
+
+    body = group("Report, 2008 (Pentium 4, CGAL 3.3.1)", list(published),
+                 lambda a: "".join(cell(v, "†" if v is None else "") for v in published[a]))
+    body += group("Here: CGAL, and the report's algorithms on CGAL", TABLE_CGAL, measured("cgal"))
+    body += group("Here: deldrift", TABLE_DELDRIFT, measured("deldrift"))
+    first = ("from the first to the last", "from the middle to the last")[which]
+    return (f'<div class="scroll"><table id="table-{which + 1}"><caption>Speed-up over CGAL\'s rebuilding, {first} of the '
+            f'iterations named. Above 1 is bold. * timed at a sample of the iterations. † {MAN_PLACEMENT_NOTE}</caption>'
+            f"<thead><tr><th></th>{heads}</tr></thead><tbody>{body}</tbody></table></div>")
+
+
+def sentences(results, which):
+    """What the report saw and what is seen here."""
+    plane, space = INPUTS[:4], INPUTS[4:]
+
+    def speedups(engine, algorithm, scenarios):
+        return [results.speedup(s, engine, algorithm, which) for s in scenarios]
+
+    published = (TABLE_1, TABLE_2)[which]
+    then = (f"T was {span(published['tolerance'][:4])} times as fast as rebuilding in the plane and "
+            f"{span(published['tolerance'][4:])} times in space; placement was slower than rebuilding everywhere.")
+    now = (f"The same T on CGAL is {span(speedups('cgal', 'tolerance', plane))} times as fast in the plane and "
+           f"{span(speedups('cgal', 'tolerance', space))} times in space; deldrift's T is "
+           f"{span(speedups('deldrift', 'tolerance', plane))} and {span(speedups('deldrift', 'tolerance', space))} "
+           f"times as fast, its default (auto) {span(speedups('deldrift', 'auto', plane))} and "
+           f"{span(speedups('deldrift', 'auto', space))} times.")
+    now += " " + placement_sentence(results, which) + " " + ordering_sentence(results, which)
+    now += " " + comparison_sentence(results, which)
+    return then, now
+
+
+def placement_sentence(results, which):
+    faster = [INPUT_TITLES[s] for s in INPUTS if (results.speedup(s, "cgal", "placement", which) or 0) > 1]
+    if not faster:
+        return "CGAL's placement is slower than rebuilding everywhere, as in the report."
+    return (f"CGAL's placement is faster than its rebuilding on {listed(faster)}, unlike in the report: CGAL 3.3.1 had "
+            "not yet the removal in the plane by cases of low degree (INRIA report RR-7104, 2009).")
+
+
+def ordering_sentence(results, which):
+    if which == 1:
+        return ""
+    good, bad = [], []
+    for scenario in INPUTS[:4]:
+        t, st, s = (results.speedup(scenario, "cgal", a, 0) for a in ("tolerance", "safe_region_tolerance", "safe_region"))
+        if None in (t, st, s):
+            continue
+        (good if t > st > s else bad).append(INPUT_TITLES[scenario])
+    text = f"The report's order T > S+T > S holds for {listed(good) or 'no input'} in the plane."
+    if bad:
+        text += (f" It does not for {listed(bad)}: there the cost of delimiters at every placement outweighs what a second "
+                 "test saves.")
+    return text
+
+
+def comparison_sentence(results, which):
+    slower = []
+    for scenario in INPUTS:
+        ours, theirs = (results.row(scenario, engine, "tolerance", which) for engine in ("deldrift", "cgal"))
+        if ours and theirs and float(ours["seconds"]) > float(theirs["seconds"]):
+            slower.append(f"{INPUT_TITLES[scenario]} ({float(theirs['seconds']) / float(ours['seconds']):.2f} times)")
+    if not slower:
+        return "deldrift's T is at least as fast as the report's T on CGAL on every input measured."
+    return f"deldrift's T is slower than the report's T on CGAL on {listed(slower)}."
