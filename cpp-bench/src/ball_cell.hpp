@@ -13,9 +13,10 @@ struct VolumeAndCentroid {
     std::array<double, 3> centroid{0, 0, 0};
 };
 
-/// The part of a Voronoi cell inside a ball is star-shaped around its site: with the distance t of its boundary in a
-/// direction w, its volume is the integral of t^3 / 3 over all w, its moment from the site that of w t^4 / 4. Both
-/// are sums over the directions of a spiral lattice on the unit sphere, each with the same weight.
+/// The part of a Voronoi cell inside a ball is star-shaped around its site: with the distance t of its
+/// boundary in a direction w, its volume is the integral of t^3 / 3 over all w, its moment from the site that
+/// of w t^4 / 4. Both are sums over the directions of a spiral lattice on the unit sphere, each with the same
+/// weight.
 class BallCells {
 public:
     BallCells(double radius, std::size_t n_directions);

@@ -56,11 +56,13 @@ Body Body::load(const std::string &path) {
         numbers >> length >> triangle[0] >> triangle[1] >> triangle[2];
         if (length != 3) throw std::runtime_error(path + " has a face that is no triangle, or is cut short");
         for (const std::uint32_t corner : triangle)
-            if (corner >= n_corners) throw std::runtime_error(path + " has a triangle with a corner that is none");
+            if (corner >= n_corners)
+                throw std::runtime_error(path + " has a triangle with a corner that is none");
     }
     if (!numbers || triangles.empty()) throw std::runtime_error(path + " is cut short");
     const std::size_t slash = path.find_last_of('/');
-    return Body(path.substr(slash == std::string::npos ? 0 : slash + 1), std::move(corners), std::move(triangles));
+    return Body(path.substr(slash == std::string::npos ? 0 : slash + 1), std::move(corners),
+                std::move(triangles));
 }
 
 Body Body::generate() {
@@ -105,8 +107,8 @@ void Body::require_closed() const {
         }
     for (const auto &[edge, balance] : edges)
         if (balance != 0)
-            throw std::runtime_error(name_ + " is not closed at the edge " + std::to_string(edge.first) + ", " +
-                                     std::to_string(edge.second));
+            throw std::runtime_error(name_ + " is not closed at the edge " + std::to_string(edge.first) +
+                                     ", " + std::to_string(edge.second));
 }
 
 double Body::volume() const {
@@ -139,13 +141,15 @@ void Body::sort_into_columns() {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
         std::size_t first[2], last[2];
         for (unsigned axis = 1; axis < 3; ++axis) {
-            const auto [low, high] = std::minmax({corner(triangles_[t], 0)[axis], corner(triangles_[t], 1)[axis],
-                                                  corner(triangles_[t], 2)[axis]});
+            const auto [low, high] =
+                std::minmax({corner(triangles_[t], 0)[axis], corner(triangles_[t], 1)[axis],
+                             corner(triangles_[t], 2)[axis]});
             first[axis - 1] = column_at(low, least_[axis], greatest_[axis]);
             last[axis - 1] = column_at(high, least_[axis], greatest_[axis]);
         }
         for (std::size_t y = first[0]; y <= last[0]; ++y)
-            for (std::size_t z = first[1]; z <= last[1]; ++z) columns_[y * n_columns_per_axis + z].push_back(t);
+            for (std::size_t z = first[1]; z <= last[1]; ++z)
+                columns_[y * n_columns_per_axis + z].push_back(t);
     }
 }
 
@@ -153,12 +157,12 @@ bool Body::contains(const double *place) const {
     for (unsigned axis = 0; axis < 3; ++axis)
         if (!(place[axis] > least_[axis] && place[axis] < greatest_[axis])) return false;
     const double y = place[1], z = place[2];
-    const std::size_t column = column_at(y, least_[1], greatest_[1]) * n_columns_per_axis +
-                               column_at(z, least_[2], greatest_[2]);
+    const std::size_t column =
+        column_at(y, least_[1], greatest_[1]) * n_columns_per_axis + column_at(z, least_[2], greatest_[2]);
     bool is_inside = false;
     for (const std::uint32_t t : columns_[column]) {
-        // Edges with their lower end (in z, not counting the upper) cross the line of the ray to one side or the
-        // other; a triangle is crossed if that holds for one edge each.
+        // Edges with their lower end (in z, not counting the upper) cross the line of the ray to one side or
+        // the other; a triangle is crossed if that holds for one edge each.
         double x_at[3], y_at[3];
         int n_crossings = 0;
         for (int i = 0; i < 3; ++i) {
@@ -185,7 +189,8 @@ std::vector<Vector3> Body::surface_points(std::size_t count, Random &random) con
         areas_up_to.push_back(sum += norm(cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0))));
     const auto draw = [&] {
         const auto found = std::upper_bound(areas_up_to.begin(), areas_up_to.end(), random.unit() * sum);
-        const Triangle &t = triangles_[std::min<std::size_t>(found - areas_up_to.begin(), triangles_.size() - 1)];
+        const Triangle &t =
+            triangles_[std::min<std::size_t>(found - areas_up_to.begin(), triangles_.size() - 1)];
         double u = random.unit(), v = random.unit();
         if (u + v > 1) u = 1 - u, v = 1 - v;
         return corner(t, 0) + u * (corner(t, 1) - corner(t, 0)) + v * (corner(t, 2) - corner(t, 0));
@@ -197,7 +202,8 @@ std::vector<Vector3> Body::surface_points(std::size_t count, Random &random) con
         for (unsigned candidate = 0; candidate < n_candidates; ++candidate) {
             const Vector3 point = draw();
             double nearest = HUGE_VAL;
-            for (const Vector3 &other : points) nearest = std::min(nearest, dot(point - other, point - other));
+            for (const Vector3 &other : points)
+                nearest = std::min(nearest, dot(point - other, point - other));
             if (nearest > farthest) {
                 farthest = nearest;
                 best = point;

@@ -15,7 +15,8 @@ class Random;
 
 class Body {
 public:
-    /// A closed surface from a file of the OFF format. Throws std::runtime_error naming the file and what is wrong.
+    /// A closed surface from a file of the OFF format. Throws std::runtime_error naming the file and what is
+    /// wrong.
     static Body load(const std::string &path);
 
     /// A stand-in for a person where there is no file: a solid of revolution with head, neck, trunk and foot.

@@ -32,7 +32,8 @@ CsvFile::CsvFile(std::string path, Line columns) : path_(std::move(path)), colum
 
 bool CsvFile::has(const Line &beginning) const {
     return std::any_of(lines_.begin(), lines_.end(), [&](const Line &line) {
-        return line.size() >= beginning.size() && std::equal(beginning.begin(), beginning.end(), line.begin());
+        return line.size() >= beginning.size() &&
+               std::equal(beginning.begin(), beginning.end(), line.begin());
     });
 }
 

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report's algorithms on CGAL's triangulations, written from the report: Algorithm 1 (tolerance), Algorithm 2
-// (safe region), both together, and rebuilding until a sample of vertices stays within tolerance.
+// The report's algorithms on CGAL's triangulations, written from the report: Algorithm 1 (tolerance),
+// Algorithm 2 (safe region), both together, and rebuilding until a sample of vertices stays within tolerance.
 //
-// CGAL's vertices are at the fixed positions; moving positions are kept beside them. As in the report, delimiters and
-// tolerances are in doubles with the error bounds of its section 4, and a vertex that leaves its region is moved by
-// the placement of its section 3.2: if no certificate of its star fails, only its coordinates change; else flips in
-// the plane, insertion and removal in space.
+// CGAL's vertices are at the fixed positions; moving positions are kept beside them. As in the report,
+// delimiters and tolerances are in doubles with the error bounds of its section 4, and a vertex that leaves
+// its region is moved by the placement of its section 3.2: if no certificate of its star fails, only its
+// coordinates change; else flips in the plane, insertion and removal in space.
 //
 // Three things are not as in the report:
 // - The inner loop of Algorithm 2 tests m_w; the report prints m_z there.
-// - The report leaves the hull out. Here the bi-cells with infinite cells have tolerances too: half the least width
-//   of their d + 1 finite points, the displacement that could make a cell on the hull flat or the hull reflex at a
-//   ridge. Vertices in such bi-cells are held by them in every algorithm.
-// - Outside a delimiter, the way from the fixed to the moving position must be outside as well: otherwise a vertex
+// - The report leaves the hull out. Here the bi-cells with infinite cells have tolerances too: half the least
+// width
+//   of their d + 1 finite points, the displacement that could make a cell on the hull flat or the hull reflex
+//   at a ridge. Vertices in such bi-cells are held by them in every algorithm.
+// - Outside a delimiter, the way from the fixed to the moving position must be outside as well: otherwise a
+// vertex
 //   could jump across a delimiter and invert a cell.
-// What remains as the report has it: in space a standard delimiter does not always prove its bi-cell (Proposition 1
-// fails where the line through the opposing vertices misses the facet). `verify` tells such cells from defects.
+// What remains as the report has it: in space a standard delimiter does not always prove its bi-cell
+// (Proposition 1 fails where the line through the opposing vertices misses the facet). `verify` tells such
+// cells from defects.
 #include "engine.hpp"
 #include "random.hpp"
 #include "report_space.hpp"
@@ -31,14 +34,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// When rebuilding gives way to the tolerance algorithm (report, end of section 5.2): at the first of every four
-/// timestamps 40 vertices are sampled.
+/// When rebuilding gives way to the tolerance algorithm (report, end of section 5.2): at the first of every
+/// four timestamps 40 vertices are sampled.
 constexpr unsigned sample_period = 4;
 constexpr unsigned sample_size = 40;
 constexpr double sample_share(unsigned dimension) { return dimension == 2 ? 0.75 : 0.55; }
 
-/// A standard delimiter, as squares that computed squared distances can be compared with: rounding is well below
-/// `slack`. All comparisons fail where there is no certain delimiter.
+/// A standard delimiter, as squares that computed squared distances can be compared with: rounding is well
+/// below `slack`. All comparisons fail where there is no certain delimiter.
 template <unsigned dimension>
 struct Delimiter {
     static constexpr double slack = 0x1p-45;
@@ -106,7 +109,8 @@ public:
             input_.emplace_back(Space::point(positions + id * dimension),
                                 VertexInfo{static_cast<std::uint32_t>(id), 0});
             for (unsigned axis = 0; axis < dimension; ++axis)
-                greatest_laid_out_ = std::max(greatest_laid_out_, std::fabs(positions[id * dimension + axis]));
+                greatest_laid_out_ =
+                    std::max(greatest_laid_out_, std::fabs(positions[id * dimension + axis]));
         }
         greatest_ = std::max(greatest_, greatest_laid_out_);
     }
@@ -135,12 +139,13 @@ protected:
     /// Positions and vertices by id, after a rebuild. All vertices are at their fixed positions.
     void take_up(const double *positions, std::size_t n_points) {
         if (triangulation_.number_of_vertices() != n_points || triangulation_.dimension() != dimension)
-            throw std::runtime_error("two points at one place, or all in a plane: the report's algorithms know none");
+            throw std::runtime_error(
+                "two points at one place, or all in a plane: the report's algorithms know none");
         bound_ = CoordinateBound(greatest_);
         distance_error_ = squared_distance_error<dimension>(bound_);
         vertices_.assign(n_points, Vertex());
-        for (auto vertex = triangulation_.finite_vertices_begin(); vertex != triangulation_.finite_vertices_end();
-             ++vertex)
+        for (auto vertex = triangulation_.finite_vertices_begin();
+             vertex != triangulation_.finite_vertices_end(); ++vertex)
             vertices_[vertex->info().id] = vertex;
         fixed_.assign(positions, positions + n_points * dimension);
         moving_ = fixed_;
@@ -162,7 +167,8 @@ protected:
                 if (&*cell < &*cell->neighbor(corner)) update(cell, corner);
     }
 
-    /// The square of a vertex's tolerance from its star alone, while all vertices are at their fixed positions.
+    /// The square of a vertex's tolerance from its star alone, while all vertices are at their fixed
+    /// positions.
     double squared_tolerance(Vertex vertex) {
         double least = infinity;
         Space::star(triangulation_, vertex, star_);
@@ -242,8 +248,8 @@ private:
         queue_.push_back(id);
     }
 
-    /// The body of the loop over the queue: the fixed position becomes the moving one, and the bi-cells that are new
-    /// lower the tolerances of their vertices.
+    /// The body of the loop over the queue: the fixed position becomes the moving one, and the bi-cells that
+    /// are new lower the tolerances of their vertices.
     void fix(std::uint32_t id) {
         is_queued_[id] = 0;
         std::copy(moving(id), moving(id) + dimension, &fixed_[id * dimension]);
@@ -295,7 +301,8 @@ private:
             const std::uint32_t w = bicell.ids[i];
             if (tolerances[w] <= squared) continue;
             tolerances[w] = squared;
-            // With regions, a vertex beyond its tolerance has its region; none is beyond what the hull allows.
+            // With regions, a vertex beyond its tolerance has its region; none is beyond what the hull
+            // allows.
             const bool is_decisive = !uses_regions || &tolerances == &hull_tolerance_;
             if (is_decisive && displacement_[w] > 0 && displacement_[w] >= squared) enqueue(w);
         }
@@ -331,9 +338,10 @@ private:
     double greatest_laid_out_ = 0;
     std::vector<double> fixed_;
     std::vector<double> moving_;
-    std::vector<double> displacement_;    // squares, upper bounds; 0 at the fixed position
-    std::vector<double> tolerance_;       // squares, lower bounds
-    std::vector<double> hull_tolerance_;  // of the bi-cells with infinite cells alone, where there are regions
+    std::vector<double> displacement_;  // squares, upper bounds; 0 at the fixed position
+    std::vector<double> tolerance_;     // squares, lower bounds
+    std::vector<double>
+        hull_tolerance_;  // of the bi-cells with infinite cells alone, where there are regions
     std::vector<std::uint32_t> queue_;
     std::vector<char> is_queued_;
     std::vector<Cell> made_;
@@ -407,9 +415,13 @@ using SafeRegionTolerance = CgalReport<dimension, true, true>;
 
 }  // namespace
 
-std::unique_ptr<Engine> make_cgal_tolerance(unsigned dimension, unsigned) { return make<Tolerance>(dimension); }
+std::unique_ptr<Engine> make_cgal_tolerance(unsigned dimension, unsigned) {
+    return make<Tolerance>(dimension);
+}
 
-std::unique_ptr<Engine> make_cgal_safe_region(unsigned dimension, unsigned) { return make<SafeRegion>(dimension); }
+std::unique_ptr<Engine> make_cgal_safe_region(unsigned dimension, unsigned) {
+    return make<SafeRegion>(dimension);
+}
 
 std::unique_ptr<Engine> make_cgal_safe_region_tolerance(unsigned dimension, unsigned) {
     return make<SafeRegionTolerance>(dimension);

@@ -8,9 +8,12 @@
 namespace bench {
 
 Referee::Referee(const Series &series, std::size_t timestamp, Checks &checks)
-    : series_(series), timestamp_(timestamp), checks_(checks),
+    : series_(series),
+      timestamp_(timestamp),
+      checks_(checks),
       representatives_(representatives(series.dimension, series.frame(timestamp), series.n_points)),
-      cgal_(fresh("cgal/rebuilding")), deldrift_(fresh("deldrift/rebuilding")) {
+      cgal_(fresh("cgal/rebuilding")),
+      deldrift_(fresh("deldrift/rebuilding")) {
     checks_.n_degenerate += require_equivalent(deldrift_, "a fresh deldrift build");
     checks_.n_cells += deldrift_.size();
     ++checks_.n_timestamps;
@@ -55,14 +58,14 @@ void Referee::require_equal(const CellSet &cells, const std::string &name) {
     if (cells == deldrift_) return;
     const CellSet extra = difference(cells, deldrift_);
     const CellSet missing = difference(deldrift_, cells);
-    fail(name + " has " + std::to_string(extra.size()) + " cells that a fresh deldrift build has not, and lacks " +
-         std::to_string(missing.size()) + ", beginning with " +
-         to_string(extra.empty() ? missing.front() : extra.front()));
+    fail(name + " has " + std::to_string(extra.size()) +
+         " cells that a fresh deldrift build has not, and lacks " + std::to_string(missing.size()) +
+         ", beginning with " + to_string(extra.empty() ? missing.front() : extra.front()));
 }
 
 std::size_t Referee::require_equivalent(const CellSet &cells, const std::string &name) {
-    const Verdict verdict = compare(series_.dimension, series_.frame(timestamp_), cells, name, cgal_,
-                                    "CGAL's rebuilding");
+    const Verdict verdict =
+        compare(series_.dimension, series_.frame(timestamp_), cells, name, cgal_, "CGAL's rebuilding");
     if (!verdict.is_accepted) fail(verdict.complaint);
     return verdict.n_degenerate;
 }

@@ -16,8 +16,8 @@ public:
     /// Builds the references and compares them with each other; adds to `checks`, as `judge` does.
     Referee(const Series &series, std::size_t timestamp, Checks &checks);
 
-    /// Throws Mismatch unless the engine's cells are the reference's. What CGAL's reproductions of the report's
-    /// algorithms may differ by in space is counted instead: see `gap_cells`.
+    /// Throws Mismatch unless the engine's cells are the reference's. What CGAL's reproductions of the
+    /// report's algorithms may differ by in space is counted instead: see `gap_cells`.
     void judge(const Entrant &entrant, Engine &engine);
 
 private:

@@ -23,19 +23,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const CsvFile::Line report_columns = {"scenario",  "dimension", "n",       "timestamps",
-                                      "engine",    "algorithm", "threads", "seconds",
-                                      "ns_per_vertex_timestamp", "speedup_vs_cgal_rebuild",
-                                      "first_timestamp", "last_timestamp"};
-const CsvFile::Line curve_columns = {"scenario", "engine", "algorithm", "first_timestamp", "last_timestamp",
-                                     "timestamps", "ns_per_vertex_timestamp"};
+const CsvFile::Line report_columns = {"scenario",
+                                      "dimension",
+                                      "n",
+                                      "timestamps",
+                                      "engine",
+                                      "algorithm",
+                                      "threads",
+                                      "seconds",
+                                      "ns_per_vertex_timestamp",
+                                      "speedup_vs_cgal_rebuild",
+                                      "first_timestamp",
+                                      "last_timestamp"};
+const CsvFile::Line curve_columns = {"scenario",
+                                     "engine",
+                                     "algorithm",
+                                     "first_timestamp",
+                                     "last_timestamp",
+                                     "timestamps",
+                                     "ns_per_vertex_timestamp"};
 const CsvFile::Line check_columns = {"scenario", "engine", "algorithm", "compared_timestamps",
                                      "cells_wrongly_taken_for_delaunay"};
 
 /// The rows that a reader compares with the report's Tables 1 and 2, and one for each segment.
 std::vector<std::pair<std::size_t, std::size_t>> ranges_of(const Series &series) {
     if (series.segments.empty())
-        return {{1, series.n_timestamps()}, {std::max<std::size_t>(1, series.n_timestamps() / 2), series.n_timestamps()}};
+        return {{1, series.n_timestamps()},
+                {std::max<std::size_t>(1, series.n_timestamps() / 2), series.n_timestamps()}};
     std::vector<std::pair<std::size_t, std::size_t>> ranges = {{1, series.n_timestamps()}};
     for (const Segment &segment : series.segments) ranges.emplace_back(segment.first, segment.last);
     return ranges;
@@ -55,7 +69,8 @@ std::vector<std::size_t> sampled_timestamps(const Series &series, std::size_t co
     std::vector<std::size_t> timestamps;
     const std::size_t n = series.n_timestamps();
     if (series.segments.empty())
-        for (std::size_t i = 1; i <= std::min(count, n); ++i) timestamps.push_back(i * n / std::min(count, n));
+        for (std::size_t i = 1; i <= std::min(count, n); ++i)
+            timestamps.push_back(i * n / std::min(count, n));
     for (const Segment &segment : series.segments)
         for (std::size_t t = segment.first; t <= segment.last && t < segment.first + count; ++t)
             timestamps.push_back(t);
@@ -66,7 +81,8 @@ std::vector<std::size_t> sampled_timestamps(const Series &series, std::size_t co
 std::vector<std::pair<std::size_t, std::size_t>> bins_of(std::size_t n_timestamps) {
     std::vector<std::pair<std::size_t, std::size_t>> bins;
     for (std::size_t first = 1; first <= n_timestamps;) {
-        const std::size_t last = std::min(n_timestamps, std::max(first, static_cast<std::size_t>(1.12 * static_cast<double>(first))));
+        const std::size_t last = std::min(
+            n_timestamps, std::max(first, static_cast<std::size_t>(1.12 * static_cast<double>(first))));
         bins.emplace_back(first, last);
         first = last + 1;
     }
@@ -80,7 +96,8 @@ struct Sum {
 };
 
 /// Over the timestamps of a range at which the engine was timed.
-Sum sum_over(const UpdateTimes &times, const UpdateTimes &baseline, std::pair<std::size_t, std::size_t> range) {
+Sum sum_over(const UpdateTimes &times, const UpdateTimes &baseline,
+             std::pair<std::size_t, std::size_t> range) {
     Sum sum;
     for (auto at = times.lower_bound(range.first); at != times.end() && at->first <= range.second; ++at) {
         ++sum.n;
@@ -92,8 +109,7 @@ Sum sum_over(const UpdateTimes &times, const UpdateTimes &baseline, std::pair<st
 
 class Report {
 public:
-    explicit Report(const Options &options)
-        : options_(options), begun_(std::chrono::steady_clock::now()) {
+    explicit Report(const Options &options) : options_(options), begun_(std::chrono::steady_clock::now()) {
         fs::create_directories(options.results + "/series");
         begin_anew_if_needed();
         report_ = std::make_unique<CsvFile>(options.results + "/report.csv", report_columns);
@@ -125,9 +141,11 @@ private:
         std::ostringstream old;
         old << file.rdbuf();
         if (old.str() == state.str()) return;
-        if (!old.str().empty()) std::cerr << "beginning anew: commit, preset or seed are others than last time\n";
+        if (!old.str().empty())
+            std::cerr << "beginning anew: commit, preset or seed are others than last time\n";
         for (const auto &entry : fs::directory_iterator(options_.results))
-            if (entry.path().filename().string().rfind("report", 0) == 0 && entry.path().extension() == ".csv")
+            if (entry.path().filename().string().rfind("report", 0) == 0 &&
+                entry.path().extension() == ".csv")
                 fs::remove(entry.path());
         std::ofstream(path) << state.str();
     }
@@ -136,11 +154,13 @@ private:
         const ReportEffort effort = report_effort(scenario, options_);
         const double segments = scenario.rfind("share_", 0) == 0 || scenario.rfind("walk_", 0) == 0 ? 15 : 1;
         const bool is_plane = scenario.find("2d") != std::string::npos;
-        return static_cast<double>(effort.n_points * effort.n_timestamps) * segments * (is_plane ? effort.n_repeats : 15);
+        return static_cast<double>(effort.n_points * effort.n_timestamps) * segments *
+               (is_plane ? effort.n_repeats : 15);
     }
 
     void announce(const std::string &scenario, double cost_done, double cost_left) const {
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
         std::cerr << "[" << scenario;
         if (cost_done > 0) {
             const double left = seconds * cost_left / cost_done;
@@ -159,7 +179,8 @@ private:
     }
 
     std::string times_path(const std::string &scenario, const EngineKind &kind) const {
-        return options_.results + "/series/times_" + scenario + "_" + kind.engine + "_" + kind.algorithm + ".csv";
+        return options_.results + "/series/times_" + scenario + "_" + kind.engine + "_" + kind.algorithm +
+               ".csv";
     }
 
     bool has_rows(const std::string &scenario, const EngineKind &kind) const {
@@ -173,7 +194,8 @@ private:
         const EngineKind &baseline = engine_kinds().front();
         std::vector<const EngineKind *> missing;
         for (const EngineKind &kind : engine_kinds())
-            if ((&kind == &baseline || is_wanted(kind)) && !has_rows(scenario, kind)) missing.push_back(&kind);
+            if ((&kind == &baseline || is_wanted(kind)) && !has_rows(scenario, kind))
+                missing.push_back(&kind);
         if (missing.empty() && has_statistics(scenario)) {
             std::cerr << scenario << ": all there\n";
             return true;
@@ -196,17 +218,19 @@ private:
         std::vector<Entrant> entrants;
         for (const EngineKind *kind : kinds)
             entrants.push_back({kind, 1,
-                                is_sampled(*kind, series) ? sampled_timestamps(series, effort.n_slow_timestamps)
-                                                          : all_timestamps(series)});
+                                is_sampled(*kind, series)
+                                    ? sampled_timestamps(series, effort.n_slow_timestamps)
+                                    : all_timestamps(series)});
         Checks checks;
-        const std::vector<UpdateTimes> times =
-            replay_report(series, entrants, check_timestamps(series, effort), effort.n_repeats, checks, progress_);
+        const std::vector<UpdateTimes> times = replay_report(
+            series, entrants, check_timestamps(series, effort), effort.n_repeats, checks, progress_);
         for (std::size_t i = 0; i < kinds.size(); ++i) save_times(series, *kinds[i], times[i]);
         const UpdateTimes baseline = load_times(series, engine_kinds().front());
         for (std::size_t i = 0; i < kinds.size(); ++i) {
             add_rows(series, *kinds[i], times[i], baseline);
             add_curve(series, *kinds[i], times[i]);
-            checks_->add({series.name, kinds[i]->engine, kinds[i]->algorithm, std::to_string(checks.n_timestamps),
+            checks_->add({series.name, kinds[i]->engine, kinds[i]->algorithm,
+                          std::to_string(checks.n_timestamps),
                           std::to_string(checks.n_unproved[kinds[i]->name()])});
         }
         checks_->save();
@@ -214,8 +238,8 @@ private:
         report_->save();
     }
 
-    /// Engines that cannot get cheaper with smaller displacements and are far slower than rebuilding; those with
-    /// tolerances live through all timestamps.
+    /// Engines that cannot get cheaper with smaller displacements and are far slower than rebuilding; those
+    /// with tolerances live through all timestamps.
     static bool is_sampled(const EngineKind &kind, const Series &series) {
         const bool has_memory = kind.algorithm.find("tolerance") != std::string::npos ||
                                 kind.algorithm.find("safe_region") != std::string::npos;
@@ -253,9 +277,10 @@ private:
             if (sum.n == 0) continue;
             const double ns = 1e9 * sum.seconds / static_cast<double>(sum.n * series.n_points);
             report_->add({series.name, std::to_string(series.dimension), std::to_string(series.n_points),
-                          std::to_string(sum.n), kind.engine, kind.algorithm, "1", significant(sum.seconds, 6),
-                          significant(ns, 5), significant(sum.baseline / sum.seconds, 5),
-                          std::to_string(range.first), std::to_string(range.second)});
+                          std::to_string(sum.n), kind.engine, kind.algorithm, "1",
+                          significant(sum.seconds, 6), significant(ns, 5),
+                          significant(sum.baseline / sum.seconds, 5), std::to_string(range.first),
+                          std::to_string(range.second)});
         }
     }
 

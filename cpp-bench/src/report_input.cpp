@@ -28,7 +28,8 @@ unsigned dimension_of(const std::string &scenario) {
     return begins_with(scenario, "lloyd_2d") || scenario == "share_2d" || scenario == "walk_2d" ? 2 : 3;
 }
 
-/// From far below to far above the tolerances of random points, which are about 0.01 in the plane and 0.002 in space.
+/// From far below to far above the tolerances of random points, which are about 0.01 in the plane and 0.002
+/// in space.
 std::vector<double> share_displacements(unsigned dimension) {
     std::vector<double> displacements;
     const double least = dimension == 2 ? 2e-5 : 2e-6;
@@ -67,7 +68,8 @@ Series record(const std::string &scenario, const Options &options, const ReportE
     if (scenario == "snodt") return record_snodt(n, length, options.seed, progress);
     if (scenario == "man") return record_man(*body, n, length, options.seed, progress);
     if (begins_with(scenario, "share_"))
-        return record_segments(scenario, dimension, n, share_displacements(dimension), length, options.seed, progress);
+        return record_segments(scenario, dimension, n, share_displacements(dimension), length, options.seed,
+                               progress);
     if (begins_with(scenario, "walk_"))
         return record_segments(scenario, dimension, n, walk_displacements(dimension, n, options.seed), length,
                                options.seed, progress);
@@ -97,13 +99,15 @@ ReportEffort report_effort(const std::string &scenario, const Options &options) 
         effort.n_points = 1'000;
         effort.n_timestamps = effort.n_slow_timestamps = 10;
     } else {
-        effort.n_points = is_full ? (scenario == "man" ? 8'000 : 13'000) : (scenario == "man" ? 2'000 : 3'000);
+        effort.n_points =
+            is_full ? (scenario == "man" ? 8'000 : 13'000) : (scenario == "man" ? 2'000 : 3'000);
         effort.n_timestamps = is_full ? 1'000 : 100;
     }
     if (options.preset.name == "smoke") {
         effort = {400, is_segmented(scenario) ? std::size_t{2} : std::size_t{12}, 2, 2, 1};
     }
-    if (options.report_timestamps > 0 && !is_segmented(scenario)) effort.n_timestamps = options.report_timestamps;
+    if (options.report_timestamps > 0 && !is_segmented(scenario))
+        effort.n_timestamps = options.report_timestamps;
     return effort;
 }
 
@@ -113,9 +117,10 @@ ReportInput report_input(const std::string &scenario, const Options &options, Pr
     if (scenario == "man") input.body = load_body(options.data);
 
     const std::string body = input.body ? (input.body->name() == "man.off" ? "_man_off" : "_generated") : "";
-    const std::string path = options.results + "/series/" + scenario + body + "_" + std::to_string(effort.n_points) +
-                             "_" + std::to_string(effort.n_timestamps) + "_seed_" + std::to_string(options.seed) +
-                             "_v" + std::to_string(recording_version) + ".npy";
+    const std::string path = options.results + "/series/" + scenario + body + "_" +
+                             std::to_string(effort.n_points) + "_" + std::to_string(effort.n_timestamps) +
+                             "_seed_" + std::to_string(options.seed) + "_v" +
+                             std::to_string(recording_version) + ".npy";
     if (!is_segmented(scenario) && std::filesystem::exists(path)) {
         input.series = load_series(path);
         input.series.name = scenario;
@@ -124,7 +129,8 @@ ReportInput report_input(const std::string &scenario, const Options &options, Pr
         input.series = record(scenario, options, effort, input.body, progress);
         if (!is_segmented(scenario) && dimension_of(scenario) == 3) {
             std::filesystem::create_directories(options.results + "/series");
-            write_npy(path + ".new", {{input.series.n_frames(), input.series.n_points, 3}, input.series.positions});
+            write_npy(path + ".new",
+                      {{input.series.n_frames(), input.series.n_points, 3}, input.series.positions});
             std::filesystem::rename(path + ".new", path);
         }
     }

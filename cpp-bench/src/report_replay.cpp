@@ -23,7 +23,10 @@ class Replay {
 public:
     Replay(const Series &series, const std::vector<Entrant> &entrants,
            const std::vector<std::size_t> &check_timestamps, Checks &checks, Progress &progress)
-        : series_(series), check_timestamps_(check_timestamps), checks_(checks), progress_(progress),
+        : series_(series),
+          check_timestamps_(check_timestamps),
+          checks_(checks),
+          progress_(progress),
           staged_(series.frame_length()) {
         for (const Entrant &entrant : entrants) {
             lanes_.emplace_back();

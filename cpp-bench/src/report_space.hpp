@@ -24,12 +24,14 @@ struct ReportSpace<2, CellInfo> {
     using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, CgalKernel>;
     using CellBase = CGAL::Triangulation_face_base_with_info_2<CellInfo, CgalKernel>;
     using Triangulation =
-        CGAL::Delaunay_triangulation_2<CgalKernel, CGAL::Triangulation_data_structure_2<VertexBase, CellBase>>;
+        CGAL::Delaunay_triangulation_2<CgalKernel,
+                                       CGAL::Triangulation_data_structure_2<VertexBase, CellBase>>;
     using Point = typename Triangulation::Point;
     using Vertex = typename Triangulation::Vertex_handle;
     using Cell = typename Triangulation::Face_handle;
     using InputPoint = std::pair<Point, VertexInfo>;
-    using SortTraits = CGAL::Spatial_sort_traits_adapter_2<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
+    using SortTraits =
+        CGAL::Spatial_sort_traits_adapter_2<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
 
     static Point point(const double *coordinates) { return {coordinates[0], coordinates[1]}; }
     static Cell hint(Vertex vertex) { return vertex->face(); }
@@ -65,9 +67,10 @@ struct ReportSpace<2, CellInfo> {
         return triangulation.side_of_oriented_circle(cell, point, true) == CGAL::ON_POSITIVE_SIDE;
     }
 
-    /// The placement of section 3.2: flips where no triangle is inverted; else, and at the hull, insertion at the new
-    /// place and removal at the old one. The vertex may be another afterwards.
-    static Vertex place(Triangulation &triangulation, Vertex vertex, const Point &point, std::vector<Cell> &made) {
+    /// The placement of section 3.2: flips where no triangle is inverted; else, and at the hull, insertion at
+    /// the new place and removal at the old one. The vertex may be another afterwards.
+    static Vertex place(Triangulation &triangulation, Vertex vertex, const Point &point,
+                        std::vector<Cell> &made) {
         if (flip_around(triangulation, vertex, point, made)) return vertex;
         const auto n_before = triangulation.number_of_vertices();
         const VertexInfo info = vertex->info();
@@ -86,11 +89,13 @@ struct ReportSpace<2, CellInfo> {
     }
 
 private:
-    /// All faces that have their corners among these vertices: those that fill the star of a removed one, perhaps
-    /// others around it.
+    /// All faces that have their corners among these vertices: those that fill the star of a removed one,
+    /// perhaps others around it.
     static void gather_within(const Triangulation &triangulation, const std::vector<Vertex> &vertices,
                               std::vector<Cell> &faces) {
-        const auto is_among = [&](Vertex v) { return std::find(vertices.begin(), vertices.end(), v) != vertices.end(); };
+        const auto is_among = [&](Vertex v) {
+            return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+        };
         std::vector<Cell> star_of_one;
         for (const Vertex vertex : vertices) {
             star(triangulation, vertex, star_of_one);
@@ -100,9 +105,10 @@ private:
         }
     }
 
-    /// Lawson's flips from the star outwards. False, and nothing done, where a triangle would be inverted or the
-    /// vertex is on the hull.
-    static bool flip_around(Triangulation &triangulation, Vertex vertex, const Point &point, std::vector<Cell> &made) {
+    /// Lawson's flips from the star outwards. False, and nothing done, where a triangle would be inverted or
+    /// the vertex is on the hull.
+    static bool flip_around(Triangulation &triangulation, Vertex vertex, const Point &point,
+                            std::vector<Cell> &made) {
         star(triangulation, vertex, made);
         const Point old = vertex->point();
         vertex->set_point(point);
@@ -138,14 +144,17 @@ struct ReportSpace<3, CellInfo> {
     static constexpr int n_corners = 4;
     using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, CgalKernel>;
     using CellBase =
-        CGAL::Triangulation_cell_base_with_info_3<CellInfo, CgalKernel, CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>>;
+        CGAL::Triangulation_cell_base_with_info_3<CellInfo, CgalKernel,
+                                                  CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>>;
     using Triangulation =
-        CGAL::Delaunay_triangulation_3<CgalKernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+        CGAL::Delaunay_triangulation_3<CgalKernel,
+                                       CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
     using Point = typename Triangulation::Point;
     using Vertex = typename Triangulation::Vertex_handle;
     using Cell = typename Triangulation::Cell_handle;
     using InputPoint = std::pair<Point, VertexInfo>;
-    using SortTraits = CGAL::Spatial_sort_traits_adapter_3<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
+    using SortTraits =
+        CGAL::Spatial_sort_traits_adapter_3<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
 
     static Point point(const double *coordinates) { return {coordinates[0], coordinates[1], coordinates[2]}; }
     static Cell hint(Vertex vertex) { return vertex->cell(); }
@@ -168,9 +177,9 @@ struct ReportSpace<3, CellInfo> {
     }
 
     static bool is_positive(const Triangulation &triangulation, Cell cell) {
-        return triangulation.geom_traits().orientation_3_object()(cell->vertex(0)->point(), cell->vertex(1)->point(),
-                                                                  cell->vertex(2)->point(),
-                                                                  cell->vertex(3)->point()) == CGAL::POSITIVE;
+        return triangulation.geom_traits().orientation_3_object()(
+                   cell->vertex(0)->point(), cell->vertex(1)->point(), cell->vertex(2)->point(),
+                   cell->vertex(3)->point()) == CGAL::POSITIVE;
     }
 
     static bool is_inside_circle(const Triangulation &triangulation, Cell cell, const Point &point) {
@@ -178,7 +187,8 @@ struct ReportSpace<3, CellInfo> {
     }
 
     /// Insertion at the new place, removal at the old one. The vertex is another afterwards.
-    static Vertex place(Triangulation &triangulation, Vertex vertex, const Point &point, std::vector<Cell> &made) {
+    static Vertex place(Triangulation &triangulation, Vertex vertex, const Point &point,
+                        std::vector<Cell> &made) {
         const auto n_before = triangulation.number_of_vertices();
         const VertexInfo info = vertex->info();
         const Vertex placed = triangulation.insert(point, vertex->cell());
@@ -190,8 +200,8 @@ struct ReportSpace<3, CellInfo> {
     }
 };
 
-/// Whether the star of a vertex would do for it at another place: no certificate of the star fails. The vertex is
-/// there afterwards if so, else where it was.
+/// Whether the star of a vertex would do for it at another place: no certificate of the star fails. The
+/// vertex is there afterwards if so, else where it was.
 template <typename Space>
 bool move_if_star_stays(const typename Space::Triangulation &triangulation, typename Space::Vertex vertex,
                         const typename Space::Point &point, std::vector<typename Space::Cell> &star) {
@@ -208,7 +218,8 @@ bool move_if_star_stays(const typename Space::Triangulation &triangulation, type
                 if (corner == own_infinite) continue;
                 const auto other = cell->neighbor(corner);
                 const auto opposite = other->vertex(other->index(cell));
-                if (opposite != infinite && Space::is_inside_circle(triangulation, cell, opposite->point())) return false;
+                if (opposite != infinite && Space::is_inside_circle(triangulation, cell, opposite->point()))
+                    return false;
             }
             return true;
         }

@@ -65,7 +65,9 @@ public:
         return sum / static_cast<double>(series_.n_points);
     }
 
-    double bicells_per_vertex() const { return static_cast<double>(n_memberships_) / static_cast<double>(series_.n_points); }
+    double bicells_per_vertex() const {
+        return static_cast<double>(n_memberships_) / static_cast<double>(series_.n_points);
+    }
 
 private:
     void take(std::size_t cell, unsigned corner, double width) {
@@ -108,12 +110,13 @@ double displacement(const Series &series, std::size_t timestamp, std::size_t id)
     const double *from = series.frame(timestamp - 1) + id * series.dimension;
     const double *to = series.frame(timestamp) + id * series.dimension;
     double sum = 0;
-    for (unsigned axis = 0; axis < series.dimension; ++axis) sum += (to[axis] - from[axis]) * (to[axis] - from[axis]);
+    for (unsigned axis = 0; axis < series.dimension; ++axis)
+        sum += (to[axis] - from[axis]) * (to[axis] - from[axis]);
     return std::sqrt(sum);
 }
 
-/// 0, then about ten for every factor of ten, up to the last but one (the displacement to the next belongs to it) and
-/// the last.
+/// 0, then about ten for every factor of ten, up to the last but one (the displacement to the next belongs to
+/// it) and the last.
 std::vector<std::size_t> statistics_timestamps(const Series &series) {
     if (!series.segments.empty()) return {0};
     std::set<std::size_t> timestamps = {0, 1, 10, 100, series.n_timestamps()};
@@ -131,8 +134,8 @@ std::vector<std::size_t> shown_timestamps(const Series &series) {
     return {timestamps.begin(), timestamps.end()};
 }
 
-/// The plane that is nearest to the points at the beginning, in squares: through their mean, orthogonal to the axis
-/// of inertia along which they vary least.
+/// The plane that is nearest to the points at the beginning, in squares: through their mean, orthogonal to
+/// the axis of inertia along which they vary least.
 class Section {
 public:
     explicit Section(const Series &series) {
@@ -176,13 +179,15 @@ private:
 class Writer {
 public:
     Writer(const ReportInput &input, const std::string &results)
-        : series_(input.series), body_(input.body),
-          statistics_(results + "/report_statistics.csv",
-                      {"scenario", "timestamp", "n", "mean_width", "mean_tolerance", "mean_certified_tolerance",
-                       "mean_widest", "bicells_per_vertex", "mean_displacement", "share_within_tolerance", "remark"}),
+        : series_(input.series),
+          body_(input.body),
+          statistics_(
+              results + "/report_statistics.csv",
+              {"scenario", "timestamp", "n", "mean_width", "mean_tolerance", "mean_certified_tolerance",
+               "mean_widest", "bicells_per_vertex", "mean_displacement", "share_within_tolerance", "remark"}),
           segments_(results + "/report_segments.csv",
-                    {"scenario", "first_timestamp", "last_timestamp", "displacement", "displacement_per_tolerance",
-                     "share_within_tolerance"}),
+                    {"scenario", "first_timestamp", "last_timestamp", "displacement",
+                     "displacement_per_tolerance", "share_within_tolerance"}),
           distributions_(results + "/report_distributions.csv",
                          {"scenario", "timestamp", "quantity", "from", "to", "share"}),
           points_(results + "/report_points.csv", {"scenario", "timestamp", "x", "y"}),
@@ -200,7 +205,8 @@ public:
             if (!series_.segments.empty()) add_segments(measured);
             progress.step();
         }
-        for (const CsvFile *file : {&distributions_, &points_, &sections_, &segments_, &statistics_}) file->save();
+        for (const CsvFile *file : {&distributions_, &points_, &sections_, &segments_, &statistics_})
+            file->save();
     }
 
 private:
@@ -245,8 +251,8 @@ private:
     }
 
     /// Shares of equal bins from 0 on; the last one has all that is above as well.
-    void add_distribution(std::size_t timestamp, const std::string &quantity, const std::vector<double> &values,
-                          double end) {
+    void add_distribution(std::size_t timestamp, const std::string &quantity,
+                          const std::vector<double> &values, double end) {
         std::vector<std::size_t> counts(n_bins, 0);
         std::size_t n = 0;
         for (const double value : values) {
@@ -264,7 +270,8 @@ private:
     void add_points(std::size_t timestamp) {
         for (std::size_t id = 0; id < series_.n_points; ++id) {
             const double *p = series_.frame(timestamp) + 2 * id;
-            points_.add({series_.name, std::to_string(timestamp), significant(p[0], 5), significant(p[1], 5)});
+            points_.add(
+                {series_.name, std::to_string(timestamp), significant(p[0], 5), significant(p[1], 5)});
         }
     }
 
@@ -284,7 +291,8 @@ private:
             std::string text;
             for (const Vector3 &p : polygon)
                 text += (text.empty() ? "" : " ") + significant(p[0], 4) + " " + significant(p[1], 4);
-            sections_.add({series_.name, std::to_string(timestamp), significant(radius_ratio(corner), 3), text});
+            sections_.add(
+                {series_.name, std::to_string(timestamp), significant(radius_ratio(corner), 3), text});
         }
     }
 
@@ -298,7 +306,8 @@ private:
         return polygon;
     }
 
-    /// Three times the inscribed over the circumscribed radius: 1 for a regular tetrahedron, 0 for a flat one.
+    /// Three times the inscribed over the circumscribed radius: 1 for a regular tetrahedron, 0 for a flat
+    /// one.
     static double radius_ratio(const std::array<Vector3, 4> &p) {
         const Vector3 b = p[1] - p[0], c = p[2] - p[0], d = p[3] - p[0];
         const double sixfold = std::fabs(dot(b, cross(c, d)));

@@ -6,7 +6,8 @@
 namespace bench {
 namespace {
 
-/// 1 / d by equation (7), d being off by at most `error`; nothing is certain where that is not well below |d|.
+/// 1 / d by equation (7), d being off by at most `error`; nothing is certain where that is not well below
+/// |d|.
 Bounded reciprocal(double d, double error) {
     const double least = std::fabs(d) - error;
     if (!(least > error)) return {0, HUGE_VAL};
@@ -35,7 +36,8 @@ std::array<Bounded, 2> centre_of(const BicellPoints<2> &bicell, double L) {
     const double error_of_d = 128 * L * L * unit_roundoff;
     const double error_of_n = 192 * L * L * L * unit_roundoff;
     const Bounded inverse = reciprocal(d, error_of_d);
-    return {Bounded{b1 * c2 - b2 * c1, error_of_n} * inverse, Bounded{a2 * c1 - a1 * c2, error_of_n} * inverse};
+    return {Bounded{b1 * c2 - b2 * c1, error_of_n} * inverse,
+            Bounded{a2 * c1 - a1 * c2, error_of_n} * inverse};
 }
 
 std::array<Bounded, 3> centre_of(const BicellPoints<3> &bicell, double L) {
@@ -51,9 +53,12 @@ std::array<Bounded, 3> centre_of(const BicellPoints<3> &bicell, double L) {
     };
     const Bisector e = bisector(p1, p5), f = bisector(p2, p4), g = bisector(p4, p3);
     const auto minor = [](double a, double b, double c, double d) { return a * d - b * c; };
-    const double x_ef = minor(e.b, e.c, f.b, f.c), x_eg = minor(e.b, e.c, g.b, g.c), x_fg = minor(f.b, f.c, g.b, g.c);
-    const double y_ef = minor(e.c, e.a, f.c, f.a), y_eg = minor(e.c, e.a, g.c, g.a), y_fg = minor(f.c, f.a, g.c, g.a);
-    const double z_ef = minor(e.a, e.b, f.a, f.b), z_eg = minor(e.a, e.b, g.a, g.b), z_fg = minor(f.a, f.b, g.a, g.b);
+    const double x_ef = minor(e.b, e.c, f.b, f.c), x_eg = minor(e.b, e.c, g.b, g.c),
+                 x_fg = minor(f.b, f.c, g.b, g.c);
+    const double y_ef = minor(e.c, e.a, f.c, f.a), y_eg = minor(e.c, e.a, g.c, g.a),
+                 y_fg = minor(f.c, f.a, g.c, g.a);
+    const double z_ef = minor(e.a, e.b, f.a, f.b), z_eg = minor(e.a, e.b, g.a, g.b),
+                 z_fg = minor(f.a, f.b, g.a, g.b);
     const double d = z_ef * g.c - z_eg * f.c + z_fg * e.c;
     const double error_of_d = 2944 * L * L * L * unit_roundoff;
     // The report has 5,568 here; its own inputs give 3 (128 * 6 + 22 * 32) + 8 * 6 * 32 = 5,952.
@@ -105,15 +110,17 @@ template <>
 double squared_half_simplex_width<2>(const std::array<Place<2>, 3> &p, CoordinateBound bound) {
     const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
     const double vx = p[2][0] - p[0][0], vy = p[2][1] - p[0][1];
-    // Twice the area, less four times what two products of rounded differences can be off: 2 (2L)(2L) 3u each.
+    // Twice the area, less four times what two products of rounded differences can be off: 2 (2L)(2L) 3u
+    // each.
     const double volume = std::fabs(ux * vy - uy * vx) - 128 * bound.value() * bound.value() * unit_roundoff;
     if (!(volume > 0)) return 0;
-    const double longest = std::max({ux * ux + uy * uy, vx * vx + vy * vy, (vx - ux) * (vx - ux) + (vy - uy) * (vy - uy)});
+    const double longest =
+        std::max({ux * ux + uy * uy, vx * vx + vy * vy, (vx - ux) * (vx - ux) + (vy - uy) * (vy - uy)});
     return volume * volume / (4 * longest) * less_rounding;
 }
 
-/// The width of a tetrahedron is its least height or the least distance of two opposite edges: in either case six
-/// times the volume over the norm of a vector product.
+/// The width of a tetrahedron is its least height or the least distance of two opposite edges: in either case
+/// six times the volume over the norm of a vector product.
 template <>
 double squared_half_simplex_width<3>(const std::array<Place<3>, 4> &p, CoordinateBound bound) {
     const Place<3> u = minus(p[1], p[0]), v = minus(p[2], p[0]), w = minus(p[3], p[0]);
@@ -122,11 +129,11 @@ double squared_half_simplex_width<3>(const std::array<Place<3>, 4> &p, Coordinat
     const double volume =
         std::fabs(uv[0] * w[0] + uv[1] * w[1] + uv[2] * w[2]) - 1024 * L * L * L * unit_roundoff;
     if (!(volume > 0)) return 0;
-    const double greatest = std::max(
-        {squared_norm(uv), squared_norm(cross(v, w)), squared_norm(cross(w, u)),
-         squared_norm(cross(minus(v, u), minus(w, u))),                                      // heights
-         squared_norm(cross(u, minus(w, v))), squared_norm(cross(v, minus(w, u))),  // opposite edges
-         squared_norm(cross(w, minus(v, u)))});
+    const double greatest =
+        std::max({squared_norm(uv), squared_norm(cross(v, w)), squared_norm(cross(w, u)),
+                  squared_norm(cross(minus(v, u), minus(w, u))),                             // heights
+                  squared_norm(cross(u, minus(w, v))), squared_norm(cross(v, minus(w, u))),  // opposite edges
+                  squared_norm(cross(w, minus(v, u)))});
     return volume * volume / (4 * greatest) * less_rounding;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Section 4 of the report: tolerances and displacements in doubles, with bounds of their rounding errors that are
-// static as far as a division or a square root allows. Written from the report's formulas.
+// Section 4 of the report: tolerances and displacements in doubles, with bounds of their rounding errors that
+// are static as far as a division or a square root allows. Written from the report's formulas.
 #pragma once
 
 #include <array>
@@ -78,20 +78,22 @@ double squared_distance_error(CoordinateBound bound) {
     return (dimension == 2 ? 32 : 56) * bound.value() * bound.value() * unit_roundoff;
 }
 
-/// Centre of the annulus that generates the standard delimiter, each coordinate with its error; the errors are
-/// infinite where the filter fails.
+/// Centre of the annulus that generates the standard delimiter, each coordinate with its error; the errors
+/// are infinite where the filter fails.
 template <unsigned dimension>
 std::array<Bounded, dimension> annulus_centre(const BicellPoints<dimension> &bicell, CoordinateBound bound);
 
-/// A lower bound of the square of the bi-cell's tolerance, half the width of that annulus; 0 where the filter fails.
+/// A lower bound of the square of the bi-cell's tolerance, half the width of that annulus; 0 where the filter
+/// fails.
 template <unsigned dimension>
 double squared_half_annulus_width(const BicellPoints<dimension> &bicell, CoordinateBound bound);
 
-/// A lower bound of the square of half the least width of a simplex: no smaller displacement of its points makes it
-/// flat. The report leaves the hull out; this is what its cells and ridges are held by here. 0 where rounding errors
-/// might exceed the volume.
+/// A lower bound of the square of half the least width of a simplex: no smaller displacement of its points
+/// makes it flat. The report leaves the hull out; this is what its cells and ridges are held by here. 0 where
+/// rounding errors might exceed the volume.
 template <unsigned dimension>
-double squared_half_simplex_width(const std::array<Place<dimension>, dimension + 1> &corners, CoordinateBound bound);
+double squared_half_simplex_width(const std::array<Place<dimension>, dimension + 1> &corners,
+                                  CoordinateBound bound);
 
 extern template std::array<Bounded, 2> annulus_centre<2>(const BicellPoints<2> &, CoordinateBound);
 extern template std::array<Bounded, 3> annulus_centre<3>(const BicellPoints<3> &, CoordinateBound);

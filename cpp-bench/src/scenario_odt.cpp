@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Optimal Delaunay triangulation (ODT), as far as the report's inputs need it: vertices move one after another, each
-// seeing the new places of those before, and the boundary stays.
+// Optimal Delaunay triangulation (ODT), as far as the report's inputs need it: vertices move one after
+// another, each seeing the new places of those before, and the boundary stays.
 #include "body.hpp"
 #include "random.hpp"
 #include "report_space.hpp"
@@ -26,10 +26,11 @@ public:
         : n_fixed_(n_fixed), contains_(std::move(contains)), vertices_(n_points) {
         std::vector<Space::InputPoint> input;
         for (std::size_t id = 0; id < n_points; ++id)
-            input.emplace_back(Space::point(positions + 3 * id), VertexInfo{static_cast<std::uint32_t>(id), 0});
+            input.emplace_back(Space::point(positions + 3 * id),
+                               VertexInfo{static_cast<std::uint32_t>(id), 0});
         insert_sorted<Space>(triangulation_, input);
-        for (auto vertex = triangulation_.finite_vertices_begin(); vertex != triangulation_.finite_vertices_end();
-             ++vertex)
+        for (auto vertex = triangulation_.finite_vertices_begin();
+             vertex != triangulation_.finite_vertices_end(); ++vertex)
             vertices_[vertex->info().id] = vertex;
     }
 
@@ -54,7 +55,8 @@ private:
         double place[3];
         if (!odt_place(coordinates(vertex), others_, place) || !contains_(place)) return;
         const Space::Point point = Space::point(place);
-        if (point == vertex->point() || move_if_star_stays<Space>(triangulation_, vertex, point, star_)) return;
+        if (point == vertex->point() || move_if_star_stays<Space>(triangulation_, vertex, point, star_))
+            return;
         made_.clear();
         vertex = Space::place(triangulation_, vertex, point, made_);
     }
@@ -88,8 +90,8 @@ Series record(const std::string &name, const std::vector<Vector3> &points, std::
     return series;
 }
 
-/// How many of n points go to the surface so that it is as dense as the inside: with the spacing h, area / h^2 on the
-/// surface, each of which has half a cell of the volume / h^3.
+/// How many of n points go to the surface so that it is as dense as the inside: with the spacing h, area /
+/// h^2 on the surface, each of which has half a cell of the volume / h^3.
 std::size_t share_of_surface(double area, double volume, std::size_t n_points) {
     double h = std::cbrt(volume / static_cast<double>(n_points));
     for (int i = 0; i < 50; ++i)
@@ -136,8 +138,8 @@ Series record_man(const Body &unscaled, std::size_t n_points, std::size_t n_time
     std::vector<Vector3> points = body.surface_points(n_fixed, random);
     const std::vector<Vector3> inner = body.inner_points(n_points - n_fixed, random);
     points.insert(points.end(), inner.begin(), inner.end());
-    Series series = record("man", points, n_fixed, [&](const double *p) { return body.contains(p); }, n_timestamps,
-                           progress);
+    Series series = record(
+        "man", points, n_fixed, [&](const double *p) { return body.contains(p); }, n_timestamps, progress);
     series.remark = "body: " + body.name();
     return series;
 }

@@ -34,8 +34,8 @@ public:
 
     void run(BallCells &ball_cells, double *to) {
         add_exact_parts();
-        for (auto vertex = triangulation_.finite_vertices_begin(); vertex != triangulation_.finite_vertices_end();
-             ++vertex) {
+        for (auto vertex = triangulation_.finite_vertices_begin();
+             vertex != triangulation_.finite_vertices_end(); ++vertex) {
             const std::uint32_t id = vertex->info().id;
             const Vector3 centroid = is_inside_[id] ? exact(id) : by_quadrature(ball_cells, vertex);
             std::copy(centroid.begin(), centroid.end(), to + 3 * std::size_t{id});
@@ -67,18 +67,20 @@ private:
         }
     }
 
-    /// A facet of a Voronoi cell belongs to an edge, and the edge's midpoint is in its plane. An edge of the facet
-    /// belongs to a triangle: with the midpoint it makes a (signed) triangle of the facet, and with either site a
-    /// tetrahedron of that site's cell.
+    /// A facet of a Voronoi cell belongs to an edge, and the edge's midpoint is in its plane. An edge of the
+    /// facet belongs to a triangle: with the midpoint it makes a (signed) triangle of the facet, and with
+    /// either site a tetrahedron of that site's cell.
     void add_exact_parts() {
-        for (auto cell = triangulation_.finite_cells_begin(); cell != triangulation_.finite_cells_end(); ++cell)
+        for (auto cell = triangulation_.finite_cells_begin(); cell != triangulation_.finite_cells_end();
+             ++cell)
             for (int corner = 0; corner < 4; ++corner) {
                 const auto other = cell->neighbor(corner);
                 if (triangulation_.is_infinite(other) || !(&*cell < &*other)) continue;
                 // Counter-clockwise seen from the neighbour.
-                const std::array<int, 3> facet = corner % 2 == 0
-                                                     ? std::array<int, 3>{(corner + 1) & 3, (corner + 2) & 3, (corner + 3) & 3}
-                                                     : std::array<int, 3>{(corner + 1) & 3, (corner + 3) & 3, (corner + 2) & 3};
+                const std::array<int, 3> facet =
+                    corner % 2 == 0
+                        ? std::array<int, 3>{(corner + 1) & 3, (corner + 2) & 3, (corner + 3) & 3}
+                        : std::array<int, 3>{(corner + 1) & 3, (corner + 3) & 3, (corner + 2) & 3};
                 for (int i = 0; i < 3; ++i)
                     add_part(cell->vertex(facet[i])->info().id, cell->vertex(facet[(i + 1) % 3])->info().id,
                              cell->info().centre, other->info().centre);
@@ -107,7 +109,8 @@ private:
         neighbours_.clear();
         triangulation_.finite_adjacent_vertices(vertex, std::back_inserter(neighbours_));
         others_.clear();
-        for (const auto neighbour : neighbours_) others_.push_back(from_ + 3 * std::size_t{neighbour->info().id});
+        for (const auto neighbour : neighbours_)
+            others_.push_back(from_ + 3 * std::size_t{neighbour->info().id});
         return ball_cells.cell(from_ + 3 * std::size_t{vertex->info().id}, others_).centroid;
     }
 

@@ -9,8 +9,12 @@ namespace bench {
 using Vector3 = std::array<double, 3>;
 
 inline Vector3 vector(const double *p) { return {p[0], p[1], p[2]}; }
-inline Vector3 operator+(const Vector3 &a, const Vector3 &b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Vector3 operator-(const Vector3 &a, const Vector3 &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Vector3 operator+(const Vector3 &a, const Vector3 &b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vector3 operator-(const Vector3 &a, const Vector3 &b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 inline Vector3 operator*(double s, const Vector3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline double dot(const Vector3 &a, const Vector3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -18,8 +22,8 @@ inline Vector3 cross(const Vector3 &a, const Vector3 &b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Of the tetrahedron of the origin and these: six times its volume times twice its circumcentre. No division, so
-/// that slivers do no harm.
+/// Of the tetrahedron of the origin and these: six times its volume times twice its circumcentre. No
+/// division, so that slivers do no harm.
 inline Vector3 weighted_circumcentre(const Vector3 &b, const Vector3 &c, const Vector3 &d) {
     return dot(b, b) * cross(c, d) + dot(c, c) * cross(d, b) + dot(d, d) * cross(b, c);
 }
