@@ -58,9 +58,11 @@ lint: ## format, clippy, documentation, freshness of the header
 header: ## include/deldrift.h, from the sources in src/capi
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header_is_what_the_sources_say
 
-picture: ## docs/moving.svg, from a run of the library
+picture: ## docs/moving.svg and docs/lloyd.svg, from runs of the library
 	cargo run --release --example moving_picture > docs/moving.svg.new
 	mv docs/moving.svg.new docs/moving.svg
+	cargo run --release --example lloyd_picture > docs/lloyd.svg.new
+	mv docs/lloyd.svg.new docs/lloyd.svg
 
 install: ## library, headers, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
 	@.ci/packages cmake
