@@ -302,6 +302,10 @@ def figure_8(results):
             text = f"in {where} {name} equals CGAL's rebuilding with " + (
                 f"{percent(1 - at)} beyond tolerance" if at is not None else "no share measured")
             text += f", is at best {times(best)} times as fast"
+            uncertain = last(results, scenario, "share_uncertain")
+            if engine == "cgal" and uncertain:
+                text += (f" ({percent(uncertain, 1)} of the vertices have a tolerance that the report's static filters"
+                         " cannot certify, and always take placement)")
             if s:
                 text += f", and S takes {times(s[-1][1] / t[-1][1])} times as long where all are within"
             now.append(text)

@@ -2,6 +2,7 @@
 #include "report_statistics.hpp"
 
 #include "csv.hpp"
+#include "report_tolerance.hpp"
 #include "table.hpp"
 
 #include <deldrift.h>
@@ -39,6 +40,11 @@ public:
         require(deldrift_annulus_widths(t, all.data(), all.size(), &count));
         tolerances_.assign(series.n_points, std::numeric_limits<double>::infinity());
         widest_.assign(series.n_points, 0);
+        is_uncertain_.assign(series.n_points, 0);
+        double greatest = 0;
+        for (std::size_t i = 0; i < series.frame_length(); ++i)
+            greatest = std::max(greatest, std::fabs(series.frame(timestamp)[i]));
+        bound_ = CoordinateBound(greatest);
         for (std::size_t cell = 0; cell < cells_.count; ++cell)
             for (unsigned corner = 0; corner < cells_.corners_per_cell; ++corner)
                 take(cell, corner, all[cell * cells_.corners_per_cell + corner]);
@@ -65,6 +71,12 @@ public:
         return sum / static_cast<double>(series_.n_points);
     }
 
+    /// The share of vertices with a bi-cell of which the report's filters certify nothing.
+    double share_uncertain() const {
+        return static_cast<double>(std::count(is_uncertain_.begin(), is_uncertain_.end(), 1)) /
+               static_cast<double>(series_.n_points);
+    }
+
     double bicells_per_vertex() const {
         return static_cast<double>(n_memberships_) / static_cast<double>(series_.n_points);
     }
@@ -82,7 +94,38 @@ private:
         if (cell < other) {
             widths_.push_back(width);
             n_memberships_ += cells_.corners_per_cell + 1;
+            if (series_.dimension == 2)
+                examine<2>(vertices, corner, opposite(other, static_cast<std::uint32_t>(cell)));
+            else
+                examine<3>(vertices, corner, opposite(other, static_cast<std::uint32_t>(cell)));
         }
+    }
+
+    /// The vertex of a cell that is opposite its neighbour.
+    std::uint32_t opposite(std::uint32_t cell, std::uint32_t neighbour) const {
+        const std::uint32_t *neighbours = cells_.neighbours + std::size_t{cell} * cells_.corners_per_cell;
+        const auto corner =
+            std::find(neighbours, neighbours + cells_.corners_per_cell, neighbour) - neighbours;
+        return cells_
+            .vertices[std::size_t{cell} * cells_.corners_per_cell + static_cast<std::size_t>(corner)];
+    }
+
+    template <unsigned dimension>
+    void examine(const std::uint32_t *vertices, unsigned corner, std::uint32_t other) {
+        const auto place = [&](std::uint32_t id) {
+            Place<dimension> p{};
+            const double *coordinates = series_.frame(timestamp_) + std::size_t{id} * dimension;
+            std::copy(coordinates, coordinates + dimension, p.begin());
+            return p;
+        };
+        BicellPoints<dimension> bicell{};
+        unsigned n = 0;
+        for (unsigned i = 0; i <= dimension; ++i)
+            if (i != corner) bicell.facet[n++] = place(vertices[i]);
+        bicell.opposing = {place(vertices[corner]), place(other)};
+        if (squared_half_annulus_width<dimension>(bicell, bound_) > 0) return;
+        for (unsigned i = 0; i <= dimension; ++i) is_uncertain_[vertices[i]] = 1;
+        is_uncertain_[other] = 1;
     }
 
     const Series &series_;
@@ -93,6 +136,8 @@ private:
     std::vector<double> tolerances_;
     std::vector<double> widest_;
     std::size_t n_memberships_ = 0;
+    std::vector<char> is_uncertain_;
+    CoordinateBound bound_;
 };
 
 double mean(const std::vector<double> &values) {
@@ -181,10 +226,10 @@ public:
     Writer(const ReportInput &input, const std::string &results)
         : series_(input.series),
           body_(input.body),
-          statistics_(
-              results + "/report_statistics.csv",
-              {"scenario", "timestamp", "n", "mean_width", "mean_tolerance", "mean_certified_tolerance",
-               "mean_widest", "bicells_per_vertex", "mean_displacement", "share_within_tolerance", "remark"}),
+          statistics_(results + "/report_statistics.csv",
+                      {"scenario", "timestamp", "n", "mean_width", "mean_tolerance",
+                       "mean_certified_tolerance", "mean_widest", "bicells_per_vertex", "mean_displacement",
+                       "share_within_tolerance", "share_uncertain", "remark"}),
           segments_(results + "/report_segments.csv",
                     {"scenario", "first_timestamp", "last_timestamp", "displacement",
                      "displacement_per_tolerance", "share_within_tolerance"}),
@@ -228,7 +273,8 @@ private:
         statistics_.add({series_.name, std::to_string(timestamp), std::to_string(series_.n_points),
                          text(mean(measured.widths())), text(mean(measured.tolerances())),
                          text(measured.mean_certified_tolerance()), text(mean(measured.widest())),
-                         text(measured.bicells_per_vertex()), displacement_text, share_text, series_.remark});
+                         text(measured.bicells_per_vertex()), displacement_text, share_text,
+                         text(measured.share_uncertain()), series_.remark});
     }
 
     /// All segments begin at the frame that was measured.
