@@ -18,9 +18,19 @@ def find():
 def open_page(chromium, path, timeout=120):
     """(document after scripts have run, messages of the console)."""
     with tempfile.TemporaryDirectory() as profile:
-        command = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                   "--enable-logging=stderr", f"--user-data-dir={profile}", "--window-size=1200,900",
-                   "--virtual-time-budget=10000", "--dump-dom", "file://" + os.path.abspath(path)]
+        command = [
+            chromium,
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--enable-logging=stderr",
+            f"--user-data-dir={profile}",
+            "--window-size=1200,900",
+            "--virtual-time-budget=10000",
+            "--dump-dom",
+            "file://" + os.path.abspath(path),
+        ]
         done = subprocess.run(command, capture_output=True, text=True, timeout=timeout, check=False)
     console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
     if done.returncode != 0 or "<html" not in done.stdout:

@@ -35,9 +35,12 @@ class Results:
             raise SystemExit(f"error: there is no report.csv in {folder}: run `cpp-bench/run --report` first")
 
     def row(self, scenario, engine, algorithm, which):
-        """The row of a whole input (`which` 0) or its second half (1); None where it has not been measured."""
-        rows = [r for r in self.rows
-                if (r["scenario"], r["engine"], r["algorithm"]) == (scenario, engine, algorithm)]
+        """The row of a whole input (`which` 0) or its second half (1); None where not measured."""
+        rows = [
+            r
+            for r in self.rows
+            if (r["scenario"], r["engine"], r["algorithm"]) == (scenario, engine, algorithm)
+        ]
         return rows[which] if len(rows) > which else None
 
     def speedup(self, scenario, engine, algorithm, which):
@@ -54,28 +57,41 @@ class Results:
 
     def curve(self, scenario, engine, algorithm):
         """(middle of the bin, ns per vertex) of an input that iterates."""
-        return [((int(r["first_timestamp"]) * int(r["last_timestamp"])) ** 0.5, float(r["ns_per_vertex_timestamp"]))
-                for r in self.curves
-                if (r["scenario"], r["engine"], r["algorithm"]) == (scenario, engine, algorithm)]
+        return [
+            (
+                (int(r["first_timestamp"]) * int(r["last_timestamp"])) ** 0.5,
+                float(r["ns_per_vertex_timestamp"]),
+            )
+            for r in self.curves
+            if (r["scenario"], r["engine"], r["algorithm"]) == (scenario, engine, algorithm)
+        ]
 
     def sweep(self, scenario, engine, algorithm, x):
-        """(x of the segment, ns per vertex) of an input of segments, x being a column of report_segments.csv."""
-        of_segment = {(r["first_timestamp"], r["last_timestamp"]): float(r[x])
-                      for r in self.segments if r["scenario"] == scenario}
-        points = [(of_segment[r["first_timestamp"], r["last_timestamp"]], float(r["ns_per_vertex_timestamp"]))
-                  for r in self.rows
-                  if (r["scenario"], r["engine"], r["algorithm"]) == (scenario, engine, algorithm)
-                  and (r["first_timestamp"], r["last_timestamp"]) in of_segment]
+        """(x, ns per vertex) of an input of segments, x being a column of report_segments.csv."""
+        of_segment = {
+            (r["first_timestamp"], r["last_timestamp"]): float(r[x])
+            for r in self.segments
+            if r["scenario"] == scenario
+        }
+        points = [
+            (of_segment[r["first_timestamp"], r["last_timestamp"]], float(r["ns_per_vertex_timestamp"]))
+            for r in self.rows
+            if (r["scenario"], r["engine"], r["algorithm"]) == (scenario, engine, algorithm)
+            and (r["first_timestamp"], r["last_timestamp"]) in of_segment
+        ]
         return sorted(points)
 
     def statistic(self, scenario, column, x="timestamp"):
-        pairs_ = [(number(r[x]), number(r[column])) for r in self.statistics if r["scenario"] == scenario]
+        pairs_ = [(number(r[x]), number(r.get(column))) for r in self.statistics if r["scenario"] == scenario]
         return [(a, b) for a, b in pairs_ if a is not None and b is not None]
 
     def distribution(self, scenario, timestamp, quantity):
         """(from, to, share) of every bin."""
-        return [(float(r["from"]), float(r["to"]), float(r["share"])) for r in self.distributions
-                if (r["scenario"], r["timestamp"], r["quantity"]) == (scenario, str(timestamp), quantity)]
+        return [
+            (float(r["from"]), float(r["to"]), float(r["share"]))
+            for r in self.distributions
+            if (r["scenario"], r["timestamp"], r["quantity"]) == (scenario, str(timestamp), quantity)
+        ]
 
     def shown(self, scenario):
         """The timestamps that have distributions."""

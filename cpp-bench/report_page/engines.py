@@ -13,8 +13,9 @@ NAMES = {
     "auto": "auto",
 }
 
-LONG_NAMES = dict(NAMES, safe_region="S, safe region", tolerance="T, tolerance",
-                  safe_region_tolerance="S+T, both")
+LONG_NAMES = dict(
+    NAMES, safe_region="S, safe region", tolerance="T, tolerance", safe_region_tolerance="S+T, both"
+)
 
 COLOURS = {
     "rebuilding": "rebuilding",
@@ -29,10 +30,32 @@ COLOURS = {
 }
 
 # What the report's figures have, and the same for deldrift.
-CGAL = ["rebuilding", "placement", "safe_region", "tolerance", "safe_region_tolerance", "rebuilding_tolerance"]
+CGAL = [
+    "rebuilding",
+    "placement",
+    "safe_region",
+    "tolerance",
+    "safe_region_tolerance",
+    "rebuilding_tolerance",
+]
 DELDRIFT = CGAL + ["auto"]
 
-TABLE_CGAL = ["rebuilding", "placement", "move", "safe_region", "tolerance", "safe_region_tolerance",
-              "rebuilding_tolerance"]
-TABLE_DELDRIFT = ["rebuilding", "placement", "placement_flips", "safe_region", "tolerance", "safe_region_tolerance",
-                  "rebuilding_tolerance", "auto"]
+TABLE_CGAL = [
+    "rebuilding",
+    "placement",
+    "move",
+    "safe_region",
+    "tolerance",
+    "safe_region_tolerance",
+    "rebuilding_tolerance",
+]
+TABLE_DELDRIFT = [
+    "rebuilding",
+    "placement",
+    "placement_flips",
+    "safe_region",
+    "tolerance",
+    "safe_region_tolerance",
+    "rebuilding_tolerance",
+    "auto",
+]

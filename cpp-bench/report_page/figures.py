@@ -38,26 +38,47 @@ def figure_3(results):
             y = top + row * (size + gap)
             parts.append(frame(x, y, size))
             scale = size / 2 / reach
-            dots = "".join(f"M{x + size / 2 + px * scale:.1f} {y + size / 2 - py * scale:.1f}h0"
-                           for px, py in points.get((scenario, timestamp), []))
-            parts.append(f'<path d="{dots}" style="stroke:var(--ink);stroke-width:2.5;stroke-linecap:round;fill:none"/>')
+            dots = "".join(
+                f"M{x + size / 2 + px * scale:.1f} {y + size / 2 - py * scale:.1f}h0"
+                for px, py in points.get((scenario, timestamp), [])
+            )
+            parts.append(
+                f'<path d="{dots}"'
+                ' style="stroke:var(--ink);stroke-width:2.5;stroke-linecap:round;fill:none"/>'
+            )
         bottom = top + len(rows) * (size + gap)
         for value in (-tick, 0, tick):
             at = x + size / 2 + value * size / 2 / reach
-            parts.append(f'<text class="tick" x="{at:.1f}" y="{bottom + 4}" text-anchor="middle">{value}</text>')
-        parts.append(f'<text class="axis-label" x="{x + size / 2}" y="{bottom + 24}" text-anchor="middle">'
-                     "x, in spacings</text>")
+            parts.append(
+                f'<text class="tick" x="{at:.1f}" y="{bottom + 4}" text-anchor="middle">{value}</text>'
+            )
+        parts.append(
+            f'<text class="axis-label" x="{x + size / 2}" y="{bottom + 24}" text-anchor="middle">'
+            "x, in spacings</text>"
+        )
     for row, timestamp in enumerate(rows):
         middle = top + row * (size + gap) + size / 2
-        parts.append(f'<text class="axis-label" transform="translate(14 {middle}) rotate(-90)" '
-                     f'text-anchor="middle">iteration {timestamp}: y, in spacings</text>')
+        parts.append(
+            f'<text class="axis-label" transform="translate(14 {middle}) rotate(-90)" '
+            f'text-anchor="middle">iteration {timestamp}: y, in spacings</text>'
+        )
         for value in (-tick, 0, tick):
             at = middle - value * size / 2 / reach
-            parts.append(f'<text class="tick" x="{left - 5}" y="{at + 3.6:.1f}" text-anchor="end">{value}</text>')
+            parts.append(
+                f'<text class="tick" x="{left - 5}" y="{at + 3.6:.1f}" text-anchor="end">{value}</text>'
+            )
     then = "1,000 points come to rest in an arrangement that follows the density."
     changes = [f"{INPUT_TITLES[s]}: {movement(results, s)}" for s in scenarios]
-    now = "Mean displacement of a point per iteration, at the first and towards the last: " + "; ".join(changes) + "."
-    return figure(width, height, parts, "Points at several iterations of Lloyd's method, for four densities"), then, now
+    now = (
+        "Mean displacement of a point per iteration, at the first and towards the last: "
+        + "; ".join(changes)
+        + "."
+    )
+    return (
+        figure(width, height, parts, "Points at several iterations of Lloyd's method, for four densities"),
+        then,
+        now,
+    )
 
 
 def movement(results, scenario):
@@ -74,8 +95,18 @@ def averages(results, scenario, width, height, title, x_column="timestamp"):
         label, ticks = "mean displacement, in spacings", None
     w, e = sorted(w), sorted(e)
     xs = [p[0] for p in w]
-    plot = Plot(width, height, limits(xs, True) if ticks is None else (min(xs), max(xs)),
-                limits([p[1] for p in w]), label, "spacings", title, x_log=True, x_ticks=ticks, right=70)
+    plot = Plot(
+        width,
+        height,
+        limits(xs, True) if ticks is None else (min(xs), max(xs)),
+        limits([p[1] for p in w]),
+        label,
+        "spacings",
+        title,
+        x_log=True,
+        x_ticks=ticks,
+        right=70,
+    )
     plot.line(w, "tolerance", "avg(W)")
     plot.line(e, "safe", "avg(ε(V))")
     if x_column != "timestamp":
@@ -89,7 +120,9 @@ def mark_iterations(results, scenario, plot):
         row = by_timestamp.get(timestamp)
         if row and row["mean_displacement"]:
             x, y = float(row["mean_displacement"]), float(row["mean_width"])
-            plot.parts.append(f'<circle style="fill:var(--tolerance)" cx="{plot.x(x):.1f}" cy="{plot.y(y):.1f}" r="3"/>')
+            plot.parts.append(
+                f'<circle style="fill:var(--tolerance)" cx="{plot.x(x):.1f}" cy="{plot.y(y):.1f}" r="3"/>'
+            )
             plot.annotate(x, y, f"it. {timestamp}", dx=0, dy=-8, anchor="middle")
 
 
@@ -98,9 +131,16 @@ def distributions(results, scenario, quantity, width, height, title, end):
     bins = {t: results.distribution(scenario, t, quantity) for t in shown}
     label = "width of the annulus, in spacings" if quantity == "width" else "tolerance ε, in spacings"
     highest = sorted(share for b in bins.values() for _, _, share in b)[-1]
-    plot = Plot(width, height, (0, end), (0, highest * 1.1), label,
-                f"share per {bins[shown[0]][0][1]:.3g}", title,
-                tick_text=lambda v: f"{100 * v:g} %")
+    plot = Plot(
+        width,
+        height,
+        (0, end),
+        (0, highest * 1.1),
+        label,
+        f"share per {bins[shown[0]][0][1]:.3g}",
+        title,
+        tick_text=lambda v: f"{100 * v:g} %",
+    )
     for timestamp, colour in zip(shown, ITERATION_COLOURS):
         plot.steps([b for b in bins[timestamp] if b[1] <= end * 1.0001], colour)
     plot.key([(f"iteration {t}", c) for t, c in zip(shown, ITERATION_COLOURS)])
@@ -112,9 +152,11 @@ def grid_of_tolerances(results, scenarios, x_column, description):
     parts = []
     for row, scenario in enumerate(scenarios):
         plane = scenario in PLANE
-        panels = [averages(results, scenario, width, height, INPUT_TITLES[scenario], x_column),
-                  distributions(results, scenario, "width", width, height, "W", 0.98),
-                  distributions(results, scenario, "tolerance", width, height, "ε(V)", 0.245 if plane else 0.048)]
+        panels = [
+            averages(results, scenario, width, height, INPUT_TITLES[scenario], x_column),
+            distributions(results, scenario, "width", width, height, "W", 0.98),
+            distributions(results, scenario, "tolerance", width, height, "ε(V)", 0.245 if plane else 0.048),
+        ]
         parts += [panel.svg(column * (width + 6), row * (height + 12)) for column, panel in enumerate(panels)]
     return figure(3 * width + 12, len(scenarios) * (height + 12), parts, description)
 
@@ -128,11 +170,16 @@ def figure_4(results):
     scenarios = [s for s in PLANE if iterations(results, s)]
     if not scenarios:
         return None
-    svg = grid_of_tolerances(results, scenarios, "timestamp", "Widths of bi-cells and tolerances of vertices in the plane")
+    svg = grid_of_tolerances(
+        results, scenarios, "timestamp", "Widths of bi-cells and tolerances of vertices in the plane"
+    )
     w = [last(results, s, "mean_width") for s in scenarios]
     e = [last(results, s, "mean_tolerance") for s in scenarios]
     then = "avg(W) converged to 33–40 % and avg(ε(V)) to 5–10 % of the spacing (the average point density)."
-    now = f"At the last iteration, avg(W) is {span(w, percent)} and avg(ε(V)) {span(e, lambda v: percent(v, 1))} of it."
+    now = (
+        f"At the last iteration, avg(W) is {span(w, percent)} and avg(ε(V))"
+        f" {span(e, lambda v: percent(v, 1))} of it."
+    )
     return svg, then, now
 
 
@@ -140,7 +187,8 @@ def figure_5(results):
     sections = {}
     for r in results.sections:
         sections.setdefault(int(r["timestamp"]), []).append(
-            (float(r["radius_ratio"]), [float(c) for c in r["polygon"].split()]))
+            (float(r["radius_ratio"]), [float(c) for c in r["polygon"].split()])
+        )
     if not sections:
         return None
     shown = sorted(sections)
@@ -163,58 +211,110 @@ def figure_5(results):
             for quality, polygon in sections[timestamp]:
                 if min(int(quality * len(QUALITY)), len(QUALITY) - 1) != level:
                     continue
-                corners = [f"{x0 + (polygon[i] - low_x) * scale:.1f} {top + (high_z - polygon[i + 1]) * scale:.1f}"
-                           for i in range(0, len(polygon), 2)]
+                corners = [
+                    f"{x0 + (polygon[i] - low_x) * scale:.1f} {top + (high_z - polygon[i + 1]) * scale:.1f}"
+                    for i in range(0, len(polygon), 2)
+                ]
                 path += "M" + "L".join(corners) + "Z"
             if path:
-                parts.append(f'<path d="{path}" style="fill:{QUALITY[level]};stroke:#14181d;stroke-width:.35;'
-                             'stroke-linejoin:round"/>')
-        parts.append(f'<text class="axis-label" x="{x0 + panel / 2:.0f}" y="{top + tall + 36:.0f}" '
-                     'text-anchor="middle">across, in spacings</text>')
+                parts.append(
+                    f'<path d="{path}" style="fill:{QUALITY[level]};stroke:#14181d;stroke-width:.35;'
+                    'stroke-linejoin:round"/>'
+                )
+        parts.append(
+            f'<text class="axis-label" x="{x0 + panel / 2:.0f}" y="{top + tall + 36:.0f}" '
+            'text-anchor="middle">across, in spacings</text>'
+        )
         for value in (round(low_x * 0.9), 0, round(high_x * 0.9)):
-            parts.append(f'<text class="tick" x="{x0 + (value - low_x) * scale:.1f}" y="{top + tall + 18:.0f}" '
-                         f'text-anchor="middle">{value}</text>')
+            parts.append(
+                f'<text class="tick" x="{x0 + (value - low_x) * scale:.1f}" y="{top + tall + 18:.0f}" '
+                f'text-anchor="middle">{value}</text>'
+            )
     for value in (low_z * 0.95, 0, high_z * 0.95):
-        parts.append(f'<text class="tick" x="{left - 6}" y="{top + (high_z - value) * scale + 3:.1f}" '
-                     f'text-anchor="end">{value:.0f}</text>')
-    parts.append(f'<text class="axis-label" transform="translate(14 {top + tall / 2:.0f}) rotate(-90)" '
-                 'text-anchor="middle">upwards, in spacings</text>')
+        parts.append(
+            f'<text class="tick" x="{left - 6}" y="{top + (high_z - value) * scale + 3:.1f}" '
+            f'text-anchor="end">{value:.0f}</text>'
+        )
+    parts.append(
+        f'<text class="axis-label" transform="translate(14 {top + tall / 2:.0f}) rotate(-90)" '
+        'text-anchor="middle">upwards, in spacings</text>'
+    )
     y = top + tall + 58
-    parts.append(f'<text class="axis-label" x="{left}" y="{y + 10:.0f}">radius ratio of the cell: 0 (flat)</text>')
+    parts.append(
+        f'<text class="axis-label" x="{left}" y="{y + 10:.0f}">radius ratio of the cell: 0 (flat)</text>'
+    )
     for level, colour in enumerate(QUALITY):
-        parts.append(f'<rect x="{left + 190 + 26 * level}" y="{y:.0f}" width="26" height="13" style="fill:{colour}"/>')
-    parts.append(f'<text class="axis-label" x="{left + 198 + 26 * len(QUALITY)}" y="{y + 10:.0f}">1 (regular)</text>')
+        parts.append(
+            f'<rect x="{left + 190 + 26 * level}" y="{y:.0f}" width="26" height="13" style="fill:{colour}"/>'
+        )
+    parts.append(
+        f'<text class="axis-label" x="{left + 198 + 26 * len(QUALITY)}" y="{y + 10:.0f}">1 (regular)</text>'
+    )
     poor = [(t, sum(q < 0.2 for q, _ in sections[t]) / len(sections[t])) for t in shown]
     mean = [(t, sum(q for q, _ in sections[t]) / len(sections[t])) for t in shown]
-    then = "100 iterations were not sufficient for a high-quality mesh; the cells' shapes improved up to 1,000."
-    now = ("In this section through the body, the mean radius ratio is "
-           + listed(f"{m:.2f} at iteration {t}" for t, m in mean) + "; "
-           + listed(f"{percent(p, 1)} at {t}" for t, p in poor) + " of the cells are below 0.2.")
+    then = (
+        "100 iterations were not sufficient for a high-quality mesh; the cells' shapes improved up to 1,000."
+    )
+    now = (
+        "In this section through the body, the mean radius ratio is "
+        + listed(f"{m:.2f} at iteration {t}" for t, m in mean)
+        + "; "
+        + listed(f"{percent(p, 1)} at {t}" for t, p in poor)
+        + " of the cells are below 0.2."
+    )
     now += f" The body: {body_of(results)}."
-    return figure(1080, round(y + 26), parts, "A section through the body man at several iterations"), then, now
+    return (
+        figure(1080, round(y + 26), parts, "A section through the body man at several iterations"),
+        then,
+        now,
+    )
 
 
 def body_of(results):
     names = {r["remark"] for r in results.statistics if r["scenario"] == "man"}
-    return listed(sorted(n.replace("body: ", "") for n in names)).replace(
-        "man.off", "man.off of Debian's libcgal-demo") or "unknown"
+    return (
+        listed(sorted(n.replace("body: ", "") for n in names)).replace(
+            "man.off", "man.off of Debian's libcgal-demo"
+        )
+        or "unknown"
+    )
 
 
 # Cividis, which reads the same with and without colour deficiencies, in ten steps.
-QUALITY = ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"]
+QUALITY = [
+    "#00224e",
+    "#123570",
+    "#3b496c",
+    "#575d6d",
+    "#707173",
+    "#8a8678",
+    "#a59c74",
+    "#c3b369",
+    "#e1cc55",
+    "#fee838",
+]
 
 
 def figure_6(results):
     scenarios = [s for s in SPACE if iterations(results, s)]
     if not scenarios:
         return None
-    svg = grid_of_tolerances(results, scenarios, "mean_displacement",
-                             "Widths of bi-cells and tolerances of vertices in space")
-    then = ("avg(W) of slloyd stayed at about 30 % of the spacing and avg(ε(V)) at about 1 %; both converge more slowly "
-            "than in the plane. (The report's third panel in man goes to 0.2, as its points were sparse.)")
-    now = "At the last iteration: " + listed(
-        f"{INPUT_TITLES[s]} {percent(last(results, s, 'mean_width'))} and "
-        f"{percent(last(results, s, 'mean_tolerance'), 1)}" for s in scenarios) + "."
+    svg = grid_of_tolerances(
+        results, scenarios, "mean_displacement", "Widths of bi-cells and tolerances of vertices in space"
+    )
+    then = (
+        "avg(W) of slloyd stayed at about 30 % of the spacing and avg(ε(V)) at about 1 %; both converge more"
+        " slowly than in the plane. (The report's third panel in man goes to 0.2, as its points were sparse.)"
+    )
+    now = (
+        "At the last iteration: "
+        + listed(
+            f"{INPUT_TITLES[s]} {percent(last(results, s, 'mean_width'))} and "
+            f"{percent(last(results, s, 'mean_tolerance'), 1)}"
+            for s in scenarios
+        )
+        + "."
+    )
     return svg, then, now
 
 
@@ -226,38 +326,71 @@ def figure_7(results):
     parts = []
     for row, scenario in enumerate(scenarios):
         name = "Two" if scenario.endswith("2d") else "Three"
-        for column, (quantity, label, colour) in enumerate((("width", "W", "tolerance"), ("tolerance", "ε(V)", "safe"))):
+        for column, (quantity, label, colour) in enumerate(
+            (("width", "W", "tolerance"), ("tolerance", "ε(V)", "safe"))
+        ):
             bins = results.distribution(scenario, 0, quantity)[:-1]
             if quantity == "tolerance":
                 bins = [b for b in bins if b[1] <= (0.101 if name == "Two" else 0.031)]
-            plot = Plot(width, height, (0, bins[-1][1]), (0, max(share for _, _, share in bins) * 1.1),
-                        ("width of the annulus" if quantity == "width" else "tolerance ε") + ", in spacings",
-                        f"share per {bins[0][1]:.3g}",
-                        f"{name} dimensions, {count(results.size(scenario))} points: {label}",
-                        tick_text=lambda v: f"{100 * v:g} %")
+            plot = Plot(
+                width,
+                height,
+                (0, bins[-1][1]),
+                (0, max(share for _, _, share in bins) * 1.1),
+                ("width of the annulus" if quantity == "width" else "tolerance ε") + ", in spacings",
+                f"share per {bins[0][1]:.3g}",
+                f"{name} dimensions, {count(results.size(scenario))} points: {label}",
+                tick_text=lambda v: f"{100 * v:g} %",
+            )
             plot.steps(bins, colour)
             parts.append(plot.svg(column * (width + 10), row * (height + 10)))
-    then = "; ".join(f"{name} {two:g} in the plane and {three:g} in space" for name, (two, three) in (
-        ("avg(W)", FIGURE_7["mean_width"]), ("avg(ε(V))", FIGURE_7["mean_tolerance"]),
-        ("average greatest width at a vertex", FIGURE_7["mean_widest"]),
-        ("bi-cells per vertex", FIGURE_7["bicells_per_vertex"]))) + "."
+    then = (
+        "; ".join(
+            f"{name} {two:g} in the plane and {three:g} in space"
+            for name, (two, three) in (
+                ("avg(W)", FIGURE_7["mean_width"]),
+                ("avg(ε(V))", FIGURE_7["mean_tolerance"]),
+                ("average greatest width at a vertex", FIGURE_7["mean_widest"]),
+                ("bi-cells per vertex", FIGURE_7["bicells_per_vertex"]),
+            )
+        )
+        + "."
+    )
     then = "Random points at unit density: " + then
-    names = {"mean_width": "avg(W)", "mean_tolerance": "avg(ε(V))", "mean_widest": "average greatest width",
-             "bicells_per_vertex": "bi-cells per vertex"}
+    names = {
+        "mean_width": "avg(W)",
+        "mean_tolerance": "avg(ε(V))",
+        "mean_widest": "average greatest width",
+        "bicells_per_vertex": "bi-cells per vertex",
+    }
     now = "; ".join(
-        names[column] + " " + listed(f"{last(results, s, column):.3g}" for s in scenarios) for column in names)
-    now += (". Standard delimiters, finite bi-cells only; points next to the hull, whose bi-cells are wide, are counted."
-            " The report's avg(W) is that of the least annuli, which are narrower where the opposing vertices' line"
-            " misses the facet.")
-    return (figure(2 * width + 10, len(scenarios) * (height + 10), parts,
-                   "Distributions of widths and tolerances of random points"), then, now)
+        names[column] + " " + listed(f"{last(results, s, column):.3g}" for s in scenarios) for column in names
+    )
+    now += (
+        ". Standard delimiters, finite bi-cells only; points next to the hull, whose bi-cells are wide, are"
+        " counted. The report's avg(W) is that of the least annuli, which are narrower where the opposing"
+        " vertices' line misses the facet."
+    )
+    return (
+        figure(
+            2 * width + 10,
+            len(scenarios) * (height + 10),
+            parts,
+            "Distributions of widths and tolerances of random points",
+        ),
+        then,
+        now,
+    )
 
 
 def comparison(results, scenario, x_column, x_label, x, x_scale=1.0, x_log=False, ticks=None):
     """Two panels side by side with the same axes: the report's algorithms on CGAL, deldrift's."""
     width, height = 535, 300
-    curves = {(engine, a): [(px * x_scale, py) for px, py in results.sweep(scenario, engine, a, x_column)]
-              for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT)) for a in algorithms}
+    curves = {
+        (engine, a): [(px * x_scale, py) for px, py in results.sweep(scenario, engine, a, x_column)]
+        for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT))
+        for a in algorithms
+    }
     values = [py for points in curves.values() for _, py in points]
     if not values:
         return []
@@ -265,8 +398,19 @@ def comparison(results, scenario, x_column, x_label, x, x_scale=1.0, x_log=False
     for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT)):
         dimension = "the plane" if scenario.endswith("2d") else "space"
         title = f"{'On CGAL' if engine == 'cgal' else 'deldrift'}, in {dimension}"
-        plot = Plot(width, height, x, limits(values, True), x_label, "ns per vertex and timestamp", title, y_log=True,
-                    x_log=x_log, x_ticks=ticks, right=110)
+        plot = Plot(
+            width,
+            height,
+            x,
+            limits(values, True),
+            x_label,
+            "ns per vertex and timestamp",
+            title,
+            y_log=True,
+            x_log=x_log,
+            x_ticks=ticks,
+            right=110,
+        )
         for a in algorithms:
             plot.line(curves[engine, a], COLOURS[a], NAMES[a], marks=True)
         if engine == "deldrift":
@@ -283,12 +427,21 @@ def two_by_two(panels, description):
 def figure_8(results):
     panels = []
     for scenario in ("share_2d", "share_3d"):
-        panels += comparison(results, scenario, "share_within_tolerance", "share of vertices within tolerance, in %",
-                             (0, 100), 100)
+        panels += comparison(
+            results,
+            scenario,
+            "share_within_tolerance",
+            "share of vertices within tolerance, in %",
+            (0, 100),
+            100,
+        )
     if not panels:
         return None
-    then = ("T equalled rebuilding when about 25 % of the vertices in the plane, 55 % in space, were beyond their "
-            "tolerance; at best it was 17 and 125 times as fast. Testing S took 4 and 55 times as long as testing T.")
+    then = (
+        "T equalled rebuilding when about 25 % of the vertices in the plane, 55 % in space, were beyond their"
+        " tolerance; at best it was 17 and 125 times as fast. Testing S took 4 and 55 times as long as"
+        " testing T."
+    )
     now = []
     for scenario, where in (("share_2d", "the plane"), ("share_3d", "space")):
         rebuilding = results.sweep(scenario, "cgal", "rebuilding", "share_within_tolerance")
@@ -300,12 +453,15 @@ def figure_8(results):
             at = crossing(t, rebuilding)
             best = max(dict(rebuilding)[x] / y for x, y in t)
             text = f"in {where} {name} equals CGAL's rebuilding with " + (
-                f"{percent(1 - at)} beyond tolerance" if at is not None else "no share measured")
+                f"{percent(1 - at)} beyond tolerance" if at is not None else "no share measured"
+            )
             text += f", is at best {times(best)} times as fast"
             uncertain = last(results, scenario, "share_uncertain")
             if engine == "cgal" and uncertain:
-                text += (f" ({percent(uncertain, 1)} of the vertices have a tolerance that the report's static filters"
-                         " cannot certify, and always take placement)")
+                text += (
+                    f" ({percent(uncertain, 1)} of the vertices have a tolerance that the report's static"
+                    " filters cannot certify, and always take placement)"
+                )
             if s:
                 text += f", and S takes {times(s[-1][1] / t[-1][1])} times as long where all are within"
             now.append(text)
@@ -320,12 +476,22 @@ def sentence(parts):
 def figure_9(results):
     panels = []
     for scenario in ("walk_2d", "walk_3d"):
-        panels += comparison(results, scenario, "displacement_per_tolerance",
-                             "displacement, in % of avg(ε(V))", (1.7, 360), 100, True, [2, 5, 10, 20, 50, 100, 200])
+        panels += comparison(
+            results,
+            scenario,
+            "displacement_per_tolerance",
+            "displacement, in % of avg(ε(V))",
+            (1.7, 360),
+            100,
+            True,
+            [2, 5, 10, 20, 50, 100, 200],
+        )
     if not panels:
         return None
-    then = ("With displacements of 20 % of avg(ε(V)), T still outperformed rebuilding, in the plane and in space; up to "
-            "avg(ε(V)) in space, T was more than three times as fast as placement.")
+    then = (
+        "With displacements of 20 % of avg(ε(V)), T still outperformed rebuilding, in the plane and in space;"
+        " up to avg(ε(V)) in space, T was more than three times as fast as placement."
+    )
     now = []
     for scenario, where in (("walk_2d", "the plane"), ("walk_3d", "space")):
         rebuilding = results.sweep(scenario, "cgal", "rebuilding", "displacement_per_tolerance")
@@ -334,10 +500,17 @@ def figure_9(results):
             if not t or not rebuilding:
                 continue
             at = crossing(t, rebuilding)
-            now.append(f"in {where} {name} is faster than CGAL's rebuilding "
-                       + (f"up to {percent(at)} of avg(ε(V))" if at is not None else
-                          "throughout" if t[0][1] < rebuilding[0][1] else "nowhere"))
-    t, p = (results.sweep("walk_3d", "cgal", a, "displacement_per_tolerance") for a in ("tolerance", "placement"))
+            now.append(
+                f"in {where} {name} is faster than CGAL's rebuilding "
+                + (
+                    f"up to {percent(at)} of avg(ε(V))"
+                    if at is not None
+                    else "throughout" if t[0][1] < rebuilding[0][1] else "nowhere"
+                )
+            )
+    t, p = (
+        results.sweep("walk_3d", "cgal", a, "displacement_per_tolerance") for a in ("tolerance", "placement")
+    )
     near = [(abs(x - 1), dict(p)[x] / y) for x, y in t if x in dict(p)]
     if near:
         now.append(f"at 100 % in space, T on CGAL is {times(min(near)[1])} times as fast as CGAL's placement")
@@ -347,16 +520,30 @@ def figure_9(results):
 def figure_10(results):
     panels = []
     for scenario in INPUTS:
-        curves = {(engine, a): results.curve(scenario, engine, a)
-                  for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT)) for a in algorithms}
+        curves = {
+            (engine, a): results.curve(scenario, engine, a)
+            for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT))
+            for a in algorithms
+        }
         values = [y for points in curves.values() for _, y in points]
         if not values:
             continue
         end = results.range(scenario, 0)[1]
         for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT)):
             title = f"{INPUT_TITLES[scenario]}: {'on CGAL' if engine == 'cgal' else 'deldrift'}"
-            plot = Plot(535, 300, (0.9, end * 1.1), limits(values, True), "iteration", "ns per vertex and iteration",
-                        title, x_log=True, y_log=True, x_ticks=[1, 3, 10, 30, 100, 300, 1000], right=110)
+            plot = Plot(
+                535,
+                300,
+                (0.9, end * 1.1),
+                limits(values, True),
+                "iteration",
+                "ns per vertex and iteration",
+                title,
+                x_log=True,
+                y_log=True,
+                x_ticks=[1, 3, 10, 30, 100, 300, 1000],
+                right=110,
+            )
             for a in algorithms:
                 plot.line(curves[engine, a], COLOURS[a], NAMES[a])
             if engine == "deldrift":
@@ -364,15 +551,25 @@ def figure_10(results):
             panels.append(plot)
     if not panels:
         return None
-    then = ("In the plane S, T, S+T and rebuilding+T all outperformed rebuilding and placement; in space T did for snodt "
-            "and man, not for slloyd, where slivers keep tolerances small. T becomes faster as iterations go on.")
+    then = (
+        "In the plane S, T, S+T and rebuilding+T all outperformed rebuilding and placement; in space T did"
+        " for snodt and man, not for slloyd, where slivers keep tolerances small. T becomes faster as"
+        " iterations go on."
+    )
     now = []
     for scenarios, where in ((PLANE, "in the plane"), (SPACE, "in space")):
         for engine, name in (("cgal", "on CGAL"), ("deldrift", "of deldrift")):
-            faster = {a: [INPUT_TITLES[s] for s in scenarios if (results.speedup(s, engine, a, 0) or 0) > 1]
-                      for a in ("safe_region", "tolerance", "safe_region_tolerance", "rebuilding_tolerance")}
-            now.append(f"{where} those {name} that outperform CGAL's rebuilding over all iterations: " + ", ".join(
-                f"{NAMES[a]} on {'all' if len(f) == len(scenarios) else listed(f) or 'none'}" for a, f in faster.items()))
+            faster = {
+                a: [INPUT_TITLES[s] for s in scenarios if (results.speedup(s, engine, a, 0) or 0) > 1]
+                for a in ("safe_region", "tolerance", "safe_region_tolerance", "rebuilding_tolerance")
+            }
+            now.append(
+                f"{where} those {name} that outperform CGAL's rebuilding over all iterations: "
+                + ", ".join(
+                    f"{NAMES[a]} on {'all' if len(f) == len(scenarios) else listed(f) or 'none'}"
+                    for a, f in faster.items()
+                )
+            )
     return two_by_two(panels, "Time of an iteration, for every input and algorithm"), then, sentence(now)
 
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes one self-contained page, and an SVG file for each figure, of what `cpp-bench/run --report` has measured.
+"""Makes one self-contained page, and an SVG file for each figure, of what `cpp-bench/run --report`
+has measured.
 
     cpp-bench/report_page/page.py [RESULTS]
 
-Writes RESULTS/report/index.html and RESULTS/report/figure_N.svg. Nothing but Python's standard library is needed, and
-the page needs nothing but a browser.
+Writes RESULTS/report/index.html and RESULTS/report/figure_N.svg. Nothing but Python's standard library is
+needed, and the page needs nothing but a browser.
 """
 
 import os
@@ -43,13 +44,20 @@ def write(path, text):
 def alone(svg):
     """With its own style, and a ground."""
     start = svg.index(">") + 1
-    return (svg[:start] + f"<style>{style.themed()}{style.PLOT}</style>"
-            '<rect width="100%" height="100%" style="fill:var(--ground)"/>' + svg[start:] + "\n")
+    return (
+        svg[:start]
+        + f"<style>{style.themed()}{style.PLOT}</style>"
+        '<rect width="100%" height="100%" style="fill:var(--ground)"/>'
+        + svg[start:]
+        + "\n"
+    )
 
 
 def then_now(then, now):
-    return (f'<span class="then"><b>The report:</b> {escape(then)}</span>'
-            f'<span class="now"><b>Here:</b> {escape(now)}</span>')
+    return (
+        f'<span class="then"><b>The report:</b> {escape(then)}</span>'
+        f'<span class="now"><b>Here:</b> {escape(now)}</span>'
+    )
 
 
 def page(results, drawn):
@@ -70,36 +78,55 @@ def page(results, drawn):
     for n, title, made in drawn:
         body.append(f"<h2>Figure {n}: {escape(title)}</h2>")
         if made:
-            body.append(f'<figure id="figure-{n}">{made[0]}<figcaption>{then_now(*made[1:])}</figcaption></figure>')
+            body.append(
+                f'<figure id="figure-{n}">{made[0]}<figcaption>{then_now(*made[1:])}</figcaption></figure>'
+            )
         else:
             body.append(f'<p class="small" id="figure-{n}">Its input has not been measured in this run.</p>')
     body.append(method(results))
-    return ('<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width,initial-scale=1">'
-            '<link rel="icon" href="data:,">'
-            "<title>RR-6750 anew: deldrift beside CGAL</title>"
-            f"<style>{style.themed()}{style.PLOT}{style.PAGE}</style></head><body>" + "\n".join(body)
-            + "</body></html>\n")
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">'
+        '<link rel="icon" href="data:,">'
+        "<title>RR-6750 anew: deldrift beside CGAL</title>"
+        f"<style>{style.themed()}{style.PLOT}{style.PAGE}</style></head><body>"
+        + "\n".join(body)
+        + "</body></html>\n"
+    )
 
 
 def lead(results):
     def best(engine):
         value = []
         for scenario in INPUTS:
-            rows = [r for r in results.rows if r["scenario"] == scenario and r["engine"] == engine
-                    and r["algorithm"] != "rebuilding"]
-            whole = [float(r["speedup_vs_cgal_rebuild"]) for r in rows
-                     if (int(r["first_timestamp"]), int(r["last_timestamp"])) == results.range(scenario, 0)]
+            rows = [
+                r
+                for r in results.rows
+                if r["scenario"] == scenario and r["engine"] == engine and r["algorithm"] != "rebuilding"
+            ]
+            whole = [
+                float(r["speedup_vs_cgal_rebuild"])
+                for r in rows
+                if (int(r["first_timestamp"]), int(r["last_timestamp"])) == results.range(scenario, 0)
+            ]
             if whole:
                 value.append(max(whole))
         return value
-    return ('<p class="lead">Points move a little at every timestamp; how does one update their Delaunay triangulation '
-            "faster than by rebuilding it? In 2008 the INRIA report "
-            '<a href="https://inria.hal.science/inria-00344053">RR-6750</a> answered: give every vertex a certified '
-            "<em>tolerance</em> within which it may move and nothing changes. Here its inputs are recorded anew and replayed, "
-            "with identical positions, to CGAL, to the report's algorithms on CGAL's triangulations, and to deldrift.</p>"
-            f'<p class="lead">The best algorithm on CGAL other than rebuilding is {span(best("cgal"))} times as fast as '
-            f"rebuilding with CGAL, depending on the input; deldrift's best, {span(best('deldrift'))} times.</p>")
+
+    return (
+        '<p class="lead">Points move a little at every timestamp; how does one update their Delaunay'
+        " triangulation "
+        "faster than by rebuilding it? In 2008 the INRIA report "
+        '<a href="https://inria.hal.science/inria-00344053">RR-6750</a> answered: give every vertex a'
+        " certified "
+        "<em>tolerance</em> within which it may move and nothing changes. Here its inputs are recorded anew"
+        " and replayed, "
+        "with identical positions, to CGAL, to the report's algorithms on CGAL's triangulations, and to"
+        " deldrift.</p>"
+        f'<p class="lead">The best algorithm on CGAL other than rebuilding is {span(best("cgal"))} times as'
+        " fast as "
+        f"rebuilding with CGAL, depending on the input; deldrift's best, {span(best('deldrift'))} times.</p>"
+    )
 
 
 def scaled_down(results):
@@ -111,43 +138,67 @@ def scaled_down(results):
             size = f"{count(results.size(scenario))} points and {results.range(scenario, 0)[1]} iterations"
             by_size.setdefault(size, []).append(INPUT_TITLES[scenario])
     sizes = "; ".join(f"{listed(names)}: {size}" for size, names in by_size.items())
-    return (f'<p class="warning"><b>Scaled down</b> (preset {escape(results.state.get("preset", "unknown"))}): {sizes}. '
-            "<code>make report PRESET=full</code> has the report's sizes.</p>")
+    return (
+        f'<p class="warning"><b>Scaled down</b> (preset {escape(results.state.get("preset", "unknown"))}):'
+        f" {sizes}. <code>make report PRESET=full</code> has the report's sizes.</p>"
+    )
 
 
 def environment(results):
-    entries = "".join(f"<dt>{escape(name)}</dt><dd>{escape(results.environment[name])}</dd>"
-                      for name in ("processor", "memory", "system", "compiler", "rust compiler", "CGAL", "deldrift",
-                                   "commit", "date", "command") if name in results.environment)
+    entries = "".join(
+        f"<dt>{escape(name)}</dt><dd>{escape(results.environment[name])}</dd>"
+        for name in (
+            "processor",
+            "memory",
+            "system",
+            "compiler",
+            "rust compiler",
+            "CGAL",
+            "deldrift",
+            "commit",
+            "date",
+            "command",
+        )
+        if name in results.environment
+    )
     return f"<dl>{entries}</dl>"
 
 
 def method(results):
     compared = sum(int(r["compared_timestamps"]) for r in results.checks)
     wrong = sum(int(r["cells_wrongly_taken_for_delaunay"]) for r in results.checks)
-    wrongly = [f"{INPUT_TITLES.get(r['scenario'], r['scenario'])}, {r['algorithm']}: "
-               f"{count(int(r['cells_wrongly_taken_for_delaunay']))}"
-               for r in results.checks if int(r["cells_wrongly_taken_for_delaunay"])]
-    gap = ("No such cell was met in this run." if wrong == 0 else
-           f"{count(wrong)} such cells were met at the timestamps compared ({'; '.join(wrongly)}).")
+    wrongly = [
+        f"{INPUT_TITLES.get(r['scenario'], r['scenario'])}, {r['algorithm']}: "
+        f"{count(int(r['cells_wrongly_taken_for_delaunay']))}"
+        for r in results.checks
+        if int(r["cells_wrongly_taken_for_delaunay"])
+    ]
+    gap = (
+        "No such cell was met in this run."
+        if wrong == 0
+        else f"{count(wrong)} such cells were met at the timestamps compared ({'; '.join(wrongly)})."
+    )
     return f"""<h2>How it is measured</h2>
 <ul>
-<li>Only the update is on the clock: from the call that hands over positions to the triangulation at these positions. One
-thread. Engines take turns in blocks of consecutive timestamps.</li>
-<li>Cells were compared with those of CGAL's rebuilding {count(compared)} times in all, at timestamps spread over every input,
-right after the update that was timed. A difference ends the run, unless exact arithmetic finds the points exactly cospherical.</li>
-<li>One difference is counted instead: in space the report's Proposition 1 does not hold where the line through the opposing
-vertices of a bi-cell misses its facet, so that its algorithms may keep a cell that is no longer Delaunay. {gap} deldrift adds
-a bound that excludes them.</li>
-<li>The report leaves out the hull. Its algorithms on CGAL hold the vertices of hull cells by half the least width of their
-d + 1 points, so that the result is the Delaunay triangulation there as well. Static filters are those of its section 4.</li>
-<li>snodt and man move one vertex after another, and every engine relocates it at once; engines that rebuild do so once for
-each sweep, as in the report. Vertices on the boundary stay.</li>
-<li>In space, engines without tolerances that relocate every vertex are timed at a sample of the iterations (*), and the
-speed-up is over CGAL's rebuilding at the same ones.</li>
+<li>Only the update is on the clock: from the call that hands over positions to the triangulation at these
+positions. One thread. Engines take turns in blocks of consecutive timestamps.</li>
+<li>Cells were compared with those of CGAL's rebuilding {count(compared)} times in all, at timestamps spread
+over every input, right after the update that was timed. A difference ends the run, unless exact arithmetic
+finds the points exactly cospherical.</li>
+<li>One difference is counted instead: in space the report's Proposition 1 does not hold where the line
+through the opposing vertices of a bi-cell misses its facet, so that its algorithms may keep a cell that is
+no longer Delaunay. {gap} deldrift adds a bound that excludes them.</li>
+<li>The report leaves out the hull. Its algorithms on CGAL hold the vertices of hull cells by half the least
+width of their d + 1 points, so that the result is the Delaunay triangulation there as well. Static filters
+are those of its section 4.</li>
+<li>snodt and man move one vertex after another, and every engine relocates it at once; engines that rebuild
+do so once for each sweep, as in the report. Vertices on the boundary stay.</li>
+<li>In space, engines without tolerances that relocate every vertex are timed at a sample of the iterations
+(*), and the speed-up is over CGAL's rebuilding at the same ones.</li>
 <li>Spacings are the unit of length at which there is one point per unit of area or volume on average.</li>
 </ul>
-<p class="small">The numbers behind the page are in report.csv and the files beside it; cpp-bench/README.md has the rest.</p>"""
+<p class="small">The numbers behind the page are in report.csv and the files beside it; cpp-bench/README.md
+has the rest.</p>"""
 
 
 if __name__ == "__main__":

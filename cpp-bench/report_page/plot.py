@@ -34,7 +34,7 @@ class Scale:
     def log_ticks(self):
         decades = range(math.floor(math.log10(self.low)), math.ceil(math.log10(self.high)) + 1)
         factors = (1,) if self.high / self.low > 300 else (1, 2, 5) if self.high / self.low < 30 else (1, 3)
-        ticks = [f * 10.0 ** d for d in decades for f in factors]
+        ticks = [f * 10.0**d for d in decades for f in factors]
         return [t for t in ticks if self.low * 0.999 <= t <= self.high * 1.001]
 
 
@@ -50,7 +50,7 @@ def short(value):
         return f"{value:,.0f}"
     if abs(value) < 1e-3:
         exponent = math.floor(math.log10(abs(value)) + 1e-9)
-        mantissa = value / 10 ** exponent
+        mantissa = value / 10**exponent
         power = "10" + "".join("⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".index(c)] for c in str(exponent))
         return power if abs(mantissa - 1) < 1e-6 else f"{mantissa:g}·{power}"
     return f"{value:g}"
@@ -67,8 +67,21 @@ def limits(values, is_log=False):
 class Plot:
     """One panel with labelled axes. Draw, then place it with `svg` into a figure."""
 
-    def __init__(self, width, height, x, y, x_label, y_label, title="", x_log=False, y_log=False, right=16,
-                 x_ticks=None, tick_text=short):
+    def __init__(
+        self,
+        width,
+        height,
+        x,
+        y,
+        x_label,
+        y_label,
+        title="",
+        x_log=False,
+        y_log=False,
+        right=16,
+        x_ticks=None,
+        tick_text=short,
+    ):
         self.width, self.height, self.title = width, height, title
         self.left, self.right, self.top, self.bottom = 58, right, 26 if title else 10, 42
         self.x = Scale(*x, self.left, width - self.right, x_log)
@@ -84,7 +97,10 @@ class Plot:
         for tick in self.y.ticks(4):
             y = self.y(tick)
             add(f'<line class="grid" x1="{self.left}" y1="{y:.1f}" x2="{end}" y2="{y:.1f}"/>')
-            add(f'<text class="tick" x="{self.left - 6}" y="{y + 3.6:.1f}" text-anchor="end">{tick_text(tick)}</text>')
+            add(
+                f'<text class="tick" x="{self.left - 6}" y="{y + 3.6:.1f}"'
+                f' text-anchor="end">{tick_text(tick)}</text>'
+            )
         last = -1e9
         for tick in x_ticks if x_ticks is not None else self.x.ticks(5):
             x, text = self.x(tick), short(tick)
@@ -95,25 +111,30 @@ class Plot:
             add(f'<text class="tick" x="{x:.1f}" y="{bottom + 16}" text-anchor="middle">{text}</text>')
         add(f'<line class="axis" x1="{self.left}" y1="{bottom}" x2="{end}" y2="{bottom}"/>')
         middle = (self.left + end) / 2
-        add(f'<text class="axis-label" x="{middle:.0f}" y="{self.height - 7}" text-anchor="middle">'
-            f'{escape(x_label)}</text>')
+        add(
+            f'<text class="axis-label" x="{middle:.0f}" y="{self.height - 7}" text-anchor="middle">'
+            f"{escape(x_label)}</text>"
+        )
         middle = (self.top + bottom) / 2
-        add(f'<text class="axis-label" transform="translate(13 {middle:.0f}) rotate(-90)" text-anchor="middle">'
-            f'{escape(y_label)}</text>')
+        add(
+            f'<text class="axis-label" transform="translate(13 {middle:.0f}) rotate(-90)"'
+            f' text-anchor="middle">{escape(y_label)}</text>'
+        )
 
     def inside(self, points):
         return [(self.x(x), min(max(self.y(y), self.top), self.height - self.bottom)) for x, y in points]
 
     def line(self, points, colour, label=None, style="", marks=False):
-        """A line with its label at the end, or dots where there are too few points for a line to mean anything."""
+        """A line with its label at the end."""
         if not points:
             return
         places = self.inside(points)
         path = "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in places)
         self.parts.append(f'<path class="line {style}" style="stroke:var(--{colour})" d="{path}"/>')
         if marks:
-            self.parts += [f'<circle style="fill:var(--{colour})" cx="{x:.1f}" cy="{y:.1f}" r="2.6"/>'
-                           for x, y in places]
+            self.parts += [
+                f'<circle style="fill:var(--{colour})" cx="{x:.1f}" cy="{y:.1f}" r="2.6"/>' for x, y in places
+            ]
         if label:
             self.ends.append((places[-1][1], places[-1][0], label, colour))
 
@@ -131,12 +152,16 @@ class Plot:
         x = x if x is not None else self.width - self.right - 4
         y = y if y is not None else self.top + 12
         for i, (label, colour) in enumerate(entries):
-            self.parts.append(f'<text class="label" style="fill:var(--{colour})" x="{x:.0f}" y="{y + 14 * i:.0f}" '
-                              f'text-anchor="end">{escape(label)}</text>')
+            self.parts.append(
+                f'<text class="label" style="fill:var(--{colour})" x="{x:.0f}" y="{y + 14 * i:.0f}" '
+                f'text-anchor="end">{escape(label)}</text>'
+            )
 
     def annotate(self, x, y, text, dx=5, dy=-5, anchor="start"):
-        self.parts.append(f'<text class="note" x="{self.x(x) + dx:.1f}" y="{self.y(y) + dy:.1f}" '
-                          f'text-anchor="{anchor}">{escape(text)}</text>')
+        self.parts.append(
+            f'<text class="note" x="{self.x(x) + dx:.1f}" y="{self.y(y) + dy:.1f}" '
+            f'text-anchor="{anchor}">{escape(text)}</text>'
+        )
 
     def svg(self, x=0, y=0):
         self.place_labels()
@@ -155,14 +180,21 @@ class Plot:
             places[i] = min(places[i], limit)
         edge = self.width - self.right
         for (y, x, label, colour), place in zip(ends, places):
-            self.parts.append(f'<path class="leader" style="stroke:var(--{colour})" '
-                              f'd="M{x + 3:.1f} {y:.1f}L{edge + 6} {place:.1f}"/>')
-            self.parts.append(f'<text class="label" style="fill:var(--{colour})" x="{edge + 9}" '
-                              f'y="{place + 3.8:.1f}">{escape(label)}</text>')
+            self.parts.append(
+                f'<path class="leader" style="stroke:var(--{colour})" '
+                f'd="M{x + 3:.1f} {y:.1f}L{edge + 6} {place:.1f}"/>'
+            )
+            self.parts.append(
+                f'<text class="label" style="fill:var(--{colour})" x="{edge + 9}" '
+                f'y="{place + 3.8:.1f}">{escape(label)}</text>'
+            )
         self.ends = []
 
 
 def figure(width, height, parts, description):
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" '
-            f'aria-label="{escape(description, quote=True)}"><title>{escape(description)}</title>'
-            + "".join(parts) + "</svg>")
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" '
+        f'aria-label="{escape(description, quote=True)}"><title>{escape(description)}</title>'
+        + "".join(parts)
+        + "</svg>"
+    )

@@ -4,7 +4,8 @@
 
     cpp-bench/report_page/test_page.py [PAGE]
 
-With the path of a page, only that page is looked at. Without a Chromium, and only then, the browser's part is skipped.
+With the path of a page, only that page is looked at. Without a Chromium, and only then, the browser's part
+is skipped.
 """
 
 import json
@@ -19,13 +20,14 @@ import browser
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
-# Runs in the page: what can be seen of every figure. Its own part of the document is put there for the test alone.
+# Runs in the page, into which it is put for the test alone: what can be seen of every figure.
 PROBE = """<script>
 window.addEventListener('load', () => {
   const figures = {};
   for (const figure of document.querySelectorAll('figure')) {
     const svg = figure.querySelector('svg');
-    const texts = [...svg.querySelectorAll('text')].map(t => ({text: t.textContent, box: t.getBoundingClientRect()}));
+    const texts = [...svg.querySelectorAll('text')].map(
+      t => ({text: t.textContent, box: t.getBoundingClientRect()}));
     const frame = svg.getBoundingClientRect();
     const overlaps = [], outside = [];
     texts.forEach((a, i) => {
@@ -42,11 +44,13 @@ window.addEventListener('load', () => {
       drawn: svg.querySelectorAll('path[d], line, circle, rect').length,
       labels: [...svg.querySelectorAll('.axis-label')].filter(t => t.getBoundingClientRect().width > 0)
         .map(t => t.textContent),
-      broken: [...svg.querySelectorAll('path')].filter(p => /NaN|Infinity|undefined/.test(p.getAttribute('d'))).length,
+      broken: [...svg.querySelectorAll('path')].filter(
+        p => /NaN|Infinity|undefined/.test(p.getAttribute('d'))).length,
       caption: figure.querySelector('figcaption') ? figure.querySelector('figcaption').textContent : '',
     };
   }
-  const result = {figures, tables: [...document.querySelectorAll('table')].map(t => [t.id, t.querySelectorAll('td').length]),
+  const tables = [...document.querySelectorAll('table')].map(t => [t.id, t.querySelectorAll('td').length]);
+  const result = {figures, tables,
                   loads: performance.getEntriesByType('resource').map(r => r.name),
                   wide: document.documentElement.scrollWidth > document.documentElement.clientWidth + 1};
   const out = document.createElement('pre');
@@ -71,17 +75,28 @@ class Failures:
 def measure(folder):
     """The smallest run that has every input and every algorithm."""
     run = os.path.join(HERE, "..", "run")
-    done = subprocess.run([run, "--report", "--preset", "smoke", "--results", folder], check=False,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    done = subprocess.run(
+        [run, "--report", "--preset", "smoke", "--results", folder],
+        check=False,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     if done.returncode != 0:
         raise SystemExit(done.stderr)
-    subprocess.run([sys.executable, os.path.join(HERE, "page.py"), folder], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [sys.executable, os.path.join(HERE, "page.py"), folder], check=True, stdout=subprocess.DEVNULL
+    )
 
 
 def check_continued(failures, folder):
     """A second run finds everything there."""
-    done = subprocess.run([os.path.join(HERE, "..", "run"), "--report", "--preset", "smoke", "--results", folder],
-                          check=True, capture_output=True, text=True)
+    done = subprocess.run(
+        [os.path.join(HERE, "..", "run"), "--report", "--preset", "smoke", "--results", folder],
+        check=True,
+        capture_output=True,
+        text=True,
+    )
     failures.expect(done.stderr.count("all there") == 11, "a run that is continued measures nothing twice")
 
 
@@ -98,8 +113,10 @@ def check_files(failures, folder):
 def check_page(failures, chromium, path):
     with open(path, encoding="utf-8") as file:
         html = file.read()
-    failures.expect(not re.search(r'(?:src|href)="(?!#|data:|https://inria\.hal\.science/)', html),
-                    "the page refers to nothing beside it")
+    failures.expect(
+        not re.search(r'(?:src|href)="(?!#|data:|https://inria\.hal\.science/)', html),
+        "the page refers to nothing beside it",
+    )
     with tempfile.TemporaryDirectory() as folder:
         probed = os.path.join(folder, "page.html")
         with open(probed, "w", encoding="utf-8") as file:
@@ -120,14 +137,18 @@ def check_probe(failures, probe):
         failures.expect(figure is not None, f"figure {n} is there")
         if not figure:
             continue
-        failures.expect(figure["width"] > 300 and figure["height"] > 150 and figure["drawn"] > 5,
-                        f"figure {n} shows something")
+        failures.expect(
+            figure["width"] > 300 and figure["height"] > 150 and figure["drawn"] > 5,
+            f"figure {n} shows something",
+        )
         failures.expect(len(figure["labels"]) >= 2 and all(figure["labels"]), f"figure {n} has labelled axes")
         failures.expect(figure["broken"] == 0, f"figure {n} has no broken path")
         failures.expect(figure["overlaps"] == [], f"figure {n}: texts overlap: {figure['overlaps'][:5]}")
         failures.expect(figure["outside"] == [], f"figure {n}: texts are cut off: {figure['outside'][:5]}")
-        failures.expect("The report:" in figure["caption"] and "Here:" in figure["caption"],
-                        f"figure {n} says what the report saw and what is seen here")
+        failures.expect(
+            "The report:" in figure["caption"] and "Here:" in figure["caption"],
+            f"figure {n} says what the report saw and what is seen here",
+        )
     for name, n_cells in probe["tables"]:
         failures.expect(n_cells > 100, f"{name} is filled")
     failures.expect([name for name, _ in probe["tables"]] == ["table-1", "table-2"], "both tables are there")
@@ -150,8 +171,10 @@ def main():
             if chromium:
                 check_page(failures, chromium, os.path.join(folder, "report", "index.html"))
             else:
-                print("SKIPPED: no Chromium found (named by CHROMIUM, or chromium in the search path): "
-                      "the page was made, but not opened")
+                print(
+                    "SKIPPED: no Chromium found (named by CHROMIUM, or chromium in the search path): "
+                    "the page was made, but not opened"
+                )
     for message in failures.messages:
         print(f"FAILED: {message}")
     print(f"page: {failures.n_checks - len(failures.messages)} passed, {len(failures.messages)} failed")

@@ -37,7 +37,7 @@ def count(n):
 
 
 def crossing(a, b):
-    """The x at which curve a passes curve b, both lists of (x, y), by interpolation of log y; None where it never does."""
+    """The x at which curve a passes curve b, by interpolation of log y; None where it never does."""
     common = sorted(set(x for x, _ in a) & set(x for x, _ in b))
     a, b = dict(a), dict(b)
     excess = [(x, math.log(a[x] / b[x])) for x in common]

@@ -65,7 +65,8 @@ public:
     bool has_only_missed_facets(const CellSet &cells) const {
         std::map<Facet, std::vector<std::pair<const Cell *, unsigned>>> sides;
         for (const Cell &cell : cells)
-            for (unsigned corner = 0; corner < n_corners; ++corner) sides[facet(cell, corner)].push_back({&cell, corner});
+            for (unsigned corner = 0; corner < n_corners; ++corner)
+                sides[facet(cell, corner)].push_back({&cell, corner});
         bool has_any = false;
         for (const auto &[facet, bicell] : sides) {
             if (bicell.size() != 2) continue;
@@ -194,8 +195,9 @@ GapVerdict gap_cells(const double *positions, const CellSet &cells, const CellSe
     GapVerdict verdict;
     verdict.n_cells = difference(cells, reference).size();
     // Cells overlap or are inverted where absolute volumes add up to more.
-    verdict.is_explained = arbiter.has_only_missed_facets(cells) &&
-                           arbiter.extent(difference(cells, reference)) == arbiter.extent(difference(reference, cells));
+    const CellSet extra = difference(cells, reference), missing = difference(reference, cells);
+    verdict.is_explained =
+        arbiter.has_only_missed_facets(cells) && arbiter.extent(extra) == arbiter.extent(missing);
     return verdict;
 }
 

@@ -61,7 +61,8 @@ void Progress::show(const std::string &detail) {
         shown_at_ = std::chrono::steady_clock::now();
         char percent[16];
         std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100 * fraction);
-        std::string line = percent + what_ + time_left(fraction, seconds_since(begun_)) + (detail.empty() ? "" : "  " + detail);
+        std::string line = percent + what_ + time_left(fraction, seconds_since(begun_)) +
+                           (detail.empty() ? "" : "  " + detail);
         line.resize(std::min(line.size(), greatest_length));
         wipe();
         std::fprintf(stderr, "\r%s", line.c_str());

@@ -40,8 +40,8 @@ Series record_lloyd_2d(const Density &density, std::size_t n_points, std::size_t
 Series record_slloyd(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress);
 
 /// ODT in a ball at unit density, vertices moved one after another: the new place of a vertex is the mean of its
-/// star's circumcentres, weighted by volume. A point per unit of area is on the sphere (a spiral lattice) and stays; the
-/// others begin at random places inside. A vertex that would leave the ball stays for this sweep.
+/// star's circumcentres, weighted by volume. A point per unit of area is on the sphere (a spiral lattice) and
+/// stays; the others begin at random places inside. A vertex that would leave the ball stays for this sweep.
 Series record_snodt(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress);
 
 class Body;
