@@ -3,6 +3,7 @@
 
 from engines import LONG_NAMES, TABLE_CGAL, TABLE_DELDRIFT
 from html import escape
+from plot import short
 from published import INPUT_TITLES, INPUTS, MAN_PLACEMENT_NOTE, TABLE_1, TABLE_2
 from words import count, listed, span, times
 
@@ -137,7 +138,7 @@ def rest_sentence(results, which):
         series = results.statistic(scenario, "mean_displacement")
         if middle and series:
             at, length = min(series, key=lambda p: abs(p[0] - middle[0]))
-            moves.append(f"{INPUT_TITLES[scenario]} {length:.1e}")
+            moves.append(f"{INPUT_TITLES[scenario]} {short(float(f'{length:.1e}'))}")
     return (
         " The report's recorded positions are not published, and how fast points come to rest decides what T gains: "
         f"here they move, per iteration in the middle of the run and in spacings, {listed(moves)}."
