@@ -154,8 +154,8 @@ private:
         const ReportEffort effort = report_effort(scenario, options_);
         const double segments = scenario.rfind("share_", 0) == 0 || scenario.rfind("walk_", 0) == 0 ? 15 : 1;
         const bool is_plane = scenario.find("2d") != std::string::npos;
-        return static_cast<double>(effort.n_points * effort.n_timestamps) * segments *
-               (is_plane ? effort.n_repeats : 15);
+        return static_cast<double>(effort.n_points * effort.n_timestamps) * segments * effort.n_repeats *
+               (is_plane ? 1 : 15);
     }
 
     void announce(const std::string &scenario, double cost_done, double cost_left) const {
