@@ -10,6 +10,7 @@ NAMES = {
     "tolerance": "T",
     "safe_region_tolerance": "S+T",
     "rebuilding_tolerance": "rebuilding+T",
+    "repair": "repair",
     "auto": "auto",
 }
 
@@ -26,6 +27,7 @@ COLOURS = {
     "tolerance": "tolerance",
     "safe_region_tolerance": "both",
     "rebuilding_tolerance": "switch",
+    "repair": "repair",
     "auto": "auto",
 }
 
@@ -38,7 +40,7 @@ CGAL = [
     "safe_region_tolerance",
     "rebuilding_tolerance",
 ]
-DELDRIFT = CGAL + ["auto"]
+DELDRIFT = CGAL + ["repair", "auto"]
 
 TABLE_CGAL = [
     "rebuilding",
@@ -57,5 +59,6 @@ TABLE_DELDRIFT = [
     "tolerance",
     "safe_region_tolerance",
     "rebuilding_tolerance",
+    "repair",
     "auto",
 ]

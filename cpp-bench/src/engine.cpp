@@ -22,6 +22,7 @@ const std::vector<EngineKind> &engine_kinds() {
         {"deldrift", "safe_region", false, true, make_deldrift_safe_region},
         {"deldrift", "safe_region_tolerance", false, true, make_deldrift_safe_region_tolerance},
         {"deldrift", "rebuilding_tolerance", false, false, make_deldrift_rebuilding_tolerance},
+        {"deldrift", "repair", false, false, make_deldrift_repair},
         {"deldrift", "auto", false, false, make_deldrift_auto},
     };
     return kinds;

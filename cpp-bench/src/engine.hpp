@@ -70,6 +70,7 @@ std::unique_ptr<Engine> make_deldrift_tolerance(unsigned dimension, unsigned n_t
 std::unique_ptr<Engine> make_deldrift_safe_region(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_safe_region_tolerance(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_rebuilding_tolerance(unsigned dimension, unsigned n_threads);
+std::unique_ptr<Engine> make_deldrift_repair(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads);
 
 }  // namespace bench

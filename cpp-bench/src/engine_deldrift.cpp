@@ -118,6 +118,10 @@ std::unique_ptr<Engine> make_deldrift_rebuilding_tolerance(unsigned dimension, u
     return std::make_unique<Deldrift>(dimension, DELDRIFT_REBUILDING_TOLERANCE, n_threads);
 }
 
+std::unique_ptr<Engine> make_deldrift_repair(unsigned dimension, unsigned n_threads) {
+    return std::make_unique<Deldrift>(dimension, DELDRIFT_REPAIR, n_threads);
+}
+
 std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads) {
     return std::make_unique<Deldrift>(dimension, DELDRIFT_AUTO, n_threads);
 }

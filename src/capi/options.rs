@@ -13,8 +13,9 @@ use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRul
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_algorithm {
-    /// The library chooses at each commit: placement with flips while fewer than one vertex in five is
-    /// staged, rebuilding otherwise.
+    /// The library chooses at each commit by what the last ones found: tolerance while next to all vertices stay
+    /// within it, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex in
+    /// twenty is staged: tolerance if that is up to date, else placement with flips.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.
     DELDRIFT_REBUILDING = 1,
@@ -291,10 +292,10 @@ mod tests {
 
     #[test]
     fn algorithms_and_their_numbers_agree() {
-        for code in 0..8 {
+        for code in 0..9 {
             assert_eq!(algorithm("", code).map(algorithm_code).ok(), Some(code));
         }
-        assert!(algorithm("", 8).is_err());
+        assert!(algorithm("", 9).is_err());
     }
 
     #[test]

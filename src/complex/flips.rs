@@ -244,7 +244,8 @@ mod tests {
             for &m in &made {
                 for apex in complex.cell(m).corners.into_iter().filter(|&s| s != p && s != q) {
                     let at = complex.cell(m).index_of(apex);
-                    let k = (0..4).find(|&k| k != at && ![p, q].contains(&complex.cell(m).corners[k])).unwrap();
+                    let k =
+                        (0..4).find(|&k| k != at && ![p, q].contains(&complex.cell(m).corners[k])).unwrap();
                     let after = cells(&complex);
                     let (rim, back) = complex.flip_3_2(Facet::new(m, at), k).expect("three cells");
                     assert!(is_mutual(&complex));

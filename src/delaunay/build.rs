@@ -103,11 +103,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Inserts all sites but those of the first cell; returns pairs of coincident sites, the second in the cells.
-    fn insert_all(
-        &mut self,
-        order: &[u32],
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(u32, u32)>> {
+    fn insert_all(&mut self, order: &[u32], monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<(u32, u32)>> {
         let mut coincident = Vec::new();
         let mut cavity = std::mem::take(&mut self.cavity);
         cavity.steps = 0;
@@ -116,7 +112,8 @@ impl<G: Dimension> Delaunay<G> {
                 return Err(Error::Cancelled);
             }
             if self.site(s).cell == NONE
-                && let Insertion::Coincident(t) = self.insert_into_cells::<true>(&mut cavity, s, self.recent)?
+                && let Insertion::Coincident(t) =
+                    self.insert_into_cells::<true>(&mut cavity, s, self.recent)?
             {
                 coincident.push((s, t));
             }

@@ -184,7 +184,10 @@ fn fill(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, s: u32) {
 fn put_ghosts(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>, s: u32) {
     let (cells, rim) = (cavity.made(), &cavity.scratch.rim[..cavity.n_cells]);
     let n = rim.len();
-    let k = rim.iter().position(|&(start, _)| start == INFINITE).expect("ghosts in the zone have the ghost vertex");
+    let k = rim
+        .iter()
+        .position(|&(start, _)| start == INFINITE)
+        .expect("ghosts in the zone have the ghost vertex");
     let (before, cell, after) = (cells[(k + n - 1) % n], cells[k], cells[(k + 1) % n]);
     t.complex.put(cell, [rim[(k + 1) % n].0, s, INFINITE]);
     t.complex.glue(Facet::new(cell, 0), Facet::new(before, 1));

@@ -53,9 +53,9 @@ impl<G: Dimension> Delaunay<G> {
                 }
             }
             if failing != 0 {
-                failures.facets.extend(
-                    (0..G::Corners::N).filter(|i| failing >> i & 1 == 1).map(|i| Facet::new(c, i)),
-                );
+                failures
+                    .facets
+                    .extend((0..G::Corners::N).filter(|i| failing >> i & 1 == 1).map(|i| Facet::new(c, i)));
             }
         }
         self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;

@@ -59,8 +59,8 @@ impl Delaunay<Space> {
         let others = [(i + 1) % 4, (i + 2) % 4, (i + 3) % 4];
         // Whether the cell is positive with q in place of each corner of the facet.
         let point = &self.site(q).point;
-        let positive = others
-            .map(|k| Space::orientation_with(&self.filter, self.view(), &cell.corners, k, point) > 0.0);
+        let positive =
+            others.map(|k| Space::orientation_with(&self.filter, self.view(), &cell.corners, k, point) > 0.0);
         let (outer, undo) = match positive {
             [true, true, true] => self.complex.flip_2_3(facet),
             // The segment between the opposing vertices passes the facet beyond the edge opposite one corner.

@@ -9,8 +9,10 @@
 //! | `placement` | sections 3.1, 3.2 | relocate the vertices one at a time |
 //! | `tolerance` | section 3.3 | place only those that leave their tolerance or safe region |
 //! | `switching` | section 5.2 | rebuild until few do |
+//! | `repair` | | move all at once, check every certificate, mend what fails |
+//! | `auto` | | tolerance, repair or rebuilding, by what the last commits found |
 //!
-//! `bicell` and `regions` hold what the last two need: delimiters and tolerances (sections 2.2 to 2.4).
+//! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4).
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;

@@ -8,7 +8,8 @@ use crate::delaunay::Dimension;
 /// staged positions. Every algorithm gives exactly the same cells; they differ in cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Algorithm {
-    /// Chosen at each commit: placement by flips while few vertices move, rebuilding otherwise.
+    /// Chosen at each commit by what the last ones found: tolerance while next to all vertices stay within it, otherwise
+    /// repair, or rebuilding where too much would fail; placement by flips when few vertices are staged.
     #[default]
     Auto,
     /// Build anew from all positions (report, section 1).

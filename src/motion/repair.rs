@@ -23,8 +23,11 @@ use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Dimension, Failures, Shortcut};
 use crate::error::{Error, Result};
 
-/// Rebuild when more than one vertex in so many would have to be placed.
-const PLACED: usize = 20;
+/// Rebuild when more than one vertex in so many would have to be placed. (A placement costs less in the plane, next to a
+/// vertex rebuilt, and flips are never stuck there.)
+const fn placed<G: Dimension>() -> usize {
+    if G::D == 2 { 8 } else { 20 }
+}
 
 /// Times that flips may be stuck before the triangulation is rebuilt.
 const ROUNDS: usize = 8;
@@ -78,10 +81,10 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves all but the vertices to be placed; `false` if those would be too many.
     fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
-        let most = self.n_present / PLACED;
+        let most = self.n_present / placed::<G>();
         self.move_staged(repair);
-        // Each vertex taken back mends two cells or more.
-        if !self.kernel.sweep(&mut repair.failures, 2 * most) {
+        // A vertex taken back mends about three cells.
+        if !self.kernel.sweep(&mut repair.failures, 3 * most) {
             return Ok(false);
         }
         if !self.monitor(0.5) {

@@ -1,0 +1,157 @@
+//! *Repair* and *auto* under adversarial motion: after every commit the cells are those of a fresh build.
+//!
+//! Each history is a sequence of motions, drawn by its seed from those of [`MOTIONS`], on random points or on a grid, whose
+//! ties every motion breaks or makes. `DELDRIFT_SOAK` multiplies the number of seeds.
+
+mod common;
+
+use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
+use deldrift::delaunay::{Dimension, Plane, Space};
+use deldrift::motion::{Algorithm, CommitReport, Level, MovingTriangulation, Options};
+
+/// A motion of all positions; it gets the positions of the beginning and those of now.
+type Motion<G> = fn(&[Point<G>], &mut [Point<G>], &mut Rng);
+type Point<G> = <G as Dimension>::Point;
+
+/// Extent of the inputs.
+const EXTENT: f64 = 8.0;
+
+fn motions<G: Dimension>() -> [(&'static str, Motion<G>); 12] {
+    [
+        ("shear", |_, now, rng| {
+            let s = rng.unit() - 0.5;
+            for p in now {
+                p[0] += s * p[1];
+            }
+        }),
+        ("back", |first, now, _| now.copy_from_slice(first)),
+        ("breathe", |_, now, rng| {
+            let s = 0.8 + 0.4 * rng.unit();
+            for p in now {
+                for k in 0..G::D {
+                    p[k] = (p[k] - EXTENT / 2.0) * s + EXTENT / 2.0;
+                }
+            }
+        }),
+        ("teleport", |_, now, rng| {
+            for _ in 0..1 + now.len() / 30 {
+                let v = rng.below(now.len());
+                now[v] = point::<G>(|_| EXTENT * (2.0 * rng.unit() - 0.5));
+            }
+        }),
+        ("rotate the outer ones", |_, now, rng| {
+            let (sin, cos) = (0.3 * rng.unit()).sin_cos();
+            for p in now {
+                let [x, y] = [p[0] - EXTENT / 2.0, p[1] - EXTENT / 2.0];
+                if x * x + y * y > EXTENT * EXTENT / 9.0 {
+                    p[0] = cos * x - sin * y + EXTENT / 2.0;
+                    p[1] = sin * x + cos * y + EXTENT / 2.0;
+                }
+            }
+        }),
+        ("through a plane", |_, now, _| {
+            for p in now {
+                p[G::D - 1] = EXTENT - p[G::D - 1];
+            }
+        }),
+        ("swap", |_, now, rng| {
+            for _ in 0..1 + now.len() / 20 {
+                let (a, b) = (rng.below(now.len()), rng.below(now.len()));
+                now.swap(a, b);
+            }
+        }),
+        ("onto a line", |_, now, _| {
+            for p in now {
+                for k in 1..G::D {
+                    p[k] = 1.0;
+                }
+            }
+        }),
+        ("to a grid", |_, now, _| {
+            for p in now {
+                for k in 0..G::D {
+                    p[k] = p[k].round();
+                }
+            }
+        }),
+        ("tremble", |_, now, rng| tremble::<G>(now, 1e-3, rng)),
+        ("shake", |_, now, rng| tremble::<G>(now, 0.05, rng)),
+        ("a few jump", |_, now, rng| {
+            for _ in 0..3 {
+                let (v, w) = (rng.below(now.len()), rng.below(now.len()));
+                now[v] = now[w];
+                now[v][0] += [0.0, 1e-9, 0.3][rng.below(3)];
+            }
+        }),
+    ]
+}
+
+fn tremble<G: Dimension>(now: &mut [Point<G>], size: f64, rng: &mut Rng) {
+    for p in now {
+        for k in 0..G::D {
+            p[k] += size * (2.0 * rng.unit() - 1.0);
+        }
+    }
+}
+
+fn beginning<G: Dimension>(seed: u64, rng: &mut Rng) -> Vec<Point<G>> {
+    let n = 12 + rng.below(if seed.is_multiple_of(16) { 400 } else { 80 });
+    (0..n)
+        .map(|i| match seed % 3 {
+            0 => {
+                let side = if G::D == 2 { 9 } else { 5 };
+                point::<G>(|k| (i / [1, side, side * side][k] % side) as f64)
+            }
+            1 => point::<G>(|_| (EXTENT * rng.unit() * 64.0).round() / 64.0),
+            _ => point::<G>(|_| EXTENT * rng.unit()),
+        })
+        .collect()
+}
+
+/// One history; returns what was done.
+fn agree<G: Dimension>(algorithm: Algorithm, seed: u64) -> CommitReport {
+    let mut rng = Rng::new(seed);
+    let first = beginning::<G>(seed, &mut rng);
+    let mut now = first.clone();
+    let options = Options { algorithm, ..Options::default() };
+    let mut t = MovingTriangulation::<G>::new(&first, options).expect("a build");
+    let motions = motions::<G>();
+    let mut names = Vec::new();
+    for _ in 0..8 {
+        // Small motions are the more frequent ones.
+        let (name, motion) = if rng.one_in(2) { motions[9] } else { *rng.pick(&motions) };
+        names.push(name);
+        motion(&first, &mut now, &mut rng);
+        t.move_all(&now).expect("moves");
+        t.commit_timestamp().expect("a commit");
+        let context = || format!("{algorithm:?}, {}D, seed {seed}: {names:?}", G::D);
+        t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("{}: {v}", context()));
+        let positions: Vec<Option<Point<G>>> = now.iter().copied().map(Some).collect();
+        assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&positions), context);
+    }
+    t.statistics()
+}
+
+fn all_agree<G: Dimension>() {
+    for algorithm in [Algorithm::Repair, Algorithm::Auto] {
+        let (mut flips, mut placements, mut rebuilds) = (0, 0, 0);
+        for seed in seeds(1000) {
+            let sums = agree::<G>(algorithm, seed);
+            flips += sums.flips;
+            placements += sums.placements;
+            rebuilds += sums.rebuilds;
+        }
+        let taken = [flips, placements, rebuilds];
+        assert!(taken.iter().all(|&times| times > 500), "{algorithm:?}: a way was hardly taken: {taken:?}");
+    }
+}
+
+#[test]
+fn adversarial_motion_in_the_plane_matches_fresh_builds() {
+    all_agree::<Plane>();
+}
+
+#[test]
+fn adversarial_motion_in_space_matches_fresh_builds() {
+    all_agree::<Space>();
+}
