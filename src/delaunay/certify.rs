@@ -14,7 +14,8 @@ use crate::predicates;
 pub struct Failures {
     /// Finite cells that are not positively oriented.
     pub cells: Vec<u32>,
-    /// Facets between finite cells that fail the empty-sphere test.
+    /// Facets between finite cells that fail the empty-sphere test, those of cells that are not positively oriented left
+    /// out: they are to be tested once these are.
     pub facets: Vec<Facet>,
     /// Ridges of the hull that are not convex, as facets of ghost cells.
     pub ridges: Vec<Facet>,
@@ -89,6 +90,9 @@ impl<G: Dimension> Delaunay<G> {
     #[cold]
     #[inline(never)]
     fn certify_exactly(&self, c: u32) -> (bool, u8) {
+        if !self.is_positive(c) {
+            return (false, 0);
+        }
         let cell = self.complex.cell(c);
         let mut failing = 0;
         for i in 0..G::Corners::N {
@@ -96,7 +100,7 @@ impl<G: Dimension> Delaunay<G> {
                 failing |= 1 << i;
             }
         }
-        (self.is_positive(c), failing)
+        (true, failing)
     }
 
     /// Whether a finite cell is positively oriented.

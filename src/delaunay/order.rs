@@ -55,6 +55,8 @@ pub fn hilbert_order<'p, G: Dimension>(
     let mut keyed = Vec::new();
     memory::reserve_exact(&mut keyed, count)?;
     keyed.extend(items.map(|item| Keyed(u64::from(item))));
+    // For the sort.
+    memory::make_sure_of::<Keyed>(count)?;
     sort_in_box::<G>(point, &mut keyed);
     Ok(keyed)
 }

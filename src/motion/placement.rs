@@ -5,6 +5,7 @@
 //! timestamp; they share a site for that while.
 
 use super::{CommitReport, MovingTriangulation};
+use crate::complex::memory;
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
 
@@ -19,7 +20,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         self.regions.invalidate();
-        self.order_queue_by_site();
+        self.order_queue_by_site()?;
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
     }
 
@@ -101,8 +102,11 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one
     /// before.
-    pub(super) fn order_queue_by_site(&mut self) {
+    pub(super) fn order_queue_by_site(&mut self) -> Result<()> {
         let (site_of, staging) = (&self.site_of, &mut self.staging);
-        radsort::sort_by_key(&mut staging.vertices[staging.applied..], |&v| site_of[v as usize]);
+        let queue = &mut staging.vertices[staging.applied..];
+        memory::make_sure_of::<u32>(queue.len())?;
+        radsort::sort_by_key(queue, |&v| site_of[v as usize]);
+        Ok(())
     }
 }
