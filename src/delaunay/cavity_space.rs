@@ -104,6 +104,7 @@ pub(super) fn insert<const BUILD: bool>(
 #[inline(always)]
 fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: u32, s: u32) {
     let Scratch { zone, rim, spheres, .. } = scratch;
+    let mut spheres = spheres.table();
     let (q, id) = (&{ t.site(s).point }, t.site(s).id);
     let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
     make_room(zone, rim, n_zone, n_rim);
@@ -155,6 +156,7 @@ fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cells: &[u32], scratch: &mut
         glue_by_table(t, rim, cells, meetings);
     }
     if BUILD {
+        let mut spheres = spheres.table();
         for (facet, &cell) in rim.iter().zip(cells) {
             spheres.put(t, cell, &facet.corners);
         }

@@ -3,7 +3,7 @@
 //! A build along a curve tests the cells of one neighbourhood again and again. A cell's sphere, prepared once, makes
 //! each of these tests a few operations on one line of cache (see [`predicates::sphere`]). They are kept in a table of
 //! fixed size, each at its cell's index modulo that; what is not there is prepared when it is asked for. The table is
-//! valid while sites do not move and every cell made is [`put`](Spheres::put) there.
+//! valid while sites do not move and every cell made is [`put`](Table::put) there.
 
 #![allow(unsafe_code)]
 
@@ -46,42 +46,65 @@ impl Spheres {
         self.entries = Vec::new();
     }
 
+    /// The table as a build uses it.
     #[inline(always)]
-    fn entry(&mut self, cell: u32) -> &mut Entry {
-        debug_assert!(!self.entries.is_empty(), "only a build asks");
-        let at = cell as usize & (self.entries.len() - 1);
-        // SAFETY: the length is a power of two.
-        unsafe { self.entries.get_unchecked_mut(at) }
+    pub(super) fn table(&mut self) -> Table<'_> {
+        Table(&mut self.entries)
     }
+}
 
+/// The entries, with what does not change at hand.
+pub(super) struct Table<'s>(&'s mut [Entry]);
+
+#[inline(always)]
+fn entry(entries: &mut [Entry], cell: u32) -> &mut Entry {
+    debug_assert!(entries.len().is_power_of_two(), "only a build asks");
+    let at = cell as usize & (entries.len() - 1);
+    // SAFETY: the length is a power of two.
+    unsafe { entries.get_unchecked_mut(at) }
+}
+
+impl Table<'_> {
     /// Prepares the sphere of a cell with these corners, or what lies beyond the facet of a ghost cell.
     #[inline(always)]
     pub(super) fn put(&mut self, t: &Delaunay<Space>, cell: u32, corners: &[u32; 4]) {
-        let [a, b, c, d] = corners.map(|s| t.view().point(s));
-        let sphere = if corners[3] == INFINITE {
-            predicates::half_space(&t.filter, a, b, c)
-        } else {
-            predicates::sphere(a, b, c, d)
-        };
-        *self.entry(cell) = Entry { sphere, first: *a, cell };
+        put(self.0, t, cell, corners);
     }
 
     /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
     #[inline(always)]
     pub(super) fn is_in_conflict(&mut self, t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
-        if self.entry(cell).cell != cell {
-            self.prepare(t, cell);
+        let there = entry(self.0, cell);
+        if there.cell != cell {
+            return prepare(self.0, t, cell, q, id);
         }
-        let entry = self.entry(cell);
-        let side = predicates::side_of_sphere(&entry.sphere, &entry.first, q);
-        if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id) }
+        is_inside(there, t, cell, q, id)
     }
+}
 
-    #[cold]
-    #[inline(never)]
-    fn prepare(&mut self, t: &Delaunay<Space>, cell: u32) {
-        self.put(t, cell, &t.complex.cell(cell).corners);
-    }
+#[inline(always)]
+fn put(entries: &mut [Entry], t: &Delaunay<Space>, cell: u32, corners: &[u32; 4]) {
+    let [a, b, c, d] = corners.map(|s| t.view().point(s));
+    let sphere = if corners[3] == INFINITE {
+        predicates::half_space(&t.filter, a, b, c)
+    } else {
+        predicates::sphere(a, b, c, d)
+    };
+    *entry(entries, cell) = Entry { sphere, first: *a, cell };
+}
+
+#[inline(always)]
+fn is_inside(entry: &Entry, t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+    let side = predicates::side_of_sphere(&entry.sphere, &entry.first, q);
+    if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id) }
+}
+
+/// As [`Table::is_in_conflict`], for a cell that is not there yet.
+#[cold]
+#[inline(never)]
+fn prepare(entries: &mut [Entry], t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+    put(entries, t, cell, &t.complex.cell(cell).corners);
+    is_inside(entry(entries, cell), t, cell, q, id)
 }
 
 #[cold]

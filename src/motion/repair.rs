@@ -38,6 +38,8 @@ enum At {
     /// It has not moved.
     Rest,
     New,
+    /// As `New`, but listed to be taken back.
+    Listed,
     /// Taken back, or never moved because it shares its place: to be placed.
     Old,
 }
@@ -216,10 +218,15 @@ impl<G: Dimension> MovingTriangulation<G> {
             let mut corners = [INFINITE; 5];
             corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
             corners[4] = complex.cell(across.cell()).corners[across.index()];
-            if corners.iter().any(|s| repair.sites.contains(s)) {
+            let is_listed =
+                |&s: &u32| s != INFINITE && repair.at[self.kernel.site(s).id as usize] == At::Listed;
+            if corners.iter().any(is_listed) {
                 continue;
             }
-            repair.sites.extend(self.farthest(repair, &corners));
+            if let Some(s) = self.farthest(repair, &corners) {
+                repair.sites.push(s);
+                repair.at[self.kernel.site(s).id as usize] = At::Listed;
+            }
         }
     }
 
