@@ -4,7 +4,7 @@
 //! direction. All algorithms commit the same positions. Times are those of the commits, in ns per vertex,
 //! the least of [`REPEATS`] replays:
 //!
-//! - *rebuilding* and *tolerance*;
+//! - *rebuilding*, *tolerance*, *repair* and *auto*;
 //! - *removal, insertion*: the report's placement (section 3.1), without a look at whether anything must change;
 //! - *placement* and *by flips*: with the improvements of section 3.2.
 //!
@@ -18,8 +18,8 @@ use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 
 const N: usize = 10_000;
-const COMMITS: usize = 4;
-const REPEATS: usize = 5;
+const COMMITS: usize = 10;
+const REPEATS: usize = 3;
 
 /// Splitmix64.
 struct Random(u64);
@@ -104,10 +104,12 @@ fn time_of_replacing<G: Dimension>(timestamps: &[Vec<G::Point>]) -> f64 {
 
 fn sweep<G: Dimension>(steps: &[f64]) {
     println!("{}D, {N} points: ns per vertex", G::D);
-    println!("      step  within  rebuilding  removal, insertion  placement  by flips  tolerance");
+    println!(
+        "      step  within  rebuilding  removal, insertion  placement  by flips  tolerance  repair    auto"
+    );
     for &step in steps {
         let timestamps = walk::<G>(N, step, COMMITS);
-        let (mut best, mut share) = ([f64::INFINITY; 5], 0.0);
+        let (mut best, mut share) = ([f64::INFINITY; 7], 0.0);
         // In turn, so that what else the machine does troubles all alike.
         for _ in 0..REPEATS {
             let tolerance = time::<G>(Algorithm::Tolerance, &timestamps);
@@ -117,13 +119,16 @@ fn sweep<G: Dimension>(steps: &[f64]) {
                 time::<G>(Algorithm::Placement, &timestamps).0,
                 time::<G>(Algorithm::PlacementFlips, &timestamps).0,
                 tolerance.0,
+                time::<G>(Algorithm::Repair, &timestamps).0,
+                time::<G>(Algorithm::Auto, &timestamps).0,
             ];
             best.iter_mut().zip(now).for_each(|(best, now)| *best = best.min(now));
             share = tolerance.1;
         }
-        let [rebuilding, replacing, placement, flips, tolerance] = best;
+        let [rebuilding, replacing, placement, flips, tolerance, repair, auto] = best;
         println!(
-            "{step:10.1e} {:6.1}% {rebuilding:11.1} {replacing:19.1} {placement:10.1} {flips:9.1} {tolerance:10.1}",
+            "{step:10.1e} {:6.1}% {rebuilding:11.1} {replacing:19.1} {placement:10.1} {flips:9.1} {tolerance:10.1} \
+             {repair:7.1} {auto:7.1}",
             100.0 * share
         );
     }
@@ -159,8 +164,8 @@ fn test_alone<G: Dimension>() {
 }
 
 fn main() {
-    sweep::<Plane>(&[1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 7e-3, 1e-2, 2e-2, 5e-2]);
-    sweep::<Space>(&[1e-5, 1e-4, 2e-4, 4e-4, 7e-4, 1e-3, 1.5e-3, 2e-3, 4e-3, 1e-2]);
+    sweep::<Plane>(&[1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 7e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 10.0]);
+    sweep::<Space>(&[1e-5, 1e-4, 2e-4, 4e-4, 7e-4, 1e-3, 1.5e-3, 4e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 10.0]);
     test_alone::<Plane>();
     test_alone::<Space>();
 }

@@ -336,6 +336,48 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
+    /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`, without gaps;
+    /// returns the new index of each.
+    pub(crate) fn sort(&mut self, n_sites: usize) -> Result<Vec<u32>> {
+        let lowest = |cell: &Cell<C>| cell.corners.as_ref().iter().copied().fold(NONE, u32::min) as usize;
+        let n_live = self.cells.len() - self.free.len();
+        let (mut starts, mut index, mut sorted) = (Vec::new(), Vec::new(), Vec::new());
+        memory::reserve_exact(&mut starts, n_sites + 1)?;
+        memory::reserve_exact(&mut index, self.cells.len())?;
+        memory::reserve_exact(&mut sorted, n_live + n_live / 64)?;
+        starts.resize(n_sites + 1, 0u32);
+        for cell in self.cells.iter().filter(|cell| cell.corners[0] != NONE) {
+            starts[lowest(cell) + 1] += 1;
+        }
+        for s in 0..n_sites {
+            starts[s + 1] += starts[s];
+        }
+        index.extend(self.cells.iter().map(|cell| {
+            if cell.corners[0] == NONE {
+                return NONE;
+            }
+            let at = &mut starts[lowest(cell)];
+            *at += 1;
+            *at - 1
+        }));
+        sorted.resize(n_live, Cell::free());
+        for (cell, &to) in self.cells.iter().zip(&index) {
+            if to == NONE {
+                continue;
+            }
+            let mut cell = *cell;
+            for code in cell.neighbours.as_mut() {
+                *code = Facet::new(index[*code as usize >> 2], (*code & 3) as usize).0;
+            }
+            sorted[to as usize] = cell;
+        }
+        self.cells = sorted;
+        self.marks.truncate(n_live);
+        memory::reserve_exact(&mut self.marks, self.cells.capacity() - n_live)?;
+        self.free.clear();
+        Ok(index)
+    }
+
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4

@@ -21,6 +21,9 @@ pub struct Merge {
 /// Insertions between two calls of a monitor.
 const MONITORED: usize = 1024;
 
+/// So many cells do not fit in a core's own cache.
+const LARGE: usize = 1 << 15;
+
 impl<G: Dimension> Delaunay<G> {
     /// Adds a site for each of the points to a triangulation without any: along a Hilbert curve, each with the index of
     /// its point for id, and with the sign of zeros made positive. [`rebuild`](Self::rebuild) must follow.
@@ -89,6 +92,7 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<Merge>> {
         self.complex.clear();
+        self.is_sorted = false;
         // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
         self.complex.reserve(order.len() * if G::D == 2 { 2 } else { 7 } + 64)?;
         for site in &mut self.sites {
@@ -154,6 +158,23 @@ impl<G: Dimension> Delaunay<G> {
             self.sites[corners[i] as usize].cell = 0;
         }
         self.sites[INFINITE as usize].cell = 1;
+        Ok(())
+    }
+
+    /// Puts the cells in the order of the sites, so that what is near in space is near in memory for sweeps over all: a
+    /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and more.
+    pub(crate) fn sort_cells(&mut self) -> Result<()> {
+        if self.is_sorted || self.complex.n_slots() < LARGE {
+            return Ok(());
+        }
+        let index = self.complex.sort(self.sites.len())?;
+        for site in &mut self.sites {
+            if site.cell != NONE {
+                site.cell = index[site.cell as usize];
+            }
+        }
+        self.recent = index[self.recent as usize];
+        self.is_sorted = true;
         Ok(())
     }
 

@@ -72,6 +72,8 @@ pub struct Delaunay<G: Dimension> {
     upper: G::Point,
     /// What stands in for cells while there are none.
     flat: Flat<G>,
+    /// Whether the cells have been [sorted](Self::sort_cells) since the latest build.
+    is_sorted: bool,
     /// A live cell, near the latest change.
     recent: u32,
     cavity: Cavity<G>,
@@ -95,6 +97,7 @@ impl<G: Dimension> Default for Delaunay<G> {
             lower: origin,
             upper: origin,
             flat: Flat::default(),
+            is_sorted: false,
             recent: 0,
             cavity: Cavity::default(),
             hole: Hole::default(),

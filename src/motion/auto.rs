@@ -10,11 +10,12 @@
 //! A vertex beyond its tolerance costs *tolerance* a placement and the tolerances around it: 4 ns a vertex and 30 times
 //! that a sweep of its own. So *tolerance* pays while fewer than one vertex in fifty is beyond, and a commit that finds more
 //! goes on as a repair: the vertices accepted are moved already. Few flips in a repair announce that most vertices stay
-//! within tolerance; whether they do is tried, and tried again ever more rarely if they do not. After a repair that had to
+//! within tolerance; before that of all is computed, for five sweeps or three, a sample is looked at, and ever more rarely
+//! if it says no. After a repair that had to
 //! rebuild, so many commits rebuild at once as have failed in a row, and twice as many the next time.
 
 use super::regions::Filter;
-use super::{CommitReport, MovingTriangulation};
+use super::{CommitReport, MovingTriangulation, SwitchingRule};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 
@@ -25,6 +26,9 @@ const BEYOND: usize = 50;
 /// A repair of fewer flips and placements than one vertex in so many announces that. (A vertex beyond its tolerance
 /// makes about a tenth of a flip.)
 const CALM: usize = 500;
+/// Vertices sampled before all tolerances are computed, and the share of them that must be within.
+const SAMPLE: u32 = 64;
+const SHARE: f64 = 0.95;
 /// Longest wait for another try, in commits.
 const PATIENCE: u32 = 64;
 /// Most commits rebuilt without a look.
@@ -69,6 +73,10 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Commits by *tolerance* if few vertices are beyond; otherwise those within have moved when it is done.
     fn commit_if_calm(&mut self, report: &mut CommitReport) -> Result<bool> {
+        if self.regions.kept_for() != Some(Filter::Tolerance) && !self.is_calm() {
+            self.stop_filtering();
+            return Ok(false);
+        }
         self.accept_by(Filter::Tolerance, report)?;
         let beyond = self.staging.vertices.len() - self.staging.applied;
         if beyond * BEYOND <= self.n_present {
@@ -76,10 +84,19 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.place_beyond(report)?;
             return Ok(true);
         }
+        self.stop_filtering();
+        Ok(false)
+    }
+
+    /// Whether a sample of the vertices stays within tolerance, but for a few.
+    fn is_calm(&mut self) -> bool {
+        self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE
+    }
+
+    fn stop_filtering(&mut self) {
         self.auto.is_filtering = false;
         self.auto.next_wait = (2 * self.auto.next_wait + 1).min(PATIENCE);
         self.auto.wait = self.auto.next_wait;
-        Ok(false)
     }
 
     /// Draws conclusions from a repair.

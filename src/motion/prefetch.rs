@@ -2,6 +2,9 @@
 
 #![allow(unsafe_code)]
 
+/// How many entries in advance to ask.
+pub(super) const AHEAD: usize = 24;
+
 /// Asks for an entry that is going to be used soon; any index will do.
 #[inline(always)]
 pub(super) fn prefetch<T>(array: &[T], at: usize) {

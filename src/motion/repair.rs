@@ -18,6 +18,7 @@
 //! vertex taken back costs a placement, two or three vertices rebuilt. Where more break than is worth mending, the
 //! triangulation is rebuilt.
 
+use super::prefetch::{AHEAD, prefetch};
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Dimension, Failures, Shortcut};
@@ -78,6 +79,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !mended? {
             return self.commit_by_rebuilding(self.staging.applied, report);
         }
+        self.kernel.sort_cells()?;
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
     }
 
@@ -124,20 +126,34 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.n_new += 1;
             }
         }
-        for k in self.staging.applied..self.staging.vertices.len() {
-            let v = self.staging.vertices[k];
-            if self.hidden.any_at(self.site_of[v as usize]) {
+        // As in the test for tolerances: sites are asked for in advance, as they are in another order than the vertices.
+        let (site_of, positions) = (&self.site_of[..], &mut self.staging.positions[..]);
+        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
+        let sites = self.kernel.sites_mut();
+        let queued = &self.staging.vertices[self.staging.applied..];
+        for (k, &v) in queued.iter().enumerate() {
+            if let Some(&next) = queued.get(k + AHEAD) {
+                prefetch(sites, site_of[next as usize] as usize);
+            }
+            let s = site_of[v as usize];
+            if self.hidden.any_at(s) {
                 repair.at[v as usize] = At::Old;
                 repair.n_old += 1;
                 continue;
             }
-            let p = self.staging.positions[v as usize];
-            self.kernel.cover(&p, &p);
-            if self.exchange_position(v) {
+            let p = &mut positions[v as usize];
+            for axis in 0..G::D {
+                lower[axis] = if p[axis] < lower[axis] { p[axis] } else { lower[axis] };
+                upper[axis] = if p[axis] > upper[axis] { p[axis] } else { upper[axis] };
+            }
+            let point = &mut sites[s as usize].point;
+            if point != p {
+                std::mem::swap(point, p);
                 repair.at[v as usize] = At::New;
                 repair.n_new += 1;
             }
         }
+        self.kernel.cover(&lower, &upper);
     }
 
     /// Takes vertices back until every cell is positive and the hull convex; `false` if more than `most` are back.

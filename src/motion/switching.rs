@@ -53,7 +53,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Share of a sample of the vertices whose displacement is within their tolerance.
-    fn sampled_share(&mut self, rule: &SwitchingRule) -> f64 {
+    pub(super) fn sampled_share(&mut self, rule: &SwitchingRule) -> f64 {
         if self.site_of.is_empty() || !self.kernel.has_cells() {
             return 0.0;
         }

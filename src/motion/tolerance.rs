@@ -31,7 +31,7 @@
 //! placement, and up to about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in
 //! the queue. `examples/tolerance_share` measures both.
 
-use super::prefetch::prefetch;
+use super::prefetch::{AHEAD, prefetch};
 use super::regions::Filter;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
@@ -92,7 +92,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// This loop is what a timestamp costs that changes nothing: it holds what it reads in registers, and
     /// asks for the sites in advance, as they are in another order than the vertices.
     fn accept_within_tolerance(&mut self, vertices: &mut [u32], report: &mut CommitReport) -> usize {
-        const AHEAD: usize = 24;
         let (site_of, positions, regions) =
             (&self.site_of[..], &mut self.staging.positions[..], &self.regions);
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
