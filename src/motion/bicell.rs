@@ -98,17 +98,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.hidden.any_at(s) {
             return Ok(0.0);
         }
-        Ok(self.tolerance_of_site(s))
+        let mut tolerance = f64::INFINITY;
+        self.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance));
+        Ok(tolerance)
     }
 
-    pub(super) fn tolerance_of_site(&self, s: u32) -> f64 {
-        let mut tolerance = f64::INFINITY;
-        self.kernel.for_star(s, |c, _| {
-            for i in 0..G::Corners::N {
-                tolerance = tolerance.min(BiCell::of(&self.kernel, Facet::new(c, i)).tolerance(tolerance));
-            }
-        });
-        tolerance
+    /// As [`tolerance`](Self::tolerance), for a site that no two vertices share.
+    pub(super) fn tolerance_of_site(&mut self, s: u32) -> f64 {
+        self.kernel.gather_star(s);
+        let star = self.kernel.gathered_star().iter();
+        star.fold(f64::INFINITY, |tolerance, &(c, _)| self.tolerance_around(c, tolerance))
+    }
+
+    /// The least of a tolerance and those of a cell's bi-cells.
+    fn tolerance_around(&self, cell: u32, tolerance: f64) -> f64 {
+        let bicells = (0..G::Corners::N).map(|i| BiCell::of(&self.kernel, Facet::new(cell, i)));
+        bicells.fold(tolerance, |least, bicell| least.min(bicell.tolerance(least)))
     }
 
     /// Annulus width of the bi-cell beyond each facet of each finite cell, as a certified lower bound, in the order of
