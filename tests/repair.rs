@@ -155,3 +155,29 @@ fn adversarial_motion_in_the_plane_matches_fresh_builds() {
 fn adversarial_motion_in_space_matches_fresh_builds() {
     all_agree::<Space>();
 }
+
+/// One vertex after another by *auto*, which turns to tolerances when little changes and away from them when much does.
+fn relocations_agree<G: Dimension>() {
+    let mut rng = Rng::new(5);
+    let mut now = beginning::<G>(32, &mut rng);
+    let mut t = MovingTriangulation::<G>::new(&now, Options::default()).expect("a build");
+    for (round, size) in [1e-6, 1e-6, 1e-6, 1e-6, 0.3, 0.3, 0.3, 1e-7, 1e-7].into_iter().enumerate() {
+        tremble::<G>(&mut now, size, &mut rng);
+        for (v, p) in now.iter().enumerate() {
+            t.relocate_vertex(v as u32, p).expect("a relocation");
+        }
+        let context = || format!("{}D, round {round}", G::D);
+        t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("{}: {v}", context()));
+        let positions: Vec<Option<Point<G>>> = now.iter().copied().map(Some).collect();
+        assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&positions), context);
+    }
+    let (sums, n) = (t.statistics(), now.len() as u64);
+    assert!(sums.within_tolerance > n / 2, "tolerances were hardly used: {sums:?}");
+    assert!(sums.placements + sums.flips > n / 2, "next to nothing changed: {sums:?}");
+}
+
+#[test]
+fn relocations_by_auto_match_fresh_builds() {
+    relocations_agree::<Plane>();
+    relocations_agree::<Space>();
+}

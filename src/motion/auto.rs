@@ -11,8 +11,12 @@
 //! that a sweep of its own. So *tolerance* pays while fewer than one vertex in fifty is beyond, and a commit that finds more
 //! goes on as a repair: the vertices accepted are moved already. Few flips in a repair announce that most vertices stay
 //! within tolerance; before that of all is computed, for five sweeps or three, a sample is looked at, and ever more rarely
-//! if it says no. After a repair that had to
+//! if it says no or *tolerance* does not last. After a repair that had to
 //! rebuild, so many commits rebuild at once as have failed in a row, and twice as many the next time.
+//!
+//! Immediate relocations are counted in rounds of as many as there are vertices. After a round of which most changed no
+//! cell tolerances are computed, and kept while most relocations are within: a test costs a fiftieth of a look at the star,
+//! a vertex beyond two or three looks.
 
 use super::regions::Filter;
 use super::{CommitReport, MovingTriangulation, SwitchingRule};
@@ -28,7 +32,7 @@ const BEYOND: usize = 50;
 const CALM: usize = 500;
 /// Vertices sampled before all tolerances are computed, and the share of them that must be within.
 const SAMPLE: u32 = 64;
-const SHARE: f64 = 0.95;
+const SHARE: f64 = 0.98;
 /// Longest wait for another try, in commits.
 const PATIENCE: u32 = 64;
 /// Most commits rebuilt without a look.
@@ -45,6 +49,10 @@ pub(super) struct Auto {
     /// Commits still to be rebuilt without a look, and how many they were last time.
     rebuilds: u32,
     last_rebuilds: u32,
+    /// Immediate relocations in this round, those within tolerance, and those that changed no cell.
+    relocated: u64,
+    within: u64,
+    still: u64,
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -80,7 +88,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.accept_by(Filter::Tolerance, report)?;
         let beyond = self.staging.vertices.len() - self.staging.applied;
         if beyond * BEYOND <= self.n_present {
-            self.auto.next_wait = 0;
+            self.auto.next_wait = self.auto.next_wait.saturating_sub(1);
             self.place_beyond(report)?;
             return Ok(true);
         }
@@ -95,8 +103,35 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn stop_filtering(&mut self) {
         self.auto.is_filtering = false;
-        self.auto.next_wait = (2 * self.auto.next_wait + 1).min(PATIENCE);
+        self.auto.next_wait = (2 * self.auto.next_wait + 4).min(PATIENCE);
         self.auto.wait = self.auto.next_wait;
+    }
+
+    /// Counts an immediate relocation, and decides after a round of them whether tolerances are to be kept.
+    pub(super) fn follow_relocation(&mut self, done: &CommitReport) {
+        let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
+        let auto = &mut self.auto;
+        auto.relocated += 1;
+        auto.within += done.within_tolerance;
+        auto.still += done.within_tolerance + done.unchanged;
+        let round = auto.relocated;
+        if round < self.n_present.max(SAMPLE as usize) as u64 {
+            return;
+        }
+        let (within, still) = (auto.within, auto.still);
+        (auto.relocated, auto.within, auto.still) = (0, 0, 0);
+        let are_most = |some: u64| 10 * some >= 6 * round;
+        if is_kept {
+            if !are_most(within) {
+                self.regions.invalidate();
+                self.stop_filtering();
+            }
+        } else if auto.wait > 0 {
+            auto.wait -= 1;
+        } else if are_most(still) {
+            // Without the memory for them all goes on as it did.
+            let _ = self.regions.compute(&self.kernel, Filter::Tolerance, &mut CommitReport::default());
+        }
     }
 
     /// Draws conclusions from a repair.

@@ -149,6 +149,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.enter_evaluations(&mut report, before);
         self.count(report);
+        if self.options.algorithm == Algorithm::Auto && self.kernel.has_cells() {
+            self.follow_relocation(&report);
+        }
         Ok(())
     }
 
