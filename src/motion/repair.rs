@@ -14,9 +14,9 @@
 //! ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the one that moved farthest is
 //! taken back, so that a vertex that jumps across the domain goes first.
 //!
-//! Cost: a sweep is 3 to 8 % of a rebuild; a flip a hundredth of a vertex rebuilt in space and a tenth in the plane; a
-//! vertex taken back costs a placement, two or three vertices rebuilt. Where more break than is worth mending, the
-//! triangulation is rebuilt.
+//! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a seventh of a rebuild in the plane and a
+//! tenth in space; a vertex taken back costs a placement, two or three vertices rebuilt. Where more break than is worth
+//! mending, the triangulation is rebuilt. The first repair after a build sorts the cells of a large triangulation.
 
 use super::prefetch::{AHEAD, prefetch};
 use super::{CommitReport, MovingTriangulation};
