@@ -41,7 +41,13 @@ impl Delaunay<Space> {
                 }
                 suspects.extend(outer);
             }
-            if stuck.is_empty() || flips == before {
+            if stuck.is_empty() {
+                // Nothing will be undone. Keep the memory for a few flips, not for those of a whole large set.
+                self.journal.clear();
+                self.journal.shrink_to(self.sites.len() / 16);
+                return Ok(flips);
+            }
+            if flips == before {
                 return Ok(flips);
             }
             // What was stuck may not be any more.
