@@ -1,12 +1,16 @@
 //! Relocation of one site.
 //!
 //! The report's *placement* is a walk from the old place, a removal and an insertion (section 3.1). It is avoided
-//! where it can be (section 3.2): if the star of the site stays positively oriented it still is a star, since the
-//! site stays inside its link, as seen from every facet of it. Then
+//! where it can be (section 3.2): if the finite cells of the star stay positively oriented and the hull stays convex at
+//! the ridges of the star, the cells still are a triangulation. Then
 //! - if no certificate of the star fails, only the coordinates change;
-//! - in the plane, flips make the triangulation Delaunay again (Lawson), since it still is a triangulation.
+//! - in the plane, flips make the triangulation Delaunay again (Lawson).
 //!
-//! Neither is tried for a site on the convex hull, whose star has no link all around.
+//! Why that is enough: the facets of the link, which do not move, bound what the other cells fill. A ray from the new
+//! place crosses each of them from the side of the star, so once it has gone in among the other cells it can leave
+//! them only through the old hull, beyond which, that being convex, there is nothing more to meet. So the cells of the
+//! star overlap neither the others nor each other. What they all fill together is convex at every ridge of its
+//! boundary, hence convex.
 //!
 //! The id of a site breaks ties, so a change of id is a relocation to the same place.
 
@@ -69,12 +73,9 @@ impl<G: Dimension> Delaunay<G> {
     /// Relocates without a removal if the star allows it; otherwise changes nothing.
     fn relocate_in_place(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Option<Relocation> {
         let old = (self.site(s).point, self.site(s).id);
-        if self.hole.star.iter().any(|&(c, _)| self.complex.cell(c).is_ghost()) {
-            return None;
-        }
         self.sites[s as usize].point = *q;
         self.sites[s as usize].id = id;
-        if self.star_is_positive() {
+        if self.star_is_positive() && self.star_is_convex() {
             if let Some(changed) = &mut self.changed {
                 changed.extend(self.hole.star.iter().map(|&(c, _)| c));
             }
@@ -92,21 +93,31 @@ impl<G: Dimension> Delaunay<G> {
         None
     }
 
-    /// Whether every cell of the gathered star is positively oriented.
+    /// Whether every finite cell of the gathered star is positively oriented.
     fn star_is_positive(&mut self) -> bool {
         for &(c, _) in &self.hole.star {
             self.certificates += 1;
-            let c = self.complex.cell(c);
-            if G::orientation(&self.filter, self.view(), &c.corners) <= 0.0 {
+            if !self.complex.cell(c).is_ghost() && !self.is_positive(c) {
                 return false;
             }
         }
         true
     }
 
+    /// Whether the hull is convex at every ridge of the gathered star's ghost cells. The finite ones must be positive.
+    fn star_is_convex(&self) -> bool {
+        let ghosts = self.hole.star.iter().filter(|&&(c, _)| self.complex.cell(c).is_ghost());
+        ghosts
+            .flat_map(|&(c, _)| (0..Self::LAST).map(move |i| Facet::new(c, i)))
+            .all(|ridge| self.is_convex(ridge))
+    }
+
     /// Whether every bi-cell of the gathered star passes the empty-sphere test; each facet within is tested once.
     fn star_is_delaunay(&mut self) -> bool {
         for &(c, at) in &self.hole.star {
+            if self.complex.cell(c).is_ghost() {
+                continue;
+            }
             for i in 0..G::Corners::N {
                 let across = self.complex.cell(c).neighbour(i);
                 if i != at as usize && across.cell() < c {
@@ -125,7 +136,7 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn is_locally_delaunay(&self, facet: Facet) -> bool {
         let cell = self.complex.cell(facet.cell());
         let across = cell.neighbour(facet.index());
-        let apex = self.complex.cell(across.cell()).corners[across.index()];
+        let apex = self.complex.apex(across);
         if apex == INFINITE {
             return true;
         }
