@@ -130,7 +130,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             auto.wait -= 1;
         } else if are_most(still) {
             // Without the memory for them all goes on as it did.
-            let _ = self.regions.compute(&self.kernel, Filter::Tolerance, &mut CommitReport::default());
+            let _ = self.regions.compute(&self.kernel, self.site_of.len(), Filter::Tolerance, &mut CommitReport::default());
         }
     }
 

@@ -23,7 +23,7 @@ impl<'k, G: Dimension> BiCell<'k, G> {
         let (c, i) = (facet.cell(), facet.index());
         let cell = complex.cell(c);
         let across = cell.neighbour(i);
-        let apex = complex.cell(across.cell()).corners[across.index()];
+        let apex = complex.apex(across);
         if cell.is_ghost() || apex == INFINITE {
             return Self::at_hull(kernel, facet, apex);
         }
@@ -58,10 +58,16 @@ impl<'k, G: Dimension> BiCell<'k, G> {
         &self.sites[..self.n]
     }
 
-    /// The corners of an interior bi-cell; `None` at the hull.
+    /// The vertices at the finite corners; what follows them in the array is some of them again.
     #[inline(always)]
-    pub(super) fn interior(&self) -> Option<([u32; 5], &[&'k G::Point])> {
-        (self.n == G::D + 2).then(|| (self.sites, &self.points[..G::D + 2]))
+    pub(super) fn vertices(&self, kernel: &Delaunay<G>) -> [u32; 5] {
+        self.sites.map(|s| kernel.site(s).id)
+    }
+
+    /// The places of the corners of an interior bi-cell; `None` at the hull.
+    #[inline(always)]
+    pub(super) fn interior(&self) -> Option<&[&'k G::Point]> {
+        (self.n == G::D + 2).then(|| &self.points[..G::D + 2])
     }
 
     /// The standard delimiter; `None` at the hull.

@@ -1,7 +1,7 @@
 //! Tolerances and delimiters: what lets a vertex move without a look at its certificates (report, sections 2.3, 2.4).
 //!
 //! Invariants while valid: every interior bi-cell has a delimiter, a sphere with its interior facet inside and its opposing
-//! vertices outside, and the ball around the fixed position of each site, of its tolerance, is inside all its safe
+//! vertices outside, and the ball around the fixed position of each vertex, of its tolerance, is inside all its safe
 //! regions. With a filter that keeps safe regions the delimiters are stored; a vertex found inside its safe region may be
 //! outside its ball.
 //!
@@ -21,10 +21,9 @@
 //! reach are half the least width of their simplex.
 
 use super::bicell::BiCell;
-use super::prefetch::prefetch;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension};
+use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::{Error, Result};
 use crate::predicates::{LANES, displacement_limit};
 
@@ -39,27 +38,34 @@ pub(super) enum Filter {
     Both,
 }
 
-/// Fixed position and tolerance of a site, in one line of the cache.
+/// Fixed position and tolerance of a vertex.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
-struct Fixed<G: Dimension> {
+pub(super) struct Fixed<G: Dimension> {
     point: G::Point,
     tolerance: f64,
+}
+
+impl<G: Dimension> Fixed<G> {
+    /// Whether `p` is certainly within tolerance.
+    #[inline(always)]
+    pub(super) fn holds(&self, p: &G::Point) -> bool {
+        G::squared_distance(&self.point, p) < displacement_limit(self.tolerance)
+    }
 }
 
 /// Bi-cells whose tolerances are to be computed together.
 #[derive(Debug, Default)]
 struct Batch<G: Dimension> {
     bicells: G::BiCells,
-    sites: [[u32; 5]; LANES],
+    vertices: [[u32; 5]; LANES],
     n: usize,
 }
 
 impl<G: Dimension> Batch<G> {
     #[inline(always)]
-    fn push(&mut self, sites: [u32; 5], points: &[&G::Point]) {
+    fn push(&mut self, vertices: [u32; 5], points: &[&G::Point]) {
         G::set_bicell(&mut self.bicells, self.n, points);
-        self.sites[self.n] = sites;
+        self.vertices[self.n] = vertices;
         self.n += 1;
     }
 }
@@ -69,9 +75,10 @@ impl<G: Dimension> Batch<G> {
 pub(super) struct Regions<G: Dimension> {
     /// For which filter the rest is valid; `None` if it is not.
     valid_for: Option<Filter>,
-    /// By site.
+    /// By vertex id, so that what a timestamp reads that changes nothing is one stream. For a site with several
+    /// vertices, that of its representative is in force.
     fixed: Vec<Fixed<G>>,
-    /// By site, for safe regions: how far from its fixed position a vertex inside its safe region may be.
+    /// By vertex id, for safe regions: how far from its fixed position a vertex inside its safe region may be.
     reach: Vec<f64>,
     /// By the lower facet code of an interior bi-cell, for safe regions: centre and radius of the delimiter.
     delimiters: Vec<(G::Point, f64)>,
@@ -116,19 +123,19 @@ impl<G: Dimension> Regions<G> {
             + self.reach.capacity() * 8
     }
 
-    /// Follows the number of sites and cells. New sites have no bi-cells yet, so no tolerance smaller than any.
-    pub(super) fn grow(&mut self, kernel: &Delaunay<G>, filter: Filter) -> Result<()> {
-        let more_sites = kernel.sites().len().saturating_sub(self.fixed.len());
+    /// Follows the number of ids and cells. New vertices have no bi-cells yet, so no tolerance smaller than any.
+    fn grow(&mut self, kernel: &Delaunay<G>, n_ids: usize, filter: Filter) -> Result<()> {
+        let more_ids = n_ids.saturating_sub(self.fixed.len());
         let more_facets = match filter {
             Filter::Tolerance => 0,
             _ => (4 * kernel.complex().n_slots()).saturating_sub(self.delimiters.len()),
         };
-        let bytes = more_sites * size_of::<Fixed<G>>() + more_facets * size_of::<(G::Point, f64)>();
-        if self.fixed.try_reserve(more_sites).is_err() || self.delimiters.try_reserve(more_facets).is_err() {
+        let bytes = more_ids * size_of::<Fixed<G>>() + more_facets * size_of::<(G::Point, f64)>();
+        if self.fixed.try_reserve(more_ids).is_err() || self.delimiters.try_reserve(more_facets).is_err() {
             return Err(Error::OutOfMemory { bytes });
         }
         let none = Fixed { point: G::Point::default(), tolerance: f64::INFINITY };
-        self.fixed.resize(self.fixed.len() + more_sites, none);
+        self.fixed.resize(self.fixed.len() + more_ids, none);
         self.delimiters.resize(self.delimiters.len() + more_facets, (G::Point::default(), 0.0));
         if filter != Filter::Tolerance {
             self.reach.resize(self.fixed.len(), f64::INFINITY);
@@ -136,10 +143,11 @@ impl<G: Dimension> Regions<G> {
         Ok(())
     }
 
-    /// The report's pre-computations: every site is fixed where it is, and every bi-cell lowers tolerances.
+    /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell lowers tolerances.
     pub(super) fn compute(
         &mut self,
         kernel: &Delaunay<G>,
+        n_ids: usize,
         filter: Filter,
         report: &mut CommitReport,
     ) -> Result<()> {
@@ -147,9 +155,9 @@ impl<G: Dimension> Regions<G> {
         self.fixed.clear();
         self.reach.clear();
         self.delimiters.clear();
-        self.grow(kernel, filter)?;
-        for (fixed, site) in self.fixed.iter_mut().zip(kernel.sites()) {
-            fixed.point = site.point;
+        self.grow(kernel, n_ids, filter)?;
+        for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
+            self.fixed[site.id as usize].point = site.point;
         }
         let mut batch = Batch::default();
         for c in kernel.complex().live() {
@@ -165,28 +173,26 @@ impl<G: Dimension> Regions<G> {
         Ok(())
     }
 
-    /// The tolerance of a site is going to be asked for.
-    #[inline(always)]
-    pub(super) fn prefetch(&self, s: usize) {
-        prefetch(&self.fixed, s);
+    /// Fixed positions and tolerances by vertex id.
+    pub(super) fn fixed(&self) -> &[Fixed<G>] {
+        &self.fixed
     }
 
-    /// Whether a site may move to `p` as far as its tolerance goes.
+    /// Whether a vertex that has its site for itself may move to `p` as far as its tolerance goes.
     #[inline(always)]
-    pub(super) fn is_within_tolerance(&self, s: u32, p: &G::Point) -> bool {
-        let fixed = &self.fixed[s as usize];
-        G::squared_distance(&fixed.point, p) < displacement_limit(fixed.tolerance)
+    pub(super) fn is_within_tolerance(&self, vertex: u32, p: &G::Point) -> bool {
+        self.fixed[vertex as usize].holds(p)
     }
 
     /// The sub-routine of Algorithm 2: is `p` certainly inside the delimiters of the facets that have the site, outside
     /// those of the facets opposite it, and in reach?
     pub(super) fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: u32, p: &G::Point) -> bool {
-        let from = &self.fixed[s as usize].point;
-        if G::squared_distance(from, p) >= displacement_limit(self.reach[s as usize]) {
+        let &Site { point: here, id, .. } = kernel.site(s);
+        let from = &self.fixed[id as usize].point;
+        if G::squared_distance(from, p) >= displacement_limit(self.reach[id as usize]) {
             return false;
         }
         // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
-        let here = kernel.site(s).point;
         kernel.gather_star(s);
         let complex = kernel.complex();
         kernel.gathered_star().iter().filter(|(c, _)| !complex.cell(*c).is_ghost()).all(|&(c, at)| {
@@ -218,18 +224,20 @@ impl<G: Dimension> Regions<G> {
         let bicell = BiCell::of(kernel, facet);
         if ANEW {
             for &s in bicell.sites() {
-                self.fix_anew(kernel, filter, s);
+                self.fix_anew(kernel.site(s), filter);
             }
         }
+        let vertices = bicell.vertices(kernel);
+        let finite = &vertices[..bicell.sites().len()];
         if filter == Filter::Tolerance {
             match bicell.interior() {
-                Some((sites, points)) => {
-                    batch.push(sites, points);
+                Some(points) => {
+                    batch.push(vertices, points);
                     if batch.n == LANES {
                         self.lower_batch(batch);
                     }
                 }
-                None => self.lower(bicell.sites(), bicell.hull_tolerance()),
+                None => self.lower(finite, bicell.hull_tolerance()),
             }
             return;
         }
@@ -245,17 +253,17 @@ impl<G: Dimension> Regions<G> {
                 (width, width)
             }
         };
-        self.lower(bicell.sites(), tolerance);
-        for &s in bicell.sites() {
-            let least = &mut self.reach[s as usize];
+        self.lower(finite, tolerance);
+        for &v in finite {
+            let least = &mut self.reach[v as usize];
             *least = least.min(reach);
         }
     }
 
     #[inline(always)]
-    fn lower(&mut self, sites: &[u32], tolerance: f64) {
-        for &s in sites {
-            let fixed = &mut self.fixed[s as usize];
+    fn lower(&mut self, vertices: &[u32], tolerance: f64) {
+        for &v in vertices {
+            let fixed = &mut self.fixed[v as usize];
             fixed.tolerance = fixed.tolerance.min(tolerance);
         }
     }
@@ -263,38 +271,37 @@ impl<G: Dimension> Regions<G> {
     /// Computes the tolerances of a batch, which is empty then.
     fn lower_batch(&mut self, batch: &mut Batch<G>) {
         let mut enough = [0.0; LANES];
-        for (enough, sites) in enough.iter_mut().zip(&batch.sites[..batch.n]) {
-            for &s in &sites[..G::D + 2] {
-                *enough = self.fixed[s as usize].tolerance.max(*enough);
+        for (enough, vertices) in enough.iter_mut().zip(&batch.vertices[..batch.n]) {
+            for &v in &vertices[..G::D + 2] {
+                *enough = self.fixed[v as usize].tolerance.max(*enough);
             }
         }
         let tolerances = G::tolerances(&batch.bicells, enough);
         for (k, tolerance) in tolerances.into_iter().enumerate().take(batch.n) {
-            self.lower(&batch.sites[k][..G::D + 2], tolerance);
+            self.lower(&batch.vertices[k][..G::D + 2], tolerance);
         }
         batch.n = 0;
     }
 
-    /// Fixes a site where it is: what is left of its ball, as a lower bound, is its tolerance.
+    /// Fixes the vertex of a site where it is: what is left of its ball, as a lower bound, is its tolerance.
     #[inline(always)]
-    fn fix_anew(&mut self, kernel: &Delaunay<G>, filter: Filter, s: u32) {
-        let fixed = &mut self.fixed[s as usize];
-        let point = kernel.site(s).point;
+    fn fix_anew(&mut self, &Site { point, id, .. }: &Site<G>, filter: Filter) {
+        let fixed = &mut self.fixed[id as usize];
         if fixed.point != point {
             let moved = G::distance_above(&fixed.point, &point);
             fixed.tolerance = (fixed.tolerance - moved).next_down().max(0.0);
             fixed.point = point;
             if filter != Filter::Tolerance {
-                let reach = &mut self.reach[s as usize];
+                let reach = &mut self.reach[id as usize];
                 *reach = (*reach - moved).next_down().max(0.0);
             }
         }
     }
 
-    /// Fixes a site where it is, all bi-cells of which are going to be computed.
-    fn fix(&mut self, kernel: &Delaunay<G>, s: u32) {
-        self.fixed[s as usize] = Fixed { point: kernel.site(s).point, tolerance: f64::INFINITY };
-        if let Some(reach) = self.reach.get_mut(s as usize) {
+    /// Fixes the vertex of a site where it is, all bi-cells of which are going to be computed.
+    fn fix(&mut self, &Site { point, id, .. }: &Site<G>) {
+        self.fixed[id as usize] = Fixed { point, tolerance: f64::INFINITY };
+        if let Some(reach) = self.reach.get_mut(id as usize) {
             *reach = f64::INFINITY;
         }
     }
@@ -303,6 +310,7 @@ impl<G: Dimension> Regions<G> {
     fn follow(
         &mut self,
         kernel: &mut Delaunay<G>,
+        n_ids: usize,
         filter: Filter,
         mut changed: Vec<u32>,
         relocated: impl Iterator<Item = u32>,
@@ -310,10 +318,10 @@ impl<G: Dimension> Regions<G> {
     ) -> Result<()> {
         kernel.tidy_changes(&mut changed);
         if 2 * changed.len() > kernel.complex().n_finite() {
-            self.compute(kernel, filter, report)?;
+            self.compute(kernel, n_ids, filter, report)?;
         } else {
-            self.grow(kernel, filter)?;
-            relocated.for_each(|s| self.fix(kernel, s));
+            self.grow(kernel, n_ids, filter)?;
+            relocated.for_each(|s| self.fix(kernel.site(s)));
             let mut batch = Batch::default();
             kernel.for_facets_of(&changed, |kernel, facet| {
                 self.measure::<true>(kernel, filter, facet, &mut batch);
@@ -347,7 +355,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             let sites =
                 relocated.iter().map(|&v| self.site_of[v as usize]).filter(|&s| !self.hidden.any_at(s));
             // Without the memory for it the regions stay invalid, and the next commit says so.
-            let _ = self.regions.follow(&mut self.kernel, filter, changed, sites, report);
+            let n_ids = self.site_of.len();
+            let _ = self.regions.follow(&mut self.kernel, n_ids, filter, changed, sites, report);
             self.regions.relocated = relocated;
         }
         done

@@ -67,7 +67,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.regions.kept_for() == Some(filter) {
             return Ok(());
         }
-        self.regions.compute(&self.kernel, filter, report)
+        self.regions.compute(&self.kernel, self.site_of.len(), filter, report)
     }
 
     fn accept_staged(&mut self, filter: Filter, report: &mut CommitReport) {
@@ -99,16 +99,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (mut applied, mut moved) = (0, 0);
         for k in 0..vertices.len() {
             if let Some(&next) = vertices.get(k + AHEAD) {
-                let s = site_of[next as usize] as usize;
-                prefetch(sites, s);
-                regions.prefetch(s);
+                prefetch(sites, site_of[next as usize] as usize);
             }
             let v = vertices[k];
-            let s = site_of[v as usize];
             let p = &mut positions[v as usize];
-            if !regions.is_within_tolerance(s, p) {
+            if !regions.is_within_tolerance(v, p) {
                 continue;
             }
+            let s = site_of[v as usize];
             for axis in 0..G::D {
                 lower[axis] = if p[axis] < lower[axis] { p[axis] } else { lower[axis] };
                 upper[axis] = if p[axis] > upper[axis] { p[axis] } else { upper[axis] };
@@ -135,7 +133,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.hidden.any_at(s) {
             return false;
         }
-        if filter != Filter::SafeRegion && self.regions.is_within_tolerance(s, &p) {
+        if filter != Filter::SafeRegion && self.regions.is_within_tolerance(vertex, &p) {
             report.within_tolerance += 1;
         } else if filter != Filter::Tolerance && self.regions.is_in_safe_region(&mut self.kernel, s, &p) {
             report.within_safe_region += 1;
