@@ -19,6 +19,11 @@ pub(crate) fn reserve_exact<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     Ok(())
 }
 
+/// Makes room for `more` more entries at least; where more follow, in constant time each.
+pub(crate) fn reserve<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
+    array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })
+}
+
 /// Makes sure that an array of so many entries could be had: for those who take one without a way to say that there is
 /// none.
 pub(crate) fn make_sure_of<T>(count: usize) -> Result<()> {

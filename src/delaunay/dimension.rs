@@ -38,6 +38,10 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     type Scratch: Debug + Default + Send + Sync;
     /// Bi-cells whose tolerances are computed together.
     type BiCells: Debug + Default;
+    /// The coordinates of points, one after the other.
+    fn coordinates(points: &[Self::Point]) -> &[f64];
+    /// The same, to write.
+    fn coordinates_mut(points: &mut [Self::Point]) -> &mut [f64];
     /// Error bounds for points inside the box.
     fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
     /// Sign of the orientation of the cell: positive in a valid finite cell.
@@ -135,6 +139,14 @@ impl Dimension for Plane {
     type Corners = [u32; 3];
     type Scratch = cavity_plane::Scratch;
     type BiCells = predicates::BiCells<2, 4>;
+
+    fn coordinates(points: &[[f64; 2]]) -> &[f64] {
+        points.as_flattened()
+    }
+
+    fn coordinates_mut(points: &mut [[f64; 2]]) -> &mut [f64] {
+        points.as_flattened_mut()
+    }
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
@@ -275,6 +287,14 @@ impl Dimension for Space {
     type Corners = [u32; 4];
     type Scratch = cavity_space::Scratch;
     type BiCells = predicates::BiCells<3, 5>;
+
+    fn coordinates(points: &[[f64; 3]]) -> &[f64] {
+        points.as_flattened()
+    }
+
+    fn coordinates_mut(points: &mut [[f64; 3]]) -> &mut [f64] {
+        points.as_flattened_mut()
+    }
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
         StaticFilter::space(*lower, *upper)

@@ -232,6 +232,16 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// As [`cover`](Self::cover), for points up to `distance` off the box.
+    pub(crate) fn cover_around(&mut self, lower: &G::Point, upper: &G::Point, distance: f64) {
+        let (mut lower, mut upper) = (*lower, *upper);
+        for axis in 0..G::D {
+            lower[axis] = (lower[axis] - distance).next_down();
+            upper[axis] = (upper[axis] + distance).next_up();
+        }
+        self.cover(&lower, &upper);
+    }
+
     /// Makes the static filter as sharp as the places of the live sites allow.
     pub fn tighten_filter(&mut self) {
         let box_of_sites =

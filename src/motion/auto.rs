@@ -58,9 +58,9 @@ pub(super) struct Auto {
 impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn commit_by_auto(&mut self, report: &mut CommitReport) -> Result<()> {
         if !self.kernel.has_cells() {
-            return self.commit_by_rebuilding(0, report);
+            return self.rebuild_staged(report);
         }
-        if self.staging.vertices.len() * FEW < self.n_present {
+        if self.staging.count() * FEW < self.n_present {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
                 self.commit_by_filter(Filter::Tolerance, report)
             } else {
@@ -69,7 +69,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if self.auto.rebuilds > 0 {
             self.auto.rebuilds -= 1;
-            return self.commit_by_rebuilding(0, report);
+            return self.rebuild_staged(report);
         }
         if self.auto.is_filtering && self.commit_if_calm(report)? {
             return Ok(());
@@ -85,9 +85,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.stop_filtering();
             return Ok(false);
         }
-        self.accept_by(Filter::Tolerance, report)?;
-        let beyond = self.staging.vertices.len() - self.staging.applied;
-        if beyond * BEYOND <= self.n_present {
+        if self.accept_by(Filter::Tolerance, self.n_present / BEYOND, report)? {
             self.auto.next_wait = self.auto.next_wait.saturating_sub(1);
             self.place_beyond(report)?;
             return Ok(true);
@@ -130,7 +128,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             auto.wait -= 1;
         } else if are_most(still) {
             // Without the memory for them all goes on as it did.
-            let _ = self.regions.compute(&self.kernel, self.site_of.len(), Filter::Tolerance, &mut CommitReport::default());
+            let _ = self.regions.compute(&mut self.kernel, self.site_of.len(), Filter::Tolerance, &mut CommitReport::default());
         }
     }
 

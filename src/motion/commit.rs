@@ -45,7 +45,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             Algorithm::SafeRegionTolerance => self.commit_by_filter(Filter::Both, report)?,
             Algorithm::RebuildingTolerance => self.commit_by_switching(report)?,
             Algorithm::Repair => self.commit_by_repair(report)?,
-            Algorithm::Rebuilding => self.commit_by_rebuilding(0, report)?,
+            Algorithm::Rebuilding => self.rebuild_staged(report)?,
             Algorithm::Auto => self.commit_by_auto(report)?,
         }
         self.reject_coincidence()
@@ -54,9 +54,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Puts the vertices whose moves were applied back where they were, and rebuilds.
     fn go_back(&mut self) -> Result<()> {
         self.spread_hidden()?;
-        for k in 0..self.staging.applied {
-            self.exchange_position(self.staging.vertices[k]);
+        if self.staging.others_applied {
+            for v in 0..self.site_of.len() as u32 {
+                self.exchange_position(v);
+            }
+            // Those that have not moved have been exchanged in vain.
+            for k in self.staging.applied..self.staging.vertices.len() {
+                self.exchange_position(self.staging.vertices[k]);
+            }
+        } else {
+            for k in 0..self.staging.applied {
+                self.exchange_position(self.staging.vertices[k]);
+            }
         }
+        self.staging.end_queue();
         self.rebuild_quietly()
     }
 

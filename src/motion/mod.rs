@@ -167,6 +167,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let id = self.site_of.len() as u32;
         self.reject_occupied(id, &q)?;
+        self.staging.list()?;
         self.forget_views();
         let s = self.kernel.add_site(q, id)?;
         self.site_of.push(s);
@@ -201,6 +202,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
     pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
+        self.staging.list()?;
         self.forget_views();
         let before = self.evaluations();
         let mut report = CommitReport::default();

@@ -19,6 +19,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         shortcut: Shortcut,
         report: &mut CommitReport,
     ) -> Result<()> {
+        self.staging.list()?;
         self.regions.invalidate();
         self.order_queue_by_site()?;
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))

@@ -8,7 +8,13 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Brings all staged vertices from `first` on to their new positions and rebuilds.
+    /// Brings all staged vertices to their new positions and rebuilds.
+    pub(super) fn rebuild_staged(&mut self, report: &mut CommitReport) -> Result<()> {
+        self.staging.list()?;
+        self.commit_by_rebuilding(0, report)
+    }
+
+    /// Brings all listed vertices from `first` on to their new positions and rebuilds.
     pub(super) fn commit_by_rebuilding(&mut self, first: usize, report: &mut CommitReport) -> Result<()> {
         self.spread_hidden()?;
         for k in first..self.staging.vertices.len() {

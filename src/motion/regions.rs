@@ -27,6 +27,9 @@ use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::{Error, Result};
 use crate::predicates::{LANES, displacement_limit};
 
+/// Tolerances are kept up to one part in so many of the least extent.
+const CAPPED: f64 = 16.0;
+
 /// Which regions let a vertex pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Filter {
@@ -75,6 +78,9 @@ impl<G: Dimension> Batch<G> {
 pub(super) struct Regions<G: Dimension> {
     /// For which filter the rest is valid; `None` if it is not.
     valid_for: Option<Filter>,
+    /// Greatest tolerance that is kept: a small part of the least extent of all vertices. The kernel's static filter
+    /// covers all fixed positions and as much around them, so that a vertex within tolerance need not be looked at for that.
+    most: f64,
     /// By vertex id, so that what a timestamp reads that changes nothing is one stream. For a site with several
     /// vertices, that of its representative is in force.
     fixed: Vec<Fixed<G>>,
@@ -92,6 +98,7 @@ impl<G: Dimension> Default for Regions<G> {
     fn default() -> Self {
         Regions {
             valid_for: None,
+            most: 0.0,
             fixed: Vec::new(),
             reach: Vec::new(),
             delimiters: Vec::new(),
@@ -134,7 +141,7 @@ impl<G: Dimension> Regions<G> {
         if self.fixed.try_reserve(more_ids).is_err() || self.delimiters.try_reserve(more_facets).is_err() {
             return Err(Error::OutOfMemory { bytes });
         }
-        let none = Fixed { point: G::Point::default(), tolerance: f64::INFINITY };
+        let none = Fixed { point: G::Point::default(), tolerance: self.most };
         self.fixed.resize(self.fixed.len() + more_ids, none);
         self.delimiters.resize(self.delimiters.len() + more_facets, (G::Point::default(), 0.0));
         if filter != Filter::Tolerance {
@@ -146,7 +153,7 @@ impl<G: Dimension> Regions<G> {
     /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell lowers tolerances.
     pub(super) fn compute(
         &mut self,
-        kernel: &Delaunay<G>,
+        kernel: &mut Delaunay<G>,
         n_ids: usize,
         filter: Filter,
         report: &mut CommitReport,
@@ -155,6 +162,9 @@ impl<G: Dimension> Regions<G> {
         self.fixed.clear();
         self.reach.clear();
         self.delimiters.clear();
+        let (lower, upper) = (kernel.lower(), kernel.upper());
+        self.most = (0..G::D).map(|axis| upper[axis] - lower[axis]).fold(f64::INFINITY, f64::min) / CAPPED;
+        kernel.cover_around(&lower, &upper, self.most);
         self.grow(kernel, n_ids, filter)?;
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
             self.fixed[site.id as usize].point = site.point;
@@ -300,7 +310,7 @@ impl<G: Dimension> Regions<G> {
 
     /// Fixes the vertex of a site where it is, all bi-cells of which are going to be computed.
     fn fix(&mut self, &Site { point, id, .. }: &Site<G>) {
-        self.fixed[id as usize] = Fixed { point, tolerance: f64::INFINITY };
+        self.fixed[id as usize] = Fixed { point, tolerance: self.most };
         if let Some(reach) = self.reach.get_mut(id as usize) {
             *reach = f64::INFINITY;
         }
@@ -321,7 +331,11 @@ impl<G: Dimension> Regions<G> {
             self.compute(kernel, n_ids, filter, report)?;
         } else {
             self.grow(kernel, n_ids, filter)?;
-            relocated.for_each(|s| self.fix(kernel.site(s)));
+            for s in relocated {
+                let point = kernel.site(s).point;
+                kernel.cover_around(&point, &point, self.most);
+                self.fix(kernel.site(s));
+            }
             let mut batch = Batch::default();
             kernel.for_facets_of(&changed, |kernel, facet| {
                 self.measure::<true>(kernel, filter, facet, &mut batch);

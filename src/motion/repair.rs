@@ -65,6 +65,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
     /// may be taken back like the others.
     pub(super) fn commit_by_repair(&mut self, report: &mut CommitReport) -> Result<()> {
+        self.staging.list()?;
         if !self.kernel.has_cells() {
             return self.commit_by_rebuilding(self.staging.applied, report);
         }

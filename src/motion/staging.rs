@@ -1,36 +1,83 @@
 //! Positions that wait for the next commit.
 
 use super::MovingTriangulation;
-use crate::complex::NONE;
+use crate::complex::{NONE, memory};
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::predicates::is_in_range;
 
 /// Staged positions by vertex id. During and after a commit the entries of its vertices hold the positions
 /// *before* it: applying a move exchanges the two.
+///
+/// Most callers stage all vertices at once. Such a staging is *whole*: it has neither list nor flags until something
+/// asks for them.
 #[derive(Debug)]
 pub(super) struct Staging<G: Dimension> {
     pub(super) positions: Vec<G::Point>,
+    /// By vertex id; all false while whole.
     is_staged: Vec<bool>,
-    /// Staged vertices in the order of the calls.
+    /// Staged vertices in the order of the calls. While whole: those that a commit has queued.
     pub(super) vertices: Vec<u32>,
-    /// How many of them are at their new positions, while a commit is under way.
+    /// How many of the listed vertices are at their new positions, while a commit is under way.
     pub(super) applied: usize,
+    is_whole: bool,
+    /// Whether, while whole, the vertices that are not listed are at their new positions.
+    pub(super) others_applied: bool,
 }
 
 impl<G: Dimension> Default for Staging<G> {
     fn default() -> Self {
-        Staging { positions: Vec::new(), is_staged: Vec::new(), vertices: Vec::new(), applied: 0 }
+        Staging {
+            positions: Vec::new(),
+            is_staged: Vec::new(),
+            vertices: Vec::new(),
+            applied: 0,
+            is_whole: false,
+            others_applied: false,
+        }
     }
 }
 
 impl<G: Dimension> Staging<G> {
     pub(super) fn is_staged(&self, vertex: u32) -> bool {
-        self.is_staged.get(vertex as usize).copied().unwrap_or(false)
+        self.is_whole || self.is_staged.get(vertex as usize).copied().unwrap_or(false)
     }
 
-    /// Follows the number of ids once there is something to follow.
+    /// Whether all vertices are staged, and not listed.
+    pub(super) fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    /// Number of staged vertices.
+    pub(super) fn count(&self) -> usize {
+        if self.is_whole { self.positions.len() } else { self.vertices.len() }
+    }
+
+    /// Makes the list of a whole staging of which nothing has been applied.
+    pub(super) fn list(&mut self) -> Result<()> {
+        if !self.is_whole {
+            return Ok(());
+        }
+        debug_assert!(self.vertices.is_empty() && !self.others_applied);
+        let n = self.positions.len();
+        memory::reserve_exact(&mut self.vertices, n)?;
+        self.vertices.extend(0..n as u32);
+        self.is_staged.fill(true);
+        self.is_whole = false;
+        Ok(())
+    }
+
+    /// Empties the queue of a whole staging, after a commit or its failure.
+    pub(super) fn end_queue(&mut self) {
+        if self.is_whole {
+            self.vertices.clear();
+            self.others_applied = false;
+        }
+    }
+
+    /// Follows the number of ids once there is something to follow. The staging must not be whole.
     pub(super) fn grow(&mut self, n_ids: usize) {
+        debug_assert!(!self.is_whole);
         if !self.positions.is_empty() {
             self.positions.resize(n_ids, G::Point::default());
             self.is_staged.resize(n_ids, false);
@@ -63,6 +110,19 @@ impl<G: Dimension> Staging<G> {
         self.vertices.push(vertex);
     }
 
+    /// Stages all vertices, of which none is, at once; `false`, and nothing staged, if a position is bad.
+    fn stage_all(&mut self, positions: &[G::Point]) -> bool {
+        debug_assert!(self.count() == 0 && self.positions.len() == positions.len());
+        let mut bad = 0u64;
+        let staged = G::coordinates_mut(&mut self.positions);
+        for (staged, &value) in staged.iter_mut().zip(G::coordinates(positions)) {
+            bad |= u64::from(!is_in_range(value));
+            *staged = value + 0.0;
+        }
+        self.is_whole = bad == 0;
+        self.is_whole
+    }
+
     /// Takes back all but the first `kept` moves.
     fn truncate(&mut self, kept: usize) {
         if kept == 0 && self.vertices.len() > self.is_staged.len() / 8 {
@@ -75,12 +135,17 @@ impl<G: Dimension> Staging<G> {
 
     /// Forgets all moves; returns how many there were.
     pub(super) fn clear(&mut self) -> usize {
-        let n = self.vertices.len();
-        self.truncate(0);
+        let n = self.count();
+        if self.is_whole {
+            self.end_queue();
+            self.is_whole = false;
+        } else {
+            self.truncate(0);
+        }
         n
     }
 
-    /// Forgets the move of one vertex.
+    /// Forgets the move of one vertex. The staging must not be whole.
     pub(super) fn unstage(&mut self, vertex: u32) {
         if self.is_staged(vertex) {
             self.is_staged[vertex as usize] = false;
@@ -173,7 +238,14 @@ impl<G: Dimension> MovingTriangulation<G> {
                 wanted: self.site_of.len(),
             });
         }
-        self.staging.reserve(self.site_of.len(), positions.len())?;
+        let n_ids = self.site_of.len();
+        if self.staging.count() == 0 && positions.len() == n_ids && self.n_present == n_ids {
+            self.staging.reserve(n_ids, 0)?;
+            if self.staging.stage_all(positions) {
+                return Ok(());
+            }
+        }
+        self.staging.reserve(n_ids, positions.len())?;
         let before = self.staging.vertices.len();
         for (index, position) in positions.iter().enumerate() {
             if self.site_of[index] == NONE {
@@ -196,7 +268,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         position: &G::Point,
     ) -> Result<()> {
         self.site_of_vertex(argument, index, vertex)?;
-        if self.staging.is_staged[vertex as usize] {
+        if self.staging.is_staged(vertex) {
             return Err(Error::DuplicateMove { argument, index, vertex });
         }
         let position = check_position::<G>("positions", index, position)?;
@@ -211,6 +283,6 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Number of staged moves.
     pub fn staged_count(&self) -> usize {
-        self.staging.vertices.len()
+        self.staging.count()
     }
 }

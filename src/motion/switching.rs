@@ -48,7 +48,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.switching.has_switched {
             self.commit_by_filter(Filter::Tolerance, report)
         } else {
-            self.commit_by_rebuilding(0, report)
+            self.rebuild_staged(report)
         }
     }
 

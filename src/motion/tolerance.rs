@@ -34,6 +34,7 @@
 use super::prefetch::{AHEAD, prefetch};
 use super::regions::Filter;
 use super::{Algorithm, CommitReport, MovingTriangulation};
+use crate::complex::memory;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 
@@ -41,17 +42,31 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a filter and a queue.
     pub(super) fn commit_by_filter(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
         if !self.kernel.has_cells() {
-            return self.commit_by_rebuilding(0, report);
+            return self.rebuild_staged(report);
         }
-        self.accept_by(filter, report)?;
+        self.accept_by(filter, usize::MAX, report)?;
         self.place_beyond(report)
     }
 
-    /// Moves the vertices that stay in their regions; the others are queued, behind them.
-    pub(super) fn accept_by(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
+    /// Moves the vertices that stay in their regions and queues the others; `false` if those are more than `most`: then
+    /// nothing, or some of the vertices, has moved.
+    pub(super) fn accept_by(
+        &mut self,
+        filter: Filter,
+        most: usize,
+        report: &mut CommitReport,
+    ) -> Result<bool> {
         self.pre_compute(filter, report)?;
-        self.accept_staged(filter, report);
-        Ok(())
+        if filter == Filter::Tolerance && self.staging.is_whole() && self.hidden.count() == 0 {
+            let are_few = self.queue_beyond(most)?;
+            if are_few {
+                self.accept_others(report);
+            }
+            return Ok(are_few);
+        }
+        self.staging.list()?;
+        self.accept_listed(filter, report);
+        Ok(self.staging.vertices.len() - self.staging.applied <= most)
     }
 
     /// Places the queued vertices; the regions follow.
@@ -67,62 +82,69 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.regions.kept_for() == Some(filter) {
             return Ok(());
         }
-        self.regions.compute(&self.kernel, self.site_of.len(), filter, report)
+        self.regions.compute(&mut self.kernel, self.site_of.len(), filter, report)
     }
 
-    fn accept_staged(&mut self, filter: Filter, report: &mut CommitReport) {
-        let mut vertices = std::mem::take(&mut self.staging.vertices);
-        if filter != Filter::SafeRegion && self.hidden.count() == 0 {
-            self.staging.applied = self.accept_within_tolerance(&mut vertices, report);
-        }
-        if filter != Filter::Tolerance || self.hidden.count() != 0 {
-            for k in self.staging.applied..vertices.len() {
-                if self.accept(vertices[k], filter, report) {
-                    vertices.swap(self.staging.applied, k);
-                    self.staging.applied += 1;
-                }
-            }
-        }
-        self.staging.vertices = vertices;
-    }
-
-    /// Moves the vertices that stay within their tolerance to the front and to their new positions, and
-    /// counts them. None may share its site.
+    /// Of a whole staging, queues the vertices beyond their tolerance; `false`, and no queue, if they are more than
+    /// `most`. No two vertices may share a site.
     ///
-    /// This loop is what a timestamp costs that changes nothing: it holds what it reads in registers, and
-    /// asks for the sites in advance, as they are in another order than the vertices.
-    fn accept_within_tolerance(&mut self, vertices: &mut [u32], report: &mut CommitReport) -> usize {
-        let (site_of, positions, regions) =
-            (&self.site_of[..], &mut self.staging.positions[..], &self.regions);
-        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
-        let sites = self.kernel.sites_mut();
-        let (mut applied, mut moved) = (0, 0);
-        for k in 0..vertices.len() {
-            if let Some(&next) = vertices.get(k + AHEAD) {
-                prefetch(sites, site_of[next as usize] as usize);
-            }
-            let v = vertices[k];
-            let p = &mut positions[v as usize];
-            if !regions.is_within_tolerance(v, p) {
+    /// This loop and the next are what a timestamp costs that changes nothing.
+    fn queue_beyond(&mut self, most: usize) -> Result<bool> {
+        let queue = &mut self.staging.vertices;
+        let fixed = self.regions.fixed();
+        for (v, (p, fixed)) in self.staging.positions.iter().zip(fixed).enumerate() {
+            if fixed.holds(p) {
                 continue;
             }
-            let s = site_of[v as usize];
-            for axis in 0..G::D {
-                lower[axis] = if p[axis] < lower[axis] { p[axis] } else { lower[axis] };
-                upper[axis] = if p[axis] > upper[axis] { p[axis] } else { upper[axis] };
+            if queue.len() == most {
+                queue.clear();
+                return Ok(false);
+            }
+            if queue.len() == queue.capacity() {
+                memory::reserve(queue, 1)?;
+            }
+            queue.push(v as u32);
+        }
+        Ok(true)
+    }
+
+    /// Moves all vertices of a whole staging that are not queued, and counts them.
+    fn accept_others(&mut self, report: &mut CommitReport) {
+        report.moved += self.move_all_staged();
+        report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
+        for k in 0..self.staging.vertices.len() {
+            report.moved -= u64::from(self.exchange_position(self.staging.vertices[k]));
+        }
+    }
+
+    /// Moves all vertices of a whole staging; returns how many positions differ. No two may share a site.
+    ///
+    /// Sites are asked for in advance, as they are in another order than the vertices.
+    fn move_all_staged(&mut self) -> u64 {
+        let mut moved = 0;
+        let sites = self.kernel.sites_mut();
+        for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
+            if let Some(&next) = self.site_of.get(v + AHEAD) {
+                prefetch(sites, next as usize);
             }
             let point = &mut sites[s as usize].point;
             moved += u64::from(point != p);
             std::mem::swap(point, p);
-            if applied < k {
-                vertices.swap(applied, k);
-            }
-            applied += 1;
         }
-        self.kernel.cover(&lower, &upper);
-        report.moved += moved;
-        report.within_tolerance += applied as u64;
-        applied
+        self.staging.others_applied = true;
+        moved
+    }
+
+    /// Moves those of the listed vertices that stay in their regions, and puts them before the others.
+    fn accept_listed(&mut self, filter: Filter, report: &mut CommitReport) {
+        let mut vertices = std::mem::take(&mut self.staging.vertices);
+        for k in self.staging.applied..vertices.len() {
+            if self.accept(vertices[k], filter, report) {
+                vertices.swap(self.staging.applied, k);
+                self.staging.applied += 1;
+            }
+        }
+        self.staging.vertices = vertices;
     }
 
     /// Moves a vertex if it stays in its region.
