@@ -258,16 +258,13 @@ private:
 
 template <Fault fault>
 void test_fault(Tests &tests, const std::string &what) {
-    const EngineKind kinds[] = {
-        {"cgal", "rebuilding", false, false,
-         [](unsigned dimension, unsigned n_threads) -> std::unique_ptr<Engine> {
-             return std::make_unique<Faulty<fault>>(make_cgal_rebuilding(dimension, n_threads));
-         }},
-        {"deldrift", "rebuilding", false, false,
-         [](unsigned dimension, unsigned n_threads) -> std::unique_ptr<Engine> {
-             return std::make_unique<Faulty<fault>>(make_deldrift_rebuilding(dimension, n_threads));
-         }},
-    };
+    std::vector<EngineKind> kinds = {engine_kind("cgal/rebuilding"), engine_kind("deldrift/rebuilding")};
+    for (EngineKind &kind : kinds) {
+        kind.is_stateless = false;
+        kind.make = [make = kind.make](unsigned dimension, unsigned n_threads) {
+            return std::make_unique<Faulty<fault>>(make(dimension, n_threads));
+        };
+    }
     const Series series = random_series(2, 100, 4);
     for (const EngineKind &kind : kinds) {
         const std::vector<Entrant> entrants = {{&kind, 1, every_timestamp(series)}};
