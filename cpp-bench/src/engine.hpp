@@ -39,6 +39,9 @@ public:
 
     /// What the library says it has allocated, or 0 where it does not say.
     virtual std::size_t reported_bytes() const { return 0; }
+
+    /// Flips, placements and rebuilds of all updates so far, or 0 where the library does not count them.
+    virtual std::uint64_t n_changes() const { return 0; }
 };
 
 /// Makes an engine for a dimension and a number of threads, which CGAL's take no notice of.

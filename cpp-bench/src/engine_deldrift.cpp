@@ -71,6 +71,12 @@ public:
         return bytes;
     }
 
+    std::uint64_t n_changes() const override {
+        deldrift_commit_report sums;
+        require(deldrift_statistics(triangulation_, &sums), "deldrift_statistics");
+        return sums.flips + sums.placements + sums.rebuilds;
+    }
+
 private:
     /// What the report calls pre-computations, of tolerances and delimiters, is done by the first commit.
     void pre_compute() {

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "replay.hpp"
 
+#include <malloc.h>
+
+#include <limits>
+
 namespace bench {
 namespace {
 
 constexpr std::size_t most_blocks = 20;
 
 }  // namespace
+
+void keep_memory() {
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
 
 double median(std::vector<double> values) {
     const std::size_t half = values.size() / 2;

@@ -11,6 +11,7 @@
 #include "random.hpp"
 #include "scenarios.hpp"
 #include "table.hpp"
+#include "targets.hpp"
 #include "tests.hpp"
 #include "verify.hpp"
 
@@ -370,6 +371,27 @@ void test_measure(Tests &tests) {
                  "table: significant digits");
 }
 
+void test_targets(Tests &tests) {
+    Progress progress(Progress::Output::silent);
+    std::vector<Checks> checks;
+    const std::vector<Target> targets = measure_targets({300, 5, 500, 2}, 1, checks, progress);
+    const auto is_measured = [](const Target &target) {
+        return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted > 1;
+    };
+    tests.expect(targets.size() == 12 && std::all_of(targets.begin(), targets.end(), is_measured),
+                 "targets: all are measured");
+    std::size_t n_comparisons = 0;
+    for (const Checks &check : checks) n_comparisons += check.n_comparisons;
+    tests.expect(n_comparisons == 20, "targets: the cells of all engines are compared");
+    const auto is_swept_in_vain = [](const Target &target) { return target.what == "swept" && target.n_changes > 0; };
+    tests.expect(std::none_of(targets.begin(), targets.end(), is_swept_in_vain),
+                 "targets: every certificate that is swept holds");
+    Target target = {"", 2, 1, "", "", 30, 10, 3, 0};
+    tests.expect(target.verdict() == std::string("pass"), "targets: reached");
+    target.contender_ns = 10.1;
+    tests.expect(target.verdict() == std::string("missed"), "targets: missed by little");
+}
+
 void test_options(Tests &tests) {
     const auto parse = [](std::vector<std::string> words) {
         words.insert(words.begin(), "run");
@@ -406,6 +428,7 @@ bool run_self_test() {
     test_generated_series(tests);
     test_options(tests);
     test_measure(tests);
+    test_targets(tests);
     test_engines_agree(tests);
     test_faults_are_found(tests);
     test_report(tests);
