@@ -13,9 +13,6 @@
 
 namespace bench {
 
-/// Radius of the ball (disk) that has volume (area) `n_points`, so that they are at unit density in it.
-double unit_density_radius(unsigned dimension, std::size_t n_points);
-
 /// Lloyd's iterations in a disk at unit density: random points, and at each timestamp every point goes to the
 /// centroid of its Voronoi cell clipped to the disk.
 Series record_lloyd_2d_uniform(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,

@@ -9,6 +9,7 @@
 #include "npy.hpp"
 #include "options.hpp"
 #include "random.hpp"
+#include "record.hpp"
 #include "scenarios.hpp"
 #include "table.hpp"
 #include "targets.hpp"
