@@ -10,9 +10,7 @@
 #include <malloc.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <iostream>
 
 namespace bench {
 namespace {
@@ -93,16 +91,7 @@ void run_memory(const Options &options) {
             progress.step(kind.name());
         }
 
-    TextTable table(lines.front());
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-        if (i == 1 || lines[i][0] != lines[i - 1][0]) table.add({});
-        table.add(lines[i]);
-    }
-    std::filesystem::create_directories(options.results);
-    const std::string path = options.results + "/memory.csv";
-    write_csv(path, lines);
-    table.print(std::cout);
-    std::cout << "\nwritten: " << path << '\n';
+    publish(options.results, "memory.csv", lines);
 }
 
 }  // namespace bench

@@ -9,7 +9,6 @@
 #include "table.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 
 namespace bench {
@@ -21,7 +20,7 @@ constexpr double converged_displacement = 1e-7;
 /// So little that not one certificate among those of a million points is expected to fail.
 constexpr double swept_displacement = 1e-10;
 
-/// DELDRIFT_AUTO computes tolerances after a calm commit, or a calm round of relocations, and uses them after that.
+/// DELDRIFT_AUTO computes tolerances after a calm commit, or a calm round of relocations, and uses them later.
 constexpr std::size_t n_warm = 2;
 /// Consecutive rounds of relocations at a turn: at such sizes it matters what is in the caches.
 constexpr std::size_t rounds_at_a_turn = 4;
@@ -77,7 +76,8 @@ std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &en
         lane.seconds.clear();
     }
     for (std::size_t first = n_warm + 1; first <= last; first += turn) {
-        for (Lane &lane : lanes) replay.run_block(lane, first, std::min(first + turn - 1, last), go_on);
+        for (std::size_t i = 0; i < lanes.size(); ++i)
+            replay.run_block(lanes[(first + i) % lanes.size()], first, std::min(first + turn - 1, last), go_on);
         progress.step("timestamp " + std::to_string(first));
     }
 
@@ -91,7 +91,8 @@ std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &en
         std::vector<double> seconds;
         for (const auto &[timestamp, repeats] : lanes[i].seconds) seconds.push_back(repeats.front());
         const auto n_changes = static_cast<double>(lanes[i].engine->n_changes() - changes_before[i]);
-        outcomes.push_back({lanes[i].entrant->name(), 1e9 * median(seconds) / static_cast<double>(series.n_points),
+        outcomes.push_back({lanes[i].entrant->name(),
+                            1e9 * median(seconds) / static_cast<double>(series.n_points),
                             n_changes / static_cast<double>(last - n_warm)});
     }
     return outcomes;
@@ -133,7 +134,8 @@ public:
 private:
     void relocate(unsigned dimension, double wanted) {
         const std::size_t last = n_warm + sizes_.n_rounds;
-        Series series = trembling_points("still", dimension, sizes_.n_relocated, still_displacement, last, seed_);
+        Series series =
+            trembling_points("still", dimension, sizes_.n_relocated, still_displacement, last, seed_);
         series.is_sequential = true;
         const auto done = replay(series,
                                  {entrant("cgal/move", 1, last), entrant("deldrift/auto", 1, last),
@@ -145,17 +147,17 @@ private:
 
     void converge(unsigned dimension, double wanted) {
         const std::size_t last = n_warm + sizes_.n_commits;
-        const Series series = trembling_points("converged", dimension, sizes_.n_committed, converged_displacement,
-                                               last, seed_);
-        const auto done = replay(series, {entrant("cgal/rebuilding", 1, last), entrant("deldrift/auto", 1, last)}, 1,
-                                 checks_of(series), progress_);
+        const Series series =
+            trembling_points("converged", dimension, sizes_.n_committed, converged_displacement, last, seed_);
+        const auto done = replay(series, {entrant("cgal/rebuilding", 1, last), entrant("deldrift/auto", 1, last)},
+                                 1, checks_of(series), progress_);
         add("converged", series, done[0], done[1], wanted);
     }
 
     void sweep(unsigned dimension, double wanted) {
         const std::size_t last = n_warm + sizes_.n_commits;
-        const Series series = trembling_points("swept", dimension, sizes_.n_committed, swept_displacement, last,
-                                               seed_);
+        const Series series =
+            trembling_points("swept", dimension, sizes_.n_committed, swept_displacement, last, seed_);
         const auto done = replay(series,
                                  {entrant("cgal/rebuilding", 1, last), entrant("deldrift/repair", 1, last),
                                   entrant("deldrift/repair", 2, last)},
@@ -167,8 +169,8 @@ private:
     void build_anew(unsigned dimension) {
         const Series series = uniform_points(dimension, sizes_.n_committed, seed_);
         const EngineKind &kind = engine_kind("deldrift/rebuilding");
-        const auto n_repeats = static_cast<unsigned>(sizes_.n_commits);
-        const auto done = build(series, {{&kind, 1, {1}}, {&kind, 2, {1}}}, n_repeats, checks_of(series), progress_);
+        const auto done = build(series, {{&kind, 1, {1}}, {&kind, 2, {1}}},
+                                static_cast<unsigned>(sizes_.n_commits), checks_of(series), progress_);
         add("threads_build", series, done[0], done[1], wanted_of_two_threads);
     }
 
@@ -181,8 +183,8 @@ private:
 
     void add(const char *what, const Series &series, const Outcome &reference, const Outcome &contender,
              double wanted) {
-        targets_.push_back({what, series.dimension, series.n_points, reference.name, contender.name, reference.ns,
-                            contender.ns, wanted, contender.n_changes});
+        targets_.push_back({what, series.dimension, series.n_points, reference.name, contender.name,
+                            reference.ns, contender.ns, wanted, contender.n_changes});
     }
 
     TargetSizes sizes_;
@@ -208,29 +210,17 @@ void run_targets(const Options &options) {
     const std::vector<Target> targets =
         measure_targets(options.preset.name == "smoke" ? smoke : whole, options.seed, checks, progress);
 
-    std::vector<std::vector<std::string>> lines = {{"target", "dimension", "n", "reference", "reference_ns_per_vertex",
-                                                    "contender", "contender_ns_per_vertex", "ratio", "wanted",
-                                                    "verdict", "changes_per_update"}};
-    TextTable table({"target", "n", "reference", "ns", "contender", "ns", "ratio", "wanted", "", "changes"});
-    for (const Target &target : targets) {
-        const std::string dimension = std::to_string(target.dimension);
-        lines.push_back({target.what, dimension, std::to_string(target.n), target.reference,
-                         significant(target.reference_ns, 5), target.contender,
-                         significant(target.contender_ns, 5), significant(target.ratio(), 4),
+    std::vector<std::vector<std::string>> lines = {{"dimension", "target", "n", "reference", "reference_ns",
+                                                    "contender", "contender_ns", "ratio", "wanted", "verdict",
+                                                    "changes"}};
+    for (const Target &target : targets)
+        lines.push_back({std::to_string(target.dimension), target.what, std::to_string(target.n),
+                         target.reference, significant(target.reference_ns, 4), target.contender,
+                         significant(target.contender_ns, 4), significant(target.ratio(), 3),
                          significant(target.wanted, 2), target.verdict(), significant(target.n_changes, 3)});
-        if (&target == &targets.front() || target.dimension != (&target)[-1].dimension) table.add({});
-        table.add({target.what + ", " + dimension + "D", std::to_string(target.n), target.reference,
-                   significant(target.reference_ns, 3), target.contender, significant(target.contender_ns, 3),
-                   significant(target.ratio(), 3), significant(target.wanted, 2), target.verdict(),
-                   significant(target.n_changes, 3)});
-    }
-    table.print(std::cout);
-    std::cout << '\n';
     print_checks(std::cout, checks);
-    std::filesystem::create_directories(options.results);
-    const std::string path = options.results + "/targets.csv";
-    write_csv(path, lines);
-    std::cout << "\nwritten: " << path << '\n';
+    std::cout << '\n';
+    publish(options.results, "targets.csv", lines);
 }
 
 }  // namespace bench

@@ -37,7 +37,8 @@ struct Target {
     const char *verdict() const { return ratio() >= wanted ? "pass" : "missed"; }
 };
 
-/// Measures every target and compares the cells of all engines concerned at the end of each input. Throws Mismatch.
+/// Measures every target and compares the cells of all engines concerned at the end of each input. Throws
+/// Mismatch.
 std::vector<Target> measure_targets(const TargetSizes &sizes, std::uint64_t seed, std::vector<Checks> &checks,
                                     Progress &progress);
 
