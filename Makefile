@@ -1,10 +1,11 @@
-# deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is installed
-# where it is missing, as root or through sudo.
+# deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is
+# installed where it is missing, as root or through sudo.
 
 # quick (bench within three minutes on two cores, report within ten) or full (report within two hours)
 PRESET ?= quick
 PREFIX ?= /usr/local
-# Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy", make report ARGS="--scenario man"
+# Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy",
+# make report ARGS="--scenario man"
 ARGS ?=
 
 # Where cargo builds, and all others look for the library: one absolute path, CARGO_TARGET_DIR if that is set.

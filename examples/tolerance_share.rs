@@ -5,7 +5,8 @@
 //! the least of [`REPEATS`] replays:
 //!
 //! - *rebuilding*, *tolerance*, *repair* and *auto*;
-//! - *removal, insertion*: the report's placement (section 3.1), without a look at whether anything must change;
+//! - *removal, insertion*: the report's placement (section 3.1), without
+//!   a look at whether anything must change;
 //! - *placement* and *by flips*: with the improvements of section 3.2.
 //!
 //! Then, for 100,000 points, commits in which all vertices stay within tolerance: the cost of the test

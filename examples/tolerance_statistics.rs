@@ -13,13 +13,13 @@
 //! hold all points, so the least of their widths is the one. Before the table, random searches for better
 //! centres try to refute that.
 //!
-//! ε of a vertex is half the least width among the bi-cells that have it. *Certified* is the tolerance that deldrift works
-//! with: a lower bound of what is proved safe, in the plane by standard delimiters, in space by all that
-//! `predicates/tolerance.rs` demands, and at the hull by the certificates of the hull as well.
+//! ε of a vertex is half the least width among the bi-cells that have it. *Certified* is the tolerance that
+//! deldrift works with: a lower bound of what is proved safe, in the plane by standard delimiters, in space
+//! by all that `predicates/tolerance.rs` demands, and at the hull by the certificates of the hull as well.
 //!
-//! The report does not say what it does about the hull, where widths are larger. Beside the averages over all points stand
-//! those over interior ones, more than 3 spacings away from the circle or sphere, and over bi-cells of which all points are
-//! interior.
+//! The report does not say what it does about the hull, where widths are larger. Beside the averages over all
+//! points stand those over interior ones, more than 3 spacings away from the circle or sphere, and over
+//! bi-cells of which all points are interior.
 mod common;
 
 use common::Random;

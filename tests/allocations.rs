@@ -1,7 +1,8 @@
 //! In the steady state a commit allocates nothing: all that it works with has grown in the commits before.
 //!
-//! Vertices go round a fixed cycle of places, so that after some rounds every list has been as long as it will be.
-//! Every allocation and reallocation of the process is counted from then on, with the place in the sources that asks.
+//! Vertices go round a fixed cycle of places, so that after some rounds every list has been as
+//! long as it will be. Every allocation and reallocation of the process is counted from then on,
+//! with the place in the sources that asks.
 #![allow(unsafe_code)] // An allocator that counts has no other way to be one.
 
 mod common;
@@ -35,7 +36,8 @@ const STEADY: [(usize, Algorithm, &[f64]); 7] = [
 const N: usize = 1000;
 /// Timestamps of a round.
 const PLACES: usize = 8;
-/// Rounds before allocations are counted: *auto* waits for up to 64 commits until it tries something else again.
+/// Rounds before allocations are counted: *auto* waits for up to 64
+/// commits until it tries something else again.
 const WARM: usize = 20;
 const COUNTED: usize = 4;
 

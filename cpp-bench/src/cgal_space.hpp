@@ -105,9 +105,9 @@ std::vector<typename CgalSpace<dimension>::InputPoint> input_points(const double
     return input;
 }
 
-/// What CGAL's range insertion of bare points does, with ids: the input is sorted spatially in place and every
-/// point is inserted from the vertex before it. CGAL's own range insertion with info sorts indices instead and
-/// reaches for the points through them, which is slower on large inputs.
+/// What CGAL's range insertion of bare points does, with ids: the input is sorted spatially in place and
+/// every point is inserted from the vertex before it. CGAL's own range insertion with info sorts indices
+/// instead and reaches for the points through them, which is slower on large inputs.
 template <typename Space>
 void insert_sorted(typename Space::Triangulation &triangulation, std::vector<typename Space::InputPoint> &input) {
     CGAL::spatial_sort(input.begin(), input.end(), typename Space::SortTraits());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An engine keeps one Delaunay triangulation of moving points up to date. The harness sees nothing else of it.
+// An engine keeps one Delaunay triangulation of moving points up to date. The harness sees nothing else
+// of it.
 #pragma once
 
 #include <deldrift.h>
@@ -27,8 +28,8 @@ public:
     /// From the positions held to these, of the same points. This is what is timed.
     virtual void advance(const double *positions) = 0;
 
-    /// The same where vertices move one after another, in the order of their ids, and the triangulation must be
-    /// that of the positions so far after each of them. Engines that rebuild do so once for all.
+    /// The same where vertices move one after another, in the order of their ids, and the triangulation must
+    /// be that of the positions so far after each of them. Engines that rebuild do so once for all.
     virtual void advance_sequentially(const double *positions) { advance(positions); }
 
     /// Finite cells, dimension + 1 vertex ids each. Coincident points may appear under any of their ids.
@@ -51,7 +52,7 @@ using EngineMaker = std::function<std::unique_ptr<Engine>(unsigned dimension, un
 struct EngineKind {
     std::string engine;     // "cgal" or "deldrift"
     std::string algorithm;  // "rebuilding", "placement", ...
-    bool is_stateless;      // the result does not depend on earlier timestamps: it can be checked out of order
+    bool is_stateless;      // the result does not depend on earlier timestamps: can be checked out of order
     bool is_slow_in_3d;     // relocates every vertex by itself: timed on a sample of the timestamps in 3D
     EngineMaker make;
     bool is_reproduction = false;  // the report's algorithm on CGAL: elsewhere it runs where it is named only

@@ -39,8 +39,8 @@ double resident_bytes() {
     return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
-/// What the engine holds after the build, or after a commit that moves every point. The engine's own input is laid
-/// out before counting begins: a user has it anyway.
+/// What the engine holds after the build, or after a commit that moves every point. The engine's own input is
+/// laid out before counting begins: a user has it anyway.
 Usage usage_of(const EngineKind &kind, unsigned dimension, std::uint64_t seed, bool with_commit) {
     Series series = uniform_points(dimension, n_points, seed);
     const std::unique_ptr<Engine> engine = kind.make(dimension, 1);

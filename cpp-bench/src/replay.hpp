@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Replaying a series against the clock. Engines take turns in blocks of consecutive timestamps: long enough that
-// each works with the caches it would have if it were alone, short enough that a disturbance from outside falls
-// on all of them alike.
+// Replaying a series against the clock. Engines take turns in blocks of consecutive timestamps: long enough
+// that each works with the caches it would have if it were alone, short enough that a disturbance from
+// outside falls on all of them alike.
 #pragma once
 
 #include "series.hpp"
@@ -18,8 +18,8 @@
 namespace bench {
 
 /// From here on memory that is freed stays with the process. By default glibc gives back what was allocated
-/// in large pieces, and engines that do so would pay for fresh pages at every repeat, those that do not at the
-/// first one only.
+/// in large pieces, and engines that do so would pay for fresh pages at every repeat, those that do not at
+/// the first one only.
 void keep_memory();
 
 class Stopwatch {

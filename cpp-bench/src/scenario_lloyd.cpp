@@ -12,7 +12,8 @@ namespace {
 
 using Space = CgalSpace<2>;
 
-/// Every point to the centroid of its cell. A point whose cell has no area left (it coincides with another) stays.
+/// Every point to the centroid of its cell. A point whose cell has no
+/// area left (it coincides with another) stays.
 void iterate(const double *from, std::size_t n_points, double radius, const Density *density, double *to) {
     std::vector<Space::InputPoint> input = input_points<2>(from, n_points);
     Space::Triangulation triangulation;

@@ -20,7 +20,8 @@ constexpr double converged_displacement = 1e-7;
 /// So little that not one certificate among those of a million points is expected to fail.
 constexpr double swept_displacement = 1e-10;
 
-/// DELDRIFT_AUTO computes tolerances after a calm commit, or a calm round of relocations, and uses them later.
+/// DELDRIFT_AUTO computes tolerances after a calm commit, or a calm
+/// round of relocations, and uses them later.
 constexpr std::size_t n_warm = 2;
 /// Consecutive rounds of relocations at a turn: at such sizes it matters what is in the caches.
 constexpr std::size_t rounds_at_a_turn = 4;
