@@ -1,10 +1,11 @@
-# deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is installed
-# where it is missing, as root or through sudo.
+# deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is
+# installed where it is missing, as root or through sudo.
 
 # quick (bench within three minutes on two cores, report within ten) or full (report within two hours)
 PRESET ?= quick
 PREFIX ?= /usr/local
-# Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy", make report ARGS="--scenario man"
+# Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy",
+# make report ARGS="--scenario man"
 ARGS ?=
 
 # Where cargo builds, and all others look for the library: one absolute path, CARGO_TARGET_DIR if that is set.
@@ -16,7 +17,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test bench report memory large table lint header picture install library benchmark clean
+.PHONY: help test bench report memory large targets table lint header picture install library benchmark clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -44,6 +45,9 @@ memory: benchmark ## bytes per vertex, beside CGAL's: cpp-bench/results/memory.c
 
 large: benchmark ## 50 million points in 2D, 20 million in 3D: cpp-bench/results/large.csv
 	cpp-bench/run --large $(ARGS)
+
+targets: benchmark ## the speeds to be reached, beside those measured: cpp-bench/results/targets.csv
+	cpp-bench/run --targets $(ARGS)
 
 table: ## the measured figures of README.md, from cpp-bench/results
 	cpp-bench/readme_table

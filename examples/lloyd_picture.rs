@@ -1,5 +1,5 @@
-//! Draws the second picture of the README: Lloyd's iterations in a disk, each vertex coloured by how far it is about to
-//! move, in units of its tolerance.
+//! Draws the second picture of the README: Lloyd's iterations in a disk, each vertex coloured by how far it
+//! is about to move, in units of its tolerance.
 //!
 //! ```sh
 //! cargo run --release --example lloyd_picture > docs/lloyd.svg

@@ -1,11 +1,12 @@
-//! Draws the picture of the README: points in a disk are carried around by a vortex; three successive timestamps.
+//! Draws the picture of the README: points in a disk are carried around
+//! by a vortex; three successive timestamps.
 //!
 //! ```sh
 //! cargo run --release --example moving_picture > docs/moving.svg
 //! ```
 //!
-//! Everything drawn is read from the library: the cells, which of them the commit has changed, and the numbers in the
-//! captions.
+//! Everything drawn is read from the library: the cells, which of them the commit has
+//! changed, and the numbers in the captions.
 
 use deldrift::Error;
 use deldrift::delaunay::Plane;

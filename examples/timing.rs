@@ -1,31 +1,15 @@
 //! Static build, rebuilding commit and placement commit of random points, in ns per vertex.
+mod common;
+
+use common::Random;
 use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::*;
 use std::time::Instant;
 
-struct Random(u64);
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 fn run<G: Dimension>(n: usize) {
     let mut r = Random(7);
     let side = (n as f64).powf(1.0 / G::D as f64);
-    let mut p: Vec<G::Point> = (0..n)
-        .map(|_| {
-            let mut p = G::Point::default();
-            for k in 0..G::D {
-                p[k] = r.unit() * side;
-            }
-            p
-        })
-        .collect();
+    let mut p: Vec<G::Point> = (0..n).map(|_| r.in_cube::<G>(side)).collect();
     let repeats = (300_000 / n).max(1);
     let mut best = f64::MAX;
     for _ in 0..repeats.max(3) {

@@ -5,15 +5,19 @@
 //! the least of [`REPEATS`] replays:
 //!
 //! - *rebuilding*, *tolerance*, *repair* and *auto*;
-//! - *removal, insertion*: the report's placement (section 3.1), without a look at whether anything must change;
+//! - *removal, insertion*: the report's placement (section 3.1), without
+//!   a look at whether anything must change;
 //! - *placement* and *by flips*: with the improvements of section 3.2.
 //!
 //! Then, for 100,000 points, commits in which all vertices stay within tolerance: the cost of the test
 //! alone. *Staging* is what it takes to hand the positions over, whatever the algorithm.
 //!
 //! `cargo run --release --example tolerance_share`
+mod common;
+
 use std::time::Instant;
 
+use common::Random;
 use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 
@@ -21,42 +25,11 @@ const N: usize = 10_000;
 const COMMITS: usize = 10;
 const REPEATS: usize = 3;
 
-/// Splitmix64.
-struct Random(u64);
-
-impl Random {
-    /// In [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// In the ball of this radius.
-    fn in_ball<G: Dimension>(&mut self, radius: f64) -> G::Point {
-        loop {
-            let mut p = G::Point::default();
-            for k in 0..G::D {
-                p[k] = radius * (2.0 * self.unit() - 1.0);
-            }
-            if p.as_ref().iter().map(|x| x * x).sum::<f64>() <= radius * radius {
-                return p;
-            }
-        }
-    }
-}
-
 /// Random points, and where they are at each timestamp.
 fn walk<G: Dimension>(n: usize, step: f64, commits: usize) -> Vec<Vec<G::Point>> {
     let random = &mut Random(1);
     let side = (n as f64).powf(1.0 / G::D as f64);
-    let mut now = vec![G::Point::default(); n];
-    for p in &mut now {
-        for k in 0..G::D {
-            p[k] = side * random.unit();
-        }
-    }
+    let mut now: Vec<G::Point> = (0..n).map(|_| random.in_cube::<G>(side)).collect();
     let mut all = vec![now.clone()];
     for _ in 0..commits {
         for p in &mut now {

@@ -13,13 +13,16 @@
 //! hold all points, so the least of their widths is the one. Before the table, random searches for better
 //! centres try to refute that.
 //!
-//! ε of a vertex is half the least width among the bi-cells that have it. *Certified* is the tolerance that deldrift works
-//! with: a lower bound of what is proved safe, in the plane by standard delimiters, in space by all that
-//! `predicates/tolerance.rs` demands, and at the hull by the certificates of the hull as well.
+//! ε of a vertex is half the least width among the bi-cells that have it. *Certified* is the tolerance that
+//! deldrift works with: a lower bound of what is proved safe, in the plane by standard delimiters, in space
+//! by all that `predicates/tolerance.rs` demands, and at the hull by the certificates of the hull as well.
 //!
-//! The report does not say what it does about the hull, where widths are larger. Beside the averages over all points stand
-//! those over interior ones, more than 3 spacings away from the circle or sphere, and over bi-cells of which all points are
-//! interior.
+//! The report does not say what it does about the hull, where widths are larger. Beside the averages over all
+//! points stand those over interior ones, more than 3 spacings away from the circle or sphere, and over
+//! bi-cells of which all points are interior.
+mod common;
+
+use common::Random;
 use deldrift::delaunay::{Coordinates, Dimension, Plane, Space};
 use deldrift::motion::{MovingTriangulation, NO_CELL, Options};
 
@@ -30,34 +33,8 @@ const SEARCHED: usize = 200;
 /// Spacings from the boundary beyond which a point is interior.
 const MARGIN: f64 = 3.0;
 
-/// Splitmix64.
-struct Random(u64);
-
-impl Random {
-    /// In [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 fn norm<P: Coordinates>(p: &P) -> f64 {
     p.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// Uniform in the ball of this radius.
-fn in_ball<G: Dimension>(radius: f64, random: &mut Random) -> G::Point {
-    loop {
-        let mut p = G::Point::default();
-        for k in 0..G::D {
-            p[k] = radius * (2.0 * random.unit() - 1.0);
-        }
-        if norm(&p) <= radius {
-            return p;
-        }
-    }
 }
 
 /// A mean in the making.
@@ -183,7 +160,7 @@ fn measure<G: Dimension>(seed: u64, rows: &mut [[Mean; 2]; 8], ratios: &mut Vec<
     let unit_ball = if G::D == 2 { std::f64::consts::PI } else { 4.0 / 3.0 * std::f64::consts::PI };
     let radius = (N as f64 / unit_ball).powf(1.0 / G::D as f64);
     let random = &mut Random(seed);
-    let points: Vec<G::Point> = (0..N).map(|_| in_ball::<G>(radius, random)).collect();
+    let points: Vec<G::Point> = (0..N).map(|_| random.in_ball::<G>(radius)).collect();
     let t = MovingTriangulation::<G>::new(&points, Options::default()).expect("points in range");
     let is_interior = |v: u32| norm(&points[v as usize]) < radius - MARGIN;
 

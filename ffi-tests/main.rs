@@ -7,7 +7,7 @@
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `coverage.rs` | every function and every status of the header is used by some program |
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
-//! | `installation.rs` | programs that find an installed library through CMake and pkg-config (`--include-ignored`) |
+//! | `installation.rs` | programs that find the library by CMake or pkg-config (`--include-ignored`) |
 
 mod coverage;
 mod header;

@@ -173,9 +173,9 @@ enum deldrift_algorithm
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// The library chooses at each commit by what the last ones found: tolerance while next to all vertices stay
-    /// within it, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex in
-    /// twenty is staged: tolerance if that is up to date, else placement with flips.
+    /// The library chooses at each commit by what the last ones found: tolerance while next to all vertices
+    /// stay within it, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex
+    /// in twenty is staged: tolerance if that is up to date, else placement with flips.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.
     DELDRIFT_REBUILDING = 1,
@@ -206,8 +206,8 @@ enum deldrift_algorithm
     /// schemes that begin with large displacements and converge. To choose another algorithm and this one
     /// again starts over.
     DELDRIFT_REBUILDING_TOLERANCE = 7,
-    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and placements. Rebuilds
-    /// where too much fails.
+    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and
+    /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 8,
 };
 #ifndef __cplusplus

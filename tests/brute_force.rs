@@ -3,9 +3,10 @@
 mod common;
 
 use common::exact::{Grid, delaunay_cells, orientation, representatives, to_point};
+use common::history::ALGORITHMS;
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::delaunay::{Dimension, Plane, Space};
-use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
+use deldrift::motion::{Level, MovingTriangulation, Options};
 
 /// A point drawn by some rule.
 type Draw = fn(&mut Rng, usize) -> Grid;
@@ -106,17 +107,6 @@ fn builds_agree<G: Dimension>(n_seeds: u64, limit: usize) {
 
 /// Immediate calls and commits, each followed by the comparison.
 fn histories_agree<G: Dimension>(n_seeds: u64, limit: usize) {
-    const ALGORITHMS: [Algorithm; 9] = [
-        Algorithm::Rebuilding,
-        Algorithm::Placement,
-        Algorithm::PlacementFlips,
-        Algorithm::Tolerance,
-        Algorithm::SafeRegion,
-        Algorithm::SafeRegionTolerance,
-        Algorithm::RebuildingTolerance,
-        Algorithm::Repair,
-        Algorithm::Auto,
-    ];
     for (kind, draw) in KINDS {
         for seed in seeds(n_seeds) {
             let rng = &mut Rng::new(seed ^ 0xabcd_0000);

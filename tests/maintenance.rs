@@ -1,4 +1,5 @@
-//! The maintenance algorithms of the report, each by itself over many timestamps: its cells are those of a fresh build.
+//! The maintenance algorithms of the report, each by itself over many
+//! timestamps: its cells are those of a fresh build.
 //!
 //! Displacements are of the size of tolerances, so that every commit has vertices on both sides of the tests.
 

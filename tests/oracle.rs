@@ -1,5 +1,5 @@
-//! Any history against a fresh build: after every commit and every few immediate calls the cells must be those of a
-//! triangulation made at once of the present positions and ids (see `common/history.rs`).
+//! Any history against a fresh build: after every commit and every few immediate calls the cells must be
+//! those of a triangulation made at once of the present positions and ids (see `common/history.rs`).
 
 mod common;
 
@@ -171,7 +171,8 @@ fn coincidence_is_rejected<G: Dimension>() {
         for seed in seeds(20) {
             let rng = &mut Rng::new(seed);
             let mut t = rejecting::<G>(&points, algorithm);
-            // A permutation of some of the vertices, but for one that goes to the place of one that stays or comes.
+            // A permutation of some of the vertices, but for one that goes
+            // to the place of one that stays or comes.
             let mut vertices: Vec<u32> = (0..25).collect();
             rng.shuffle(&mut vertices);
             vertices.truncate(2 + rng.below(20));
@@ -268,8 +269,8 @@ impl Canceller {
     }
 }
 
-/// A commit is cancelled wherever the monitor is asked; each time the timestamp before is restored, coincident
-/// vertices included, and in the end the commit succeeds.
+/// A commit is cancelled wherever the monitor is asked; each time the timestamp before is restored,
+/// coincident vertices included, and in the end the commit succeeds.
 fn commits_are_cancelled_anywhere<G: Dimension>(n: usize) {
     for (kind, algorithm) in KINDS.into_iter().zip(ALGORITHMS.into_iter().cycle()) {
         let rng = &mut Rng::new(9);
@@ -551,8 +552,8 @@ fn rims_of_every_size_around_that_of_the_tables() {
     }
 }
 
-/// Points on two skew lines: every pair of consecutive points of one makes a cell with every pair of the other, so
-/// few neighbours mean many cells.
+/// Points on two skew lines: every pair of consecutive points of one makes a cell with every pair of the
+/// other, so few neighbours mean many cells.
 #[test]
 fn skew_lines_have_quadratically_many_cells() {
     let points: Vec<[f64; 3]> =

@@ -1,7 +1,7 @@
 //! *Repair* and *auto* under adversarial motion: after every commit the cells are those of a fresh build.
 //!
-//! Each history is a sequence of motions, drawn by its seed from those of [`MOTIONS`], on random points or on a grid, whose
-//! ties every motion breaks or makes. `DELDRIFT_SOAK` multiplies the number of seeds.
+//! Each history is a sequence of motions, drawn by its seed from those of [`MOTIONS`], on random points or on
+//! a grid, whose ties every motion breaks or makes. `DELDRIFT_SOAK` multiplies the number of seeds.
 
 mod common;
 
@@ -156,7 +156,8 @@ fn adversarial_motion_in_space_matches_fresh_builds() {
     all_agree::<Space>();
 }
 
-/// One vertex after another by *auto*, which turns to tolerances when little changes and away from them when much does.
+/// One vertex after another by *auto*, which turns to tolerances when little
+/// changes and away from them when much does.
 fn relocations_agree<G: Dimension>() {
     let mut rng = Rng::new(5);
     let mut now = beginning::<G>(32, &mut rng);

@@ -1,5 +1,5 @@
-//! Point sets that broke other codes, and a peer: published suites and real inputs, where they are at hand (see
-//! `common/files.rs`), and the plane's triangulations by spade.
+//! Point sets that broke other codes, and a peer: published suites and real inputs, where they are at hand
+//! (see `common/files.rs`), and the plane's triangulations by spade.
 
 mod common;
 
@@ -307,8 +307,8 @@ fn cgal_point_sets() {
     comes_and_goes::<Plane>(&circle, "circle325_2d");
 }
 
-/// CGAL's script: the first vertex of a queue moves to one of 22 places; where one is already, the two merge into
-/// one, otherwise it goes to the end of the queue.
+/// CGAL's script: the first vertex of a queue moves to one of 22 places; where one is already, the two merge
+/// into one, otherwise it goes to the end of the queue.
 #[test]
 fn cgal_moves_among_22_places() {
     let Some(json) = text("suites/cgal_points.json") else { return };

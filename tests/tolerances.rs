@@ -1,7 +1,7 @@
 //! Delimiters, separators, tolerances and the distance tests, against exact rational arithmetic.
 //!
-//! Doubles are integers times a common power of two, so inequalities between them are decided in integers. A bi-cell
-//! is its facet followed by both opposing vertices.
+//! Doubles are integers times a common power of two, so inequalities between them are decided in integers. A
+//! bi-cell is its facet followed by both opposing vertices.
 
 mod common;
 
@@ -98,7 +98,8 @@ fn exact<const D: usize>(points: &[[f64; D]]) -> (Vec<Integers>, i64) {
     (points.iter().map(|p| minus(p, &points[0])).collect(), scale)
 }
 
-/// Affine dependency of D + 2 points, λ of the first opposing vertex not negative, and the in-sphere determinant.
+/// Affine dependency of D + 2 points, λ of the first opposing vertex not
+/// negative, and the in-sphere determinant.
 fn dependency(points: &[Integers]) -> (Integers, BigInt) {
     let n = points.len();
     let mut lambda: Integers = (0..n)
@@ -118,8 +119,8 @@ fn dependency(points: &[Integers]) -> (Integers, BigInt) {
     (lambda, delta)
 }
 
-/// Whether the two cells have opposite sides of the facet to themselves, and then whether the facet is Delaunay, which must
-/// be certain.
+/// Whether the two cells have opposite sides of the facet to themselves, and then whether the facet is
+/// Delaunay, which must be certain.
 fn is_delaunay<const D: usize>(points: &[[f64; D]]) -> Option<bool> {
     let (lambda, delta) = dependency(&exact(points).0);
     (is_positive(&lambda[D]) && is_positive(&lambda[D + 1])).then(|| is_positive(&delta))
@@ -137,8 +138,8 @@ fn others(inside: &[usize], n: usize) -> Vec<usize> {
     (0..n).filter(|i| !inside.contains(i)).collect()
 }
 
-/// Half the width of the annulus with these points inside, and its centre; negative if they are outside, NaN if there is
-/// no centre.
+/// Half the width of the annulus with these points inside, and its centre; negative if
+/// they are outside, NaN if there is no centre.
 fn half_width<const D: usize>(points: &[[f64; D]], inside: &[usize]) -> (f64, [f64; D]) {
     let (p, scale) = exact(points);
     let outside = others(inside, D + 2);
@@ -311,7 +312,8 @@ struct Ratios(Vec<(Kind, f64)>);
 
 impl Ratios {
     fn add(&mut self, kind: Kind, certified: f64, exact: f64) {
-        // A rounded centre can be a better one: the standard delimiter is the best only where the width is small.
+        // A rounded centre can be a better one: the standard delimiter
+        // is the best only where the width is small.
         self.0.push((kind, certified / exact));
     }
 
@@ -435,7 +437,8 @@ fn moved<const D: usize>(p: &[f64; D], aim: &[f64; D], t: f64, factor: f64) -> [
     }
 }
 
-/// All points moved by `factor` t to the sphere around the centre from the sides that the partition gives them.
+/// All points moved by `factor` t to the sphere around the centre from
+/// the sides that the partition gives them.
 fn squeezed<const D: usize, const N: usize>(
     points: &[[f64; D]; N],
     inside: &[usize],
@@ -446,7 +449,8 @@ fn squeezed<const D: usize, const N: usize>(
     from_fn(|i| moved(&points[i], centre, t, if inside.contains(&i) { -factor } else { factor }))
 }
 
-/// Moves bi-cells by just under their certified tolerances, in the worst directions and in others: they stay Delaunay.
+/// Moves bi-cells by just under their certified tolerances, in the worst
+/// directions and in others: they stay Delaunay.
 fn survive<const D: usize, const N: usize>(
     n: usize,
     tolerance: impl Fn(&[[f64; D]; N]) -> f64,
@@ -575,7 +579,8 @@ fn the_standard_half_width_is_no_tolerance_in_space() {
     assert!((delimiter.half_width / s - 0.75).abs() < 0.01, "{delimiter:?}");
     assert!((separator.delimiter.tolerance / s - 0.5).abs() < 0.01, "{separator:?}");
     assert_eq!(separator.exception, 2);
-    // Every vertex moves by 0.6 s, less than the standard half-width, and stays on its side of the standard delimiter.
+    // Every vertex moves by 0.6 s, less than the standard half-width, and
+    // stays on its side of the standard delimiter.
     let q = points(s - 0.6 * s, 1.0 + 0.6 * s);
     assert!(are_apart(&q, &[0, 1, 2], &delimiter.centre, delimiter.radius, 0.1 * s));
     assert_eq!(is_delaunay(&q), Some(false));
@@ -649,8 +654,8 @@ fn paths_outside_spheres_are_certified() {
     paths_are_certified::<3>(60_000);
 }
 
-/// A simplex moves by just under its tolerance, towards the middle of every slab: it stays positive. And by a little more
-/// than that, where the slab is the narrowest: it does not.
+/// A simplex moves by just under its tolerance, towards the middle of every slab: it stays positive. And by a
+/// little more than that, where the slab is the narrowest: it does not.
 fn orientation_is_certified<const D: usize, const N: usize>(
     n: usize,
     tolerance: impl Fn(&[[f64; D]; N]) -> f64,

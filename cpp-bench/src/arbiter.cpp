@@ -61,7 +61,8 @@ public:
         return text;
     }
 
-    /// Whether there are facets that are not Delaunay, and the line through the opposing vertices misses them all.
+    /// Whether there are facets that are not Delaunay, and the line
+    /// through the opposing vertices misses them all.
     bool has_only_missed_facets(const CellSet &cells) const {
         std::map<Facet, std::vector<std::pair<const Cell *, unsigned>>> sides;
         for (const Cell &cell : cells)

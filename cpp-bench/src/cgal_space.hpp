@@ -4,6 +4,7 @@
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
@@ -28,23 +29,24 @@ struct VertexInfo {
     std::uint32_t n_sharers = 0;
 };
 
-template <unsigned dimension>
-struct CgalSpace;
+/// What a triangulation of either dimension has under other names.
+template <unsigned dimension, typename CgalTriangulation>
+struct SpaceOf;
 
-template <>
-struct CgalSpace<2> {
-    using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, CgalKernel>;
-    using DataStructure = CGAL::Triangulation_data_structure_2<VertexBase>;
-    using Triangulation = CGAL::Delaunay_triangulation_2<CgalKernel, DataStructure>;
-    using Point = Triangulation::Point;
-    using Vertex = Triangulation::Vertex_handle;
+template <typename CgalTriangulation>
+struct SpaceOf<2, CgalTriangulation> {
+    using Triangulation = CgalTriangulation;
+    using Point = typename Triangulation::Point;
+    using Vertex = typename Triangulation::Vertex_handle;
+    using Cell = typename Triangulation::Face_handle;
     using InputPoint = std::pair<Point, VertexInfo>;
-    using SortTraits = CGAL::Spatial_sort_traits_adapter_2<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
+    using SortTraits =
+        CGAL::Spatial_sort_traits_adapter_2<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
 
     static Point point(const double *coordinates) { return {coordinates[0], coordinates[1]}; }
 
-    /// A face at the vertex, from which to walk.
-    static Triangulation::Face_handle hint(Vertex vertex) { return vertex->face(); }
+    /// A cell at the vertex, from which to walk.
+    static Cell hint(Vertex vertex) { return vertex->face(); }
 
     template <typename Visit>
     static void for_each_cell(const Triangulation &triangulation, Visit visit) {
@@ -54,20 +56,19 @@ struct CgalSpace<2> {
     }
 };
 
-template <>
-struct CgalSpace<3> {
-    using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, CgalKernel>;
-    using DataStructure =
-        CGAL::Triangulation_data_structure_3<VertexBase, CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>>;
-    using Triangulation = CGAL::Delaunay_triangulation_3<CgalKernel, DataStructure>;
-    using Point = Triangulation::Point;
-    using Vertex = Triangulation::Vertex_handle;
+template <typename CgalTriangulation>
+struct SpaceOf<3, CgalTriangulation> {
+    using Triangulation = CgalTriangulation;
+    using Point = typename Triangulation::Point;
+    using Vertex = typename Triangulation::Vertex_handle;
+    using Cell = typename Triangulation::Cell_handle;
     using InputPoint = std::pair<Point, VertexInfo>;
-    using SortTraits = CGAL::Spatial_sort_traits_adapter_3<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
+    using SortTraits =
+        CGAL::Spatial_sort_traits_adapter_3<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
 
     static Point point(const double *coordinates) { return {coordinates[0], coordinates[1], coordinates[2]}; }
 
-    static Triangulation::Cell_handle hint(Vertex vertex) { return vertex->cell(); }
+    static Cell hint(Vertex vertex) { return vertex->cell(); }
 
     template <typename Visit>
     static void for_each_cell(const Triangulation &triangulation, Visit visit) {
@@ -77,9 +78,25 @@ struct CgalSpace<3> {
     }
 };
 
+using VertexBase2 = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, CgalKernel>;
+using VertexBase3 = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, CgalKernel>;
+using CellBase3 = CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>;
+
+template <unsigned dimension>
+struct CgalSpace;
+
+template <>
+struct CgalSpace<2> : SpaceOf<2, CGAL::Delaunay_triangulation_2<
+                                     CgalKernel, CGAL::Triangulation_data_structure_2<VertexBase2>>> {};
+
+template <>
+struct CgalSpace<3> : SpaceOf<3, CGAL::Delaunay_triangulation_3<
+                                     CgalKernel, CGAL::Triangulation_data_structure_3<VertexBase3, CellBase3>>> {};
+
 /// Points with their ids, in the order of the ids.
 template <unsigned dimension>
-std::vector<typename CgalSpace<dimension>::InputPoint> input_points(const double *positions, std::size_t n_points) {
+std::vector<typename CgalSpace<dimension>::InputPoint> input_points(const double *positions,
+                                                                    std::size_t n_points) {
     std::vector<typename CgalSpace<dimension>::InputPoint> input;
     input.reserve(n_points);
     for (std::size_t id = 0; id < n_points; ++id)
@@ -88,9 +105,9 @@ std::vector<typename CgalSpace<dimension>::InputPoint> input_points(const double
     return input;
 }
 
-/// What CGAL's range insertion of bare points does, with ids: the input is sorted spatially in place and every
-/// point is inserted from the vertex before it. CGAL's own range insertion with info sorts indices instead and
-/// reaches for the points through them, which is slower on large inputs.
+/// What CGAL's range insertion of bare points does, with ids: the input is sorted spatially in place and
+/// every point is inserted from the vertex before it. CGAL's own range insertion with info sorts indices
+/// instead and reaches for the points through them, which is slower on large inputs.
 template <typename Space>
 void insert_sorted(typename Space::Triangulation &triangulation, std::vector<typename Space::InputPoint> &input) {
     CGAL::spatial_sort(input.begin(), input.end(), typename Space::SortTraits());

@@ -21,8 +21,8 @@ struct ChildOutcome {
     std::size_t peak_resident_bytes;
 };
 
-/// Runs `work()` in a forked process and returns what it returned (plain data) and the greatest amount of memory
-/// the process had resident. Throws std::runtime_error where it failed or was killed.
+/// Runs `work()` in a forked process and returns what it returned (plain data) and the greatest amount of
+/// memory the process had resident. Throws std::runtime_error where it failed or was killed.
 template <typename Work>
 auto run_in_child(Work work) -> ChildOutcome<decltype(work())> {
     using Result = decltype(work());

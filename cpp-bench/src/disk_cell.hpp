@@ -24,13 +24,15 @@ struct AreaAndCentroid {
     Point2 centroid{0, 0};
 };
 
-/// Of the polygon's intersection with the disk of radius `radius`. No quadrature: seen from the disk's centre,
-/// every edge contributes signed triangles where it runs inside the disk and signed sectors where it runs outside.
+/// Of the polygon's intersection with the disk of radius `radius`. No quadrature: seen from
+/// the disk's centre, every edge contributes signed triangles where it runs inside the disk
+/// and signed sectors where it runs outside.
 AreaAndCentroid intersect_disk(const Polygon &polygon, double radius);
 
-/// Mass and centroid of a density on that intersection, by quadrature: it is swept by the segments from `site`, a
-/// point of it, to its boundary, and Gauss' rule with 6 points is used along the segments and along every straight or
-/// circular piece of the boundary (of at most half a radian). The shape is exact, and so are polynomials of degree 8.
+/// Mass and centroid of a density on that intersection, by quadrature: it is swept by the segments from
+/// `site`, a point of it, to its boundary, and Gauss' rule with 6 points is used along the segments and
+/// along every straight or circular piece of the boundary (of at most half a radian). The shape is
+/// exact, and so are polynomials of degree 8.
 AreaAndCentroid intersect_disk(const Polygon &polygon, double radius, const Point2 &site,
                                const std::function<double(double, double)> &density);
 

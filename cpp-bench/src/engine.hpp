@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An engine keeps one Delaunay triangulation of moving points up to date. The harness sees nothing else of it.
+// An engine keeps one Delaunay triangulation of moving points up to date. The harness sees nothing else
+// of it.
 #pragma once
+
+#include <deldrift.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,8 +28,8 @@ public:
     /// From the positions held to these, of the same points. This is what is timed.
     virtual void advance(const double *positions) = 0;
 
-    /// The same where vertices move one after another, in the order of their ids, and the triangulation must be
-    /// that of the positions so far after each of them. Engines that rebuild do so once for all.
+    /// The same where vertices move one after another, in the order of their ids, and the triangulation must
+    /// be that of the positions so far after each of them. Engines that rebuild do so once for all.
     virtual void advance_sequentially(const double *positions) { advance(positions); }
 
     /// Finite cells, dimension + 1 vertex ids each. Coincident points may appear under any of their ids.
@@ -36,16 +40,22 @@ public:
 
     /// What the library says it has allocated, or 0 where it does not say.
     virtual std::size_t reported_bytes() const { return 0; }
+
+    /// Flips, placements and rebuilds of all updates so far, or 0 where the library does not count them.
+    virtual std::uint64_t n_changes() const { return 0; }
 };
+
+/// Makes an engine for a dimension and a number of threads, which CGAL's take no notice of.
+using EngineMaker = std::function<std::unique_ptr<Engine>(unsigned dimension, unsigned n_threads)>;
 
 /// What the tables call an engine and how the harness may treat it.
 struct EngineKind {
     std::string engine;     // "cgal" or "deldrift"
     std::string algorithm;  // "rebuilding", "placement", ...
-    bool is_stateless;      // the result does not depend on earlier timestamps: it can be checked out of order
+    bool is_stateless;      // the result does not depend on earlier timestamps: can be checked out of order
     bool is_slow_in_3d;     // relocates every vertex by itself: timed on a sample of the timestamps in 3D
-    std::unique_ptr<Engine> (*make)(unsigned dimension, unsigned n_threads);
-    bool is_reproduction = false;  // the report's algorithm on CGAL: runs in the report, elsewhere where it is named
+    EngineMaker make;
+    bool is_reproduction = false;  // the report's algorithm on CGAL: elsewhere it runs where it is named only
 
     std::string name() const { return engine + "/" + algorithm; }
 };
@@ -63,14 +73,7 @@ std::unique_ptr<Engine> make_cgal_tolerance(unsigned dimension, unsigned n_threa
 std::unique_ptr<Engine> make_cgal_safe_region(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_cgal_safe_region_tolerance(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_cgal_rebuilding_tolerance(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_rebuilding(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_placement(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_placement_flips(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_tolerance(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_safe_region(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_safe_region_tolerance(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_rebuilding_tolerance(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_repair(unsigned dimension, unsigned n_threads);
-std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads);
+
+EngineMaker deldrift_by(deldrift_algorithm algorithm);
 
 }  // namespace bench

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CGAL, one vertex after another: by placement (insert at the new place, remove the old vertex) or by CGAL's own
-// `move_if_no_collision`.
+// CGAL, one vertex after another: by placement (insert at the new place, remove the old vertex) or by CGAL's
+// own `move_if_no_collision`.
 //
-// CGAL holds one vertex per place. Points at the same place therefore share a vertex that counts them, and every
-// point knows its vertex. A point that leaves a shared vertex is inserted anew and the vertex stays; a point that
-// lands on an occupied place joins the vertex there, and its own vertex goes when it was the last one at it. This
-// also covers a place that is occupied only until its occupant has been moved at the same timestamp.
+// CGAL holds one vertex per place. Points at the same place therefore share a vertex that counts them,
+// and every point knows its vertex. A point that leaves a shared vertex is inserted anew and the
+// vertex stays; a point that lands on an occupied place joins the vertex there, and its own vertex
+// goes when it was the last one at it. This also covers a place that is occupied only until its
+// occupant has been moved at the same timestamp.
 #include "cgal_space.hpp"
 #include "engine.hpp"
 

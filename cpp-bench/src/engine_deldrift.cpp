@@ -2,8 +2,6 @@
 // deldrift through its C interface: stage all positions, commit the timestamp.
 #include "engine.hpp"
 
-#include <deldrift.h>
-
 #include <stdexcept>
 
 namespace bench {
@@ -73,6 +71,12 @@ public:
         return bytes;
     }
 
+    std::uint64_t n_changes() const override {
+        deldrift_commit_report sums;
+        require(deldrift_statistics(triangulation_, &sums), "deldrift_statistics");
+        return sums.flips + sums.placements + sums.rebuilds;
+    }
+
 private:
     /// What the report calls pre-computations, of tolerances and delimiters, is done by the first commit.
     void pre_compute() {
@@ -90,40 +94,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Engine> make_deldrift_rebuilding(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_REBUILDING, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_placement(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_PLACEMENT, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_placement_flips(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_PLACEMENT_FLIPS, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_tolerance(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_TOLERANCE, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_safe_region(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_SAFE_REGION, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_safe_region_tolerance(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_SAFE_REGION_TOLERANCE, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_rebuilding_tolerance(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_REBUILDING_TOLERANCE, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_repair(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_REPAIR, n_threads);
-}
-
-std::unique_ptr<Engine> make_deldrift_auto(unsigned dimension, unsigned n_threads) {
-    return std::make_unique<Deldrift>(dimension, DELDRIFT_AUTO, n_threads);
+EngineMaker deldrift_by(deldrift_algorithm algorithm) {
+    return [algorithm](unsigned dimension, unsigned n_threads) {
+        return std::make_unique<Deldrift>(dimension, algorithm, n_threads);
+    };
 }
 
 }  // namespace bench

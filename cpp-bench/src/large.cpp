@@ -10,8 +10,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 
 namespace bench {
 namespace {
@@ -123,13 +121,7 @@ void run_large(const Options &options) {
                              significant(gib(outcome.peak_resident_bytes), 4)});
         }
     }
-    TextTable table(lines.front());
-    for (std::size_t i = 1; i < lines.size(); ++i) table.add(lines[i]);
-    std::filesystem::create_directories(options.results);
-    const std::string path = options.results + "/large.csv";
-    write_csv(path, lines);
-    table.print(std::cout);
-    std::cout << "\nwritten: " << path << '\n';
+    publish(options.results, "large.csv", lines);
 }
 
 }  // namespace bench

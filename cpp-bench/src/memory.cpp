@@ -10,9 +10,7 @@
 #include <malloc.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <iostream>
 
 namespace bench {
 namespace {
@@ -41,8 +39,8 @@ double resident_bytes() {
     return resident * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
-/// What the engine holds after the build, or after a commit that moves every point. The engine's own input is laid
-/// out before counting begins: a user has it anyway.
+/// What the engine holds after the build, or after a commit that moves every point. The engine's own input is
+/// laid out before counting begins: a user has it anyway.
 Usage usage_of(const EngineKind &kind, unsigned dimension, std::uint64_t seed, bool with_commit) {
     Series series = uniform_points(dimension, n_points, seed);
     const std::unique_ptr<Engine> engine = kind.make(dimension, 1);
@@ -93,16 +91,7 @@ void run_memory(const Options &options) {
             progress.step(kind.name());
         }
 
-    TextTable table(lines.front());
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-        if (i == 1 || lines[i][0] != lines[i - 1][0]) table.add({});
-        table.add(lines[i]);
-    }
-    std::filesystem::create_directories(options.results);
-    const std::string path = options.results + "/memory.csv";
-    write_csv(path, lines);
-    table.print(std::cout);
-    std::cout << "\nwritten: " << path << '\n';
+    publish(options.results, "memory.csv", lines);
 }
 
 }  // namespace bench

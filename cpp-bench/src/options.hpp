@@ -26,7 +26,7 @@ struct SeriesFile {
     std::size_t n_steps = 0;
 };
 
-enum class Task { run, report, memory, large, self_test, help };
+enum class Task { run, report, memory, large, targets, self_test, help };
 
 struct Options {
     Task task = Task::run;

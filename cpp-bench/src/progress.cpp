@@ -17,7 +17,8 @@ double seconds_since(std::chrono::steady_clock::time_point time) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - time).count();
 }
 
-/// "about 3 min left", from the part that is done and how long that took; nothing where it is too early to tell.
+/// "about 3 min left", from the part that is done and how long that
+/// took; nothing where it is too early to tell.
 std::string time_left(double fraction, double seconds) {
     if (fraction < 0.05 || fraction >= 1 || seconds < 3) return {};
     const double left = seconds * (1 - fraction) / fraction;

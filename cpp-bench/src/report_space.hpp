@@ -5,7 +5,6 @@
 
 #include "cgal_space.hpp"
 
-#include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 
@@ -19,22 +18,22 @@ template <unsigned dimension, typename CellInfo>
 struct ReportSpace;
 
 template <typename CellInfo>
-struct ReportSpace<2, CellInfo> {
-    static constexpr int n_corners = 3;
-    using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, CgalKernel>;
-    using CellBase = CGAL::Triangulation_face_base_with_info_2<CellInfo, CgalKernel>;
-    using Triangulation =
-        CGAL::Delaunay_triangulation_2<CgalKernel,
-                                       CGAL::Triangulation_data_structure_2<VertexBase, CellBase>>;
-    using Point = typename Triangulation::Point;
-    using Vertex = typename Triangulation::Vertex_handle;
-    using Cell = typename Triangulation::Face_handle;
-    using InputPoint = std::pair<Point, VertexInfo>;
-    using SortTraits =
-        CGAL::Spatial_sort_traits_adapter_2<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
+using ReportTriangulation2 = CGAL::Delaunay_triangulation_2<
+    CgalKernel, CGAL::Triangulation_data_structure_2<
+                    VertexBase2, CGAL::Triangulation_face_base_with_info_2<CellInfo, CgalKernel>>>;
+template <typename CellInfo>
+using ReportTriangulation3 = CGAL::Delaunay_triangulation_3<
+    CgalKernel, CGAL::Triangulation_data_structure_3<
+                    VertexBase3, CGAL::Triangulation_cell_base_with_info_3<CellInfo, CgalKernel, CellBase3>>>;
 
-    static Point point(const double *coordinates) { return {coordinates[0], coordinates[1]}; }
-    static Cell hint(Vertex vertex) { return vertex->face(); }
+template <typename CellInfo>
+struct ReportSpace<2, CellInfo> : SpaceOf<2, ReportTriangulation2<CellInfo>> {
+    using Base = SpaceOf<2, ReportTriangulation2<CellInfo>>;
+    using typename Base::Cell;
+    using typename Base::Point;
+    using typename Base::Triangulation;
+    using typename Base::Vertex;
+    static constexpr int n_corners = 3;
 
     /// All cells with the vertex, infinite ones too.
     static void star(const Triangulation &triangulation, Vertex vertex, std::vector<Cell> &cells) {
@@ -48,13 +47,6 @@ struct ReportSpace<2, CellInfo> {
     static void all_cells(const Triangulation &triangulation, std::vector<Cell> &cells) {
         for (auto cell = triangulation.all_faces_begin(); cell != triangulation.all_faces_end(); ++cell)
             cells.push_back(cell);
-    }
-
-    template <typename Visit>
-    static void for_each_cell(const Triangulation &triangulation, Visit visit) {
-        if (triangulation.dimension() < 2) return;
-        for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end(); ++face)
-            visit(std::array<Vertex, 3>{face->vertex(0), face->vertex(1), face->vertex(2)});
     }
 
     static bool is_positive(const Triangulation &triangulation, Cell cell) {
@@ -140,24 +132,13 @@ private:
 };
 
 template <typename CellInfo>
-struct ReportSpace<3, CellInfo> {
+struct ReportSpace<3, CellInfo> : SpaceOf<3, ReportTriangulation3<CellInfo>> {
+    using Base = SpaceOf<3, ReportTriangulation3<CellInfo>>;
+    using typename Base::Cell;
+    using typename Base::Point;
+    using typename Base::Triangulation;
+    using typename Base::Vertex;
     static constexpr int n_corners = 4;
-    using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, CgalKernel>;
-    using CellBase =
-        CGAL::Triangulation_cell_base_with_info_3<CellInfo, CgalKernel,
-                                                  CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>>;
-    using Triangulation =
-        CGAL::Delaunay_triangulation_3<CgalKernel,
-                                       CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
-    using Point = typename Triangulation::Point;
-    using Vertex = typename Triangulation::Vertex_handle;
-    using Cell = typename Triangulation::Cell_handle;
-    using InputPoint = std::pair<Point, VertexInfo>;
-    using SortTraits =
-        CGAL::Spatial_sort_traits_adapter_3<CgalKernel, CGAL::First_of_pair_property_map<InputPoint>>;
-
-    static Point point(const double *coordinates) { return {coordinates[0], coordinates[1], coordinates[2]}; }
-    static Cell hint(Vertex vertex) { return vertex->cell(); }
 
     static void star(const Triangulation &triangulation, Vertex vertex, std::vector<Cell> &cells) {
         cells.clear();
@@ -167,13 +148,6 @@ struct ReportSpace<3, CellInfo> {
     static void all_cells(const Triangulation &triangulation, std::vector<Cell> &cells) {
         for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end(); ++cell)
             cells.push_back(cell);
-    }
-
-    template <typename Visit>
-    static void for_each_cell(const Triangulation &triangulation, Visit visit) {
-        if (triangulation.dimension() < 3) return;
-        for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end(); ++cell)
-            visit(std::array<Vertex, 4>{cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)});
     }
 
     static bool is_positive(const Triangulation &triangulation, Cell cell) {

@@ -5,6 +5,7 @@
 #include "measure.hpp"
 #include "npy.hpp"
 #include "progress.hpp"
+#include "replay.hpp"
 #include "scenarios.hpp"
 #include "table.hpp"
 #include "verify.hpp"
@@ -12,9 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <limits>
-
-#include <malloc.h>
 
 namespace bench {
 namespace {
@@ -154,13 +152,6 @@ private:
     std::vector<Row> rows_;
     std::vector<Checks> checks_;
 };
-
-/// From here on memory that is freed stays with the process. By default glibc gives back what was allocated in large
-/// pieces, and engines that do so would pay for fresh pages at every repeat, those that do not at the first one only.
-void keep_memory() {
-    mallopt(M_MMAP_MAX, 0);
-    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-}
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cgal_space.hpp"
 #include "disk_cell.hpp"
-#include "random.hpp"
+#include "record.hpp"
 #include "scenarios.hpp"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 
 using Space = CgalSpace<2>;
 
-/// Every point to the centroid of its cell. A point whose cell has no area left (it coincides with another) stays.
+/// Every point to the centroid of its cell. A point whose cell has no
+/// area left (it coincides with another) stays.
 void iterate(const double *from, std::size_t n_points, double radius, const Density *density, double *to) {
     std::vector<Space::InputPoint> input = input_points<2>(from, n_points);
     Space::Triangulation triangulation;
@@ -40,12 +41,6 @@ void iterate(const double *from, std::size_t n_points, double radius, const Dens
 
 }  // namespace
 
-double unit_density_radius(unsigned dimension, std::size_t n_points) {
-    const double pi = std::acos(-1.0);
-    const double n = static_cast<double>(n_points);
-    return dimension == 2 ? std::sqrt(n / pi) : std::cbrt(3 * n / (4 * pi));
-}
-
 const std::vector<Density> &lloyd_densities() {
     static const std::vector<Density> densities = {
         {"lloyd_2d_r2", [](double x, double y) { return x * x + y * y; }},
@@ -62,47 +57,37 @@ const std::vector<Density> &lloyd_densities() {
 namespace {
 
 /// By rejection; no density here exceeds the greater of 1 and the squared radius.
-void sample(const Density &density, double radius, Random &random, double *point) {
+std::vector<double> sample(const Density &density, std::size_t n_points, Random &random) {
+    const double radius = unit_density_radius(2, n_points);
     const double greatest = density.name == "lloyd_2d_sin2" ? 1 : radius * radius;
-    do random.in_ball(2, radius, point);
-    while (random.unit() * greatest >= density.value(point[0], point[1]));
+    std::vector<double> points(2 * n_points);
+    for (std::size_t at = 0; at < points.size(); at += 2) {
+        do random.in_ball(2, radius, &points[at]);
+        while (random.unit() * greatest >= density.value(points[at], points[at + 1]));
+    }
+    return points;
 }
 
-Series record(const std::string &name, const Density *density, std::size_t n_points, std::size_t n_timestamps,
-              std::uint64_t seed, Progress &progress) {
-    Series series;
-    series.name = name;
-    series.dimension = 2;
-    series.n_points = n_points;
-    series.positions.resize((n_timestamps + 1) * 2 * n_points);
-    const double radius = unit_density_radius(2, n_points);
+Series record_lloyd(const std::string &name, const Density *density, std::size_t n_points,
+                    std::size_t n_timestamps, std::uint64_t seed, Progress &progress) {
     Random random(seed);
-    for (std::size_t id = 0; id < n_points; ++id) {
-        double *point = &series.positions[2 * id];
-        if (density)
-            sample(*density, radius, random, point);
-        else
-            random.in_ball(2, radius, point);
-    }
-    progress.begin(name + ": recording " + std::to_string(n_timestamps) + " timestamps", n_timestamps);
-    for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
-        iterate(series.frame(timestamp - 1), n_points, radius, density,
-                series.positions.data() + timestamp * series.frame_length());
-        progress.step();
-    }
-    return series;
+    const std::vector<double> start =
+        density ? sample(*density, n_points, random) : points_in_ball(2, n_points, random);
+    const double radius = unit_density_radius(2, n_points);
+    return record(name, 2, start, n_timestamps, progress,
+                  [&](const double *from, double *to) { iterate(from, n_points, radius, density, to); });
 }
 
 }  // namespace
 
 Series record_lloyd_2d_uniform(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
                                Progress &progress) {
-    return record("lloyd_2d_uniform", nullptr, n_points, n_timestamps, seed, progress);
+    return record_lloyd("lloyd_2d_uniform", nullptr, n_points, n_timestamps, seed, progress);
 }
 
 Series record_lloyd_2d(const Density &density, std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
                        Progress &progress) {
-    return record(density.name, &density, n_points, n_timestamps, seed, progress);
+    return record_lloyd(density.name, &density, n_points, n_timestamps, seed, progress);
 }
 
 }  // namespace bench

@@ -2,7 +2,7 @@
 // Optimal Delaunay triangulation (ODT), as far as the report's inputs need it: vertices move one after
 // another, each seeing the new places of those before, and the boundary stays.
 #include "body.hpp"
-#include "random.hpp"
+#include "record.hpp"
 #include "report_space.hpp"
 #include "scenarios.hpp"
 #include "spiral.hpp"
@@ -71,22 +71,14 @@ private:
 };
 
 /// The first `n_fixed` points stay. The order of the relocations is that of the ids.
-Series record(const std::string &name, const std::vector<Vector3> &points, std::size_t n_fixed,
-              const Contains &contains, std::size_t n_timestamps, Progress &progress) {
-    Series series;
-    series.name = name;
-    series.dimension = 3;
+Series record_odt(const std::string &name, const std::vector<Vector3> &points, std::size_t n_fixed,
+                  const Contains &contains, std::size_t n_timestamps, Progress &progress) {
+    std::vector<double> start;
+    for (const Vector3 &point : points) start.insert(start.end(), point.begin(), point.end());
+    Optimisation optimisation(start.data(), points.size(), n_fixed, contains);
+    Series series = record(name, 3, start, n_timestamps, progress,
+                           [&](const double *, double *to) { optimisation.sweep(to); });
     series.is_sequential = true;
-    series.n_points = points.size();
-    series.positions.resize((n_timestamps + 1) * 3 * points.size());
-    for (std::size_t id = 0; id < points.size(); ++id)
-        std::copy(points[id].begin(), points[id].end(), &series.positions[3 * id]);
-    Optimisation optimisation(series.frame(0), points.size(), n_fixed, contains);
-    progress.begin(name + ": recording " + std::to_string(n_timestamps) + " sweeps", n_timestamps);
-    for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
-        optimisation.sweep(series.positions.data() + timestamp * series.frame_length());
-        progress.step();
-    }
     return series;
 }
 
@@ -126,7 +118,7 @@ Series record_snodt(std::size_t n_points, std::size_t n_timestamps, std::uint64_
     points.resize(n_points);
     for (std::size_t id = n_fixed; id < n_points; ++id) random.in_ball(3, radius, points[id].data());
     const auto contains = [radius](const double *p) { return dot(vector(p), vector(p)) < radius * radius; };
-    return record("snodt", points, n_fixed, contains, n_timestamps, progress);
+    return record_odt("snodt", points, n_fixed, contains, n_timestamps, progress);
 }
 
 Series record_man(const Body &unscaled, std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
@@ -138,8 +130,8 @@ Series record_man(const Body &unscaled, std::size_t n_points, std::size_t n_time
     std::vector<Vector3> points = body.surface_points(n_fixed, random);
     const std::vector<Vector3> inner = body.inner_points(n_points - n_fixed, random);
     points.insert(points.end(), inner.begin(), inner.end());
-    Series series = record(
-        "man", points, n_fixed, [&](const double *p) { return body.contains(p); }, n_timestamps, progress);
+    const auto contains = [&](const double *p) { return body.contains(p); };
+    Series series = record_odt("man", points, n_fixed, contains, n_timestamps, progress);
     series.remark = "body: " + body.name();
     return series;
 }

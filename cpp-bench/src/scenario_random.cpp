@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "random.hpp"
+#include "record.hpp"
 #include "scenarios.hpp"
 
 #include <cmath>
@@ -32,25 +32,27 @@ void step_inside(Random &random, unsigned dimension, double step, double radius,
 
 }  // namespace
 
+double unit_density_radius(unsigned dimension, std::size_t n_points) {
+    const double pi = std::acos(-1.0);
+    const double n = static_cast<double>(n_points);
+    return dimension == 2 ? std::sqrt(n / pi) : std::cbrt(3 * n / (4 * pi));
+}
+
+std::vector<double> points_in_ball(unsigned dimension, std::size_t n_points, Random &random) {
+    const double radius = unit_density_radius(dimension, n_points);
+    std::vector<double> points(n_points * dimension);
+    for (std::size_t at = 0; at < points.size(); at += dimension) random.in_ball(dimension, radius, &points[at]);
+    return points;
+}
+
 Series record_walk_3d(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress) {
-    Series series;
-    series.name = "walk_3d";
-    series.dimension = 3;
-    series.n_points = n_points;
-    series.positions.resize((n_timestamps + 1) * 3 * n_points);
     const double radius = unit_density_radius(3, n_points);
     Random random(seed);
-    for (std::size_t id = 0; id < n_points; ++id) random.in_ball(3, radius, &series.positions[3 * id]);
-
-    progress.begin(series.name + ": recording " + std::to_string(n_timestamps) + " timestamps", n_timestamps);
-    for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
-        const double *from = series.frame(timestamp - 1);
-        double *to = series.positions.data() + timestamp * series.frame_length();
-        for (std::size_t id = 0; id < n_points; ++id) 
-            step_inside(random, 3, walk_step, radius, from + 3 * id, to + 3 * id);
-        progress.step();
-    }
-    return series;
+    const std::vector<double> start = points_in_ball(3, n_points, random);
+    return record("walk_3d", 3, start, n_timestamps, progress, [&](const double *from, double *to) {
+        for (std::size_t at = 0; at < start.size(); at += 3)
+            step_inside(random, 3, walk_step, radius, from + at, to + at);
+    });
 }
 
 Series record_segments(const std::string &name, unsigned dimension, std::size_t n_points,
@@ -62,8 +64,7 @@ Series record_segments(const std::string &name, unsigned dimension, std::size_t 
     series.n_points = n_points;
     const double radius = unit_density_radius(dimension, n_points);
     Random random(seed);
-    std::vector<double> start(n_points * dimension);
-    for (std::size_t id = 0; id < n_points; ++id) random.in_ball(dimension, radius, &start[id * dimension]);
+    const std::vector<double> start = points_in_ball(dimension, n_points, random);
 
     progress.begin(name + ": recording " + std::to_string(displacements.size()) + " displacements",
                    displacements.size());

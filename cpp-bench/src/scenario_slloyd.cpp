@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ball_cell.hpp"
-#include "random.hpp"
+#include "record.hpp"
 #include "report_space.hpp"
 #include "scenarios.hpp"
 #include "solid.hpp"
@@ -125,23 +125,11 @@ private:
 }  // namespace
 
 Series record_slloyd(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress) {
-    Series series;
-    series.name = "slloyd";
-    series.dimension = 3;
-    series.n_points = n_points;
-    series.positions.resize((n_timestamps + 1) * 3 * n_points);
     const double radius = unit_density_radius(3, n_points);
     Random random(seed);
-    for (std::size_t id = 0; id < n_points; ++id) random.in_ball(3, radius, &series.positions[3 * id]);
-
     BallCells ball_cells(radius, n_directions);
-    progress.begin(series.name + ": recording " + std::to_string(n_timestamps) + " timestamps", n_timestamps);
-    for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
-        Iteration(series.frame(timestamp - 1), n_points, radius)
-            .run(ball_cells, series.positions.data() + timestamp * series.frame_length());
-        progress.step();
-    }
-    return series;
+    return record("slloyd", 3, points_in_ball(3, n_points, random), n_timestamps, progress,
+                  [&](const double *from, double *to) { Iteration(from, n_points, radius).run(ball_cells, to); });
 }
 
 }  // namespace bench

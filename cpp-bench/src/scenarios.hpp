@@ -13,9 +13,6 @@
 
 namespace bench {
 
-/// Radius of the ball (disk) that has volume (area) `n_points`, so that they are at unit density in it.
-double unit_density_radius(unsigned dimension, std::size_t n_points);
-
 /// Lloyd's iterations in a disk at unit density: random points, and at each timestamp every point goes to the
 /// centroid of its Voronoi cell clipped to the disk.
 Series record_lloyd_2d_uniform(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
@@ -30,18 +27,19 @@ struct Density {
 /// The report's x^2 + y^2, x^2 and sin^2 of the distance from the centre.
 const std::vector<Density> &lloyd_densities();
 
-/// Lloyd's iterations as above, with a density: initial points are drawn by it, centroids are those of the density
-/// (quadrature: see disk_cell.hpp).
+/// Lloyd's iterations as above, with a density: initial points are drawn by it, centroids are those of the
+/// density (quadrature: see disk_cell.hpp).
 Series record_lloyd_2d(const Density &density, std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
                        Progress &progress);
 
-/// Lloyd's iterations of random points in a ball at unit density. The centroid of a Voronoi cell inside the ball is
-/// exact; that of a cell that reaches beyond is by quadrature over directions (ball_cell.hpp).
+/// Lloyd's iterations of random points in a ball at unit density. The centroid of a Voronoi cell inside the
+/// ball is exact; that of a cell that reaches beyond is by quadrature over directions (ball_cell.hpp).
 Series record_slloyd(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress);
 
-/// ODT in a ball at unit density, vertices moved one after another: the new place of a vertex is the mean of its
-/// star's circumcentres, weighted by volume. A point per unit of area is on the sphere (a spiral lattice) and
-/// stays; the others begin at random places inside. A vertex that would leave the ball stays for this sweep.
+/// ODT in a ball at unit density, vertices moved one after another: the new place of a vertex is
+/// the mean of its star's circumcentres, weighted by volume. A point per unit of area is on the
+/// sphere (a spiral lattice) and stays; the others begin at random places inside. A vertex that
+/// would leave the ball stays for this sweep.
 Series record_snodt(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress);
 
 class Body;
@@ -50,13 +48,13 @@ class Body;
 Series record_man(const Body &body, std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed,
                   Progress &progress);
 
-/// The new place of a vertex by ODT: `star` holds the other three corners of each of its cells. False if the star has
-/// no volume.
+/// The new place of a vertex by ODT: `star` holds the other three corners of each of
+/// its cells. False if the star has no volume.
 bool odt_place(const double *vertex, const std::vector<const double *> &star, double *place);
 
-/// Random points in a disk or ball at unit density, and segments that all begin there: at each of the `length`
-/// timestamps of a segment every point goes the segment's displacement in a random direction, drawn again where it
-/// would leave.
+/// Random points in a disk or ball at unit density, and segments that all begin there: at each of the
+/// `length` timestamps of a segment every point goes the segment's displacement in a random
+/// direction, drawn again where it would leave.
 Series record_segments(const std::string &name, unsigned dimension, std::size_t n_points,
                        const std::vector<double> &displacements, std::size_t length, std::uint64_t seed,
                        Progress &progress);
@@ -64,8 +62,8 @@ Series record_segments(const std::string &name, unsigned dimension, std::size_t 
 /// Length of a step of the random walk, as a share of the spacing (1 at unit density).
 constexpr double walk_step = 0.01;
 
-/// Random points in a ball at unit density; at each timestamp every point goes `walk_step` in a random direction,
-/// drawn again where it would leave the ball.
+/// Random points in a ball at unit density; at each timestamp every point goes `walk_step` in a random
+/// direction, drawn again where it would leave the ball.
 Series record_walk_3d(std::size_t n_points, std::size_t n_timestamps, std::uint64_t seed, Progress &progress);
 
 /// One frame of random points in the unit square or cube.
@@ -77,8 +75,8 @@ Series load_series(const std::string &path);
 /// Positions of points x dimension and as many displacements, applied in equal steps.
 Series load_displacement(const std::string &path, const std::string &displacement_path, std::size_t n_steps);
 
-/// Coordinates smaller than `magnitude` become 0, as some codes leave what rounding made of a zero and deldrift
-/// has a least magnitude. How many there were.
+/// Coordinates smaller than `magnitude` become 0, as some codes leave what rounding made of a zero and
+/// deldrift has a least magnitude. How many there were.
 std::size_t snap(Series &series, double magnitude);
 
 }  // namespace bench

@@ -9,8 +9,10 @@
 #include "npy.hpp"
 #include "options.hpp"
 #include "random.hpp"
+#include "record.hpp"
 #include "scenarios.hpp"
 #include "table.hpp"
+#include "targets.hpp"
 #include "tests.hpp"
 #include "verify.hpp"
 
@@ -258,16 +260,13 @@ private:
 
 template <Fault fault>
 void test_fault(Tests &tests, const std::string &what) {
-    const EngineKind kinds[] = {
-        {"cgal", "rebuilding", false, false,
-         [](unsigned dimension, unsigned n_threads) -> std::unique_ptr<Engine> {
-             return std::make_unique<Faulty<fault>>(make_cgal_rebuilding(dimension, n_threads));
-         }},
-        {"deldrift", "rebuilding", false, false,
-         [](unsigned dimension, unsigned n_threads) -> std::unique_ptr<Engine> {
-             return std::make_unique<Faulty<fault>>(make_deldrift_rebuilding(dimension, n_threads));
-         }},
-    };
+    std::vector<EngineKind> kinds = {engine_kind("cgal/rebuilding"), engine_kind("deldrift/rebuilding")};
+    for (EngineKind &kind : kinds) {
+        kind.is_stateless = false;
+        kind.make = [make = kind.make](unsigned dimension, unsigned n_threads) {
+            return std::make_unique<Faulty<fault>>(make(dimension, n_threads));
+        };
+    }
     const Series series = random_series(2, 100, 4);
     for (const EngineKind &kind : kinds) {
         const std::vector<Entrant> entrants = {{&kind, 1, every_timestamp(series)}};
@@ -373,6 +372,27 @@ void test_measure(Tests &tests) {
                  "table: significant digits");
 }
 
+void test_targets(Tests &tests) {
+    Progress progress(Progress::Output::silent);
+    std::vector<Checks> checks;
+    const std::vector<Target> targets = measure_targets({300, 5, 500, 2}, 1, checks, progress);
+    const auto is_measured = [](const Target &target) {
+        return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted > 1;
+    };
+    tests.expect(targets.size() == 12 && std::all_of(targets.begin(), targets.end(), is_measured),
+                 "targets: all are measured");
+    std::size_t n_comparisons = 0;
+    for (const Checks &check : checks) n_comparisons += check.n_comparisons;
+    tests.expect(n_comparisons == 20, "targets: the cells of all engines are compared");
+    const auto is_swept_in_vain = [](const Target &target) { return target.what == "swept" && target.n_changes > 0; };
+    tests.expect(std::none_of(targets.begin(), targets.end(), is_swept_in_vain),
+                 "targets: every certificate that is swept holds");
+    Target target = {"", 2, 1, "", "", 30, 10, 3, 0};
+    tests.expect(target.verdict() == std::string("pass"), "targets: reached");
+    target.contender_ns = 10.1;
+    tests.expect(target.verdict() == std::string("missed"), "targets: missed by little");
+}
+
 void test_options(Tests &tests) {
     const auto parse = [](std::vector<std::string> words) {
         words.insert(words.begin(), "run");
@@ -409,6 +429,7 @@ bool run_self_test() {
     test_generated_series(tests);
     test_options(tests);
     test_measure(tests);
+    test_targets(tests);
     test_engines_agree(tests);
     test_faults_are_found(tests);
     test_report(tests);

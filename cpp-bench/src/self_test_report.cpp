@@ -6,6 +6,7 @@
 #include "disk_cell.hpp"
 #include "engine.hpp"
 #include "random.hpp"
+#include "record.hpp"
 #include "report_replay.hpp"
 #include "report_statistics.hpp"
 #include "report_tolerance.hpp"

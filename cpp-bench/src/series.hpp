@@ -8,8 +8,8 @@
 
 namespace bench {
 
-/// A part of a series that begins anew: engines are built at frame `first` - 1, and timestamps `first` to `last`
-/// follow. Frames between segments are where the next one begins.
+/// A part of a series that begins anew: engines are built at frame `first` - 1, and timestamps `first` to
+/// `last` follow. Frames between segments are where the next one begins.
 struct Segment {
     std::size_t first;
     std::size_t last;

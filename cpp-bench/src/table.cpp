@@ -5,8 +5,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
-#include <ostream>
+#include <iostream>
 #include <stdexcept>
 
 namespace bench {
@@ -96,6 +97,19 @@ void write_csv(const std::string &path, const std::vector<std::vector<std::strin
         file << '\n';
     }
     if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+}
+
+void publish(const std::string &folder, const std::string &file,
+             const std::vector<std::vector<std::string>> &lines) {
+    TextTable table(lines.front());
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        if (i == 1 || lines[i][0] != lines[i - 1][0]) table.add({});
+        table.add(lines[i]);
+    }
+    table.print(std::cout);
+    std::filesystem::create_directories(folder);
+    write_csv(folder + "/" + file, lines);
+    std::cout << "\nwritten: " << folder << '/' << file << '\n';
 }
 
 }  // namespace bench

@@ -49,6 +49,11 @@ void write_csv(const std::string &path, const std::vector<Row> &rows);
 /// The lines as they are, comma-separated, the first being the header.
 void write_csv(const std::string &path, const std::vector<std::vector<std::string>> &lines);
 
+/// The same to a file in a folder that is made where it is missing, and to standard output as an aligned
+/// table, with a rule where the first column changes.
+void publish(const std::string &folder, const std::string &file,
+             const std::vector<std::vector<std::string>> &lines);
+
 /// A number with so many significant digits, without an exponent where that is readable.
 std::string significant(double value, int digits);
 

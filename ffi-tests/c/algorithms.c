@@ -40,8 +40,8 @@ static void has_the_cells_of_a_fresh_creation(const deldrift_triangulation *t, u
     deldrift_destroy(fresh);
 }
 
-// A random walk with long steps, one with steps of which some are within tolerance, and one on a grid, where there
-// are ties and coincident vertices.
+// A random walk with long steps, one with steps of which some are within tolerance, and one on a grid, where
+// there are ties and coincident vertices.
 typedef enum { FAR, NEAR, ON_GRID } motion;
 
 // What has been seen of one algorithm.

@@ -13,9 +13,9 @@ use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRul
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_algorithm {
-    /// The library chooses at each commit by what the last ones found: tolerance while next to all vertices stay
-    /// within it, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex in
-    /// twenty is staged: tolerance if that is up to date, else placement with flips.
+    /// The library chooses at each commit by what the last ones found: tolerance while next to all vertices
+    /// stay within it, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex
+    /// in twenty is staged: tolerance if that is up to date, else placement with flips.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.
     DELDRIFT_REBUILDING = 1,
@@ -46,8 +46,8 @@ pub enum deldrift_algorithm {
     /// schemes that begin with large displacements and converge. To choose another algorithm and this one
     /// again starts over.
     DELDRIFT_REBUILDING_TOLERANCE = 7,
-    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and placements. Rebuilds
-    /// where too much fails.
+    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and
+    /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 8,
 }
 

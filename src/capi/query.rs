@@ -6,7 +6,7 @@ use super::fence;
 use super::motion::{deldrift_commit_report, point_for};
 use super::pointers;
 use super::status::{Failure, deldrift_status};
-use super::triangulation::{Kernel, deldrift_triangulation, dimension_of, in_its_dimension};
+use super::triangulation::{deldrift_triangulation, dimension_of, in_its_dimension, tell};
 use crate::delaunay::Dimension;
 use crate::motion::{CellsView, Level, Location, MovingTriangulation, NO_CELL};
 
@@ -89,7 +89,7 @@ pub unsafe extern "C" fn deldrift_vertex_count(
     count: *mut usize,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.vertex_count())) }
+    unsafe { tell!(t, count, t => t.vertex_count()) }
 }
 
 /// How many ids have been given, to *count: valid ids are below it, those of removed vertices too.
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn deldrift_id_count(
     count: *mut usize,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.id_count())) }
+    unsafe { tell!(t, count, t => t.id_count()) }
 }
 
 /// How many cells there are, to *count.
@@ -113,7 +113,7 @@ pub unsafe extern "C" fn deldrift_cell_count(
     count: *mut usize,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.cell_count())) }
+    unsafe { tell!(t, count, t => t.cell_count()) }
 }
 
 /// How many moves are staged for the next timestamp, to *count.
@@ -125,7 +125,7 @@ pub unsafe extern "C" fn deldrift_staged_count(
     count: *mut usize,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell_count(t, count, |kernel| in_its_dimension!(kernel, t => t.staged_count())) }
+    unsafe { tell!(t, count, t => t.staged_count()) }
 }
 
 /// How many bytes of memory the triangulation holds, to *bytes, what its views show included.
@@ -137,7 +137,7 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
     bytes: *mut usize,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { fence::tell(t, "bytes", bytes, |kernel| Ok(in_its_dimension!(kernel, t => t.memory_bytes()))) }
+    unsafe { tell!(t, bytes, t => t.memory_bytes()) }
 }
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
@@ -149,9 +149,7 @@ pub unsafe extern "C" fn deldrift_timestamp(
     timestamp: *mut u64,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(t, "timestamp", timestamp, |kernel| Ok(in_its_dimension!(kernel, t => t.timestamp())))
-    }
+    unsafe { tell!(t, timestamp, t => t.timestamp()) }
 }
 
 /// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
@@ -164,9 +162,7 @@ pub unsafe extern "C" fn deldrift_statistics(
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(t, "report", report, |kernel| Ok(in_its_dimension!(kernel, t => t.statistics()).into()))
-    }
+    unsafe { tell!(t, report, t => t.statistics().into()) }
 }
 
 /// Whether a vertex of this id is present, to *present: false if it has been removed or never was.
@@ -179,9 +175,7 @@ pub unsafe extern "C" fn deldrift_is_present(
     present: *mut bool,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(t, "present", present, |kernel| Ok(in_its_dimension!(kernel, t => t.is_present(vertex))))
-    }
+    unsafe { tell!(t, present, t => t.is_present(vertex)) }
 }
 
 /// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
@@ -247,7 +241,7 @@ pub unsafe extern "C" fn deldrift_cells(
     view: *mut deldrift_cells_view,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { fence::tell(t, "view", view, |kernel| Ok(view_of_cells(kernel))) }
+    unsafe { tell!(t, view, t => view_of_cells(t)) }
 }
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
@@ -330,7 +324,7 @@ pub unsafe extern "C" fn deldrift_tolerance(
     out: *mut f64,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { fence::tell(t, "out", out, |kernel| Ok(in_its_dimension!(kernel, t => t.tolerance(vertex))?)) }
+    unsafe { tell!(t, out, t => t.tolerance(vertex)?) }
 }
 
 /// The annulus widths of all bi-cells: entry i of the row of a cell, in the order of deldrift_cells, is
@@ -421,14 +415,7 @@ pub unsafe extern "C" fn deldrift_locate(
     location: *mut deldrift_location,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(
-            t,
-            "location",
-            location,
-            |kernel| in_its_dimension!(kernel, t => Ok(t.locate(point_for(t, "position", position)?)?.into())),
-        )
-    }
+    unsafe { tell!(t, location, t => t.locate(point_for(t, "position", position)?)?.into()) }
 }
 
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
@@ -446,10 +433,8 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
     unsafe {
-        fence::tell(t, "vertex", vertex, |kernel| {
-            in_its_dimension!(kernel, t => {
-                Ok(t.nearest_vertex(point_for(t, "position", position)?)?.unwrap_or(DELDRIFT_NONE))
-            })
+        tell!(t, vertex, t => {
+            t.nearest_vertex(point_for(t, "position", position)?)?.unwrap_or(DELDRIFT_NONE)
         })
     }
 }
@@ -465,11 +450,7 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     representative: *mut u32,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(t, "representative", representative, |kernel| {
-            Ok(in_its_dimension!(kernel, t => t.coincident_representative(vertex))?)
-        })
-    }
+    unsafe { tell!(t, representative, t => t.coincident_representative(vertex)?) }
 }
 
 /// The cells of now that did not exist before the latest commit, to *view, as indices into
@@ -484,9 +465,9 @@ pub unsafe extern "C" fn deldrift_changed_cells(
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
     unsafe {
-        fence::tell(t, "view", view, |kernel| {
-            let changed = in_its_dimension!(kernel, t => t.changed_cells())?;
-            Ok(deldrift_indices_view { count: changed.len(), indices: start_of(changed) })
+        tell!(t, view, t => {
+            let changed = t.changed_cells()?;
+            deldrift_indices_view { count: changed.len(), indices: start_of(changed) }
         })
     }
 }
@@ -512,19 +493,6 @@ pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, lev
             in_its_dimension!(kernel, t => t.validate(level)).map_err(Failure::Invalid)
         })
     }
-}
-
-/// Tells a count.
-///
-/// # Safety
-/// As for [`fence::tell`].
-unsafe fn tell_count(
-    t: *const deldrift_triangulation,
-    count: *mut usize,
-    body: impl FnOnce(&Kernel) -> usize,
-) -> deldrift_status {
-    // SAFETY: the caller's promise.
-    unsafe { fence::tell(t, "count", count, |kernel| Ok(body(kernel))) }
 }
 
 /// What the caller has provided for a copy.
@@ -573,16 +541,14 @@ fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: u32) -> G::
     })
 }
 
-fn view_of_cells(kernel: &Kernel) -> deldrift_cells_view {
-    in_its_dimension!(kernel, t => {
-        let CellsView { corners, neighbours } = t.cells();
-        deldrift_cells_view {
-            count: corners.len(),
-            corners_per_cell: dimension_of(t) as u32 + 1,
-            vertices: start_of(corners).cast(),
-            neighbours: start_of(neighbours).cast(),
-        }
-    })
+fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> deldrift_cells_view {
+    let CellsView { corners, neighbours } = t.cells();
+    deldrift_cells_view {
+        count: corners.len(),
+        corners_per_cell: G::D as u32 + 1,
+        vertices: start_of(corners).cast(),
+        neighbours: start_of(neighbours).cast(),
+    }
 }
 
 /// Where a list begins, NULL if it is empty: an empty slice of Rust begins at an address that means

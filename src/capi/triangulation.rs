@@ -39,6 +39,17 @@ macro_rules! in_its_dimension {
 }
 pub(super) use in_its_dimension;
 
+/// Evaluates an expression on a triangulation, in its dimension, and writes the result to an argument: what
+/// [`fence::tell`] says goes for this too.
+macro_rules! tell {
+    ($handle:expr, $argument:ident, $t:ident => $body:expr) => {
+        $crate::capi::fence::tell($handle, stringify!($argument), $argument, |kernel| {
+            $crate::capi::triangulation::in_its_dimension!(kernel, $t => Ok($body))
+        })
+    };
+}
+pub(super) use tell;
+
 impl deldrift_triangulation {
     fn new(kernel: Kernel) -> Self {
         Self {
@@ -202,11 +213,7 @@ pub unsafe extern "C" fn deldrift_dimension(
     dimension: *mut u32,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(t, "dimension", dimension, |kernel| {
-            Ok(in_its_dimension!(kernel, t => dimension_of(t)) as u32)
-        })
-    }
+    unsafe { tell!(t, dimension, t => dimension_of(t) as u32) }
 }
 
 /// The number of coordinates of a point of `t`.
@@ -243,9 +250,5 @@ pub unsafe extern "C" fn deldrift_get_algorithm(
     algorithm: *mut AlgorithmCode,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(t, "algorithm", algorithm, |kernel| {
-            Ok(options::algorithm_code(in_its_dimension!(kernel, t => t.algorithm())))
-        })
-    }
+    unsafe { tell!(t, algorithm, t => options::algorithm_code(t.algorithm())) }
 }

@@ -15,9 +15,9 @@
 use super::{Cell, Complex, Facet};
 
 impl Complex<[u32; 3]> {
-    /// Replaces the edge between two finite cells by the one between its opposing vertices; the two cells keep
-    /// their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`, and `q` across: `c`
-    /// becomes `p b q` and its neighbour `q a p`.
+    /// Replaces the edge between two finite cells by the one between its opposing vertices; the two cells
+    /// keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`, and `q` across:
+    /// `c` becomes `p b q` and its neighbour `q a p`.
     pub(crate) fn flip(&mut self, facet: Facet) {
         let (c, i) = (facet.cell(), facet.index());
         let across = self.cell(c).neighbour(i);
@@ -43,8 +43,9 @@ pub struct Undo {
 }
 
 impl Complex<[u32; 4]> {
-    /// Replaces the two finite cells of a facet by three around the edge between their opposing vertices, and returns the
-    /// facets on the boundary of both. The caller has reserved a cell and knows that the exchange is geometrically valid.
+    /// Replaces the two finite cells of a facet by three around the edge between their opposing
+    /// vertices, and returns the facets on the boundary of both. The caller has reserved a cell and
+    /// knows that the exchange is geometrically valid.
     pub(crate) fn flip_2_3(&mut self, facet: Facet) -> ([Facet; 6], Undo) {
         let c = facet.cell();
         let (old, across) = (*self.cell(c), self.cell(c).neighbour(facet.index()));
@@ -64,9 +65,9 @@ impl Complex<[u32; 4]> {
         (outer, Undo { dead: [(c, old), (d, beyond), (d, beyond)], made: Some(e) })
     }
 
-    /// Replaces the three finite cells around an edge by two that share the triangle around it, and returns the facets on
-    /// the boundary of both. The edge is opposite the two corners `k` and that of `facet` in the cell of `facet`; `None`, and no change, if it has not
-    /// exactly three cells.
+    /// Replaces the three finite cells around an edge by two that share the triangle around it, and returns
+    /// the facets on the boundary of both. The edge is opposite the two corners `k` and that of `facet` in
+    /// the cell of `facet`; `None`, and no change, if it has not exactly three cells.
     pub(crate) fn flip_3_2(&mut self, facet: Facet, k: usize) -> Option<([Facet; 6], Undo)> {
         let c = facet.cell();
         let old = *self.cell(c);

@@ -1,7 +1,7 @@
 //! Room for large arrays.
 //!
-//! An array of many megabytes that is written once in storage order costs a page fault every few kilobytes: a fifth of
-//! a 2D build of a million sites. Where the system has large pages for those who ask, ask.
+//! An array of many megabytes that is written once in storage order costs a page fault every few kilobytes: a
+//! fifth of a 2D build of a million sites. Where the system has large pages for those who ask, ask.
 
 #![allow(unsafe_code)]
 
@@ -24,8 +24,8 @@ pub(crate) fn reserve<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })
 }
 
-/// Makes sure that an array of so many entries could be had: for those who take one without a way to say that there is
-/// none.
+/// Makes sure that an array of so many entries could be had: for those who take one
+/// without a way to say that there is none.
 pub(crate) fn make_sure_of<T>(count: usize) -> Result<()> {
     let mut array = Vec::<T>::new();
     let reserved = array.try_reserve_exact(count);
@@ -38,8 +38,8 @@ fn advise_large_pages(start: *mut u8, bytes: usize) {
     const PAGE: usize = 4096;
     let skipped = start.align_offset(PAGE);
     if skipped < bytes {
-        // SAFETY: the range is whole pages of an allocation of ours; the advice changes no content. Whether it is
-        // taken is a matter of speed alone, so the result is not needed.
+        // SAFETY: the range is whole pages of an allocation of ours; the advice changes no content. Whether
+        // it is taken is a matter of speed alone, so the result is not needed.
         unsafe {
             libc::madvise(start.add(skipped).cast(), (bytes - skipped) / PAGE * PAGE, libc::MADV_HUGEPAGE)
         };

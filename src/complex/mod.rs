@@ -1,18 +1,19 @@
 //! Combinatorics alone: cells, their neighbours, the ghost vertex. Knows no coordinates.
 //!
-//! A complex is a closed pseudo-manifold: the *ghost* (infinite) vertex [`INFINITE`] completes the convex hull,
-//! so that every facet has exactly two cells. A *ghost cell* has the ghost vertex as its last corner.
+//! A complex is a closed pseudo-manifold: the *ghost* (infinite) vertex [`INFINITE`] completes the convex
+//! hull, so that every facet has exactly two cells. A *ghost cell* has the ghost vertex as its last corner.
 //!
 //! Invariants, for every live cell `c` and index `i`:
-//! - neighbours are mutual: if `neighbour(c, i)` is facet `j` of `d`, then `neighbour(d, j)` is facet `i` of `c`;
+//! - neighbours are mutual: if `neighbour(c, i)` is facet `j` of `d`, then
+//!   `neighbour(d, j)` is facet `i` of `c`;
 //! - the two cells have the same corners but for the ones opposite the facet;
 //! - only the last corner may be [`INFINITE`].
 //!
 //! A neighbour is stored with the index of the shared facet seen from the other side, in the two low bits:
 //! crossing a facet costs no search. That bounds the number of cells by [`MAX_CELLS`].
 //!
-//! Methods that take a cell's index are for this crate alone and do not check it (checks cost 5 % of a 3D build): by the
-//! invariants, an index read from a live cell is that of a live cell.
+//! Methods that take a cell's index are for this crate alone and do not check it (checks cost 5 % of a 3D
+//! build): by the invariants, an index read from a live cell is that of a live cell.
 
 #![allow(unsafe_code)]
 
@@ -272,8 +273,8 @@ impl<C: Corners> Complex<C> {
         self.set_mark(cell, 0);
     }
 
-    /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to set, but for the facet
-    /// opposite corner 0.
+    /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to
+    /// set, but for the facet opposite corner 0.
     #[inline(always)]
     pub(crate) fn put_glued(&mut self, cell: u32, corners: C, neighbours: C) {
         self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
@@ -336,8 +337,8 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`, without gaps;
-    /// returns the new index of each.
+    /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`,
+    /// without gaps; returns the new index of each.
     pub(crate) fn sort(&mut self, n_sites: usize) -> Result<Vec<u32>> {
         let lowest = |cell: &Cell<C>| cell.corners.as_ref().iter().copied().fold(NONE, u32::min) as usize;
         let n_live = self.cells.len() - self.free.len();

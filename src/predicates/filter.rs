@@ -113,8 +113,8 @@ const PREPARED_3D: f64 = {
     term.plus(term).plus(term).last_plus(lift.times(volume))
 };
 
-/// Planes in place of spheres keep the bound of those, see `sphere.rs`. The rounded square of the largest extent is
-/// their exact scale: [`SQUARE`] grants it an error that it has not.
+/// Planes in place of spheres keep the bound of those, see `sphere.rs`. The rounded square of the largest
+/// extent is their exact scale: [`SQUARE`] grants it an error that it has not.
 const _: () = {
     let term = MINOR.times(SQUARE).times(DIFFERENCE);
     assert!(term.plus(term).last_plus(term) <= PREPARED_3D);

@@ -1,10 +1,10 @@
 //! The in-circle determinant as seen from the point that is tested.
 //!
 //! With the differences u, v, w from `q` to the corners of a triangle, the determinant is
-//! `|u|² v×w + |v|² w×u + |w|² u×v`. A search of neighbouring triangles with one `q` meets every difference, every square
-//! and every cross product of an edge more than once: kept, they leave 16 operations to a test, of 25. The bound is
-//! derived like those of the other determinants, for this operation order, and is static only: what it leaves
-//! uncertain goes to [`incircle`](super::incircle).
+//! `|u|² v×w + |v|² w×u + |w|² u×v`. A search of neighbouring triangles with one `q` meets every difference,
+//! every square and every cross product of an edge more than once: kept, they leave 16 operations to a test,
+//! of 25. The bound is derived like those of the other determinants, for this operation order, and is static
+//! only: what it leaves uncertain goes to [`incircle`](super::incircle).
 
 /// A point as seen from another: the difference, and its square.
 #[derive(Clone, Copy, Debug)]
@@ -28,9 +28,10 @@ impl Lifted {
     }
 }
 
-/// Positive if the place that they are seen from is inside the circle of the counter-clockwise triangle of `u`, `v` and
-/// `w`, negative if outside; open if the magnitude is not above [`StaticFilter::prepared`](super::StaticFilter). The
-/// cross products are those of `u` and `v`, `v` and `w`, `w` and `u`.
+/// Positive if the place that they are seen from is inside the circle of the
+/// counter-clockwise triangle of `u`, `v` and `w`, negative if outside; open if the magnitude
+/// is not above [`StaticFilter::prepared`](super::StaticFilter). The cross products are those
+/// of `u` and `v`, `v` and `w`, `w` and `u`.
 #[inline(always)]
 pub fn side_of_seen_circle([u, v, w]: [&Lifted; 3], [uv, vw, wu]: [f64; 3]) -> f64 {
     u.square * vw + v.square * wu + w.square * uv
@@ -41,7 +42,8 @@ mod tests {
     use super::*;
     use crate::predicates::{StaticFilter, incircle};
 
-    /// A certain answer is that of the exact predicate, on random points and on points a few ulps from a circle.
+    /// A certain answer is that of the exact predicate, on random
+    /// points and on points a few ulps from a circle.
     #[test]
     fn certain_answers_are_exact() {
         let mut state = 5u64;

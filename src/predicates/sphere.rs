@@ -1,16 +1,17 @@
 //! The sphere of a cell, prepared once to be tested against many points.
 //!
-//! The in-sphere determinant is linear in the lift of its last point. With the differences u, v, w from corner `a` of
-//! a cell to the others and s to the point, and a vector *n* and a volume *V* of the cell alone,
+//! The in-sphere determinant is linear in the lift of its last point. With the
+//! differences u, v, w from corner `a` of a cell to the others and s to the point, and a
+//! vector *n* and a volume *V* of the cell alone,
 //!
 //! ```text
 //! in-sphere = s·n − |s|² V,    space: V = [u v w],    n = |u|² v × w − |v|² u × w + |w|² u × v
 //!                              plane: V = u × v,      n = |u|² (v_y, −v_x) − |v|² (u_y, −u_x)
 //! ```
 //!
-//! since u·n = |u|² V, and likewise for v and w, determines n. A test costs 9 or 14 operations instead of 25 or 74. The bound is
-//! derived like those of the other determinants, for this operation order, and is static only: what it leaves uncertain
-//! goes to [`incircle`](super::incircle) or [`insphere`](super::insphere).
+//! since u·n = |u|² V, and likewise for v and w, determines n. A test costs 9 or 14 operations instead of 25
+//! or 74. The bound is derived like those of the other determinants, for this operation order, and is static
+//! only: what it leaves uncertain goes to [`incircle`](super::incircle) or [`insphere`](super::insphere).
 //!
 //! The half-space beyond a hull facet is the sphere of a ghost cell: V = 0 and n is the facet's outer normal,
 //! times [`StaticFilter::largest_square`], so that its values have the same degree. Their sign is that of the

@@ -8,8 +8,9 @@
 //!
 //! Section 4 of the report follows the rounding errors through the division that gives C. There is no need:
 //! *every* point C' is the centre of a delimiter if the farthest vertex of the facet is nearer to it, at r',
-//! than the nearest opposing vertex, at R'. So C' is computed by any formula, and errors are bounded from there:
-//! those of five distances between given points. What the error of C' costs is width, and very little of that.
+//! than the nearest opposing vertex, at R'. So C' is computed by any formula, and errors are bounded from
+//! there: those of five distances between given points. What the error of C' costs is width, and very little
+//! of that.
 //!
 //! Let u = 2⁻⁵³. A squared distance rounds every difference, its square and D − 1 sums: its relative error
 //! is within (1 ± u)ᴰ⁺², that of its root within (1 ± u)ᵏ, k = (D + 4)/2. With the rounded roots r, R and the
@@ -21,16 +22,16 @@
 //!
 //! R − ρ is exact and ρ − r at most u R/2 off (ρ ≥ R/2), and so is the last subtraction: the half-width is
 //! min(ρ − r, R − ρ) less (k + 1) u R, rounded up for the second order. That is a lower bound of the distance
-//! of all D + 2 points from the *stored* sphere, the rounding of its centre and radius included. A form free of
-//! cancellation, R² − r² = (c − f)·((c − C) + (f − C)), would not do better here: the stored centre
-//! alone is u R off.
+//! of all D + 2 points from the *stored* sphere, the rounding of its centre and radius included. A form free
+//! of cancellation, R² − r² = (c − f)·((c − C) + (f − C)), would not do better here: the stored centre alone
+//! is u R off.
 //!
 //! # In the plane, this proves the triangulation
 //!
 //! Let λ be the affine dependency of the moved points, λ_c and λ_d > 0 (the two cells are positive). For any
-//! sphere, the in-sphere determinant is Δ = Σ λᵢ powᵢ, a sum over the powers of the points. If all vertices of
-//! the facet have λ < 0, a delimiter makes every term positive. In the plane the only other case is that one
-//! point is in the hull of the others, and then Δ > 0 by convexity of the lift.
+//! sphere, the in-sphere determinant is Δ = Σ λᵢ powᵢ, a sum over the powers of the points. If all vertices
+//! of the facet have λ < 0, a delimiter makes every term positive. In the plane the only other case is that
+//! one point is in the hull of the others, and then Δ > 0 by convexity of the lift.
 //!
 //! # In space it does not
 //!
@@ -38,20 +39,21 @@
 //! passes the facet beyond the edge `ab`, as it does in two thirds of the bi-cells of random points (a flip
 //! would be 3-2 there).
 //! A sphere that holds `a`, `b`, `e` and neither `c` nor `d` then says *nothing* about the sign of Δ. With
-//! a, b = (0, 0, ±1) and c, d, e at distance 1 + s around the z axis, 120° apart, all three facets at the edge
-//! `ab` have annuli of half-width ¾ s to first order, and yet moving every vertex by ½ s makes all five
+//! a, b = (0, 0, ±1) and c, d, e at distance 1 + s around the z axis, 120° apart, all three facets at the
+//! edge `ab` have annuli of half-width ¾ s to first order, and yet moving every vertex by ½ s makes all five
 //! cospherical. So in space the report's Proposition 1 is wrong, and its tolerance is not one.
 //!
 //! Let the points be separated for *each* of four partitions: `abe | cd`, and for each vertex e of the facet
 //! `ab | ecd`. Then Δ > 0 whatever the signs of λ, as long as λ_c, λ_d > 0. A partition is separated
 //!
-//! - by a sphere with the first part (the facet, or `ab`) inside and the second outside: if the signs of λ are those
-//!   of the partition, all terms of Δ are positive;
-//! - or by a plane: then the hulls of both parts do not meet, so they are not the signs of λ. In the slab parallel to `ab`
-//!   and `cd` let `ab` be at height 0. Then `c` and `d` are at height h = \[abcd\] / |ab × cd|, and e is at
-//!   H = \[abec − abed\] / |ab × cd|. Choose the orientation so that H > 0. If h > 0, the plane at half the lesser of
-//!   both excludes `ab | ecd`; if h < 0, that at h / 2 excludes `abe | cd`. This costs hardly anything, as
-//!   the vectors and volumes are those of the centre, and is enough unless `cd` passes close to `ab`.
+//! - by a sphere with the first part (the facet, or `ab`) inside and the second outside: if the signs of λ
+//!   are those of the partition, all terms of Δ are positive;
+//! - or by a plane: then the hulls of both parts do not meet, so they are not the signs of λ. In the slab
+//!   parallel to `ab` and `cd` let `ab` be at height 0. Then `c` and `d` are at height
+//!   h = \[abcd\] / |ab × cd|, and e is at H = \[abec − abed\] / |ab × cd|. Choose the orientation so that
+//!   H > 0. If h > 0, the plane at half the lesser of both excludes `ab | ecd`; if h < 0, that at h / 2
+//!   excludes `abe | cd`. This costs hardly anything, as the vectors and volumes are those of the centre, and
+//!   is enough unless `cd` passes close to `ab`.
 //!
 //! A sphere needs a margin only for the partition in force, that of the signs of λ: its sphere is the
 //! [separator](super::separator3d). The least width that any other partition has is the
@@ -60,35 +62,37 @@
 //!
 //! # From bi-cells to the triangulation
 //!
-//! Move all vertices from the old to the new positions at constant speed and look at the first moment at which some Δ
-//! vanishes or some cell has no volume. By the above it is the latter. The empty sphere of the flat cell tends to a
-//! sphere or to a half-space. If to a sphere, its corners are cocircular or two of them equal, and some partition
-//! 2 | 2 or 1 | 1 of them is not separated; but those above contain it. If to a half-space, cells have flattened up to
-//! the hull, which the [orientation tolerances](orientation_tolerance3d) of its cells and at its ridges exclude.
+//! Move all vertices from the old to the new positions at constant speed and look at the first moment at
+//! which some Δ vanishes or some cell has no volume. By the above it is the latter. The empty sphere of the
+//! flat cell tends to a sphere or to a half-space. If to a sphere, its corners are cocircular or two of them
+//! equal, and some partition 2 | 2 or 1 | 1 of them is not separated; but those above contain it. If to a
+//! half-space, cells have flattened up to the hull, which the
+//! [orientation tolerances](orientation_tolerance3d) of its cells and at its ridges exclude.
 //!
-//! So points must be on their sides *all the way*. Inside a sphere, and in a ball around the old position, they are
-//! if they are at the end; outside a sphere they need not be. For safe regions, which are larger than the balls of
-//! the tolerances, this is a second gap in Proposition 1, in both dimensions: a vertex can jump across a delimiter,
-//! out on the other side, and invert a cell. See [`is_path_certainly_outside`].
+//! So points must be on their sides *all the way*. Inside a sphere, and in a ball around the old position,
+//! they are if they are at the end; outside a sphere they need not be. For safe regions, which are larger
+//! than the balls of the tolerances, this is a second gap in Proposition 1, in both dimensions: a vertex can
+//! jump across a delimiter, out on the other side, and invert a cell. See [`is_path_certainly_outside`].
 //!
 //! # Orientation
 //!
 //! D + 1 points get into one hyperplane no sooner than, for some partition of them (Radon), the hulls of both
-//! parts meet. The parts are in the two faces of a slab whose normal n is orthogonal to all differences within
-//! each part; its width is the determinant over |n|, with the *same* determinant for all partitions: three
-//! heights in the plane; in space four heights and three distances of opposite edges. Points moved by less than
-//! half the least width stay on their sides of all middles, and those moved by as much can be brought together:
-//! the tolerance is det / (2 max |n|). Rounded: the determinant less the bound of `filter.rs` (a last sum there
-//! counts relative to the result, 1 − u), over the greatest norm plus the error of its components. A minor
-//! of differences is 8 u off, relative to extents; a sum of three minors 34 u, by the rules of `filter.rs`;
+//! parts meet. The parts are in the two faces of a slab whose normal n is orthogonal to all differences
+//! within each part; its width is the determinant over |n|, with the *same* determinant for all partitions:
+//! three heights in the plane; in space four heights and three distances of opposite edges. Points moved by
+//! less than half the least width stay on their sides of all middles, and those moved by as much can be
+//! brought together: the tolerance is det / (2 max |n|). Rounded: the determinant less the bound of
+//! `filter.rs` (a last sum there counts relative to the result, 1 − u), over the greatest norm plus the error
+//! of its components. A minor of differences is 8 u off, relative to extents; a sum of three minors 34 u, by
+//! the rules of `filter.rs`;
 //! |n| therefore at most √3 times that, in units of the largest extent squared.
 //!
 //! # Underflow
 //!
-//! Products that underflow are at most 2⁻¹⁰⁷⁵ off in addition. All thresholds are safe with coordinates of any
-//! magnitude up to 1e57, subnormal ones included: distances are only trusted above 1e-140 ([`LEAST`]),
-//! whose square is 2¹⁴⁰ times that error with u taken off, and determinants above 1e-250, where such an error has been
-//! multiplied by a difference of at most 2e57.
+//! Products that underflow are at most 2⁻¹⁰⁷⁵ off in addition. All thresholds are safe with coordinates of
+//! any magnitude up to 1e57, subnormal ones included: distances are only trusted above 1e-140 ([`LEAST`]),
+//! whose square is 2¹⁴⁰ times that error with u taken off, and determinants above 1e-250, where such an error
+//! has been multiplied by a difference of at most 2e57.
 //!
 //! # Cost
 //!
@@ -115,11 +119,11 @@ pub struct Delimiter<P> {
     pub centre: P,
     /// Radius of the delimiter.
     pub radius: f64,
-    /// Certified lower bound of the distance of the D + 2 points from this sphere, half the annulus width; 0 if none
-    /// is certain.
+    /// Certified lower bound of the distance of the D + 2 points from this sphere, half
+    /// the annulus width; 0 if none is certain.
     pub half_width: f64,
-    /// Certified displacement of all D + 2 points up to which their sides of this sphere decide, see the module; infinite
-    /// in the plane.
+    /// Certified displacement of all D + 2 points up to which their sides of this sphere decide, see the
+    /// module; infinite in the plane.
     pub reach: f64,
     /// Certified lower bound of the tolerance: the lesser of half-width and reach.
     pub tolerance: f64,
@@ -144,8 +148,8 @@ const fn half_width_error(dimension: usize) -> f64 {
     (dimension + 6) as f64 / 2.0 * UNIT * ROUND_UP
 }
 
-/// Bounds of determinants / product of extents: 6 u and 40 u to first order (`filter.rs`). Underflow is left to
-/// [`LEAST_DETERMINANT`].
+/// Bounds of determinants / product of extents: 6 u and 40 u to first order (`filter.rs`).
+/// Underflow is left to [`LEAST_DETERMINANT`].
 const ORIENT_2D: f64 = 7.0 * UNIT;
 pub(super) const ORIENT_3D: f64 = 41.0 * UNIT;
 /// Bound of a component of a vector product of differences / largest extent², times √3 or more.
@@ -181,8 +185,8 @@ pub fn distance_above<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
     square.sqrt() * ABOVE
 }
 
-/// What the [`squared_distance`] of a vertex from its fixed position must be below for the distance to be certainly below
-/// its tolerance; 0, which nothing is below, if that is too small to tell.
+/// What the [`squared_distance`] of a vertex from its fixed position must be below for the distance to be
+/// certainly below its tolerance; 0, which nothing is below, if that is too small to tell.
 #[inline(always)]
 pub fn displacement_limit(tolerance: f64) -> f64 {
     // Twice the least distance, so that its square is certainly above that of the least.
@@ -209,10 +213,11 @@ pub fn is_certainly_outside<const D: usize>(centre: &[f64; D], radius: f64, p: &
     square > radius * radius * SQUARE_ABOVE + LEAST * LEAST && square < f64::INFINITY
 }
 
-/// Whether a point that goes straight from one place to the other is certainly strictly outside the sphere all the way.
+/// Whether a point that goes straight from one place to the other is certainly
+/// strictly outside the sphere all the way.
 ///
-/// By Stewart's theorem the middle of a segment is nowhere nearer, in squares, than the nearer end less a quarter of
-/// the squared length.
+/// By Stewart's theorem the middle of a segment is nowhere nearer, in squares, than the nearer end less a
+/// quarter of the squared length.
 #[inline(always)]
 pub fn is_path_certainly_outside<const D: usize>(
     centre: &[f64; D],
@@ -265,8 +270,8 @@ fn annulus2d<T: Real>([o, f, c, d]: &[[T; 2]; 4]) -> ([T; 2], T, T) {
     (centre, radius, half_width)
 }
 
-/// Radius of the sphere in the middle and certified half-width, from the greatest squared distance of points inside
-/// and the least of points outside.
+/// Radius of the sphere in the middle and certified half-width, from the greatest squared distance of points
+/// inside and the least of points outside.
 #[inline(always)]
 pub(super) fn middle<T: Real, const D: usize>(inner: T, outer: T) -> (T, T) {
     let (r, big) = (inner.sqrt(), outer.sqrt());
@@ -277,8 +282,8 @@ pub(super) fn middle<T: Real, const D: usize>(inner: T, outer: T) -> (T, T) {
     (radius, half_width.max(T::splat(0.0)))
 }
 
-/// Certified lower bound of the tolerance of the orientation of a triangle: half its least height. 0 unless the triangle
-/// is certainly positive.
+/// Certified lower bound of the tolerance of the orientation of a triangle: half its least height. 0 unless
+/// the triangle is certainly positive.
 #[inline]
 pub fn orientation_tolerance2d([a, b, c]: [&[f64; 2]; 3]) -> f64 {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
@@ -289,8 +294,8 @@ pub fn orientation_tolerance2d([a, b, c]: [&[f64; 2]; 3]) -> f64 {
     non_negative((volume - bound) / (square.sqrt() + LEAST) * HALF)
 }
 
-/// Certified lower bound of the tolerance of the orientation of a tetrahedron: half the least of its heights and of the
-/// distances of opposite edges. 0 unless the tetrahedron is certainly positive.
+/// Certified lower bound of the tolerance of the orientation of a tetrahedron: half the least of its heights
+/// and of the distances of opposite edges. 0 unless the tetrahedron is certainly positive.
 #[inline]
 pub fn orientation_tolerance3d([a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
     let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));

@@ -1,9 +1,9 @@
 //! Delaunay triangulation by definition, in exact integers: slow, small, and independent of the library.
 //!
-//! A cell is a set of `D + 1` vertices, not in one hyperplane, whose sphere holds no other vertex. Ties are broken
-//! by raising the lift of the vertex of id i by εᵢ, the highest id dominating: the in-sphere determinant is linear
-//! in every lift, so its sign is that of the unperturbed determinant or, if that vanishes, of the first cofactor
-//! of a lift that does not, from the highest id down.
+//! A cell is a set of `D + 1` vertices, not in one hyperplane, whose sphere holds no other vertex. Ties are
+//! broken by raising the lift of the vertex of id i by εᵢ, the highest id dominating: the in-sphere
+//! determinant is linear in every lift, so its sign is that of the unperturbed determinant or, if that
+//! vanishes, of the first cofactor of a lift that does not, from the highest id down.
 
 use super::{CellSet, sorted};
 use deldrift::delaunay::Dimension;
@@ -50,7 +50,8 @@ pub fn is_inside(points: &[&Grid], ids: &[u32]) -> bool {
         p.iter().map(|&x| i128::from(x)).chain([1, lift]).collect()
     };
     let rows: Vec<Vec<i128>> = points.iter().map(row).collect();
-    // The lift is the last column: cofactor of row i is the determinant without row i and that column, signed.
+    // The lift is the last column: cofactor of row i is the
+    // determinant without row i and that column, signed.
     let cofactor = |i: usize| {
         let rows: Vec<Vec<i128>> =
             (0..rows.len()).filter(|&k| k != i).map(|k| rows[k][..rows.len() - 1].to_vec()).collect();

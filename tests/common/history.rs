@@ -350,7 +350,8 @@ impl<G: Dimension> History<G> {
         to_grid::<G>(&self.at(v))
     }
 
-    /// Orientations of a cell with each of its corners replaced by a point: none is negative iff the cell holds it.
+    /// Orientations of a cell with each of its corners replaced by a
+    /// point: none is negative iff the cell holds it.
     fn sides(&self, cell: &G::Corners, q: &Grid) -> Vec<i128> {
         let corners: Vec<Grid> = cell.as_ref().iter().map(|&v| self.grid(v)).collect();
         let side = |i: usize| {

@@ -1,5 +1,5 @@
-//! Inputs of every kind that has broken a Delaunay code, with coordinates that are multiples of [`QUANTUM`] so that
-//! [`exact`](super::exact) can judge them.
+//! Inputs of every kind that has broken a Delaunay code, with coordinates that are multiples of [`QUANTUM`]
+//! so that [`exact`](super::exact) can judge them.
 
 use super::exact::Grid;
 use super::{Rng, point};

@@ -85,8 +85,8 @@ pub fn cell_set<G: Dimension>(t: &MovingTriangulation<G>) -> CellSet {
     t.cells().corners.iter().map(|c| sorted(c.as_ref())).collect()
 }
 
-/// The cells of a fresh build of the present vertices, by their ids here: a build from scratch numbers its vertices
-/// from 0, so present ids are mapped in ascending order, on which alone ties depend.
+/// The cells of a fresh build of the present vertices, by their ids here: a build from scratch numbers its
+/// vertices from 0, so present ids are mapped in ascending order, on which alone ties depend.
 pub fn fresh_cells<G: Dimension>(positions: &[Option<G::Point>]) -> CellSet {
     let present: Vec<u32> =
         (0..positions.len() as u32).filter(|&v| positions[v as usize].is_some()).collect();
@@ -111,8 +111,9 @@ pub fn assert_same_cells(found: &CellSet, expected: &CellSet, context: impl Fn()
     }
 }
 
-/// Checks what a caller relies on when reading cells: no cell is listed twice; neighbour `i` is opposite corner `i`,
-/// has the other corners too and knows its way back; where there is none, the facet is in no other cell.
+/// Checks what a caller relies on when reading cells: no cell is listed twice; neighbour
+/// `i` is opposite corner `i`, has the other corners too and knows its way back; where
+/// there is none, the facet is in no other cell.
 pub fn check_adjacency<G: Dimension>(t: &MovingTriangulation<G>, context: &dyn Fn() -> String) {
     let view = t.cells();
     assert_eq!(view.corners.len(), view.neighbours.len(), "{}", context());

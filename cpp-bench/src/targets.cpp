@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "targets.hpp"
+
+#include "measure.hpp"
+#include "random.hpp"
+#include "referee.hpp"
+#include "replay.hpp"
+#include "scenarios.hpp"
+#include "table.hpp"
+
+#include <cmath>
+#include <iostream>
+
+namespace bench {
+namespace {
+
+/// How far from where they began points move, in spacings.
+constexpr double still_displacement = 1e-6;
+constexpr double converged_displacement = 1e-7;
+/// So little that not one certificate among those of a million points is expected to fail.
+constexpr double swept_displacement = 1e-10;
+
+/// DELDRIFT_AUTO computes tolerances after a calm commit, or a calm
+/// round of relocations, and uses them later.
+constexpr std::size_t n_warm = 2;
+/// Consecutive rounds of relocations at a turn: at such sizes it matters what is in the caches.
+constexpr std::size_t rounds_at_a_turn = 4;
+
+constexpr double wanted_of_two_threads = 1.8;
+
+/// Random points at unit density, which are at a random place close to where they began at every timestamp.
+Series trembling_points(const std::string &name, unsigned dimension, std::size_t n_points, double displacement,
+                        std::size_t n_timestamps, std::uint64_t seed) {
+    Series series = uniform_points(dimension, n_points, seed);
+    series.name = name + (dimension == 2 ? "_2d" : "_3d");
+    const double side = std::pow(static_cast<double>(n_points), 1.0 / dimension);
+    for (double &coordinate : series.positions) coordinate *= side;
+    series.positions.resize((n_timestamps + 1) * series.frame_length());
+    Random random(seed + 1);
+    for (std::size_t at = series.frame_length(); at < series.positions.size(); at += dimension) {
+        double *place = &series.positions[at];
+        random.in_ball(dimension, displacement, place);
+        for (unsigned axis = 0; axis < dimension; ++axis)
+            place[axis] += series.positions[at % series.frame_length() + axis];
+    }
+    return series;
+}
+
+Entrant entrant(const char *name, unsigned n_threads, std::size_t n_timestamps) {
+    Entrant entrant{&engine_kind(name), n_threads, {}};
+    const std::size_t first = entrant.kind->is_stateless ? n_warm + 1 : 1;
+    for (std::size_t timestamp = first; timestamp <= n_timestamps; ++timestamp)
+        entrant.timestamps.push_back(timestamp);
+    return entrant;
+}
+
+/// What an entrant did after the warm-up.
+struct Outcome {
+    std::string name;
+    double ns;         // of an update, per vertex: the median
+    double n_changes;  // of an update
+};
+
+/// Replays a series to the entrants in turns of so many timestamps, and compares their cells at the last one.
+std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &entrants, std::size_t turn,
+                            Checks &checks, Progress &progress) {
+    const std::size_t last = series.n_timestamps();
+    const auto go_on = [](std::size_t) {};
+    Replay replay(series);
+    std::vector<Lane> lanes = lanes_of(entrants);
+    std::vector<std::uint64_t> changes_before;
+    progress.begin(series.name + ": timing " + std::to_string(last - n_warm) + " updates", last - n_warm);
+    for (Lane &lane : lanes) {
+        lane.restart(series.dimension);
+        replay.run_block(lane, 1, n_warm, go_on);
+        changes_before.push_back(lane.engine->n_changes());
+        lane.seconds.clear();
+    }
+    for (std::size_t first = n_warm + 1; first <= last; first += turn) {
+        for (std::size_t i = 0; i < lanes.size(); ++i)
+            replay.run_block(lanes[(first + i) % lanes.size()], first, std::min(first + turn - 1, last), go_on);
+        progress.step("timestamp " + std::to_string(first));
+    }
+
+    progress.begin(series.name + ": checking cells", lanes.size() + 1);
+    Referee referee(series, last, checks);
+    progress.step();
+    std::vector<Outcome> outcomes;
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+        referee.judge(*lanes[i].entrant, *lanes[i].engine);
+        progress.step();
+        std::vector<double> seconds;
+        for (const auto &[timestamp, repeats] : lanes[i].seconds) seconds.push_back(repeats.front());
+        const auto n_changes = static_cast<double>(lanes[i].engine->n_changes() - changes_before[i]);
+        outcomes.push_back({lanes[i].entrant->name(),
+                            1e9 * median(seconds) / static_cast<double>(series.n_points),
+                            n_changes / static_cast<double>(last - n_warm)});
+    }
+    return outcomes;
+}
+
+/// As above, of builds from nothing.
+std::vector<Outcome> build(const Series &series, const std::vector<Entrant> &entrants, unsigned n_repeats,
+                           Checks &checks, Progress &progress) {
+    const std::vector<Row> rows = measure_build(series, entrants, n_repeats, progress);
+    progress.begin(series.name + ": checking cells", entrants.size() + 1);
+    Referee referee(series, 0, checks);
+    progress.step();
+    std::vector<Outcome> outcomes;
+    for (std::size_t i = 0; i < entrants.size(); ++i) {
+        const std::unique_ptr<Engine> engine = entrants[i].make(series.dimension);
+        engine->build(series.frame(0), series.n_points);
+        referee.judge(entrants[i], *engine);
+        progress.step();
+        outcomes.push_back({entrants[i].name(), rows[i].ns_per_vertex_timestamp(), 0});
+    }
+    return outcomes;
+}
+
+class Session {
+public:
+    Session(const TargetSizes &sizes, std::uint64_t seed, std::vector<Checks> &checks, Progress &progress)
+        : sizes_(sizes), seed_(seed), checks_(checks), progress_(progress) {}
+
+    std::vector<Target> run() {
+        for (const unsigned dimension : {2u, 3u}) {
+            relocate(dimension, dimension == 2 ? 8 : 30);
+            converge(dimension, dimension == 2 ? 30 : 150);
+            sweep(dimension, dimension == 2 ? 12 : 22);
+            build_anew(dimension);
+        }
+        return targets_;
+    }
+
+private:
+    void relocate(unsigned dimension, double wanted) {
+        const std::size_t last = n_warm + sizes_.n_rounds;
+        Series series =
+            trembling_points("still", dimension, sizes_.n_relocated, still_displacement, last, seed_);
+        series.is_sequential = true;
+        const auto done = replay(series,
+                                 {entrant("cgal/move", 1, last), entrant("deldrift/auto", 1, last),
+                                  entrant("deldrift/placement_flips", 1, last)},
+                                 rounds_at_a_turn, checks_of(series), progress_);
+        add("immediate_still", series, done[0], done[1], wanted);
+        add("immediate_still", series, done[0], done[2], wanted);
+    }
+
+    void converge(unsigned dimension, double wanted) {
+        const std::size_t last = n_warm + sizes_.n_commits;
+        const Series series =
+            trembling_points("converged", dimension, sizes_.n_committed, converged_displacement, last, seed_);
+        const auto done = replay(series, {entrant("cgal/rebuilding", 1, last), entrant("deldrift/auto", 1, last)},
+                                 1, checks_of(series), progress_);
+        add("converged", series, done[0], done[1], wanted);
+    }
+
+    void sweep(unsigned dimension, double wanted) {
+        const std::size_t last = n_warm + sizes_.n_commits;
+        const Series series =
+            trembling_points("swept", dimension, sizes_.n_committed, swept_displacement, last, seed_);
+        const auto done = replay(series,
+                                 {entrant("cgal/rebuilding", 1, last), entrant("deldrift/repair", 1, last),
+                                  entrant("deldrift/repair", 2, last)},
+                                 1, checks_of(series), progress_);
+        add("swept", series, done[0], done[1], wanted);
+        add("threads_swept", series, done[1], done[2], wanted_of_two_threads);
+    }
+
+    void build_anew(unsigned dimension) {
+        const Series series = uniform_points(dimension, sizes_.n_committed, seed_);
+        const EngineKind &kind = engine_kind("deldrift/rebuilding");
+        const auto done = build(series, {{&kind, 1, {1}}, {&kind, 2, {1}}},
+                                static_cast<unsigned>(sizes_.n_commits), checks_of(series), progress_);
+        add("threads_build", series, done[0], done[1], wanted_of_two_threads);
+    }
+
+    Checks &checks_of(const Series &series) {
+        checks_.emplace_back();
+        checks_.back().scenario = series.name;
+        checks_.back().n_points = series.n_points;
+        return checks_.back();
+    }
+
+    void add(const char *what, const Series &series, const Outcome &reference, const Outcome &contender,
+             double wanted) {
+        targets_.push_back({what, series.dimension, series.n_points, reference.name, contender.name,
+                            reference.ns, contender.ns, wanted, contender.n_changes});
+    }
+
+    TargetSizes sizes_;
+    std::uint64_t seed_;
+    std::vector<Checks> &checks_;
+    Progress &progress_;
+    std::vector<Target> targets_;
+};
+
+}  // namespace
+
+std::vector<Target> measure_targets(const TargetSizes &sizes, std::uint64_t seed, std::vector<Checks> &checks,
+                                    Progress &progress) {
+    return Session(sizes, seed, checks, progress).run();
+}
+
+void run_targets(const Options &options) {
+    const TargetSizes whole = {10'000, 24, 1'000'000, 7};
+    const TargetSizes smoke = {1'000, 4, 2'000, 3};
+    keep_memory();
+    Progress progress;
+    std::vector<Checks> checks;
+    const std::vector<Target> targets =
+        measure_targets(options.preset.name == "smoke" ? smoke : whole, options.seed, checks, progress);
+
+    std::vector<std::vector<std::string>> lines = {{"dimension", "target", "n", "reference", "reference_ns",
+                                                    "contender", "contender_ns", "ratio", "wanted", "verdict",
+                                                    "changes"}};
+    for (const Target &target : targets)
+        lines.push_back({std::to_string(target.dimension), target.what, std::to_string(target.n),
+                         target.reference, significant(target.reference_ns, 4), target.contender,
+                         significant(target.contender_ns, 4), significant(target.ratio(), 3),
+                         significant(target.wanted, 2), target.verdict(), significant(target.n_changes, 3)});
+    print_checks(std::cout, checks);
+    std::cout << '\n';
+    publish(options.results, "targets.csv", lines);
+}
+
+}  // namespace bench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The speeds that deldrift sets itself where next to nothing changes, and what two threads must gain.
+#pragma once
+
+#include "options.hpp"
+#include "progress.hpp"
+#include "verify.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// How much of everything: points, and how often they move after the warm-up.
+struct TargetSizes {
+    std::size_t n_relocated;  // points that are relocated one by one, at once
+    std::size_t n_rounds;     // of all of them
+    std::size_t n_committed;  // points that are committed, or built, together
+    std::size_t n_commits;    // and builds
+};
+
+/// A speed-up to be reached, and what was measured.
+struct Target {
+    std::string what;
+    unsigned dimension;
+    std::size_t n;
+    std::string reference;
+    std::string contender;
+    double reference_ns;  // per vertex
+    double contender_ns;
+    double wanted;
+    double n_changes;  // the contender's flips, placements and rebuilds, per update
+
+    double ratio() const { return reference_ns / contender_ns; }
+    const char *verdict() const { return ratio() >= wanted ? "pass" : "missed"; }
+};
+
+/// Measures every target and compares the cells of all engines concerned at the end of each input. Throws
+/// Mismatch.
+std::vector<Target> measure_targets(const TargetSizes &sizes, std::uint64_t seed, std::vector<Checks> &checks,
+                                    Progress &progress);
+
+/// Table and targets.csv.
+void run_targets(const Options &options);
+
+}  // namespace bench

@@ -1,0 +1,143 @@
+//! In the steady state a commit allocates nothing: all that it works with has grown in the commits before.
+//!
+//! Vertices go round a fixed cycle of places, so that after some rounds every list has been as
+//! long as it will be. Every allocation and reallocation of the process is counted from then on,
+//! with the place in the sources that asks.
+#![allow(unsafe_code)] // An allocator that counts has no other way to be one.
+
+mod common;
+
+use common::{Rng, point};
+use deldrift::delaunay::{Dimension, Plane, Space};
+use deldrift::motion::{Algorithm, MovingTriangulation, Options};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::backtrace::Backtrace;
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+/// How far vertices go from where they began, in spacings: hardly any cell changes, some do, many do.
+const STILL: f64 = 1e-6;
+const CALM: f64 = 1e-3;
+const LIVELY: f64 = 0.03;
+
+/// What allocates nothing: dimension, algorithm, displacements.
+const STEADY: [(usize, Algorithm, &[f64]); 7] = [
+    (2, Algorithm::Tolerance, &[STILL]),
+    (2, Algorithm::SafeRegion, &[STILL]),
+    (2, Algorithm::SafeRegionTolerance, &[STILL]),
+    (2, Algorithm::Repair, &[STILL, CALM, LIVELY]),
+    (2, Algorithm::Auto, &[STILL, CALM, LIVELY]),
+    (3, Algorithm::Repair, &[STILL, CALM]),
+    (3, Algorithm::Auto, &[CALM]),
+];
+
+const N: usize = 1000;
+/// Timestamps of a round.
+const PLACES: usize = 8;
+/// Rounds before allocations are counted: *auto* waits for up to 64
+/// commits until it tries something else again.
+const WARM: usize = 20;
+const COUNTED: usize = 4;
+
+struct Counting;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+static IS_COUNTING: AtomicBool = AtomicBool::new(false);
+static TRACES: Mutex<Vec<Backtrace>> = Mutex::new(Vec::new());
+
+thread_local! {
+    /// Whether an allocation is being noted, which itself allocates.
+    static IS_NOTING: Cell<bool> = const { Cell::new(false) };
+}
+
+fn note() {
+    if IS_COUNTING.load(Relaxed) && !IS_NOTING.replace(true) {
+        TRACES.lock().expect("no panic while noting").push(Backtrace::force_capture());
+        IS_NOTING.set(false);
+    }
+}
+
+// SAFETY: all is handed on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        note();
+        // SAFETY: the caller's promise.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        note();
+        // SAFETY: the caller's promise.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        note();
+        // SAFETY: the caller's promise.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promise.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+/// The places in this crate that lead to an allocation, the innermost first.
+fn call_sites(trace: &Backtrace) -> String {
+    let text = trace.to_string();
+    let places = text.lines().filter_map(|line| line.trim().strip_prefix("at ./src/"));
+    places.take(4).collect::<Vec<_>>().join(" < ")
+}
+
+/// Where the cycle leads: random points, each at random places close to where it began.
+fn cycle<G: Dimension>(displacement: f64) -> Vec<Vec<G::Point>> {
+    let rng = &mut Rng::new(1);
+    let side = (N as f64).powf(1.0 / G::D as f64);
+    let start: Vec<G::Point> = (0..N).map(|_| point::<G>(|_| side * rng.unit())).collect();
+    let mut near = |p: &G::Point| point::<G>(|k| p[k] + displacement * (2.0 * rng.unit() - 1.0));
+    (0..PLACES).map(|_| start.iter().map(&mut near).collect()).collect()
+}
+
+/// Allocations of commits once the first rounds are over, by call site.
+fn allocations<G: Dimension>(algorithm: Algorithm, displacement: f64) -> BTreeMap<String, usize> {
+    let timestamps = cycle::<G>(displacement);
+    let options = Options { algorithm, ..Options::default() };
+    let mut t = MovingTriangulation::<G>::new(&timestamps[0], options).expect("points in range");
+    let ids: Vec<u32> = (0..N as u32).collect();
+    for round in 0..WARM + COUNTED {
+        IS_COUNTING.store(round >= WARM, Relaxed);
+        for positions in &timestamps {
+            t.move_vertices(&ids, positions).expect("places in range");
+            t.commit_timestamp().expect("a commit");
+        }
+        IS_COUNTING.store(false, Relaxed);
+    }
+    let mut sites = BTreeMap::new();
+    for trace in TRACES.lock().expect("no panic while noting").drain(..) {
+        *sites.entry(call_sites(&trace)).or_default() += 1;
+    }
+    sites
+}
+
+/// One test, as the process must do nothing else meanwhile.
+#[test]
+fn commits_allocate_nothing_once_they_have_gone_round() {
+    let mut found = Vec::new();
+    for (dimension, algorithm, displacements) in STEADY {
+        for &displacement in displacements {
+            let sites = match dimension {
+                2 => allocations::<Plane>(algorithm, displacement),
+                _ => allocations::<Space>(algorithm, displacement),
+            };
+            for (site, count) in sites {
+                found.push(format!("{dimension}D, {algorithm:?}, within {displacement}: {count} at {site}"));
+            }
+        }
+    }
+    assert!(found.is_empty(), "allocations in {} commits:\n{}", COUNTED * PLACES, found.join("\n"));
+}
