@@ -209,6 +209,10 @@ enum deldrift_algorithm
     /// All vertices move at once, every certificate is checked, and what fails is mended by flips and
     /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 8,
+    /// As repair, but only the certificates of vertices that leave their tolerance are checked, and those
+    /// that would make it too small. For displacements of up to a few hundredths of the spacing. Commits
+    /// that do not move all vertices at once, or while vertices share a place, are those of repair.
+    DELDRIFT_WATCHING = 9,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -135,10 +135,10 @@ static void algorithms_can_be_exchanged(void) {
             OK(deldrift_get_algorithm(t, &algorithm));
             CHECK(algorithm == all[j]);
         }
-        CHECK_STATUS(deldrift_set_algorithm(t, (deldrift_algorithm)9), DELDRIFT_INVALID_OPTIONS);
-        CHECK_MESSAGE("algorithm is 9");
+        CHECK_STATUS(deldrift_set_algorithm(t, (deldrift_algorithm)10), DELDRIFT_INVALID_OPTIONS);
+        CHECK_MESSAGE("algorithm is 10");
         OK(deldrift_get_algorithm(t, &algorithm));
-        CHECK(algorithm == DELDRIFT_REPAIR);
+        CHECK(algorithm == DELDRIFT_WATCHING);
         deldrift_destroy(t);
     }
 }

@@ -49,6 +49,10 @@ pub enum deldrift_algorithm {
     /// All vertices move at once, every certificate is checked, and what fails is mended by flips and
     /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 8,
+    /// As repair, but only the certificates of vertices that leave their tolerance are checked, and those
+    /// that would make it too small. For displacements of up to a few hundredths of the spacing. Commits
+    /// that do not move all vertices at once, or while vertices share a place, are those of repair.
+    DELDRIFT_WATCHING = 9,
 }
 
 /// What happens when vertices come to lie at the same place.
@@ -262,6 +266,7 @@ pub(super) fn algorithm(field: &'static str, code: AlgorithmCode) -> Result<Algo
         6 => Ok(Algorithm::SafeRegionTolerance),
         7 => Ok(Algorithm::RebuildingTolerance),
         8 => Ok(Algorithm::Repair),
+        9 => Ok(Algorithm::Watching),
         other => Err(invalid(field, other, "a deldrift_algorithm")),
     }
 }
@@ -278,6 +283,7 @@ pub(super) fn algorithm_code(algorithm: Algorithm) -> AlgorithmCode {
         Algorithm::SafeRegionTolerance => deldrift_algorithm::DELDRIFT_SAFE_REGION_TOLERANCE,
         Algorithm::RebuildingTolerance => deldrift_algorithm::DELDRIFT_REBUILDING_TOLERANCE,
         Algorithm::Repair => deldrift_algorithm::DELDRIFT_REPAIR,
+        Algorithm::Watching => deldrift_algorithm::DELDRIFT_WATCHING,
     };
     code as AlgorithmCode
 }

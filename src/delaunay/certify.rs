@@ -21,6 +21,17 @@ pub struct Failures {
     pub ridges: Vec<Facet>,
     /// The ghost cells, after a sweep.
     pub ghosts: Vec<u32>,
+    /// Whether a look at some of the certificates leaves open what became of others: a sweep has to follow.
+    pub are_open: bool,
+}
+
+/// A motion that has just taken place.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'m, G: Dimension> {
+    /// Where each vertex was, by id.
+    pub before: &'m [G::Point],
+    /// Upper bound of all displacements. Not needed in the plane.
+    pub farthest: f64,
 }
 
 impl Failures {
@@ -30,6 +41,12 @@ impl Failures {
         self.facets.clear();
         self.ridges.clear();
         self.ghosts.clear();
+        self.are_open = false;
+    }
+
+    /// Whether nothing has failed.
+    pub fn are_none(&self) -> bool {
+        self.cells.is_empty() && self.facets.is_empty() && self.ridges.is_empty() && !self.are_open
     }
 }
 
@@ -69,6 +86,129 @@ impl<G: Dimension> Delaunay<G> {
             let ridges = (0..Self::LAST).map(|i| Facet::new(g, i));
             failures.ridges.extend(ridges.filter(|&ridge| !self.is_convex(ridge)));
         }
+    }
+
+    /// Lists the ghost cells.
+    pub(crate) fn list_ghosts(&self, ghosts: &mut Vec<u32>) {
+        ghosts.clear();
+        ghosts.extend(self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()));
+    }
+
+    /// Checks the certificates of a bi-cell after a motion. Of finite cells: both are positive, and the facet passes the
+    /// empty-sphere test; in space both must also have stayed positive on the way. At the hull: the finite cell is
+    /// positive, or the ridge is convex, and has stayed so.
+    #[inline(always)]
+    pub(crate) fn check_bicell(&self, facet: Facet, motion: Motion<G>, failures: &mut Failures) {
+        let across = self.complex.cell(facet.cell()).neighbour(facet.index());
+        match [facet, across].map(|side| self.complex.cell(side.cell()).is_ghost()) {
+            [false, false] => {
+                if !G::bicell_holds(self, facet, motion.farthest) {
+                    self.check_bicell_exactly(facet, motion, failures);
+                }
+            }
+            [true, true] => self.check_ridge(facet, motion, failures),
+            [true, false] => self.check_positive(across.cell(), motion, failures),
+            [false, true] => self.check_positive(facet.cell(), motion, failures),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn check_bicell_exactly(&self, facet: Facet, motion: Motion<G>, failures: &mut Failures) {
+        let across = self.complex.cell(facet.cell()).neighbour(facet.index());
+        let cells = [facet.cell(), across.cell()];
+        if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, motion)) {
+            return;
+        }
+        let n_inverted = failures.cells.len();
+        for c in cells {
+            self.check_positive(c, motion, failures);
+        }
+        if failures.cells.len() == n_inverted && !self.is_locally_delaunay(facet) {
+            failures.facets.push(facet);
+        }
+    }
+
+    /// Checks that a finite cell is positive and, in space, has stayed so.
+    fn check_positive(&self, c: u32, motion: Motion<G>, failures: &mut Failures) {
+        if !self.is_positive(c) {
+            failures.cells.push(c);
+        } else if G::D == 3 && !self.stayed_positive(&self.complex.cell(c).corners, motion) {
+            failures.are_open = true;
+        }
+    }
+
+    /// Checks that the hull is convex at a ridge between ghost cells, and has stayed so.
+    fn check_ridge(&self, ridge: Facet, motion: Motion<G>, failures: &mut Failures) {
+        let simplex = self.simplex_at_hull(ridge);
+        if self.are_at_rest(&simplex, motion) {
+            return;
+        }
+        // In a flat part of the hull the cell behind decides, so it must be positive.
+        let behind = self.complex.cell(ridge.cell()).neighbour(Self::LAST).cell();
+        if !self.is_positive(behind) {
+            failures.cells.push(behind);
+        } else if !self.is_convex(ridge) {
+            failures.ridges.push(ridge);
+        } else if !self.stayed_positive(&simplex, motion) {
+            failures.are_open = true;
+        }
+    }
+
+    /// Checks all certificates of these cells after a motion, those at the hull included, where also the way counts.
+    pub(crate) fn check_cells(&mut self, cells: &[u32], motion: Motion<G>, failures: &mut Failures) {
+        for &c in cells {
+            if self.complex.cell(c).is_ghost() {
+                (0..Self::LAST).for_each(|i| self.check_ridge(Facet::new(c, i), motion, failures));
+            } else if !G::cell_holds(self, c, motion.farthest) {
+                self.check_cell_exactly(c, motion, failures);
+            }
+        }
+        self.certificates += (cells.len() * (G::D + 2)) as u64;
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn check_cell_exactly(&self, c: u32, motion: Motion<G>, failures: &mut Failures) {
+        let n_inverted = failures.cells.len();
+        self.check_positive(c, motion, failures);
+        if failures.cells.len() == n_inverted {
+            let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
+            failures.facets.extend(facets.filter(|&facet| !self.is_locally_delaunay(facet)));
+        }
+    }
+
+    /// The corners of the simplex whose orientation is the certificate of a facet with a ghost cell, at the hull or
+    /// between two ghosts.
+    pub(crate) fn simplex_at_hull(&self, facet: Facet) -> G::Corners {
+        let (c, i) = (facet.cell(), facet.index());
+        let cell = self.complex.cell(c);
+        if !cell.is_ghost() {
+            cell.corners
+        } else if i == Self::LAST {
+            self.complex.cell(cell.neighbour(i).cell()).corners
+        } else {
+            // Across a ridge of the hull the other facet's apex is on the inner side.
+            cell.corners.with(Self::LAST, self.complex.apex(cell.neighbour(i))).reflected(Self::LAST)
+        }
+    }
+
+    /// Whether none of the corners has moved.
+    fn are_at_rest(&self, corners: &G::Corners, motion: Motion<G>) -> bool {
+        corners.as_ref().iter().all(|&s| {
+            let site = self.site(s);
+            site.point == motion.before[site.id as usize]
+        })
+    }
+
+    /// Whether a simplex certainly stayed positive on the way.
+    fn stayed_positive(&self, corners: &G::Corners, motion: Motion<G>) -> bool {
+        let (mut old, mut new) = ([&self.sites[0].point; 4], [&self.sites[0].point; 4]);
+        for (k, &s) in corners.as_ref().iter().enumerate() {
+            let site = self.site(s);
+            (old[k], new[k]) = (&motion.before[site.id as usize], &site.point);
+        }
+        G::stays_positive(&old[..G::Corners::N], &new[..G::Corners::N])
     }
 
     /// Checks the cells of the star of a site; all its facets may fail.
@@ -112,7 +252,7 @@ impl<G: Dimension> Delaunay<G> {
     /// the facets there are those of the Delaunay triangulation.
     pub(crate) fn is_convex(&self, ridge: Facet) -> bool {
         let across = self.complex.cell(ridge.cell()).neighbour(ridge.index());
-        let apex = self.site(self.complex.cell(across.cell()).corners[across.index()]);
+        let apex = self.site(self.complex.apex(across));
         !self.is_in_conflict_with_ghost(ridge.cell(), &apex.point, apex.id)
     }
 }
@@ -123,6 +263,12 @@ impl<G: Dimension> Delaunay<G> {
 /// lower index cannot be predicted, and a wrong guess costs more than a test.
 #[inline(always)]
 pub(super) fn certify_triangle(t: &Delaunay<Plane>, c: u32) -> (bool, u8) {
+    if triangle_holds(t, c) { (true, 0) } else { t.certify_exactly(c) }
+}
+
+/// Whether a finite triangle surely is positively oriented and has no other corner of a neighbour in its circle.
+#[inline(always)]
+pub(super) fn triangle_holds(t: &Delaunay<Plane>, c: u32) -> bool {
     let cell = t.complex.cell(c);
     let [a, b, d] = cell.corners.map(|s| t.view().point(s));
     let circle = predicates::circle(a, b, d);
@@ -132,15 +278,19 @@ pub(super) fn certify_triangle(t: &Delaunay<Plane>, c: u32) -> (bool, u8) {
         if apex == INFINITE { f64::NEG_INFINITY } else { side }
     };
     let greatest = max(max(side(0), side(1)), side(2));
-    if circle[2] > t.filter.orient && greatest < -t.filter.prepared {
-        return (true, 0);
-    }
-    t.certify_exactly(c)
+    circle[2] > t.filter.orient && greatest < -t.filter.prepared
 }
 
 /// Likewise for a tetrahedron.
 #[inline(always)]
 pub(super) fn certify_tetrahedron(t: &Delaunay<Space>, c: u32) -> (bool, u8) {
+    if tetrahedron_holds(t, c, 0.0) { (true, 0) } else { t.certify_exactly(c) }
+}
+
+/// Whether a finite tetrahedron surely has no other corner of a neighbour in its sphere, is positively oriented, and has
+/// been so while its corners moved up to `farthest`.
+#[inline(always)]
+pub(super) fn tetrahedron_holds(t: &Delaunay<Space>, c: u32, farthest: f64) -> bool {
     let cell = t.complex.cell(c);
     let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
     let sphere = predicates::sphere(a, b, d, e);
@@ -150,10 +300,51 @@ pub(super) fn certify_tetrahedron(t: &Delaunay<Space>, c: u32) -> (bool, u8) {
         if apex == INFINITE { f64::NEG_INFINITY } else { side }
     };
     let greatest = max(max(side(0), side(1)), max(side(2), side(3)));
-    if sphere[3] > t.filter.orient && greatest < -t.filter.prepared {
-        return (true, 0);
-    }
-    t.certify_exactly(c)
+    let change = if farthest == 0.0 { 0.0 } else { change_of_volume([a, b, d, e], farthest) };
+    sphere[3] > t.filter.orient + change && greatest < -t.filter.prepared
+}
+
+/// Whether the bi-cell of an edge between finite triangles surely passes [`Delaunay::check_bicell`].
+#[inline(always)]
+pub(super) fn bicell_holds_in_plane(t: &Delaunay<Plane>, edge: Facet) -> bool {
+    let cell = t.complex.cell(edge.cell());
+    let across = cell.neighbour(edge.index());
+    let corners = t.complex.cell(across.cell()).corners;
+    let [a, b, d] = cell.corners.map(|s| t.view().point(s));
+    let circle = predicates::circle(a, b, d);
+    let side = predicates::side_of_circle(&circle, a, t.view().point(corners[across.index()]));
+    let [a, b, d] = corners.map(|s| t.view().point(s));
+    let beyond = predicates::circle(a, b, d);
+    circle[2] > t.filter.orient && beyond[2] > t.filter.orient && side < -t.filter.prepared
+}
+
+/// Likewise for a facet between finite tetrahedra.
+#[inline(always)]
+pub(super) fn bicell_holds_in_space(t: &Delaunay<Space>, facet: Facet, farthest: f64) -> bool {
+    let cell = t.complex.cell(facet.cell());
+    let across = cell.neighbour(facet.index());
+    let corners = t.complex.cell(across.cell()).corners;
+    let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
+    let sphere = predicates::sphere(a, b, d, e);
+    let side = predicates::side_of_sphere(&sphere, a, t.view().point(corners[across.index()]));
+    let beyond = corners.map(|s| t.view().point(s));
+    let volume = predicates::sphere(beyond[0], beyond[1], beyond[2], beyond[3])[3];
+    sphere[3] > t.filter.orient + change_of_volume([a, b, d, e], farthest)
+        && volume > t.filter.orient + change_of_volume(beyond, farthest)
+        && side < -t.filter.prepared
+}
+
+/// Upper bound of how much the determinant of a tetrahedron has changed while none of its corners has moved farther. A
+/// difference of two corners has moved up to 2 δ and was never longer than L = |longest| + 2 δ, so the determinant,
+/// linear in each of three, has changed by at most 6 δ L².
+#[inline(always)]
+pub(super) fn change_of_volume([a, b, c, d]: [&[f64; 3]; 4], farthest: f64) -> f64 {
+    let square = max(
+        max(predicates::squared_distance(a, b), predicates::squared_distance(a, c)),
+        predicates::squared_distance(a, d),
+    );
+    // (x + y)² ≤ 2 x² + 2 y²; the factor is rounded up for what is rounded off.
+    6.1 * farthest * (2.0 * square + 8.0 * farthest * farthest)
 }
 
 /// The greater one, in one instruction.

@@ -115,6 +115,13 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Whether a finite cell is positively oriented, and a bit for each facet, to a finite cell of a lower index, that
     /// fails the empty-sphere test.
     fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8);
+    /// Whether a finite cell that has moved up to `farthest` surely passes all tests of
+    /// [`check_cells`](Delaunay::check_cells).
+    fn cell_holds(t: &Delaunay<Self>, cell: u32, farthest: f64) -> bool;
+    /// Whether a bi-cell that has moved up to `farthest` surely passes [`check_bicell`](Delaunay::check_bicell).
+    fn bicell_holds(t: &Delaunay<Self>, facet: Facet, farthest: f64) -> bool;
+    /// Whether a cell certainly stays positively oriented while its `D + 1` corners go straight from `old` to `new`.
+    fn stays_positive(old: &[&Self::Point], new: &[&Self::Point]) -> bool;
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may. Appends those that fail still,
     /// where flips are stuck, to `stuck`; never in the plane. Returns the number of flips.
     fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64>;
@@ -270,6 +277,21 @@ impl Dimension for Plane {
         certify::certify_triangle(t, cell)
     }
 
+    #[inline(always)]
+    fn cell_holds(t: &Delaunay<Self>, cell: u32, _: f64) -> bool {
+        certify::triangle_holds(t, cell)
+    }
+
+    #[inline(always)]
+    fn bicell_holds(t: &Delaunay<Self>, edge: Facet, _: f64) -> bool {
+        certify::bicell_holds_in_plane(t, edge)
+    }
+
+    fn stays_positive(old: &[&[f64; 2]], new: &[&[f64; 2]]) -> bool {
+        let triangle = |p: &[_]| <[_; 3]>::try_from(p).expect("three corners");
+        predicates::stays_positive2d(triangle(old), triangle(new))
+    }
+
     fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, _: &mut Vec<Facet>) -> Result<u64> {
         Ok(t.lawson(suspects))
     }
@@ -420,6 +442,21 @@ impl Dimension for Space {
     #[inline(always)]
     fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8) {
         certify::certify_tetrahedron(t, cell)
+    }
+
+    #[inline(always)]
+    fn cell_holds(t: &Delaunay<Self>, cell: u32, farthest: f64) -> bool {
+        certify::tetrahedron_holds(t, cell, farthest)
+    }
+
+    #[inline(always)]
+    fn bicell_holds(t: &Delaunay<Self>, facet: Facet, farthest: f64) -> bool {
+        certify::bicell_holds_in_space(t, facet, farthest)
+    }
+
+    fn stays_positive(old: &[&[f64; 3]], new: &[&[f64; 3]]) -> bool {
+        let tetrahedron = |p: &[_]| <[_; 4]>::try_from(p).expect("four corners");
+        predicates::stays_positive3d(tetrahedron(old), tetrahedron(new))
     }
 
     fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64> {

@@ -61,7 +61,7 @@ impl Delaunay<Space> {
         let (c, i) = (facet.cell(), facet.index());
         let cell = *self.complex.cell(c);
         let across = cell.neighbour(i);
-        let q = self.complex.cell(across.cell()).corners[across.index()];
+        let q = self.complex.apex(across);
         let others = [(i + 1) % 4, (i + 2) % 4, (i + 3) % 4];
         // Whether the cell is positive with q in place of each corner of the facet.
         let point = &self.site(q).point;
@@ -75,6 +75,8 @@ impl Delaunay<Space> {
             [true, true, false] => self.complex.flip_3_2(facet, others[2])?,
             _ => return None,
         };
+        self.record(Complex::brought_back(&undo));
+        self.record(outer.map(Facet::cell));
         self.journal.push(undo);
         Some(outer)
     }

@@ -44,7 +44,7 @@ mod validate;
 
 pub use build::Merge;
 pub use cavity::Insertion;
-pub use certify::Failures;
+pub use certify::{Failures, Motion};
 pub use dimension::{Coordinates, Dimension, Plane, Space};
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
@@ -277,6 +277,11 @@ impl<G: Dimension> Delaunay<G> {
         self.certificates
     }
 
+    /// Counts certificates.
+    pub(crate) fn count_certificates(&mut self, n: usize) {
+        self.certificates += n as u64;
+    }
+
     /// Starts a record of the cells that relocations, insertions and removals make or move, in `buffer`.
     pub fn record_changes(&mut self, mut buffer: Vec<u32>) {
         buffer.clear();
@@ -328,7 +333,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Enters cells into the record, if there is one.
     #[inline(always)]
-    fn record(&mut self, cells: impl IntoIterator<Item = u32>) {
+    pub(crate) fn record(&mut self, cells: impl IntoIterator<Item = u32>) {
         if let Some(changed) = &mut self.changed {
             changed.extend(cells);
         }

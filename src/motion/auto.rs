@@ -26,24 +26,49 @@ use crate::error::Result;
 /// Fewer than one staged vertex in so many are few: a placement costs about as much as so many vertices swept.
 const FEW: usize = 20;
 /// *Tolerance* pays while fewer than one vertex in so many is beyond.
-const BEYOND: usize = 50;
+const BEYOND: usize = 8;
 /// A repair of fewer flips and placements than one vertex in so many announces that. (A vertex beyond its tolerance
 /// makes about a tenth of a flip.)
 const CALM: usize = 500;
 /// Vertices sampled before all tolerances are computed, and the share of them that must be within.
 const SAMPLE: u32 = 64;
-const SHARE: f64 = 0.98;
+const SHARE: f64 = 0.8;
 /// Longest wait for another try, in commits.
 const PATIENCE: u32 = 64;
+/// What the parts of a commit cost, in nanoseconds.
+struct Costs {
+    /// A watched bi-cell.
+    watched: f64,
+    /// A vertex beyond its tolerance.
+    beyond: f64,
+    /// Per vertex, what a sweep costs that is spared.
+    sweep: f64,
+    /// Per vertex, to compute all tolerances.
+    computed: f64,
+}
+
+/// Measured with 10,000 vertices; only the ratios matter.
+const fn costs<G: Dimension>() -> Costs {
+    if G::D == 2 {
+        Costs { watched: 14.0, beyond: 400.0, sweep: 16.0, computed: 90.0 }
+    } else {
+        Costs { watched: 40.0, beyond: 2500.0, sweep: 150.0, computed: 400.0 }
+    }
+}
+
 /// Most commits rebuilt without a look.
 const REBUILT: u32 = 15;
 
 /// What the last commits found.
 #[derive(Debug, Default)]
 pub(super) struct Auto {
-    /// Whether *tolerance* is in force.
-    is_filtering: bool,
-    /// Commits until *tolerance* may be tried again, and how many they will be next time.
+    /// Whether *watching* is in force.
+    is_watching: bool,
+    /// What it has cost more than sweeps would have, and what the watched bi-cells have cost more than the vertices beyond,
+    /// in nanoseconds.
+    excess: f64,
+    imbalance: f64,
+    /// Commits until *watching* may be tried again, and how many they will be next time.
     wait: u32,
     next_wait: u32,
     /// Commits still to be rebuilt without a look, and how many they were last time.
@@ -71,7 +96,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.auto.rebuilds -= 1;
             return self.rebuild_staged(report);
         }
-        if self.auto.is_filtering && self.commit_if_calm(report)? {
+        if self.auto.is_watching
+            && self.staging.is_whole()
+            && self.hidden.count() == 0
+            && self.commit_if_calm(report)?
+        {
             return Ok(());
         }
         self.commit_by_repair(report)?;
@@ -79,19 +108,37 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Commits by *tolerance* if few vertices are beyond; otherwise those within have moved when it is done.
+    /// Commits by watching if few vertices are beyond; otherwise nothing has moved.
     fn commit_if_calm(&mut self, report: &mut CommitReport) -> Result<bool> {
-        if self.regions.kept_for() != Some(Filter::Tolerance) && !self.is_calm() {
-            self.stop_filtering();
+        if self.regions.kept_for() != Some(Filter::Watch) && !self.is_calm() {
+            self.stop_watching();
             return Ok(false);
         }
-        if self.accept_by(Filter::Tolerance, self.n_present / BEYOND, report)? {
-            self.auto.next_wait = self.auto.next_wait.saturating_sub(1);
-            self.place_beyond(report)?;
-            return Ok(true);
+        if !self.commit_by_watching(self.n_present / BEYOND, report)? {
+            self.stop_watching();
+            return Ok(false);
         }
-        self.stop_filtering();
-        Ok(false)
+        self.weigh_watching(report);
+        Ok(true)
+    }
+
+    /// Weighs what watching has cost against a sweep, and what is watched against what is computed anew.
+    fn weigh_watching(&mut self, report: &CommitReport) {
+        let costs = costs::<G>();
+        let n = self.n_present as f64;
+        let watched = self.regions.n_watched() as f64 * costs.watched;
+        let beyond = (self.n_present as f64 - report.within_tolerance as f64) * costs.beyond;
+        let auto = &mut self.auto;
+        auto.excess = (auto.excess + watched + beyond - n * costs.sweep).max(0.0);
+        auto.imbalance += watched - beyond;
+        if auto.excess > n * costs.computed {
+            self.stop_watching();
+        } else if auto.imbalance.abs() > n * costs.computed {
+            auto.imbalance = 0.0;
+            self.regions.invalidate();
+        } else {
+            auto.next_wait = auto.next_wait.saturating_sub(1);
+        }
     }
 
     /// Whether a sample of the vertices stays within tolerance, but for a few.
@@ -99,8 +146,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE
     }
 
-    fn stop_filtering(&mut self) {
-        self.auto.is_filtering = false;
+    fn stop_watching(&mut self) {
+        self.auto.is_watching = false;
+        (self.auto.excess, self.auto.imbalance) = (0.0, 0.0);
         self.auto.next_wait = (2 * self.auto.next_wait + 4).min(PATIENCE);
         self.auto.wait = self.auto.next_wait;
     }
@@ -122,13 +170,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_kept {
             if !are_most(within) {
                 self.regions.invalidate();
-                self.stop_filtering();
+                self.stop_watching();
             }
         } else if auto.wait > 0 {
             auto.wait -= 1;
         } else if are_most(still) {
             // Without the memory for them all goes on as it did.
-            let _ = self.regions.compute(&mut self.kernel, self.site_of.len(), Filter::Tolerance, &mut CommitReport::default());
+            let _ = self.regions.compute(
+                &mut self.kernel,
+                self.site_of.len(),
+                Filter::Tolerance,
+                &self.staging.positions,
+                &mut CommitReport::default(),
+            );
         }
     }
 
@@ -143,6 +197,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         auto.last_rebuilds = 0;
         auto.wait = auto.wait.saturating_sub(1);
         let mended = (report.flips + report.placements) as usize;
-        auto.is_filtering = auto.wait == 0 && mended * CALM <= self.n_present;
+        auto.is_watching = auto.wait == 0 && mended * CALM <= self.n_present;
     }
 }

@@ -25,7 +25,7 @@ impl<'k, G: Dimension> BiCell<'k, G> {
         let across = cell.neighbour(i);
         let apex = complex.apex(across);
         if cell.is_ghost() || apex == INFINITE {
-            return Self::at_hull(kernel, facet, apex);
+            return Self::at_hull(kernel, facet);
         }
         let mut sites = [apex; 5];
         for (k, s) in sites.iter_mut().enumerate().take(G::Corners::N) {
@@ -35,20 +35,10 @@ impl<'k, G: Dimension> BiCell<'k, G> {
     }
 
     #[cold]
-    fn at_hull(kernel: &'k Delaunay<G>, facet: Facet, apex: u32) -> Self {
-        let complex = kernel.complex();
-        let (c, i) = (facet.cell(), facet.index());
-        let corners = complex.cell(c).corners;
-        let finite = if !complex.cell(c).is_ghost() {
-            corners
-        } else if i == G::D {
-            complex.cell(complex.cell(c).neighbour(i).cell()).corners
-        } else {
-            // Across a ridge of the hull the other facet's apex is on the inner side.
-            corners.with(G::D, apex).reflected(G::D)
-        };
-        let mut sites = [finite[0]; 5];
-        sites[..G::Corners::N].copy_from_slice(finite.as_ref());
+    fn at_hull(kernel: &'k Delaunay<G>, facet: Facet) -> Self {
+        let corners = kernel.simplex_at_hull(facet);
+        let mut sites = [corners[0]; 5];
+        sites[..G::Corners::N].copy_from_slice(corners.as_ref());
         BiCell { sites, points: sites.map(|s| kernel.place(s)), n: G::D + 1 }
     }
 

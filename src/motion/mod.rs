@@ -38,6 +38,8 @@ mod repair;
 mod staging;
 mod switching;
 mod tolerance;
+mod watch;
+mod watched;
 
 use std::sync::OnceLock;
 

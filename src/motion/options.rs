@@ -30,6 +30,9 @@ pub enum Algorithm {
     RebuildingTolerance,
     /// All vertices move at once, every certificate is checked, and what fails is mended by flips and placements.
     Repair,
+    /// As repair, but only the certificates of vertices beyond their tolerance are checked, and those that would make
+    /// it too small. Where vertices share a place or not all are staged at once, repair.
+    Watching,
 }
 
 /// When *rebuilding + tolerance* swaps from the one to the other.

@@ -21,6 +21,7 @@
 //! reach are half the least width of their simplex.
 
 use super::bicell::BiCell;
+use super::watched::Watched;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Site};
@@ -29,6 +30,12 @@ use crate::predicates::{LANES, displacement_limit};
 
 /// Tolerances are kept up to one part in so many of the least extent.
 const CAPPED: f64 = 16.0;
+
+/// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices' steps and
+/// of its size. Found by measurement (Lloyd's iterations); half and double are hardly slower.
+const fn watched_share<G: Dimension>() -> f64 {
+    if G::D == 2 { 1.0 } else { 0.1 }
+}
 
 /// Which regions let a vertex pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +46,15 @@ pub(super) enum Filter {
     SafeRegion,
     /// S+T: the safe region only where the tolerance fails.
     Both,
+    /// The tolerance, of those bi-cells that are not [watched](super::watch).
+    Watch,
+}
+
+impl Filter {
+    /// Whether safe regions are among what it lets pass.
+    fn keeps_delimiters(self) -> bool {
+        matches!(self, Filter::SafeRegion | Filter::Both)
+    }
 }
 
 /// Fixed position and tolerance of a vertex.
@@ -60,14 +76,16 @@ impl<G: Dimension> Fixed<G> {
 #[derive(Debug, Default)]
 struct Batch<G: Dimension> {
     bicells: G::BiCells,
+    facets: [[u32; 2]; LANES],
     vertices: [[u32; 5]; LANES],
     n: usize,
 }
 
 impl<G: Dimension> Batch<G> {
     #[inline(always)]
-    fn push(&mut self, vertices: [u32; 5], points: &[&G::Point]) {
+    fn push(&mut self, facets: [Facet; 2], vertices: [u32; 5], points: &[&G::Point]) {
         G::set_bicell(&mut self.bicells, self.n, points);
+        self.facets[self.n] = facets.map(Facet::code);
         self.vertices[self.n] = vertices;
         self.n += 1;
     }
@@ -88,6 +106,8 @@ pub(super) struct Regions<G: Dimension> {
     reach: Vec<f64>,
     /// By the lower facet code of an interior bi-cell, for safe regions: centre and radius of the delimiter.
     delimiters: Vec<(G::Point, f64)>,
+    /// The bi-cells that are watched instead of lowering tolerances.
+    watched: Watched,
     /// Memory of the kernel's record of changed cells.
     changed: Vec<u32>,
     /// Vertices that have been relocated during the change under way.
@@ -102,6 +122,7 @@ impl<G: Dimension> Default for Regions<G> {
             fixed: Vec::new(),
             reach: Vec::new(),
             delimiters: Vec::new(),
+            watched: Watched::default(),
             changed: Vec::new(),
             relocated: Vec::new(),
         }
@@ -127,15 +148,17 @@ impl<G: Dimension> Regions<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         self.fixed.capacity() * size_of::<Fixed<G>>()
             + self.delimiters.capacity() * size_of::<(G::Point, f64)>()
+            + self.watched.memory_bytes()
             + self.reach.capacity() * 8
     }
 
     /// Follows the number of ids and cells. New vertices have no bi-cells yet, so no tolerance smaller than any.
     fn grow(&mut self, kernel: &Delaunay<G>, n_ids: usize, filter: Filter) -> Result<()> {
         let more_ids = n_ids.saturating_sub(self.fixed.len());
-        let more_facets = match filter {
-            Filter::Tolerance => 0,
-            _ => (4 * kernel.complex().n_slots()).saturating_sub(self.delimiters.len()),
+        let more_facets = if filter.keeps_delimiters() {
+            (4 * kernel.complex().n_slots()).saturating_sub(self.delimiters.len())
+        } else {
+            0
         };
         let bytes = more_ids * size_of::<Fixed<G>>() + more_facets * size_of::<(G::Point, f64)>();
         if self.fixed.try_reserve(more_ids).is_err() || self.delimiters.try_reserve(more_facets).is_err() {
@@ -144,24 +167,30 @@ impl<G: Dimension> Regions<G> {
         let none = Fixed { point: G::Point::default(), tolerance: self.most };
         self.fixed.resize(self.fixed.len() + more_ids, none);
         self.delimiters.resize(self.delimiters.len() + more_facets, (G::Point::default(), 0.0));
-        if filter != Filter::Tolerance {
+        if filter.keeps_delimiters() {
             self.reach.resize(self.fixed.len(), f64::INFINITY);
+        }
+        if filter == Filter::Watch {
+            self.watched.grow(kernel.complex().n_slots())?;
         }
         Ok(())
     }
 
-    /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell lowers tolerances.
+    /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell lowers tolerances, or is watched
+    /// if the filter does that. The vertices were `elsewhere`, by id, a timestamp ago, or will be at the next.
     pub(super) fn compute(
         &mut self,
         kernel: &mut Delaunay<G>,
         n_ids: usize,
         filter: Filter,
+        elsewhere: &[G::Point],
         report: &mut CommitReport,
     ) -> Result<()> {
         self.valid_for = None;
         self.fixed.clear();
         self.reach.clear();
         self.delimiters.clear();
+        self.watched.clear();
         let (lower, upper) = (kernel.lower(), kernel.upper());
         self.most = (0..G::D).map(|axis| upper[axis] - lower[axis]).fold(f64::INFINITY, f64::min) / CAPPED;
         kernel.cover_around(&lower, &upper, self.most);
@@ -173,12 +202,12 @@ impl<G: Dimension> Regions<G> {
         for c in kernel.complex().live() {
             for i in 0..G::Corners::N {
                 if c < kernel.complex().cell(c).neighbour(i).cell() {
-                    self.measure::<false>(kernel, filter, Facet::new(c, i), &mut batch);
+                    self.measure::<false>(kernel, filter, Facet::new(c, i), elsewhere, &mut batch);
                     report.tolerances += 1;
                 }
             }
         }
-        self.lower_batch(&mut batch);
+        self.lower_batch(filter, elsewhere, &mut batch);
         self.valid_for = Some(filter);
         Ok(())
     }
@@ -229,6 +258,7 @@ impl<G: Dimension> Regions<G> {
         kernel: &Delaunay<G>,
         filter: Filter,
         facet: Facet,
+        elsewhere: &[G::Point],
         batch: &mut Batch<G>,
     ) {
         let bicell = BiCell::of(kernel, facet);
@@ -239,15 +269,19 @@ impl<G: Dimension> Regions<G> {
         }
         let vertices = bicell.vertices(kernel);
         let finite = &vertices[..bicell.sites().len()];
-        if filter == Filter::Tolerance {
+        if !filter.keeps_delimiters() {
+            let across = kernel.complex().cell(facet.cell()).neighbour(facet.index());
             match bicell.interior() {
                 Some(points) => {
-                    batch.push(vertices, points);
+                    batch.push([facet, across], vertices, points);
                     if batch.n == LANES {
-                        self.lower_batch(batch);
+                        self.lower_batch(filter, elsewhere, batch);
                     }
                 }
-                None => self.lower(finite, bicell.hull_tolerance()),
+                None => {
+                    let tolerance = bicell.hull_tolerance();
+                    self.lower_or_watch(filter, [facet, across], finite, tolerance, elsewhere);
+                }
             }
             return;
         }
@@ -279,7 +313,7 @@ impl<G: Dimension> Regions<G> {
     }
 
     /// Computes the tolerances of a batch, which is empty then.
-    fn lower_batch(&mut self, batch: &mut Batch<G>) {
+    fn lower_batch(&mut self, filter: Filter, elsewhere: &[G::Point], batch: &mut Batch<G>) {
         let mut enough = [0.0; LANES];
         for (enough, vertices) in enough.iter_mut().zip(&batch.vertices[..batch.n]) {
             for &v in &vertices[..G::D + 2] {
@@ -288,9 +322,52 @@ impl<G: Dimension> Regions<G> {
         }
         let tolerances = G::tolerances(&batch.bicells, enough);
         for (k, tolerance) in tolerances.into_iter().enumerate().take(batch.n) {
-            self.lower(&batch.vertices[k][..G::D + 2], tolerance);
+            let facets = batch.facets[k].map(Facet::from_code);
+            self.lower_or_watch(filter, facets, &batch.vertices[k][..G::D + 2], tolerance, elsewhere);
         }
         batch.n = 0;
+    }
+
+    /// Lets a bi-cell, given by its facet from both sides and its vertices, lower tolerances unless it is watched instead.
+    #[inline(always)]
+    fn lower_or_watch(
+        &mut self,
+        filter: Filter,
+        [facet, across]: [Facet; 2],
+        vertices: &[u32],
+        tolerance: f64,
+        elsewhere: &[G::Point],
+    ) {
+        if filter == Filter::Watch {
+            let is_member = self.is_soon_beyond(vertices, tolerance, elsewhere);
+            if self.watched.set(facet, across, is_member) {
+                return;
+            }
+        }
+        self.lower(vertices, tolerance);
+    }
+
+    /// Whether a bi-cell's tolerance is so small, next to its size h and the displacement u of its vertices from one
+    /// timestamp to the next, that to watch it is cheaper than to compute stars anew every so often. Watching those
+    /// below θ costs in proportion to θ / h, what is computed anew in proportion to u / θ; so the best θ² is in
+    /// proportion to u h.
+    fn is_soon_beyond(&self, vertices: &[u32], tolerance: f64, elsewhere: &[G::Point]) -> bool {
+        let here = |v: u32| &self.fixed[v as usize].point;
+        let step = |&v: &u32| elsewhere.get(v as usize).map_or(0.0, |p| G::squared_distance(here(v), p));
+        let steps = vertices.iter().map(step).fold(0.0, f64::max);
+        let square = G::squared_distance(here(vertices[1]), here(vertices[2]));
+        let t = tolerance * tolerance;
+        t * t <= watched_share::<G>() * steps * square
+    }
+
+    /// Visits the facets that are watched.
+    pub(super) fn for_watched(&mut self, kernel: &Delaunay<G>, visit: impl FnMut(Facet)) {
+        self.watched.for_each(|c| !kernel.complex().is_free(c), visit);
+    }
+
+    /// About how many facets are watched.
+    pub(super) fn n_watched(&self) -> usize {
+        self.watched.len()
     }
 
     /// Fixes the vertex of a site where it is: what is left of its ball, as a lower bound, is its tolerance.
@@ -301,7 +378,7 @@ impl<G: Dimension> Regions<G> {
             let moved = G::distance_above(&fixed.point, &point);
             fixed.tolerance = (fixed.tolerance - moved).next_down().max(0.0);
             fixed.point = point;
-            if filter != Filter::Tolerance {
+            if filter.keeps_delimiters() {
                 let reach = &mut self.reach[id as usize];
                 *reach = (*reach - moved).next_down().max(0.0);
             }
@@ -324,28 +401,44 @@ impl<G: Dimension> Regions<G> {
         filter: Filter,
         mut changed: Vec<u32>,
         relocated: impl Iterator<Item = u32>,
+        elsewhere: &[G::Point],
         report: &mut CommitReport,
     ) -> Result<()> {
+        self.watched.forget(&changed);
         kernel.tidy_changes(&mut changed);
         if 2 * changed.len() > kernel.complex().n_finite() {
-            self.compute(kernel, n_ids, filter, report)?;
+            self.compute(kernel, n_ids, filter, elsewhere, report)?;
         } else {
             self.grow(kernel, n_ids, filter)?;
-            for s in relocated {
-                let point = kernel.site(s).point;
-                kernel.cover_around(&point, &point, self.most);
-                self.fix(kernel.site(s));
-            }
-            let mut batch = Batch::default();
-            kernel.for_facets_of(&changed, |kernel, facet| {
-                self.measure::<true>(kernel, filter, facet, &mut batch);
-                report.tolerances += 1;
-            });
-            self.lower_batch(&mut batch);
+            self.compute_anew(kernel, filter, &changed, relocated, elsewhere, report);
             self.valid_for = Some(filter);
         }
         self.changed = changed;
         Ok(())
+    }
+
+    /// Computes the bi-cells of all facets of these cells, each listed once. Among them are the stars of the relocated
+    /// sites.
+    pub(super) fn compute_anew(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        filter: Filter,
+        cells: &[u32],
+        relocated: impl Iterator<Item = u32>,
+        elsewhere: &[G::Point],
+        report: &mut CommitReport,
+    ) {
+        for s in relocated {
+            let point = kernel.site(s).point;
+            kernel.cover_around(&point, &point, self.most);
+            self.fix(kernel.site(s));
+        }
+        let mut batch = Batch::default();
+        kernel.for_facets_of(cells, |kernel, facet| {
+            self.measure::<true>(kernel, filter, facet, elsewhere, &mut batch);
+            report.tolerances += 1;
+        });
+        self.lower_batch(filter, elsewhere, &mut batch);
     }
 }
 
@@ -369,8 +462,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             let sites =
                 relocated.iter().map(|&v| self.site_of[v as usize]).filter(|&s| !self.hidden.any_at(s));
             // Without the memory for it the regions stay invalid, and the next commit says so.
-            let n_ids = self.site_of.len();
-            let _ = self.regions.follow(&mut self.kernel, n_ids, filter, changed, sites, report);
+            let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
+            let kernel = &mut self.kernel;
+            let _ = self.regions.follow(kernel, n_ids, filter, changed, sites, elsewhere, report);
             self.regions.relocated = relocated;
         }
         done

@@ -48,7 +48,9 @@ enum At {
 /// Scratch memory of repairs.
 #[derive(Debug, Default)]
 pub(super) struct Repair {
-    failures: Failures,
+    pub(super) failures: Failures,
+    /// Cells that may have failed, each once.
+    pub(super) touched: Vec<u32>,
     suspects: Vec<Facet>,
     stuck: Vec<Facet>,
     /// By vertex id.
@@ -72,9 +74,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.regions.invalidate();
         let accepted = report.moved;
         let mut repair = std::mem::take(&mut self.repair);
+        self.move_staged(&mut repair);
+        repair.failures.are_open = true;
         let mended = self.mend(&mut repair, report);
-        self.settle(&mut repair);
-        report.moved = repair.n_new as u64;
         report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
         if !mended? {
@@ -84,19 +86,42 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
     }
 
-    /// Moves all but the vertices to be placed; `false` if those would be too many.
+    /// Mends a triangulation all staged vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
+    /// does, after a look that has found failures. `false` if too many vertices would have to be placed; otherwise
+    /// those that are to be are not applied.
+    pub(super) fn mend_moved(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
+        self.begin_moves(repair);
+        self.mend(repair, report)
+    }
+
+    /// Takes back what must be, and flips; `false` if too many vertices would have to be placed.
     fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
+        let mended = self.mend_failures(repair, report);
+        self.settle(repair);
+        report.moved = repair.n_new as u64;
+        mended
+    }
+
+    fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
         let most = self.n_present / placed::<G>();
-        self.move_staged(repair);
         // A vertex taken back mends about three cells.
-        if !self.kernel.sweep(&mut repair.failures, 3 * most) {
-            return Ok(false);
+        let failures = &mut repair.failures;
+        let mut is_triangulation =
+            !failures.are_open && failures.cells.is_empty() && failures.ridges.is_empty();
+        if failures.are_open {
+            if !self.kernel.sweep(failures, 3 * most) {
+                return Ok(false);
+            }
+        } else if !is_triangulation {
+            self.kernel.list_ghosts(&mut failures.ghosts);
         }
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
         for _ in 0..ROUNDS {
-            if !self.take_back_failed(repair, most) || !self.kernel.winds_once(&repair.failures.ghosts) {
+            if !is_triangulation
+                && !(self.take_back_failed(repair, most) && self.kernel.winds_once(&repair.failures.ghosts))
+            {
                 return Ok(false);
             }
             repair.suspects.clone_from(&repair.failures.facets);
@@ -111,13 +136,17 @@ impl<G: Dimension> MovingTriangulation<G> {
             if repair.sites.is_empty() {
                 return Ok(false);
             }
+            if is_triangulation {
+                self.kernel.list_ghosts(&mut repair.failures.ghosts);
+                is_triangulation = false;
+            }
             self.take_back_listed(repair);
         }
         Ok(false)
     }
 
-    /// Moves all staged vertices that have sites of their own and have not moved yet.
-    fn move_staged(&mut self, repair: &mut Repair) {
+    /// Notes the vertices that have been moved.
+    fn begin_moves(&mut self, repair: &mut Repair) {
         repair.at.clear();
         repair.at.resize(self.site_of.len(), At::Rest);
         (repair.n_new, repair.n_old) = (0, 0);
@@ -127,6 +156,11 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.n_new += 1;
             }
         }
+    }
+
+    /// Moves all staged vertices that have sites of their own and have not moved yet.
+    fn move_staged(&mut self, repair: &mut Repair) {
+        self.begin_moves(repair);
         // As in the test for tolerances: sites are asked for in advance, as they are in another order than the vertices.
         let (site_of, positions) = (&self.site_of[..], &mut self.staging.positions[..]);
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
@@ -184,13 +218,10 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let across = complex.cell(ridge.cell()).neighbour(ridge.index());
                 let behind = complex.cell(ridge.cell()).neighbour(G::D).cell();
                 // The last corner of a ghost cell is the ghost vertex. The cell behind decides ties.
-                let mut corners = [INFINITE; 8];
-                let n = G::Corners::N;
-                corners[..n].copy_from_slice(complex.cell(behind).corners.as_ref());
-                corners[n] = complex.cell(across.cell()).corners[across.index()];
-                let Some(s) = self.farthest(repair, &corners[..=n]) else {
-                    unreachable!("old places have a convex hull");
-                };
+                let mut corners = [INFINITE; 5];
+                corners[..G::Corners::N].copy_from_slice(complex.cell(behind).corners.as_ref());
+                corners[4] = complex.apex(across);
+                let s = self.farthest(repair, &corners).expect("old places have a convex hull");
                 repair.failures.ridges.push(ridge);
                 self.take_back(repair, s);
                 if repair.n_old > most {
@@ -234,7 +265,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let across = complex.cell(facet.cell()).neighbour(facet.index());
             let mut corners = [INFINITE; 5];
             corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
-            corners[4] = complex.cell(across.cell()).corners[across.index()];
+            corners[4] = complex.apex(across);
             let is_listed =
                 |&s: &u32| s != INFINITE && repair.at[self.kernel.site(s).id as usize] == At::Listed;
             if corners.iter().any(is_listed) {

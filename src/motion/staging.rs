@@ -53,17 +53,19 @@ impl<G: Dimension> Staging<G> {
         if self.is_whole { self.positions.len() } else { self.vertices.len() }
     }
 
-    /// Makes the list of a whole staging of which nothing has been applied.
+    /// Makes the list of a whole staging of which nothing has been applied, or all.
     pub(super) fn list(&mut self) -> Result<()> {
         if !self.is_whole {
             return Ok(());
         }
-        debug_assert!(self.vertices.is_empty() && !self.others_applied);
         let n = self.positions.len();
+        debug_assert!(self.applied == self.vertices.len() && (self.others_applied || self.applied == 0));
+        self.vertices.clear();
         memory::reserve_exact(&mut self.vertices, n)?;
         self.vertices.extend(0..n as u32);
         self.is_staged.fill(true);
-        self.is_whole = false;
+        self.applied = if self.others_applied { n } else { 0 };
+        (self.is_whole, self.others_applied) = (false, false);
         Ok(())
     }
 

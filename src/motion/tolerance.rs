@@ -82,14 +82,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.regions.kept_for() == Some(filter) {
             return Ok(());
         }
-        self.regions.compute(&mut self.kernel, self.site_of.len(), filter, report)
+        let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
+        self.regions.compute(&mut self.kernel, n_ids, filter, elsewhere, report)
     }
 
     /// Of a whole staging, queues the vertices beyond their tolerance; `false`, and no queue, if they are more than
     /// `most`. No two vertices may share a site.
     ///
     /// This loop and the next are what a timestamp costs that changes nothing.
-    fn queue_beyond(&mut self, most: usize) -> Result<bool> {
+    pub(super) fn queue_beyond(&mut self, most: usize) -> Result<bool> {
         let queue = &mut self.staging.vertices;
         let fixed = self.regions.fixed();
         for (v, (p, fixed)) in self.staging.positions.iter().zip(fixed).enumerate() {
@@ -110,18 +111,19 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves all vertices of a whole staging that are not queued, and counts them.
     fn accept_others(&mut self, report: &mut CommitReport) {
-        report.moved += self.move_all_staged();
+        report.moved += self.move_whole().0;
         report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
         for k in 0..self.staging.vertices.len() {
             report.moved -= u64::from(self.exchange_position(self.staging.vertices[k]));
         }
     }
 
-    /// Moves all vertices of a whole staging; returns how many positions differ. No two may share a site.
+    /// Moves all vertices of a whole staging; returns how many positions differ and, in space, an upper bound of how far
+    /// any has moved. No two may share a site.
     ///
     /// Sites are asked for in advance, as they are in another order than the vertices.
-    fn move_all_staged(&mut self) -> u64 {
-        let mut moved = 0;
+    pub(super) fn move_whole(&mut self) -> (u64, f64) {
+        let (mut moved, mut farthest) = (0, 0.0);
         let sites = self.kernel.sites_mut();
         for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
             if let Some(&next) = self.site_of.get(v + AHEAD) {
@@ -129,10 +131,15 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let point = &mut sites[s as usize].point;
             moved += u64::from(point != p);
+            if G::D == 3 {
+                let square = G::squared_distance(point, p);
+                farthest = if square > farthest { square } else { farthest };
+            }
             std::mem::swap(point, p);
         }
         self.staging.others_applied = true;
-        moved
+        // More than what six roundings and underflow may take off.
+        (moved, farthest.sqrt() * (1.0 + 16.0 * f64::EPSILON) + 1e-140)
     }
 
     /// Moves those of the listed vertices that stay in their regions, and puts them before the others.
@@ -189,7 +196,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Relocates a vertex; the regions are told.
-    fn relocate_noted(&mut self, vertex: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn relocate_noted(
+        &mut self,
+        vertex: u32,
+        q: &G::Point,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         self.relocate(vertex, q, Shortcut::Flips, report)?;
         self.regions.note_relocated(vertex);
         Ok(())

@@ -150,7 +150,7 @@ const fn half_width_error(dimension: usize) -> f64 {
 
 /// Bounds of determinants / product of extents: 6 u and 40 u to first order (`filter.rs`).
 /// Underflow is left to [`LEAST_DETERMINANT`].
-const ORIENT_2D: f64 = 7.0 * UNIT;
+pub(super) const ORIENT_2D: f64 = 7.0 * UNIT;
 pub(super) const ORIENT_3D: f64 = 41.0 * UNIT;
 /// Bound of a component of a vector product of differences / largest extent², times √3 or more.
 pub(super) const CROSS: f64 = 14.0 * UNIT;

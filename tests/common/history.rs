@@ -7,7 +7,7 @@ use deldrift::delaunay::Dimension;
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
 use std::collections::BTreeMap;
 
-pub const ALGORITHMS: [Algorithm; 9] = [
+pub const ALGORITHMS: [Algorithm; 10] = [
     Algorithm::Rebuilding,
     Algorithm::Placement,
     Algorithm::PlacementFlips,
@@ -16,6 +16,7 @@ pub const ALGORITHMS: [Algorithm; 9] = [
     Algorithm::SafeRegionTolerance,
     Algorithm::RebuildingTolerance,
     Algorithm::Repair,
+    Algorithm::Watching,
     Algorithm::Auto,
 ];
 

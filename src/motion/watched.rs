@@ -1,0 +1,87 @@
+//! A set of facets that is gone through at each timestamp.
+//!
+//! A list of facet codes, and by cell and index a bit for being a member and a bit for being listed: what leaves the set
+//! stays listed until the list is gone through. A facet may be named from either side.
+
+use crate::complex::{Facet, memory};
+use crate::error::Result;
+
+#[derive(Debug, Default)]
+pub(super) struct Watched {
+    list: Vec<u32>,
+    /// By cell: bit i for the membership of facet i, bit 4 + i for its being listed.
+    bits: Vec<u8>,
+}
+
+const LISTED: u8 = 0xf0;
+
+impl Watched {
+    /// Empties the set.
+    pub(super) fn clear(&mut self) {
+        self.list.clear();
+        self.bits.clear();
+    }
+
+    /// Follows the number of cells.
+    pub(super) fn grow(&mut self, n_cells: usize) -> Result<()> {
+        let more = n_cells.saturating_sub(self.bits.len());
+        memory::reserve(&mut self.bits, more)?;
+        self.bits.resize(self.bits.len() + more, 0);
+        Ok(())
+    }
+
+    /// Number of listed facets.
+    pub(super) fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Takes the facets that are named from these cells out of the set.
+    pub(super) fn forget(&mut self, cells: &[u32]) {
+        for &c in cells {
+            if let Some(bits) = self.bits.get_mut(c as usize) {
+                *bits &= LISTED;
+            }
+        }
+    }
+
+    /// Puts a facet, given from both sides, into the set or takes it out; whether it is in the set.
+    pub(super) fn set(&mut self, facet: Facet, across: Facet, is_member: bool) -> bool {
+        let (name, other) = if facet.code() < across.code() { (facet, across) } else { (across, facet) };
+        self.bits[other.cell() as usize] &= !(1 << other.index());
+        let bits = &mut self.bits[name.cell() as usize];
+        let (member, listed) = (1 << name.index(), 0x10 << name.index());
+        if !is_member {
+            *bits &= !member;
+            return false;
+        }
+        if *bits & listed == 0 {
+            if memory::reserve(&mut self.list, 1).is_err() {
+                *bits &= !member;
+                return false;
+            }
+            self.list.push(name.code());
+        }
+        *bits |= member | listed;
+        true
+    }
+
+    /// Visits all members named from live cells, and drops the others.
+    pub(super) fn for_each(&mut self, is_live: impl Fn(u32) -> bool, mut visit: impl FnMut(Facet)) {
+        let bits = &mut self.bits;
+        self.list.retain(|&code| {
+            let facet = Facet::from_code(code);
+            let bits = &mut bits[facet.cell() as usize];
+            let is_member = *bits & 1 << facet.index() != 0 && is_live(facet.cell());
+            if is_member {
+                visit(facet);
+            } else {
+                *bits &= !(0x11 << facet.index());
+            }
+            is_member
+        });
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.list.capacity() * size_of::<u32>() + self.bits.capacity()
+    }
+}
