@@ -173,8 +173,8 @@ enum deldrift_algorithm
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// The library chooses at each commit by what the last ones found: tolerance while next to all vertices
-    /// stay within it, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex
+    /// The library chooses at each commit by what the last ones found: watching while few vertices leave
+    /// their tolerance, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex
     /// in twenty is staged: tolerance if that is up to date, else placement with flips.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.

@@ -13,8 +13,8 @@ use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRul
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_algorithm {
-    /// The library chooses at each commit by what the last ones found: tolerance while next to all vertices
-    /// stay within it, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex
+    /// The library chooses at each commit by what the last ones found: watching while few vertices leave
+    /// their tolerance, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex
     /// in twenty is staged: tolerance if that is up to date, else placement with flips.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.
@@ -298,10 +298,10 @@ mod tests {
 
     #[test]
     fn algorithms_and_their_numbers_agree() {
-        for code in 0..9 {
+        for code in 0..10 {
             assert_eq!(algorithm("", code).map(algorithm_code).ok(), Some(code));
         }
-        assert!(algorithm("", 9).is_err());
+        assert!(algorithm("", 10).is_err());
     }
 
     #[test]

@@ -42,6 +42,18 @@ pub struct Undo {
     made: Option<u32>,
 }
 
+impl Undo {
+    /// The cells that the flip has changed, made or freed; some are listed more than once.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = u32> + use<> {
+        self.brought_back().into_iter().chain(self.made)
+    }
+
+    /// The cells that [`undo`](Complex::undo) brings back.
+    pub(crate) fn brought_back(&self) -> [u32; 3] {
+        self.dead.map(|(c, _)| c)
+    }
+}
+
 impl Complex<[u32; 4]> {
     /// Replaces the two finite cells of a facet by three around the edge between their opposing
     /// vertices, and returns the facets on the boundary of both. The caller has reserved a cell and
@@ -105,11 +117,6 @@ impl Complex<[u32; 4]> {
         for &(c, cell) in &undo.dead {
             self.put_whole(c, cell.corners, cell.neighbours);
         }
-    }
-
-    /// The cells that [`undo`](Self::undo) brings back.
-    pub(crate) fn brought_back(undo: &Undo) -> [u32; 3] {
-        undo.dead.map(|(c, _)| c)
     }
 
     /// Puts a finite cell, and both sides of all gluings.

@@ -19,7 +19,9 @@ pub struct Failures {
     pub facets: Vec<Facet>,
     /// Ridges of the hull that are not convex, as facets of ghost cells.
     pub ridges: Vec<Facet>,
-    /// The ghost cells, after a sweep.
+    /// Ghost cells whose ridges have not been looked at.
+    pub open_ghosts: Vec<u32>,
+    /// All ghost cells, after a sweep.
     pub ghosts: Vec<u32>,
     /// Whether a look at some of the certificates leaves open what became of others: a sweep has to follow.
     pub are_open: bool,
@@ -40,6 +42,7 @@ impl Failures {
         self.cells.clear();
         self.facets.clear();
         self.ridges.clear();
+        self.open_ghosts.clear();
         self.ghosts.clear();
         self.are_open = false;
     }
@@ -76,13 +79,14 @@ impl<G: Dimension> Delaunay<G> {
                     .extend((0..G::Corners::N).filter(|i| failing >> i & 1 == 1).map(|i| Facet::new(c, i)));
             }
         }
+        failures.open_ghosts.clone_from(&failures.ghosts);
         self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
         true
     }
 
-    /// Checks the ridges of the ghost cells found by the sweep. Finite cells must be positive.
+    /// Checks the ridges of the ghost cells that are open. Finite cells must be positive.
     pub(crate) fn check_ridges(&self, failures: &mut Failures) {
-        for &g in &failures.ghosts {
+        for g in failures.open_ghosts.drain(..) {
             let ridges = (0..Self::LAST).map(|i| Facet::new(g, i));
             failures.ridges.extend(ridges.filter(|&ridge| !self.is_convex(ridge)));
         }
@@ -120,6 +124,10 @@ impl<G: Dimension> Delaunay<G> {
         if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, motion)) {
             return;
         }
+        let farthest = cells.iter().map(|&c| self.farthest_corner(c, motion)).fold(0.0, f64::max);
+        if farthest < motion.farthest && G::bicell_holds(self, facet, farthest) {
+            return;
+        }
         let n_inverted = failures.cells.len();
         for c in cells {
             self.check_positive(c, motion, failures);
@@ -148,6 +156,7 @@ impl<G: Dimension> Delaunay<G> {
         let behind = self.complex.cell(ridge.cell()).neighbour(Self::LAST).cell();
         if !self.is_positive(behind) {
             failures.cells.push(behind);
+            failures.open_ghosts.push(ridge.cell());
         } else if !self.is_convex(ridge) {
             failures.ridges.push(ridge);
         } else if !self.stayed_positive(&simplex, motion) {
@@ -170,6 +179,10 @@ impl<G: Dimension> Delaunay<G> {
     #[cold]
     #[inline(never)]
     fn check_cell_exactly(&self, c: u32, motion: Motion<G>, failures: &mut Failures) {
+        let farthest = self.farthest_corner(c, motion);
+        if farthest < motion.farthest && G::cell_holds(self, c, farthest) {
+            return;
+        }
         let n_inverted = failures.cells.len();
         self.check_positive(c, motion, failures);
         if failures.cells.len() == n_inverted {
@@ -201,6 +214,15 @@ impl<G: Dimension> Delaunay<G> {
         })
     }
 
+    /// Upper bound of how far the corners of a finite cell have moved.
+    fn farthest_corner(&self, c: u32, motion: Motion<G>) -> f64 {
+        let moved = |&s: &u32| {
+            let site = self.site(s);
+            G::distance_above(&site.point, &motion.before[site.id as usize])
+        };
+        self.complex.cell(c).corners.as_ref().iter().map(moved).fold(0.0, f64::max)
+    }
+
     /// Whether a simplex certainly stayed positive on the way.
     fn stayed_positive(&self, corners: &G::Corners, motion: Motion<G>) -> bool {
         let (mut old, mut new) = ([&self.sites[0].point; 4], [&self.sites[0].point; 4]);
@@ -216,6 +238,7 @@ impl<G: Dimension> Delaunay<G> {
         self.gather_star(s);
         for &(c, _) in self.gathered_star() {
             if self.complex.cell(c).is_ghost() {
+                failures.open_ghosts.push(c);
                 continue;
             }
             if !self.is_positive(c) {

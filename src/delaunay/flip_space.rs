@@ -6,7 +6,7 @@
 //! can be as it was.
 
 use super::{Delaunay, Dimension, Space};
-use crate::complex::{Complex, Facet};
+use crate::complex::{Facet, Undo};
 use crate::error::Result;
 
 impl Delaunay<Space> {
@@ -43,6 +43,9 @@ impl Delaunay<Space> {
             }
             if stuck.is_empty() {
                 // Nothing will be undone. Keep the memory for a few flips, not for those of a whole large set.
+                if let Some(changed) = &mut self.changed {
+                    changed.extend(self.journal.iter().flat_map(Undo::cells));
+                }
                 self.journal.clear();
                 self.journal.shrink_to(self.sites.len() / 16);
                 return Ok(flips);
@@ -75,8 +78,6 @@ impl Delaunay<Space> {
             [true, true, false] => self.complex.flip_3_2(facet, others[2])?,
             _ => return None,
         };
-        self.record(Complex::brought_back(&undo));
-        self.record(outer.map(Facet::cell));
         self.journal.push(undo);
         Some(outer)
     }
@@ -85,7 +86,7 @@ impl Delaunay<Space> {
     pub(super) fn undo_flips(&mut self) {
         while let Some(undo) = self.journal.pop() {
             self.complex.undo(&undo);
-            for cell in Complex::brought_back(&undo) {
+            for cell in undo.brought_back() {
                 for s in self.complex.cell(cell).corners {
                     self.corner_mut(s).cell = cell;
                 }

@@ -3,20 +3,23 @@
 //! | commit | algorithm |
 //! |---|---|
 //! | of few of the vertices | tolerance if it is up to date, else placement by flips |
-//! | while next to all vertices stay within tolerance | tolerance |
+//! | of all vertices, while few leave their tolerance | watching |
 //! | otherwise | repair, which rebuilds where too much fails |
 //! | after such a rebuild | rebuilding, for a while |
 //!
-//! A vertex beyond its tolerance costs *tolerance* a placement and the tolerances around it: 4 ns a vertex and 30 times
-//! that a sweep of its own. So *tolerance* pays while fewer than one vertex in fifty is beyond, and a commit that finds more
-//! goes on as a repair: the vertices accepted are moved already. Few flips in a repair announce that most vertices stay
-//! within tolerance; before that of all is computed, for five sweeps or three, a sample is looked at, and ever more rarely
-//! if it says no or *tolerance* does not last. After a repair that had to
-//! rebuild, so many commits rebuild at once as have failed in a row, and twice as many the next time.
+//! **Watching or sweeping.** Few flips in a repair announce that most vertices stay within tolerance. Before that of
+//! all is computed, for five sweeps or three, a sample is looked at, and ever more rarely if it says no or watching
+//! does not last. While it does, what is watched and what is computed anew is counted, and weighed by measured costs
+//! ([`Costs`]): when it has cost a computation of all tolerances more than sweeps would have, watching ends; when
+//! either count has cost that much more than the other, all tolerances are computed again, so that what is watched
+//! follows from how far the vertices go now.
 //!
-//! Immediate relocations are counted in rounds of as many as there are vertices. After a round of which most changed no
-//! cell tolerances are computed, and kept while most relocations are within: a test costs a fiftieth of a look at the star,
-//! a vertex beyond two or three looks.
+//! **Rebuilding.** After a repair that had to rebuild, so many commits rebuild at once as have failed in a row, and
+//! twice as many the next time.
+//!
+//! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
+//! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a fiftieth of a
+//! look at the star, a vertex beyond two or three looks.
 
 use super::regions::Filter;
 use super::{CommitReport, MovingTriangulation, SwitchingRule};
@@ -25,10 +28,9 @@ use crate::error::Result;
 
 /// Fewer than one staged vertex in so many are few: a placement costs about as much as so many vertices swept.
 const FEW: usize = 20;
-/// *Tolerance* pays while fewer than one vertex in so many is beyond.
+/// Watching pays only while fewer than one vertex in so many is beyond its tolerance.
 const BEYOND: usize = 8;
-/// A repair of fewer flips and placements than one vertex in so many announces that. (A vertex beyond its tolerance
-/// makes about a tenth of a flip.)
+/// A repair of fewer flips and placements than one vertex in so many announces that.
 const CALM: usize = 500;
 /// Vertices sampled before all tolerances are computed, and the share of them that must be within.
 const SAMPLE: u32 = 64;

@@ -21,6 +21,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut report = CommitReport::default();
         let before = self.evaluations();
         self.staging.applied = 0;
+        self.staging.forget_full_list(self.n_present);
         if let Err(error) = self.advance(&mut report) {
             self.go_back()?;
             return Err(error);

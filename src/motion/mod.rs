@@ -10,7 +10,8 @@
 //! | `tolerance` | section 3.3 | place only those that leave their tolerance or safe region |
 //! | `switching` | section 5.2 | rebuild until few do |
 //! | `repair` | | move all at once, check every certificate, mend what fails |
-//! | `auto` | | tolerance, repair or rebuilding, by what the last commits found |
+//! | `watch` | | as repair, but of what has left its tolerance, or soon will |
+//! | `auto` | | watching, repair or rebuilding, by what the last commits found |
 //!
 //! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4).
 //!

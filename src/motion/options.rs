@@ -8,8 +8,8 @@ use crate::delaunay::Dimension;
 /// staged positions. Every algorithm gives exactly the same cells; they differ in cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Algorithm {
-    /// Chosen at each commit by what the last ones found: tolerance while next to all vertices stay within it, otherwise
-    /// repair, or rebuilding where too much would fail; placement by flips when few vertices are staged.
+    /// Chosen at each commit by what the last ones found: watching while few vertices leave their tolerance,
+    /// otherwise repair, or rebuilding where too much would fail; placement by flips when few are staged.
     #[default]
     Auto,
     /// Build anew from all positions (report, section 1).

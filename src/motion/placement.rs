@@ -5,7 +5,6 @@
 //! timestamp; they share a site for that while.
 
 use super::{CommitReport, MovingTriangulation};
-use crate::complex::memory;
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
 
@@ -21,7 +20,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         self.staging.list()?;
         self.regions.invalidate();
-        self.order_queue_by_site()?;
+        self.order_queue_by_site();
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
     }
 
@@ -103,11 +102,16 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one
     /// before.
-    pub(super) fn order_queue_by_site(&mut self) -> Result<()> {
-        let (site_of, staging) = (&self.site_of, &mut self.staging);
-        let queue = &mut staging.vertices[staging.applied..];
-        memory::make_sure_of::<u32>(queue.len())?;
-        radsort::sort_by_key(queue, |&v| site_of[v as usize]);
-        Ok(())
+    pub(super) fn order_queue_by_site(&mut self) {
+        let (site_of, kernel) = (&self.site_of, &self.kernel);
+        let queue = &mut self.staging.vertices[self.staging.applied..];
+        if self.hidden.count() > 0 {
+            queue.sort_unstable_by_key(|&v| site_of[v as usize]);
+            return;
+        }
+        // Each site has one vertex, so the sites can be sorted for them.
+        queue.iter_mut().for_each(|v| *v = site_of[*v as usize]);
+        queue.sort_unstable();
+        queue.iter_mut().for_each(|s| *s = kernel.site(*s).id);
     }
 }

@@ -231,7 +231,6 @@ impl<G: Dimension> MovingTriangulation<G> {
                     break;
                 }
             }
-            repair.failures.ridges.clear();
         }
     }
 

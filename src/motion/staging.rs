@@ -53,6 +53,15 @@ impl<G: Dimension> Staging<G> {
         if self.is_whole { self.positions.len() } else { self.vertices.len() }
     }
 
+    /// Makes a list of all of `n_present` vertices whole.
+    pub(super) fn forget_full_list(&mut self, n_present: usize) {
+        if self.vertices.len() == n_present && self.positions.len() == n_present && n_present > 0 {
+            self.vertices.clear();
+            self.is_staged.fill(false);
+            self.is_whole = true;
+        }
+    }
+
     /// Makes the list of a whole staging of which nothing has been applied, or all.
     pub(super) fn list(&mut self) -> Result<()> {
         if !self.is_whole {

@@ -71,7 +71,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Places the queued vertices; the regions follow.
     pub(super) fn place_beyond(&mut self, report: &mut CommitReport) -> Result<()> {
-        self.order_queue_by_site()?;
+        self.order_queue_by_site();
         self.with_regions(report, |t, report| {
             t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
         })
