@@ -111,18 +111,24 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves all vertices of a whole staging that are not queued, and counts them.
     fn accept_others(&mut self, report: &mut CommitReport) {
-        report.moved += self.move_whole().0;
         report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
+        if self.staging.vertices.is_empty() {
+            // Nothing is left that could fail and ask for the old positions.
+            report.moved += self.move_whole::<false>().0;
+            return;
+        }
+        report.moved += self.move_whole::<true>().0;
         for k in 0..self.staging.vertices.len() {
             report.moved -= u64::from(self.exchange_position(self.staging.vertices[k]));
         }
     }
 
-    /// Moves all vertices of a whole staging; returns how many positions differ and, in space, an upper bound of how far
-    /// any has moved. No two may share a site.
+    /// Moves all vertices of a whole staging, which holds their old positions then if they are to be kept. Returns how
+    /// many positions differ and, if they are kept and in space, an upper bound of how far any has moved. No two
+    /// vertices may share a site.
     ///
     /// Sites are asked for in advance, as they are in another order than the vertices.
-    pub(super) fn move_whole(&mut self) -> (u64, f64) {
+    pub(super) fn move_whole<const KEEPS: bool>(&mut self) -> (u64, f64) {
         let (mut moved, mut farthest) = (0, 0.0);
         let sites = self.kernel.sites_mut();
         for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
@@ -131,6 +137,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let point = &mut sites[s as usize].point;
             moved += u64::from(point != p);
+            if !KEEPS {
+                *point = *p;
+                continue;
+            }
             if G::D == 3 {
                 let square = G::squared_distance(point, p);
                 farthest = if square > farthest { square } else { farthest };

@@ -70,7 +70,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let n_beyond = self.staging.vertices.len();
         report.within_tolerance += (self.n_present - n_beyond) as u64;
-        let (moved, farthest) = self.move_whole();
+        if n_beyond + self.regions.n_watched() == 0 {
+            report.moved += self.move_whole::<false>().0;
+            return Ok(true);
+        }
+        let (moved, farthest) = self.move_whole::<true>();
         report.moved += moved;
         self.staging.applied = n_beyond;
 
