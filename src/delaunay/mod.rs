@@ -54,6 +54,7 @@ pub use validate::{Level, Violation};
 use crate::complex::{Complex, Corners, Facet, INFINITE, Undo, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
+use crate::threads::Threads;
 use cavity::Cavity;
 use flat::Flat;
 use remove::Hole;
@@ -84,6 +85,7 @@ pub struct Delaunay<G: Dimension> {
     changed: Option<Vec<u32>>,
     /// Certificates evaluated by relocations so far.
     certificates: u64,
+    threads: Threads,
 }
 
 impl<G: Dimension> Default for Delaunay<G> {
@@ -104,6 +106,7 @@ impl<G: Dimension> Default for Delaunay<G> {
             journal: Vec::new(),
             changed: None,
             certificates: 0,
+            threads: Threads::ONE,
         }
     }
 }
@@ -111,6 +114,11 @@ impl<G: Dimension> Default for Delaunay<G> {
 impl<G: Dimension> Delaunay<G> {
     /// Index of the last corner, the one that is infinite in a ghost cell.
     const LAST: usize = G::D;
+
+    /// A triangulation without sites that uses several threads.
+    pub(crate) fn on(threads: Threads) -> Self {
+        Delaunay { threads, ..Delaunay::default() }
+    }
 
     /// The cells.
     pub fn complex(&self) -> &Complex<G::Corners> {
