@@ -17,19 +17,13 @@ use std::ops::Range;
 const SAMPLE: usize = 1 << 13;
 
 /// Parts of sites; none for a build on one thread.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Parts {
-    /// First site of each part.
+    /// First site of each part; none if there is but one part.
     starts: Vec<u32>,
     /// Axis and coordinate of the plane that has the parts below `i + 1`, as far as they are on the same side
     /// of all planes before, below it.
     planes: Vec<(usize, f64)>,
-}
-
-impl Default for Parts {
-    fn default() -> Self {
-        Parts { starts: vec![1], planes: Vec::new() }
-    }
 }
 
 impl Parts {
@@ -57,10 +51,10 @@ impl Parts {
 
     /// Number of parts.
     pub(super) fn count(&self) -> usize {
-        self.starts.len()
+        self.planes.len() + 1
     }
 
-    /// The sites of consecutive parts, of `n_sites` in all.
+    /// The sites of consecutive parts, of which there are several, with `n_sites` in all.
     pub(super) fn sites(&self, parts: Range<usize>, n_sites: usize) -> Range<usize> {
         let start = |part: usize| self.starts.get(part).map_or(n_sites, |&s| s as usize);
         start(parts.start)..start(parts.end)
@@ -150,6 +144,9 @@ impl Parts {
 
     /// Whether no part is much larger than the others.
     fn are_even(&self, n_sites: usize) -> bool {
+        if self.starts.is_empty() {
+            return true;
+        }
         let largest = (0..self.count()).map(|part| self.sites(part..part + 1, n_sites).len()).max();
         largest.is_none_or(|largest| largest * self.count() <= n_sites + n_sites / 8)
     }
