@@ -21,5 +21,6 @@ pub mod delaunay;
 mod error;
 pub mod motion;
 pub mod predicates;
+mod threads;
 
 pub use error::{Error, Result};

@@ -5,7 +5,8 @@
 //!
 //! Rust announces a panic on the standard error stream before it unwinds. A library must not, so the
 //! first entry puts a hook in front of the one in place: inside an entry it writes the announcement to
-//! the message of the thread, elsewhere it hands it on unchanged. The shared and the static library
+//! the message of the thread, on a thread that an entry has started it leaves that to the entry, where the
+//! panic is raised again, and elsewhere it hands it on unchanged. The shared and the static library
 //! bring a standard library of their own, where no panics but deldrift's arise.
 
 use std::cell::{Cell, RefCell};
@@ -17,6 +18,7 @@ use std::sync::Once;
 use super::pointers;
 use super::status::{Failure, deldrift_status};
 use super::triangulation::{Kernel, deldrift_triangulation};
+use crate::threads;
 
 /// Runs the body of an entry.
 pub(super) fn enter(body: impl FnOnce() -> Result<(), Failure>) -> deldrift_status {
@@ -156,7 +158,7 @@ fn hear_panics() {
         panic::set_hook(Box::new(move |panic| {
             if INSIDE.get() {
                 record(format_args!("{panic}"));
-            } else {
+            } else if !threads::is_worker() {
                 before(panic);
             }
         }));
@@ -214,6 +216,22 @@ mod tests {
             assert_eq!(read(t, |_| panic!("oh")), deldrift_status::DELDRIFT_INTERNAL_ERROR);
             assert_eq!(deldrift_cell_count(t, &mut count), deldrift_status::DELDRIFT_OK);
             assert_eq!(count, 2);
+            deldrift_destroy(t);
+        }
+    }
+
+    #[test]
+    fn panic_on_another_thread_is_one_here() {
+        let t = square();
+        // SAFETY: `t` lives until its destruction at the end.
+        unsafe {
+            let status = change(t, |_| {
+                threads::join(|| (), || panic!("cell {} went missing", 14));
+                Ok(())
+            });
+            assert_eq!(status, deldrift_status::DELDRIFT_INTERNAL_ERROR);
+            assert!(message().contains("cell 14 went missing"), "{}", message());
+            assert_eq!(deldrift_validate(t, 1), deldrift_status::DELDRIFT_POISONED);
             deldrift_destroy(t);
         }
     }

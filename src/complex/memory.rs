@@ -5,7 +5,10 @@
 
 #![allow(unsafe_code)]
 
+use std::mem::MaybeUninit;
+
 use crate::error::{Error, Result};
+use crate::threads;
 
 /// Arrays below this size stay on ordinary pages.
 const LARGE: usize = 4 << 20;
@@ -22,6 +25,43 @@ pub(crate) fn reserve_exact<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
 /// Makes room for `more` more entries at least; where more follow, in constant time each.
 pub(crate) fn reserve<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })
+}
+
+/// Appends what `make` makes of each entry of `from`, each of several threads a stretch of it.
+pub(crate) fn extend<T: Sync, U: Copy + Send>(
+    array: &mut Vec<U>,
+    from: &[T],
+    n_threads: usize,
+    make: impl Fn(&T) -> U + Sync,
+) -> Result<()> {
+    let missing = from.len().saturating_sub(array.capacity() - array.len());
+    if missing > 0 {
+        reserve_exact(array, from.len())?;
+    }
+    write(from, &mut array.spare_capacity_mut()[..from.len()], n_threads, &make);
+    // SAFETY: so many entries have just been written behind the last one.
+    unsafe { array.set_len(array.len() + from.len()) };
+    Ok(())
+}
+
+/// Writes every entry of `to`, which is as long as `from`.
+fn write<T: Sync, U: Copy + Send>(
+    from: &[T],
+    to: &mut [MaybeUninit<U>],
+    n_threads: usize,
+    make: &(impl Fn(&T) -> U + Sync),
+) {
+    assert_eq!(from.len(), to.len());
+    if n_threads <= 1 {
+        for (from, to) in from.iter().zip(to) {
+            to.write(make(from));
+        }
+        return;
+    }
+    let (threads, rest) = (n_threads / 2, n_threads - n_threads / 2);
+    let middle = (from.len() as u64 * threads as u64 / n_threads as u64) as usize;
+    let ((from_a, from_b), (to_a, to_b)) = (from.split_at(middle), to.split_at_mut(middle));
+    threads::join(|| write(from_a, to_a, threads, make), || write(from_b, to_b, rest, make));
 }
 
 /// Makes sure that an array of so many entries could be had: for those who take one

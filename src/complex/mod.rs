@@ -379,6 +379,35 @@ impl<C: Corners> Complex<C> {
         Ok(index)
     }
 
+    /// Adds the cells of another complex, on other sites: its cell `c` becomes `c + n_slots()`, its site `s`
+    /// becomes `s + shift`, on several threads.
+    pub(crate) fn append(&mut self, other: &Self, shift: u32, n_threads: usize) -> Result<()> {
+        let n = self.cells.len();
+        if n + other.cells.len() > MAX_CELLS {
+            return Err(Error::TooManyCells { limit: MAX_CELLS });
+        }
+        memory::reserve_exact(&mut self.free, other.free.len())?;
+        let shifted = |cell: &Cell<C>| {
+            let mut cell = *cell;
+            if cell.corners[0] == NONE {
+                return cell;
+            }
+            for corner in cell.corners.as_mut().iter_mut().filter(|corner| **corner != INFINITE) {
+                *corner += shift;
+            }
+            for code in cell.neighbours.as_mut() {
+                *code = Facet::new((*code >> 2) + n as u32, (*code & 3) as usize).0;
+            }
+            cell
+        };
+        memory::extend(&mut self.cells, &other.cells, n_threads, shifted)?;
+        memory::reserve_exact(&mut self.marks, self.cells.capacity() - n)?;
+        self.marks.resize(self.cells.len(), 0);
+        self.free.extend(other.free.iter().map(|c| c + n as u32));
+        self.n_ghosts += other.n_ghosts;
+        Ok(())
+    }
+
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4

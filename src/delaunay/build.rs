@@ -4,7 +4,7 @@
 //! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean length of
 //! the walks tells when to sort again.
 
-use super::order::{hilbert_order, in_rounds};
+use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE, NONE, memory};
 use crate::error::{Error, Result};
@@ -29,15 +29,18 @@ impl<G: Dimension> Delaunay<G> {
     /// its point for id, and with the sign of zeros made positive. [`rebuild`](Self::rebuild) must follow.
     pub fn add_sites(&mut self, points: &[G::Point]) -> Result<()> {
         let n = points.len();
-        let keyed = hilbert_order::<G>(0..n as u32, n, |i| &points[i as usize])?;
+        let (parts, sorted) = self.in_parts(0..n as u32, n, |i| &points[i as usize])?;
         self.reserve_sites(n)?;
-        self.sites.extend(keyed.into_iter().map(|k| {
-            let mut point = points[k.item() as usize];
-            for axis in 0..G::D {
-                point[axis] += 0.0;
-            }
-            Site::new(point, k.item())
-        }));
+        for keyed in &sorted {
+            memory::extend(&mut self.sites, keyed, sorted.len(), |k| {
+                let mut point = points[k.item() as usize];
+                for axis in 0..G::D {
+                    point[axis] += 0.0;
+                }
+                Site::new(point, k.item())
+            })?;
+        }
+        self.parts = parts;
         Ok(())
     }
 
@@ -45,12 +48,16 @@ impl<G: Dimension> Delaunay<G> {
     /// go: [`rebuild`](Self::rebuild) must follow.
     pub fn sort_sites(&mut self) -> Result<()> {
         let sites = &self.sites;
-        let keyed = hilbert_order::<G>(self.live_sites(), sites.len(), |s| &sites[s as usize].point)?;
+        let n = sites.len() - 1 - self.free_sites.len();
+        let (parts, keyed) = self.in_parts(self.live_sites(), n, |s| &sites[s as usize].point)?;
         let mut sorted = Vec::new();
-        memory::reserve_exact(&mut sorted, keyed.len() + 1)?;
+        memory::reserve_exact(&mut sorted, n + 1)?;
         sorted.push(sites[INFINITE as usize]);
-        sorted.extend(keyed.into_iter().map(|k| sites[k.item() as usize]));
+        for part in &keyed {
+            memory::extend(&mut sorted, part, keyed.len(), |k| sites[k.item() as usize])?;
+        }
         self.sites = sorted;
+        self.parts = parts;
         self.free_sites.clear();
         self.complex.clear();
         Ok(())
@@ -59,8 +66,11 @@ impl<G: Dimension> Delaunay<G> {
     /// Triangulates the live sites anew. Coincident sites are dropped in favour of the lowest id and reported.
     /// `monitor` is called with the fraction done; if it returns `false`, the cells are left half made.
     pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
-        self.tighten_filter();
         self.flat.clear();
+        if let Some(coincident) = self.triangulate_parts(monitor)? {
+            return self.merge(coincident);
+        }
+        self.tighten_filter();
         let order = in_rounds::<G>(self.live_sites())?;
         if order.iter().any(|&s| self.extend_basis(s)) {
             return self.triangulate(&order, monitor);
@@ -91,35 +101,59 @@ impl<G: Dimension> Delaunay<G> {
         order: &[u32],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<Merge>> {
+        let coincident = self.triangulate_unmerged(order, order.len(), monitor)?;
+        self.merge(coincident)
+    }
+
+    /// Likewise, with room for `n` sites; returns pairs of coincident sites, the second in the cells.
+    pub(super) fn triangulate_unmerged(
+        &mut self,
+        order: &[u32],
+        n: usize,
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<(u32, u32)>> {
         self.complex.clear();
         self.is_sorted = false;
         // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
-        self.complex.reserve(order.len() * if G::D == 2 { 2 } else { 7 } + 64)?;
+        self.complex.reserve(n * if G::D == 2 { 2 } else { 7 } + 64)?;
         for site in &mut self.sites {
             site.cell = NONE;
         }
         self.start()?;
-        G::begin_build(self)?;
-        let inserted = self.insert_all(order, monitor);
-        G::end_build(self);
-        let coincident = inserted?;
-        self.merge(coincident)
+        self.cavity.steps = 0;
+        self.insert_all(order, monitor)
     }
 
-    /// Inserts all sites but those of the first cell; returns pairs of coincident sites, the second in the cells.
-    fn insert_all(&mut self, order: &[u32], monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<(u32, u32)>> {
+    /// Inserts those sites that are in no cell yet; returns pairs of coincident sites, the second in the
+    /// cells.
+    pub(super) fn insert_all(
+        &mut self,
+        order: &[u32],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<(u32, u32)>> {
+        G::begin_build(self)?;
+        let inserted = self.insert_while_begun(order, monitor);
+        G::end_build(self);
+        inserted
+    }
+
+    fn insert_while_begun(
+        &mut self,
+        order: &[u32],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<(u32, u32)>> {
         let mut coincident = Vec::new();
         let mut cavity = std::mem::take(&mut self.cavity);
-        cavity.steps = 0;
         for (done, &s) in order.iter().enumerate() {
             if done % MONITORED == 0 && !monitor(done as f64 / order.len() as f64) {
                 return Err(Error::Cancelled);
             }
-            if self.site(s).cell == NONE
-                && let Insertion::Coincident(t) =
-                    self.insert_into_cells::<true>(&mut cavity, s, self.recent)?
-            {
-                coincident.push((s, t));
+            if self.site(s).cell != NONE {
+                continue;
+            }
+            match self.insert_into_cells::<true>(&mut cavity, s, self.recent)? {
+                Insertion::New => self.record(cavity.made().iter().copied()),
+                Insertion::Coincident(t) => coincident.push((s, t)),
             }
         }
         self.cavity = cavity;

@@ -5,9 +5,15 @@
 //! their boundary winds. They are the Delaunay triangulation if also no facet fails the empty-sphere test (Delaunay's
 //! lemma, ties broken by id).
 
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
 use super::{Delaunay, Dimension, Plane, Space};
 use crate::complex::{Corners, Facet, INFINITE};
-use crate::predicates;
+use crate::{predicates, threads};
+
+/// A sweep of so many cells takes as long as to start a thread for them.
+const SWEPT_AT_LEAST: usize = 1 << 14;
 
 /// What does not hold.
 #[derive(Debug, Default)]
@@ -51,6 +57,14 @@ impl Failures {
     pub fn are_none(&self) -> bool {
         self.cells.is_empty() && self.facets.is_empty() && self.ridges.is_empty() && !self.are_open
     }
+
+    /// Adds those of a later range.
+    fn append(&mut self, mut later: Failures) {
+        self.cells.append(&mut later.cells);
+        self.facets.append(&mut later.facets);
+        self.ridges.append(&mut later.ridges);
+        self.ghosts.append(&mut later.ghosts);
+    }
 }
 
 impl<G: Dimension> Delaunay<G> {
@@ -58,7 +72,30 @@ impl<G: Dimension> Delaunay<G> {
     /// when more than `most` cells have failed.
     pub(crate) fn sweep(&mut self, failures: &mut Failures, most: usize) -> bool {
         failures.clear();
-        for c in 0..self.complex.n_slots() as u32 {
+        let n = self.complex.n_slots();
+        let n_threads = self.threads.for_work(n, SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
+        let n_failed = AtomicUsize::new(0);
+        if n_threads == 1 {
+            self.sweep_range(0..n, failures, most, &n_failed);
+        } else {
+            let parts = threads::for_ranges(n, n_threads, |range| {
+                let mut failures = Failures::default();
+                self.sweep_range(range, &mut failures, most, &n_failed);
+                failures
+            });
+            parts.into_iter().for_each(|part| failures.append(part));
+        }
+        if n_failed.into_inner() > most {
+            return false;
+        }
+        failures.open_ghosts.clone_from(&failures.ghosts);
+        self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
+        true
+    }
+
+    /// Sweeps the cells of a range; stops when more than `most` cells of all ranges have failed.
+    fn sweep_range(&self, range: Range<usize>, failures: &mut Failures, most: usize, n_failed: &AtomicUsize) {
+        for c in range.start as u32..range.end as u32 {
             if self.complex.is_free(c) {
                 continue;
             }
@@ -69,8 +106,8 @@ impl<G: Dimension> Delaunay<G> {
             let (is_positive, failing) = G::certify(self, c);
             if !is_positive {
                 failures.cells.push(c);
-                if failures.cells.len() > most {
-                    return false;
+                if n_failed.fetch_add(1, Relaxed) >= most {
+                    return;
                 }
             }
             if failing != 0 {
@@ -79,9 +116,6 @@ impl<G: Dimension> Delaunay<G> {
                     .extend((0..G::Corners::N).filter(|i| failing >> i & 1 == 1).map(|i| Facet::new(c, i)));
             }
         }
-        failures.open_ghosts.clone_from(&failures.ghosts);
-        self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
-        true
     }
 
     /// Checks the ridges of the ghost cells that are open. Finite cells must be positive.

@@ -30,6 +30,8 @@ impl Coordinates for [f64; 3] {}
 pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Number of coordinates.
     const D: usize;
+    /// Sites of a part at least for a build in parts to be clearly faster, on a busy machine as well.
+    const BUILT_AT_LEAST: usize;
     /// `[f64; D]`.
     type Point: Coordinates;
     /// `[u32; D + 1]`: the corners of a cell, or its neighbours.
@@ -63,6 +65,8 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         q: &Self::Point,
         id: u32,
     ) -> bool;
+    /// Whether all points of a box are certainly outside the sphere of a positively oriented finite cell.
+    fn is_clear_of(sites: Sites<Self>, v: &Self::Corners, lower: &Self::Point, upper: &Self::Point) -> bool;
     /// Whether the points lie in one affine subspace of dimension `points.len() - 2`: two equal points,
     /// three on a line, four in a plane.
     fn is_dependent(f: &StaticFilter, points: &[Self::Point]) -> bool;
@@ -142,6 +146,7 @@ pub struct Space;
 
 impl Dimension for Plane {
     const D: usize = 2;
+    const BUILT_AT_LEAST: usize = 16_000;
     type Point = [f64; 2];
     type Corners = [u32; 3];
     type Scratch = cavity_plane::Scratch;
@@ -183,6 +188,12 @@ impl Dimension for Plane {
         }
         let [i, j, k] = v.map(|s| sites.id(s));
         predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id])
+    }
+
+    #[inline(always)]
+    fn is_clear_of(sites: Sites<Self>, v: &[u32; 3], lower: &[f64; 2], upper: &[f64; 2]) -> bool {
+        let [a, b, c] = v.map(|s| sites.point(s));
+        predicates::is_box_outside_circle([a, b, c], [lower, upper])
     }
 
     fn is_dependent(f: &StaticFilter, points: &[[f64; 2]]) -> bool {
@@ -305,6 +316,7 @@ impl Dimension for Plane {
 
 impl Dimension for Space {
     const D: usize = 3;
+    const BUILT_AT_LEAST: usize = 5_000;
     type Point = [f64; 3];
     type Corners = [u32; 4];
     type Scratch = cavity_space::Scratch;
@@ -345,6 +357,12 @@ impl Dimension for Space {
         }
         let [i, j, k, l] = v.map(|s| sites.id(s));
         predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id])
+    }
+
+    #[inline(always)]
+    fn is_clear_of(sites: Sites<Self>, v: &[u32; 4], lower: &[f64; 3], upper: &[f64; 3]) -> bool {
+        let [a, b, c, d] = v.map(|s| sites.point(s));
+        predicates::is_box_outside_sphere([a, b, c, d], [lower, upper])
     }
 
     fn is_dependent(f: &StaticFilter, points: &[[f64; 3]]) -> bool {

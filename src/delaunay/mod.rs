@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `order` | Hilbert curve and insertion rounds |
 //! | `build` | all sites at once |
+//! | `parts`, `parallel`, `unite` | the same on several threads |
 //! | `locate` | the walk |
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
 //! | `remove` | removal: fill the star by gift wrapping |
@@ -36,10 +37,13 @@ mod flip_space;
 mod hub;
 mod locate;
 pub mod order;
+mod parallel;
+mod parts;
 mod relocate;
 mod remove;
 pub mod site;
 mod spheres;
+mod unite;
 mod validate;
 
 pub use build::Merge;
@@ -54,8 +58,10 @@ pub use validate::{Level, Violation};
 use crate::complex::{Complex, Corners, Facet, INFINITE, Undo, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
+use crate::threads::Threads;
 use cavity::Cavity;
 use flat::Flat;
+use parts::Parts;
 use remove::Hole;
 
 /// Lists of more than one cell in so many are put in storage order.
@@ -66,6 +72,7 @@ const SPARSE: usize = 32;
 pub struct Delaunay<G: Dimension> {
     sites: Vec<Site<G>>,
     free_sites: Vec<u32>,
+    parts: Parts,
     complex: Complex<G::Corners>,
     filter: StaticFilter,
     lower: G::Point,
@@ -84,6 +91,7 @@ pub struct Delaunay<G: Dimension> {
     changed: Option<Vec<u32>>,
     /// Certificates evaluated by relocations so far.
     certificates: u64,
+    threads: Threads,
 }
 
 impl<G: Dimension> Default for Delaunay<G> {
@@ -92,6 +100,7 @@ impl<G: Dimension> Default for Delaunay<G> {
         Delaunay {
             sites: vec![Site::new(origin, INFINITE)],
             free_sites: Vec::new(),
+            parts: Parts::default(),
             complex: Complex::default(),
             filter: G::filter(&origin, &origin),
             lower: origin,
@@ -104,6 +113,7 @@ impl<G: Dimension> Default for Delaunay<G> {
             journal: Vec::new(),
             changed: None,
             certificates: 0,
+            threads: Threads::ONE,
         }
     }
 }
@@ -111,6 +121,11 @@ impl<G: Dimension> Default for Delaunay<G> {
 impl<G: Dimension> Delaunay<G> {
     /// Index of the last corner, the one that is infinite in a ghost cell.
     const LAST: usize = G::D;
+
+    /// A triangulation without sites that uses several threads.
+    pub(crate) fn on(threads: Threads) -> Self {
+        Delaunay { threads, ..Delaunay::default() }
+    }
 
     /// The cells.
     pub fn complex(&self) -> &Complex<G::Corners> {

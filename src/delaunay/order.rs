@@ -32,10 +32,15 @@ where
 }
 
 /// An item and its position along the curve, in the upper half.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Keyed(u64);
 
 impl Keyed {
+    /// An item at the start of the curve.
+    pub fn new(item: u32) -> Self {
+        Keyed(u64::from(item))
+    }
+
     /// The item.
     pub fn item(self) -> u32 {
         self.0 as u32
@@ -46,19 +51,15 @@ impl Keyed {
     }
 }
 
-/// The items, of which there are at most `count`, along the Hilbert curve of their points.
+/// Sorts items along the Hilbert curve of their points.
 pub fn hilbert_order<'p, G: Dimension>(
-    items: impl Iterator<Item = u32>,
-    count: usize,
+    mut items: Vec<Keyed>,
     point: impl Fn(u32) -> &'p G::Point + Copy,
 ) -> Result<Vec<Keyed>> {
-    let mut keyed = Vec::new();
-    memory::reserve_exact(&mut keyed, count)?;
-    keyed.extend(items.map(|item| Keyed(u64::from(item))));
     // For the sort.
-    memory::make_sure_of::<Keyed>(count)?;
-    sort_in_box::<G>(point, &mut keyed);
-    Ok(keyed)
+    memory::make_sure_of::<Keyed>(items.len())?;
+    sort_in_box::<G>(point, &mut items);
+    Ok(items)
 }
 
 /// Runs of one key up to this length stay unsorted: a walk through them is short anyway.
@@ -241,7 +242,8 @@ mod tests {
             }
         }
         let n = points.len();
-        let keyed = hilbert_order::<Plane>(0..n as u32, n, |i| &points[i as usize]).expect("room for it");
+        let keyed = (0..n as u32).map(Keyed::new).collect();
+        let keyed = hilbert_order::<Plane>(keyed, |i| &points[i as usize]).expect("room for it");
         let order: Vec<u32> = keyed.into_iter().map(Keyed::item).collect();
         let mut seen = order.clone();
         seen.sort_unstable();

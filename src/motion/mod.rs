@@ -53,6 +53,7 @@ use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use crate::predicates::exact_calls;
+use crate::threads::Threads;
 use auto::Auto;
 use cells::{Baseline, Cells};
 use coincidence::Hidden;
@@ -97,7 +98,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
         }
         let mut t = MovingTriangulation {
-            kernel: Delaunay::default(),
+            kernel: Delaunay::on(Threads::at_most(options.threads)),
             site_of: Vec::new(),
             hidden: Hidden::default(),
             n_present: positions.len(),

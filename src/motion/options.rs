@@ -80,7 +80,14 @@ pub type Monitor = Box<dyn FnMut(f64) -> bool + Send + Sync>;
 pub struct Options {
     /// Algorithm of [`commit_timestamp`](super::MovingTriangulation::commit_timestamp).
     pub algorithm: Algorithm,
-    /// Greatest number of threads; 0 lets the library choose.
+    /// Greatest number of threads for building, and for the sweep of [`Algorithm::Repair`]; the rest of the
+    /// work is done by the calling thread alone. 0, the default, lets the library choose: as many as the
+    /// system runs at the same time (asked once), but one for each 16,000 vertices in the plane or 5,000 in
+    /// space, and for each 16,384 cells of a sweep. A number that is given is used from 256 vertices or cells
+    /// for each thread on, whether or not that pays.
+    ///
+    /// The cells do not depend on it. Their order does, and so do the counts of flips, placements and exact
+    /// signs, as those depend on the order.
     pub threads: u32,
     /// Coincident vertices.
     pub coincidence: CoincidencePolicy,

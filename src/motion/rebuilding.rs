@@ -25,7 +25,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.staging.applied = k + 1;
         }
         report.rebuilds += 1;
-        if self.kernel.mean_walk() > 1.5 * self.sorted_walk + 0.5 {
+        if self.kernel.mean_walk() > 1.5 * self.sorted_walk + 0.5 || !self.kernel.has_even_parts() {
             self.sort_and_rebuild()
         } else {
             self.rebuild()
@@ -46,6 +46,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn rebuild(&mut self) -> Result<()> {
         self.regions.invalidate();
         self.kernel.take_changes();
+        let site_of = &mut self.site_of;
+        self.kernel.restore_parts(|id, s| site_of[id as usize] = s);
         let mut quiet = |_| true;
         let merges = match &mut self.options.monitor {
             Some(monitor) => self.kernel.rebuild(monitor)?,

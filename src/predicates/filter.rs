@@ -257,6 +257,22 @@ pub(super) fn insphere_bound(extents: [f64; 3]) -> f64 {
     lifted_bound_3d(IN_SPHERE, extents)
 }
 
+/// Bound of a prepared circle of a triangle of this largest extent, for points no further than `reach` from
+/// its corners along each axis: with an extent of its own for the two differences of the point.
+pub(super) fn prepared_bound_2d(extent: f64, reach: f64) -> f64 {
+    let largest = extent.max(reach);
+    let amplified = largest.max(1.0);
+    PREPARED_2D * (extent * extent * reach) * largest + UNDERFLOW * (amplified * amplified)
+}
+
+/// The same for a prepared sphere.
+pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
+    let largest = extent.max(reach);
+    let amplified = largest.max(1.0);
+    PREPARED_3D * (extent * extent * extent * reach) * largest
+        + UNDERFLOW * (amplified * amplified * amplified)
+}
+
 fn lifted_bound_2d(constant: f64, extents @ [x, y]: [f64; 2]) -> f64 {
     let largest = largest(extents);
     let amplified = largest.max(1.0);

@@ -95,7 +95,11 @@ pub use perturbation::{incircle_perturbed, insphere_perturbed};
 pub use plane::{incircle, orient2d};
 pub use separator::{Separator, delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
-pub use sphere::{Circle, Sphere, circle, half_space, side_of_circle, side_of_sphere, sphere};
+pub use sphere::{
+    Circle, Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, side_of_circle,
+    side_of_sphere, sphere,
+};
+pub(crate) use tally::add_exact_calls;
 pub use tally::exact_calls;
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside, is_certainly_outside,

@@ -25,6 +25,7 @@
 //! exceed infinity.
 
 use super::StaticFilter;
+use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d};
 
 /// Vector and area of a cell of the plane: `[n_x, n_y, V]`.
 pub type Circle = [f64; 3];
@@ -75,6 +76,63 @@ pub fn side_of_sphere([x, y, z, volume]: &Sphere, a: &[f64; 3], q: &[f64; 3]) ->
     (s[0] * x + s[1] * y + s[2] * z) - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * volume
 }
 
+/// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
+/// `abcd`.
+///
+/// [`side_of_sphere`], with the computed *n* and *V* > 0, is a concave function of each difference s, so that
+/// its maximum over the box is at the s next to *n* / 2*V* along each axis; rounding being monotone, the
+/// differences of points in the box are between those of its corners. The bound, for the extents of the
+/// tetrahedron and the greatest difference, holds for all these points up to the last rounding, which the
+/// sign survives: once for the errors of *n* and *V*, once for the rounding of the maximum. A quotient that
+/// is u |s| off costs another u² |s|² *V*, which is far less. So twice the bound would be enough, and four
+/// times is.
+#[inline(always)]
+pub fn is_box_outside_sphere([a, b, c, d]: [&[f64; 3]; 4], [lower, upper]: [&[f64; 3]; 2]) -> bool {
+    let [x, y, z, volume] = sphere(a, b, c, d);
+    let (s, reach) = nearest(a, [x, y, z], volume, [lower, upper]);
+    let side = (s[0] * x + s[1] * y + s[2] * z) - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * volume;
+    volume > 0.0 && side < -4.0 * prepared_bound_3d(largest(extents([a, b, c, d])), reach)
+}
+
+/// As [`is_box_outside_sphere`], for the circle of the triangle `abc`.
+#[inline(always)]
+pub fn is_box_outside_circle([a, b, c]: [&[f64; 2]; 3], [lower, upper]: [&[f64; 2]; 2]) -> bool {
+    let [x, y, volume] = circle(a, b, c);
+    let (s, reach) = nearest(a, [x, y], volume, [lower, upper]);
+    let side = (s[0] * x + s[1] * y) - (s[0] * s[0] + s[1] * s[1]) * volume;
+    volume > 0.0 && side < -4.0 * prepared_bound_2d(largest(extents([a, b, c])), reach)
+}
+
+/// The difference from `a` to the point of a box that is next to `a` + `n` / 2`volume`, and the greatest
+/// difference of a coordinate from `a` to points in the box.
+#[inline(always)]
+fn nearest<const D: usize>(
+    a: &[f64; D],
+    n: [f64; D],
+    volume: f64,
+    [lower, upper]: [&[f64; D]; 2],
+) -> ([f64; D], f64) {
+    let mut reach = 0.0f64;
+    let s = std::array::from_fn(|k| {
+        let (least, greatest) = (lower[k] - a[k], upper[k] - a[k]);
+        reach = reach.max(-least).max(greatest);
+        next_to(n[k] / (2.0 * volume), least, greatest)
+    });
+    (s, reach)
+}
+
+/// The number between `lower` and `upper` that is next to `x`.
+#[inline(always)]
+fn next_to(x: f64, lower: f64, upper: f64) -> f64 {
+    if x < lower {
+        lower
+    } else if x > upper {
+        upper
+    } else {
+        x
+    }
+}
+
 #[inline(always)]
 fn cross(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
@@ -83,7 +141,7 @@ fn cross(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicates::{insphere, orient3d};
+    use crate::predicates::{incircle, insphere, orient2d, orient3d};
 
     fn certain(f: &StaticFilter, value: f64) -> Option<bool> {
         (value.abs() > f.prepared).then_some(value > 0.0)
@@ -137,5 +195,39 @@ mod tests {
             }
         }
         assert!(n_certain > 90_000 && n_open > 10_000, "{n_certain} certain, {n_open} open");
+    }
+
+    /// A box that is said to be outside has no point inside, and most that are outside are said to be.
+    #[test]
+    fn boxes_outside_are_outside() {
+        let mut state = 9;
+        let f = StaticFilter::space([-6.0; 3], [6.0; 3]);
+        let g = StaticFilter::plane([-6.0; 2], [6.0; 2]);
+        let (mut n_outside, mut n_seen) = (0, 0);
+        for _ in 0..20_000 {
+            let p: [[f64; 3]; 7] =
+                std::array::from_fn(|_| std::array::from_fn(|_| (unit(&mut state) * 12.0).round() - 6.0));
+            let [a, b, c, d, l, u, _] = &p;
+            let lower: [f64; 3] = std::array::from_fn(|k| l[k].min(u[k]));
+            let upper: [f64; 3] = std::array::from_fn(|k| l[k].max(u[k]));
+            let points = || {
+                let axis = |k: usize| (lower[k] as i32..=upper[k] as i32).map(f64::from);
+                axis(0).flat_map(move |x| axis(1).flat_map(move |y| axis(2).map(move |z| [x, y, z])))
+            };
+            if orient3d(&f, a, b, c, d) > 0.0 {
+                let outside = is_box_outside_sphere([a, b, c, d], [&lower, &upper]);
+                let is_seen = points().any(|q| insphere(&f, a, b, c, d, &q) >= 0.0);
+                assert!(!(outside && is_seen), "{p:?}");
+                (n_outside, n_seen) = (n_outside + outside as usize, n_seen + is_seen as usize);
+            }
+            let [a, b, c, lower, upper] = [a, b, c, &lower, &upper].map(|p| [p[0], p[1]]);
+            if orient2d(&g, &a, &b, &c) > 0.0 {
+                let outside = is_box_outside_circle([&a, &b, &c], [&lower, &upper]);
+                let is_seen = points().any(|q| incircle(&g, &a, &b, &c, &[q[0], q[1]]) >= 0.0);
+                assert!(!(outside && is_seen), "{p:?}");
+                (n_outside, n_seen) = (n_outside + outside as usize, n_seen + is_seen as usize);
+            }
+        }
+        assert!(n_outside > 2_000 && n_seen > 2_000, "{n_outside} outside, {n_seen} not");
     }
 }

@@ -18,3 +18,8 @@ pub fn exact_calls() -> u64 {
 pub(super) fn count() {
     EXACT.set(EXACT.get() + 1);
 }
+
+/// Counts those that another thread has evaluated for the current one.
+pub(crate) fn add_exact_calls(n: u64) {
+    EXACT.set(EXACT.get() + n);
+}

@@ -1,0 +1,120 @@
+//! What more threads bring: build, sweep and commits of random points, in ns per vertex.
+//!
+//! ```text
+//! cargo run --release --example thread_scaling [points [threads...]]
+//! ```
+//!
+//! By default 1,000,000 points and 1 and 2 threads. The points are uniform in a square or cube. *Build*
+//! creates the triangulation. *Sweep* is a commit by repair of which one vertex moves, and hardly: every
+//! certificate is checked, and next to nothing is moved or mended. *Repair* moves all vertices by a
+//! thousandth of a spacing, *rebuilding* as well. Thread counts take turns, so that whatever else the machine
+//! does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
+//! medians and the least are than with the first thread count.
+
+use deldrift::delaunay::{Dimension, Plane, Space};
+use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
+use std::time::Instant;
+
+const ROUNDS: usize = 7;
+const STEPS: [&str; 4] = ["build", "sweep", "repair", "rebuilding"];
+
+/// Splitmix64.
+struct Random(u64);
+
+impl Random {
+    /// In [0, 1).
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ z >> 31) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Moves each coordinate by up to half of `size` either way.
+fn shake<G: Dimension>(points: &mut [G::Point], size: f64, random: &mut Random) {
+    for p in points {
+        for k in 0..G::D {
+            p[k] += size * (random.unit() - 0.5);
+        }
+    }
+}
+
+/// Commits what is staged; ns for each vertex.
+fn commit<G: Dimension>(t: &mut MovingTriangulation<G>) -> f64 {
+    let start = Instant::now();
+    t.commit_timestamp().expect("finite positions");
+    start.elapsed().as_secs_f64() * 1e9 / t.vertex_count() as f64
+}
+
+/// One round: the figures of all steps.
+fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] {
+    let mut random = Random(1);
+    let mut points = points.to_vec();
+    let options = Options { algorithm: Algorithm::Repair, threads, ..Options::default() };
+    let start = Instant::now();
+    let mut t = MovingTriangulation::<G>::new(&points, options).expect("finite positions");
+    let build = start.elapsed().as_secs_f64() * 1e9 / points.len() as f64;
+    // The first repair after a build sorts the cells.
+    for _ in 0..2 {
+        shake::<G>(&mut points, 1e-3, &mut random);
+        t.move_all(&points).expect("finite positions");
+        commit(&mut t);
+    }
+    shake::<G>(&mut points[..1], 1e-6, &mut random);
+    t.move_first(&points[..1]).expect("finite positions");
+    let sweep = commit(&mut t);
+    let mut commit_all = |algorithm| {
+        shake::<G>(&mut points, 1e-3, &mut random);
+        t.move_all(&points).expect("finite positions");
+        t.set_algorithm(algorithm);
+        commit(&mut t)
+    };
+    let repair = commit_all(Algorithm::Repair);
+    let rebuilding = commit_all(Algorithm::Rebuilding);
+    if points.len() <= 100_000 {
+        t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+    }
+    [build, sweep, repair, rebuilding]
+}
+
+fn print<G: Dimension>(n: usize, threads: &[u32]) {
+    let mut random = Random(7);
+    let side = (n as f64).powf(1.0 / G::D as f64);
+    let mut points = vec![G::Point::default(); n];
+    shake::<G>(&mut points, side, &mut random);
+    let mut figures = vec![[(); STEPS.len()].map(|()| Vec::new()); threads.len()];
+    for _ in 0..ROUNDS {
+        for (figures, &threads) in figures.iter_mut().zip(threads) {
+            for (figures, figure) in figures.iter_mut().zip(round::<G>(&points, threads)) {
+                figures.push(figure);
+            }
+        }
+    }
+    for (step, name) in STEPS.iter().enumerate() {
+        let mut first = None;
+        for (figures, threads) in figures.iter_mut().zip(threads) {
+            let figures = &mut figures[step];
+            figures.sort_by(f64::total_cmp);
+            let (median, least) = (figures[ROUNDS / 2], figures[0]);
+            let first = first.get_or_insert([median, least]);
+            println!(
+                "{}D {n} points, {name:10} {threads:2} threads: {median:8.1} ns, least {least:8.1}; {:.2} and {:.2} times as fast",
+                G::D,
+                first[0] / median,
+                first[1] / least
+            );
+        }
+    }
+}
+
+fn main() {
+    let numbers: Vec<usize> = std::env::args().skip(1).map(|arg| arg.parse().expect("numbers")).collect();
+    let n = numbers.first().copied().unwrap_or(1_000_000);
+    let threads: Vec<u32> = match numbers.get(1..) {
+        Some(threads) if !threads.is_empty() => threads.iter().map(|&t| t as u32).collect(),
+        _ => vec![1, 2],
+    };
+    print::<Plane>(n, &threads);
+    print::<Space>(n, &threads);
+}

@@ -1,0 +1,218 @@
+//! Parts of the sites, for a build on several threads.
+//!
+//! Hyperplanes orthogonal to the axes divide space, each part of it in two (Bentley's k-d tree,
+//! 10.1145/361002.361007). The sites of each part follow each other in memory, along a Hilbert curve of their
+//! own. The planes are those of a sample, and stay when sites move: before the next build, sites that have
+//! crossed one change places.
+
+use super::order::{Keyed, bounding_box, hilbert_order};
+use super::{Delaunay, Dimension, Site};
+use crate::complex::{INFINITE, memory};
+use crate::error::Result;
+use crate::threads;
+use std::ops::Range;
+
+/// A sample of about so many sites for each part puts each plane where the sizes of the parts differ by a
+/// hundredth.
+const SAMPLE: usize = 1 << 13;
+
+/// Parts of sites; none for a build on one thread.
+#[derive(Debug, Default)]
+pub(super) struct Parts {
+    /// First site of each part; none if there is but one part.
+    starts: Vec<u32>,
+    /// Axis and coordinate of the plane that has the parts below `i + 1`, as far as they are on the same side
+    /// of all planes before, below it.
+    planes: Vec<(usize, f64)>,
+}
+
+impl Parts {
+    /// Planes for `n_parts` parts with like shares of a sample.
+    fn of_sample<G: Dimension>(sample: &mut [G::Point], n_parts: usize) -> Self {
+        let mut parts = Parts { starts: vec![1; n_parts], planes: vec![(0, 0.0); n_parts - 1] };
+        parts.divide::<G>(sample, 0..n_parts);
+        parts
+    }
+
+    fn divide<G: Dimension>(&mut self, sample: &mut [G::Point], parts: Range<usize>) {
+        let Some((lower, upper)) = bounding_box::<G>(sample.iter()) else { return };
+        if parts.len() <= 1 {
+            return;
+        }
+        let extent = |axis: &usize| upper[*axis] - lower[*axis];
+        let axis = (0..G::D).max_by(|a, b| extent(a).total_cmp(&extent(b))).expect("an axis");
+        let middle = middle(&parts);
+        let rank = sample.len() * (middle - parts.start) / parts.len();
+        let (below, at, _) = sample.select_nth_unstable_by(rank, |p, q| p[axis].total_cmp(&q[axis]));
+        self.planes[middle - 1] = (axis, at[axis]);
+        self.divide::<G>(below, parts.start..middle);
+        self.divide::<G>(&mut sample[rank..], middle..parts.end);
+    }
+
+    /// Number of parts.
+    pub(super) fn count(&self) -> usize {
+        self.planes.len() + 1
+    }
+
+    /// The sites of consecutive parts, of which there are several, with `n_sites` in all.
+    pub(super) fn sites(&self, parts: Range<usize>, n_sites: usize) -> Range<usize> {
+        let start = |part: usize| self.starts.get(part).map_or(n_sites, |&s| s as usize);
+        start(parts.start)..start(parts.end)
+    }
+
+    /// The least coordinates of points in a part, and what their coordinates are below.
+    fn bounds(&self, part: usize) -> ([f64; 3], [f64; 3]) {
+        let (mut least, mut limit) = ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]);
+        let mut parts = 0..self.count();
+        while parts.len() > 1 {
+            let middle = middle(&parts);
+            let (axis, at) = self.planes[middle - 1];
+            if part < middle {
+                limit[axis] = at;
+                parts.end = middle;
+            } else {
+                least[axis] = at;
+                parts.start = middle;
+            }
+        }
+        (least, limit)
+    }
+
+    /// The items of a part.
+    fn items_in<'p, G: Dimension>(
+        &self,
+        part: usize,
+        mut items: impl Iterator<Item = u32>,
+        n: usize,
+        point: impl Fn(u32) -> &'p G::Point,
+    ) -> Result<Vec<Keyed>> {
+        let (least, limit) = self.bounds(part);
+        let mut own = Vec::new();
+        // Sizes differ by less unless many coordinates are equal.
+        memory::reserve_exact(&mut own, n / self.count() + n / 16)?;
+        // On which side of a plane the next one is cannot be predicted: all are written and some kept.
+        let mut kept = [Keyed::default(); 1024];
+        loop {
+            let (mut n_items, mut n_kept) = (0, 0);
+            for item in items.by_ref().take(kept.len()) {
+                let p = point(item);
+                let is_in = (0..G::D).fold(true, |is_in, k| is_in & (least[k] <= p[k]) & (p[k] < limit[k]));
+                kept[n_kept] = Keyed::new(item);
+                n_kept += is_in as usize;
+                n_items += 1;
+            }
+            if n_items == 0 {
+                return Ok(own);
+            }
+            if own.capacity() - own.len() < n_kept {
+                let more = n_kept.max(own.len() / 4);
+                memory::reserve_exact(&mut own, more)?;
+            }
+            own.extend_from_slice(&kept[..n_kept]);
+        }
+    }
+
+    /// Lets sites that are on the wrong side of a plane change places. Calls `moved` with each and its new
+    /// index.
+    fn restore<G: Dimension>(
+        &mut self,
+        sites: &mut [Site<G>],
+        parts: Range<usize>,
+        moved: &mut impl FnMut(&Site<G>, u32),
+    ) {
+        if parts.len() <= 1 {
+            return;
+        }
+        let middle = middle(&parts);
+        let (axis, at) = self.planes[middle - 1];
+        let Range { start: mut i, end: mut j } = self.sites(parts.clone(), sites.len());
+        loop {
+            i += sites[i..j].iter().take_while(|site| site.point[axis] < at).count();
+            j -= sites[i..j].iter().rev().take_while(|site| site.point[axis] >= at).count();
+            if i == j {
+                break;
+            }
+            sites.swap(i, j - 1);
+            moved(&sites[i], i as u32);
+            moved(&sites[j - 1], j as u32 - 1);
+            (i, j) = (i + 1, j - 1);
+        }
+        self.starts[middle] = i as u32;
+        self.restore(sites, parts.start..middle, moved);
+        self.restore(sites, middle..parts.end, moved);
+    }
+
+    /// Whether no part is much larger than the others.
+    fn are_even(&self, n_sites: usize) -> bool {
+        if self.starts.is_empty() {
+            return true;
+        }
+        let largest = (0..self.count()).map(|part| self.sites(part..part + 1, n_sites).len()).max();
+        largest.is_none_or(|largest| largest * self.count() <= n_sites + n_sites / 8)
+    }
+}
+
+/// Where a range of parts is divided.
+pub(super) fn middle(parts: &Range<usize>) -> usize {
+    parts.start.midpoint(parts.end)
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Items at these places in parts for as many threads as pay, each along a Hilbert curve. The parts start
+    /// where the sites do if the first one is `INFINITE + 1`.
+    pub(super) fn in_parts<'p>(
+        &self,
+        items: impl Iterator<Item = u32> + Clone + Sync,
+        n: usize,
+        point: impl Fn(u32) -> &'p G::Point + Copy + Sync,
+    ) -> Result<(Parts, Vec<Vec<Keyed>>)> {
+        let n_parts = self.threads.for_work(n, G::BUILT_AT_LEAST, BUILT_IF_ASKED);
+        if n_parts == 1 {
+            let mut all = Vec::new();
+            memory::reserve_exact(&mut all, n)?;
+            all.extend(items.map(Keyed::new));
+            return Ok((Parts::default(), vec![hilbert_order::<G>(all, point)?]));
+        }
+        let step = (n / (SAMPLE * n_parts)).max(1);
+        let mut sample: Vec<G::Point> = items.clone().step_by(step).map(|item| *point(item)).collect();
+        let mut parts = Parts::of_sample::<G>(&mut sample, n_parts);
+        let sorted = threads::for_each(0..n_parts, &|part| {
+            hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)
+        });
+        let sorted = sorted.into_iter().collect::<Result<Vec<_>>>()?;
+        let mut start = INFINITE + 1;
+        for (part, sorted) in sorted.iter().enumerate() {
+            parts.starts[part] = start;
+            start += sorted.len() as u32;
+        }
+        Ok((parts, sorted))
+    }
+
+    /// Brings the sites back into parts, if they were: indices change. Calls `moved` with the id and the new
+    /// index of each site concerned. [`rebuild`](Self::rebuild) must follow.
+    pub(crate) fn restore_parts(&mut self, mut moved: impl FnMut(u32, u32)) {
+        let n_parts = self.parts.count();
+        if n_parts == 1 {
+            return;
+        }
+        let mut moved = |site: &Site<G>, s| {
+            if site.is_live() {
+                moved(site.id, s);
+            }
+        };
+        self.parts.restore(&mut self.sites, 0..n_parts, &mut moved);
+        if !self.free_sites.is_empty() {
+            self.free_sites.clear();
+            let sites = (1..).zip(&self.sites[1..]);
+            self.free_sites.extend(sites.filter(|(_, site)| !site.is_live()).map(|(s, _)| s));
+        }
+    }
+
+    /// Whether no part of the sites is much larger than the others.
+    pub(crate) fn has_even_parts(&self) -> bool {
+        self.parts.are_even(self.sites.len())
+    }
+}
+
+/// Sites of a part at least if the number of threads is the caller's choice.
+const BUILT_IF_ASKED: usize = 256;

@@ -1,0 +1,277 @@
+//! Two triangulations of different sites become one.
+//!
+//! ```text
+//! the zone of the right one: its cells that may be in conflict with a site of the left one
+//! take the zone out; its sites are the border
+//! put what is left of the right one beside the left one
+//! insert the border into the left one
+//! of that, take out what fills the place of what was left of the right one; glue
+//! ```
+//!
+//! A cell of the right triangulation that is in conflict with no site of the left one is a cell of the whole.
+//! Any other cell of the whole has sites of the left one and of the border alone: a right site that is not of
+//! the border has all its cells among the former. Such a cell is in conflict with no site at all, so it is
+//! also a cell of the left triangulation with the border inserted. There, the other cells fill the place of
+//! the right cells that stay: they are behind the *rim*, the facets between these cells and the zone.
+//!
+//! *The zone.* Instead of the left sites, their bounding box is tested, against spheres and half-spaces: a
+//! cell is *clear* if the box is certainly outside. A site in the hyperplane of a ghost's facet is in
+//! conflict with the ghost exactly if it is with the cell behind. The cells in conflict with one site are
+//! connected by facets, and if the site is outside the hull, some ghost is among them. So where a hyperplane
+//! separates the box from the right sites, the zone is found from the ghosts, in time proportional to its
+//! size; elsewhere all cells are taken for it, which is right if slow.
+//!
+//! *The rim* is recognised by its corners. A facet of a right cell and the facet of the cell that fills its
+//! place have the same orientation; the cell on the other side has the opposite one, and is the new
+//! neighbour.
+//!
+//! Cost: a search and an insertion for each site of the border, and a copy of the right cells, in which all
+//! threads of both parts take part.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+use super::order::in_rounds;
+use super::{Delaunay, Dimension};
+use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
+use crate::error::Result;
+
+/// A triangulation without its zone.
+pub(super) struct Open<G: Dimension> {
+    t: Delaunay<G>,
+    /// The sites of the zone, ascending. Their records name no cell.
+    border: Vec<u32>,
+    /// The facets to the zone, seen from the cells that stay.
+    rim: Vec<Facet>,
+}
+
+const IN_ZONE: u8 = 1;
+const SEEN: u8 = 2;
+
+impl<G: Dimension> Delaunay<G> {
+    /// Takes out the cells that may be in conflict with points in a box.
+    pub(super) fn open(mut self, lower: &G::Point, upper: &G::Point) -> Result<Open<G>> {
+        let is_apart = (0..G::D).any(|k| upper[k] < self.lower[k] || self.upper[k] < lower[k]);
+        self.cover(lower, upper);
+        let zone = if is_apart { self.zone_of_box(lower, upper) } else { self.complex.live().collect() };
+        for &c in &zone {
+            self.complex.set_mark(c, IN_ZONE);
+        }
+        let (mut border, mut rim) = (Vec::new(), Vec::new());
+        for &c in &zone {
+            let cell = *self.complex.cell(c);
+            for i in 0..G::Corners::N {
+                let across = cell.neighbour(i);
+                if self.complex.mark(across.cell()) != IN_ZONE {
+                    rim.push(across);
+                }
+                let site = self.corner_mut(cell.corners[i]);
+                if site.cell != NONE && cell.corners[i] != INFINITE {
+                    site.cell = NONE;
+                    border.push(cell.corners[i]);
+                }
+            }
+        }
+        for &c in &zone {
+            self.complex.retire(c);
+            self.complex.release(c);
+        }
+        border.sort_unstable();
+        Ok(Open { t: self, border, rim })
+    }
+
+    /// The cells that are not clear of a box that a hyperplane separates from all sites.
+    fn zone_of_box(&mut self, lower: &G::Point, upper: &G::Point) -> Vec<u32> {
+        let mut ghosts = vec![self.site(INFINITE).cell];
+        self.complex.set_mark(ghosts[0], SEEN);
+        let mut next = 0;
+        while let Some(&g) = ghosts.get(next) {
+            next += 1;
+            for i in 0..Self::LAST {
+                let beside = self.complex.cell(g).neighbour(i).cell();
+                if self.complex.mark(beside) == 0 {
+                    self.complex.set_mark(beside, SEEN);
+                    ghosts.push(beside);
+                }
+            }
+        }
+        for &g in &ghosts {
+            self.complex.set_mark(g, 0);
+        }
+        let mut zone = ghosts;
+        zone.retain(|&g| !self.is_clear(g, lower, upper));
+        for &g in &zone {
+            self.complex.set_mark(g, IN_ZONE);
+        }
+        let mut next = 0;
+        while let Some(&c) = zone.get(next) {
+            next += 1;
+            for i in 0..G::Corners::N {
+                let across = self.complex.cell(c).neighbour(i).cell();
+                if self.complex.mark(across) == 0 && !self.is_clear(across, lower, upper) {
+                    self.complex.set_mark(across, IN_ZONE);
+                    zone.push(across);
+                }
+            }
+        }
+        zone
+    }
+
+    /// Whether a cell is certainly in conflict with no point of a box.
+    fn is_clear(&self, cell: u32, lower: &G::Point, upper: &G::Point) -> bool {
+        let c = self.complex.cell(cell);
+        let clears = |corners| G::is_clear_of(self.view(), corners, lower, upper);
+        if !c.is_ghost() {
+            return clears(&c.corners);
+        }
+        let mut touches = false;
+        for corner in 0..1 << G::D {
+            let mut q = *lower;
+            for k in (0..G::D).filter(|k| corner >> k & 1 == 1) {
+                q[k] = upper[k];
+            }
+            let beyond = G::orientation_with(&self.filter, self.view(), &c.corners, Self::LAST, &q);
+            if beyond > 0.0 {
+                return false;
+            }
+            touches |= beyond == 0.0;
+        }
+        !touches || clears(&self.complex.cell(c.neighbour(Self::LAST).cell()).corners)
+    }
+
+    /// Unites the triangulation with one of other sites, which get the indices after those here; it has been
+    /// opened for the box of the sites here. Returns pairs of coincident sites, the second in the cells.
+    /// After an error the cells are half made.
+    pub(super) fn unite(
+        &mut self,
+        Open { t: right, border, mut rim }: Open<G>,
+        n_threads: usize,
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<(u32, u32)>> {
+        let (n_sites, n_cells) = (self.sites.len() as u32, self.complex.n_slots() as u32);
+        let shift = n_sites - 1;
+        self.complex.append(&right.complex, shift, n_threads)?;
+        memory::extend(&mut self.sites, &right.sites[1..], n_threads, |site| {
+            let mut site = *site;
+            if site.cell != NONE {
+                site.cell += n_cells;
+            }
+            site
+        })?;
+        self.cover(&right.lower, &right.upper);
+        self.cavity.steps += right.cavity.steps;
+        drop(right);
+        for facet in &mut rim {
+            *facet = Facet::new(facet.cell() + n_cells, facet.index());
+        }
+        let order = in_rounds::<G>(border.iter().map(|s| s + shift))?;
+        self.record_changes(Vec::new());
+        let coincident = self.insert_all(&order, monitor)?;
+        let mut made = self.take_changes().expect("a record was started");
+        self.tidy_changes(&mut made);
+        self.close(&rim, &made, n_sites);
+        Ok(coincident)
+    }
+
+    /// Glues the facets of the rim to their new neighbours, which are among the cells that were `made`, and
+    /// takes out what fills the place of the cells behind the rim. All sites of the rim are from `first` on.
+    fn close(&mut self, rim: &[Facet], made: &[u32], first: u32) {
+        let mut by_corners = HashMap::<G::Corners, (Facet, bool), BuildHasherDefault<Mix>>::default();
+        by_corners.reserve(rim.len());
+        for &facet in rim {
+            let (corners, is_odd) = facet_of(&self.complex.cell(facet.cell()).corners, facet.index());
+            by_corners.insert(corners, (facet, is_odd));
+        }
+        let mut n_glued = 0;
+        let mut filling = Vec::new();
+        for &c in made {
+            let corners = self.complex.cell(c).corners;
+            let is_left = |i: usize| corners[i] < first && corners[i] != INFINITE;
+            let n_left = (0..G::Corners::N).filter(|&i| is_left(i)).count();
+            if n_left > 1 {
+                continue;
+            }
+            for i in (0..G::Corners::N).filter(|&i| n_left == 0 || is_left(i)) {
+                let (facet, is_odd) = facet_of(&corners, i);
+                match by_corners.get(&facet) {
+                    Some(&(rim, rim_is_odd)) if rim_is_odd != is_odd => {
+                        // The cell on the other side keeps its half of the old gluing.
+                        self.complex.glue(rim, Facet::new(c, i));
+                        n_glued += 1;
+                    }
+                    Some(_) if self.complex.mark(c) == 0 => {
+                        self.complex.set_mark(c, SEEN);
+                        filling.push(c);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        assert_eq!(n_glued, rim.len(), "every facet of the rim is one of the united triangulation");
+        self.take_out(filling);
+        for facet in rim {
+            let corners = self.complex.cell(facet.cell()).corners;
+            for i in (0..G::Corners::N).filter(|&i| i != facet.index()) {
+                self.corner_mut(corners[i]).cell = facet.cell();
+            }
+            self.recent = facet.cell();
+        }
+    }
+
+    /// Takes out cells, which are marked, and all that they are glued to both ways.
+    fn take_out(&mut self, mut cells: Vec<u32>) {
+        let mut next = 0;
+        while let Some(&c) = cells.get(next) {
+            next += 1;
+            for i in 0..G::Corners::N {
+                let across = self.complex.cell(c).neighbour(i);
+                let back = self.complex.cell(across.cell()).neighbour(across.index());
+                if back == Facet::new(c, i) && self.complex.mark(across.cell()) == 0 {
+                    self.complex.set_mark(across.cell(), SEEN);
+                    cells.push(across.cell());
+                }
+            }
+        }
+        for c in cells {
+            self.complex.retire(c);
+            self.complex.release(c);
+        }
+    }
+}
+
+/// The corners of a facet, ascending, and whether they are an odd permutation of the facet as its cell sees
+/// it.
+fn facet_of<C: Corners>(corners: &C, i: usize) -> (C, bool) {
+    let last = C::N - 1;
+    let mut facet = corners.rotated_to_last(i).with(last, NONE);
+    let mut is_odd = false;
+    for end in (1..last).rev() {
+        for k in 0..end {
+            if facet[k] > facet[k + 1] {
+                facet.as_mut().swap(k, k + 1);
+                is_odd = !is_odd;
+            }
+        }
+    }
+    (facet, is_odd)
+}
+
+/// Hash of a facet: products and rotations are enough for indices.
+#[derive(Default)]
+struct Mix(u64);
+
+impl Hasher for Mix {
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(4) {
+            self.write_u32(chunk.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte)));
+        }
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.0 = (self.0.rotate_left(26) ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
+}
