@@ -141,7 +141,7 @@ impl<G: Dimension> Delaunay<G> {
         match [facet, across].map(|side| self.complex.cell(side.cell()).is_ghost()) {
             [false, false] => {
                 if !G::bicell_holds(self, facet, motion.farthest) {
-                    self.check_bicell_exactly(facet, motion, failures);
+                    self.look_again(facet, motion, failures);
                 }
             }
             [true, true] => self.check_ridge(facet, motion, failures),
@@ -150,16 +150,22 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Checks a bi-cell that does not surely hold. As a rule one of its cells is so thin that it might have been inverted
+    /// on the way.
     #[cold]
     #[inline(never)]
+    fn look_again(&self, facet: Facet, motion: Motion<G>, failures: &mut Failures) {
+        let across = self.complex.cell(facet.cell()).neighbour(facet.index());
+        let has_stayed = |side: Facet| self.stayed_positive(&self.complex.cell(side.cell()).corners, motion);
+        if !(G::D == 3 && G::bicell_holds(self, facet, 0.0) && has_stayed(facet) && has_stayed(across)) {
+            self.check_bicell_exactly(facet, motion, failures);
+        }
+    }
+
     fn check_bicell_exactly(&self, facet: Facet, motion: Motion<G>, failures: &mut Failures) {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         let cells = [facet.cell(), across.cell()];
         if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, motion)) {
-            return;
-        }
-        let farthest = cells.iter().map(|&c| self.farthest_corner(c, motion)).fold(0.0, f64::max);
-        if farthest < motion.farthest && G::bicell_holds(self, facet, farthest) {
             return;
         }
         let n_inverted = failures.cells.len();
@@ -213,8 +219,10 @@ impl<G: Dimension> Delaunay<G> {
     #[cold]
     #[inline(never)]
     fn check_cell_exactly(&self, c: u32, motion: Motion<G>, failures: &mut Failures) {
-        let farthest = self.farthest_corner(c, motion);
-        if farthest < motion.farthest && G::cell_holds(self, c, farthest) {
+        if G::D == 3
+            && G::cell_holds(self, c, 0.0)
+            && self.stayed_positive(&self.complex.cell(c).corners, motion)
+        {
             return;
         }
         let n_inverted = failures.cells.len();
@@ -246,15 +254,6 @@ impl<G: Dimension> Delaunay<G> {
             let site = self.site(s);
             site.point == motion.before[site.id as usize]
         })
-    }
-
-    /// Upper bound of how far the corners of a finite cell have moved.
-    fn farthest_corner(&self, c: u32, motion: Motion<G>) -> f64 {
-        let moved = |&s: &u32| {
-            let site = self.site(s);
-            G::distance_above(&site.point, &motion.before[site.id as usize])
-        };
-        self.complex.cell(c).corners.as_ref().iter().map(moved).fold(0.0, f64::max)
     }
 
     /// Whether a simplex certainly stayed positive on the way.

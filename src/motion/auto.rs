@@ -10,8 +10,8 @@
 //! **Watching or sweeping.** Few flips in a repair announce that most vertices stay within tolerance. Before that of
 //! all is computed, for five sweeps or three, a sample is looked at, and ever more rarely if it says no or watching
 //! does not last. While it does, what is watched and what is computed anew is counted, and weighed by measured costs
-//! ([`Costs`]): when it has cost a computation of all tolerances more than sweeps would have, watching ends; when
-//! either count has cost that much more than the other, all tolerances are computed again, so that what is watched
+//! ([`Costs`]): when it has cost half a computation of all tolerances more than sweeps would have, watching ends; when
+//! either count has cost one more than the other, all tolerances are computed again, so that what is watched
 //! follows from how far the vertices go now.
 //!
 //! **Rebuilding.** After a repair that had to rebuild, so many commits rebuild at once as have failed in a row, and
@@ -30,13 +30,11 @@ use crate::error::Result;
 const FEW: usize = 20;
 /// Watching pays only while fewer than one vertex in so many is beyond its tolerance.
 const BEYOND: usize = 8;
-/// A repair of fewer flips and placements than one vertex in so many announces that.
-const CALM: usize = 500;
 /// Vertices sampled before all tolerances are computed, and the share of them that must be within.
 const SAMPLE: u32 = 64;
 const SHARE: f64 = 0.8;
 /// Longest wait for another try, in commits.
-const PATIENCE: u32 = 64;
+const PATIENCE: u32 = 256;
 /// What the parts of a commit cost, in nanoseconds.
 struct Costs {
     /// A watched bi-cell.
@@ -45,16 +43,20 @@ struct Costs {
     beyond: f64,
     /// Per vertex, what a sweep costs that is spared.
     sweep: f64,
+    /// Per vertex, to get ready to mend anything.
+    mending: f64,
     /// Per vertex, to compute all tolerances.
     computed: f64,
+    /// A repair of no more flips and placements than one vertex in so many announces that watching pays.
+    calm: u64,
 }
 
 /// Measured with 10,000 vertices; only the ratios matter.
 const fn costs<G: Dimension>() -> Costs {
     if G::D == 2 {
-        Costs { watched: 14.0, beyond: 400.0, sweep: 16.0, computed: 90.0 }
+        Costs { watched: 14.0, beyond: 400.0, sweep: 16.0, mending: 4.0, computed: 90.0, calm: 150 }
     } else {
-        Costs { watched: 40.0, beyond: 2500.0, sweep: 150.0, computed: 400.0 }
+        Costs { watched: 45.0, beyond: 7000.0, sweep: 120.0, mending: 25.0, computed: 500.0, calm: 500 }
     }
 }
 
@@ -70,6 +72,9 @@ pub(super) struct Auto {
     /// in nanoseconds.
     excess: f64,
     imbalance: f64,
+    /// Flips and placements of the last commit, and of the one after which watching ended.
+    mended: u64,
+    mended_at_stop: u64,
     /// Commits until *watching* may be tried again, and how many they will be next time.
     wait: u32,
     next_wait: u32,
@@ -130,10 +135,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n = self.n_present as f64;
         let watched = self.regions.n_watched() as f64 * costs.watched;
         let beyond = (self.n_present as f64 - report.within_tolerance as f64) * costs.beyond;
+        let mended = report.flips + report.placements;
+        let mending = if mended > 0 { n * costs.mending } else { 0.0 };
         let auto = &mut self.auto;
-        auto.excess = (auto.excess + watched + beyond - n * costs.sweep).max(0.0);
+        auto.mended = mended;
+        auto.excess = (auto.excess + watched + beyond + mending - n * costs.sweep).max(0.0);
         auto.imbalance += watched - beyond;
-        if auto.excess > n * costs.computed {
+        if 2.0 * auto.excess > n * costs.computed {
             self.stop_watching();
         } else if auto.imbalance.abs() > n * costs.computed {
             auto.imbalance = 0.0;
@@ -150,6 +158,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn stop_watching(&mut self) {
         self.auto.is_watching = false;
+        self.auto.mended_at_stop = self.auto.mended;
         (self.auto.excess, self.auto.imbalance) = (0.0, 0.0);
         self.auto.next_wait = (2 * self.auto.next_wait + 4).min(PATIENCE);
         self.auto.wait = self.auto.next_wait;
@@ -198,7 +207,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         auto.last_rebuilds = 0;
         auto.wait = auto.wait.saturating_sub(1);
-        let mended = (report.flips + report.placements) as usize;
-        auto.is_watching = auto.wait == 0 && mended * CALM <= self.n_present;
+        auto.mended = report.flips + report.placements;
+        // Also before the wait is over if it has become much calmer.
+        let may_try = auto.wait == 0 || 3 * auto.mended < auto.mended_at_stop;
+        auto.is_watching = may_try && auto.mended * costs::<G>().calm <= self.n_present as u64;
     }
 }

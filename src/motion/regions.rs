@@ -34,7 +34,7 @@ const CAPPED: f64 = 16.0;
 /// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices' steps and
 /// of its size. Found by measurement (Lloyd's iterations); half and double are hardly slower.
 const fn watched_share<G: Dimension>() -> f64 {
-    if G::D == 2 { 1.0 } else { 1.0 }
+    if G::D == 2 { 1.0 } else { 0.1 }
 }
 
 /// Which regions let a vertex pass.
