@@ -147,6 +147,7 @@ impl<G: Dimension> Staging<G> {
     /// Forgets all moves; returns how many there were.
     pub(super) fn clear(&mut self) -> usize {
         let n = self.count();
+        self.applied = 0;
         if self.is_whole {
             self.end_queue();
             self.is_whole = false;
