@@ -33,15 +33,6 @@ pub struct Failures {
     pub are_open: bool,
 }
 
-/// A motion that has just taken place.
-#[derive(Clone, Copy, Debug)]
-pub struct Motion<'m, G: Dimension> {
-    /// Where each vertex was, by id.
-    pub before: &'m [G::Point],
-    /// Upper bound of all displacements. Not needed in the plane.
-    pub farthest: f64,
-}
-
 impl Failures {
     /// Forgets everything; keeps the memory.
     pub fn clear(&mut self) {
@@ -132,64 +123,51 @@ impl<G: Dimension> Delaunay<G> {
         ghosts.extend(self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()));
     }
 
-    /// Checks the certificates of a bi-cell after a motion. Of finite cells: both are positive, and the facet passes the
-    /// empty-sphere test; in space both must also have stayed positive on the way. At the hull: the finite cell is
-    /// positive, or the ridge is convex, and has stayed so.
+    /// Checks the certificates of a bi-cell after the vertices have moved from where they were `before`, by id. Of
+    /// finite cells: both are positive, and the facet passes the empty-sphere test. At the hull: the finite cell is
+    /// positive, or the ridge is convex, and has been so all the way.
     #[inline(always)]
-    pub(crate) fn check_bicell(&self, facet: Facet, motion: Motion<G>, failures: &mut Failures) {
+    pub(crate) fn check_bicell(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         match [facet, across].map(|side| self.complex.cell(side.cell()).is_ghost()) {
             [false, false] => {
-                if !G::bicell_holds(self, facet, motion.farthest) {
-                    self.look_again(facet, motion, failures);
+                if !G::bicell_holds(self, facet) {
+                    self.check_bicell_exactly(facet, before, failures);
                 }
             }
-            [true, true] => self.check_ridge(facet, motion, failures),
-            [true, false] => self.check_positive(across.cell(), motion, failures),
-            [false, true] => self.check_positive(facet.cell(), motion, failures),
+            [true, true] => self.check_ridge(facet, before, failures),
+            [true, false] => self.check_orientation_of(across.cell(), failures),
+            [false, true] => self.check_orientation_of(facet.cell(), failures),
         }
     }
 
-    /// Checks a bi-cell that does not surely hold. As a rule one of its cells is so thin that it might have been inverted
-    /// on the way.
     #[cold]
     #[inline(never)]
-    fn look_again(&self, facet: Facet, motion: Motion<G>, failures: &mut Failures) {
-        let across = self.complex.cell(facet.cell()).neighbour(facet.index());
-        let has_stayed = |side: Facet| self.stayed_positive(&self.complex.cell(side.cell()).corners, motion);
-        if !(G::D == 3 && G::bicell_holds(self, facet, 0.0) && has_stayed(facet) && has_stayed(across)) {
-            self.check_bicell_exactly(facet, motion, failures);
-        }
-    }
-
-    fn check_bicell_exactly(&self, facet: Facet, motion: Motion<G>, failures: &mut Failures) {
+    fn check_bicell_exactly(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         let cells = [facet.cell(), across.cell()];
-        if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, motion)) {
+        // Ties are dear, and as they were.
+        if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, before)) {
             return;
         }
         let n_inverted = failures.cells.len();
-        for c in cells {
-            self.check_positive(c, motion, failures);
-        }
+        cells.iter().for_each(|&c| self.check_orientation_of(c, failures));
         if failures.cells.len() == n_inverted && !self.is_locally_delaunay(facet) {
             failures.facets.push(facet);
         }
     }
 
-    /// Checks that a finite cell is positive and, in space, has stayed so.
-    fn check_positive(&self, c: u32, motion: Motion<G>, failures: &mut Failures) {
+    /// Checks that a finite cell is positive.
+    fn check_orientation_of(&self, c: u32, failures: &mut Failures) {
         if !self.is_positive(c) {
             failures.cells.push(c);
-        } else if G::D == 3 && !self.stayed_positive(&self.complex.cell(c).corners, motion) {
-            failures.are_open = true;
         }
     }
 
-    /// Checks that the hull is convex at a ridge between ghost cells, and has stayed so.
-    fn check_ridge(&self, ridge: Facet, motion: Motion<G>, failures: &mut Failures) {
+    /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way.
+    fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) {
         let simplex = self.simplex_at_hull(ridge);
-        if self.are_at_rest(&simplex, motion) {
+        if self.are_at_rest(&simplex, before) {
             return;
         }
         // In a flat part of the hull the cell behind decides, so it must be positive.
@@ -199,18 +177,18 @@ impl<G: Dimension> Delaunay<G> {
             failures.open_ghosts.push(ridge.cell());
         } else if !self.is_convex(ridge) {
             failures.ridges.push(ridge);
-        } else if !self.stayed_positive(&simplex, motion) {
+        } else if !self.stayed_positive(&simplex, before) {
             failures.are_open = true;
         }
     }
 
-    /// Checks all certificates of these cells after a motion, those at the hull included, where also the way counts.
-    pub(crate) fn check_cells(&mut self, cells: &[u32], motion: Motion<G>, failures: &mut Failures) {
+    /// Checks all certificates of these cells after a motion, like [`check_bicell`](Self::check_bicell).
+    pub(crate) fn check_cells(&mut self, cells: &[u32], before: &[G::Point], failures: &mut Failures) {
         for &c in cells {
             if self.complex.cell(c).is_ghost() {
-                (0..Self::LAST).for_each(|i| self.check_ridge(Facet::new(c, i), motion, failures));
-            } else if !G::cell_holds(self, c, motion.farthest) {
-                self.check_cell_exactly(c, motion, failures);
+                (0..Self::LAST).for_each(|i| self.check_ridge(Facet::new(c, i), before, failures));
+            } else if !G::cell_holds(self, c) {
+                self.check_cell_exactly(c, failures);
             }
         }
         self.certificates += (cells.len() * (G::D + 2)) as u64;
@@ -218,19 +196,13 @@ impl<G: Dimension> Delaunay<G> {
 
     #[cold]
     #[inline(never)]
-    fn check_cell_exactly(&self, c: u32, motion: Motion<G>, failures: &mut Failures) {
-        if G::D == 3
-            && G::cell_holds(self, c, 0.0)
-            && self.stayed_positive(&self.complex.cell(c).corners, motion)
-        {
+    fn check_cell_exactly(&self, c: u32, failures: &mut Failures) {
+        if !self.is_positive(c) {
+            failures.cells.push(c);
             return;
         }
-        let n_inverted = failures.cells.len();
-        self.check_positive(c, motion, failures);
-        if failures.cells.len() == n_inverted {
-            let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
-            failures.facets.extend(facets.filter(|&facet| !self.is_locally_delaunay(facet)));
-        }
+        let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
+        failures.facets.extend(facets.filter(|&facet| !self.is_locally_delaunay(facet)));
     }
 
     /// The corners of the simplex whose orientation is the certificate of a facet with a ghost cell, at the hull or
@@ -249,19 +221,19 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Whether none of the corners has moved.
-    fn are_at_rest(&self, corners: &G::Corners, motion: Motion<G>) -> bool {
+    fn are_at_rest(&self, corners: &G::Corners, before: &[G::Point]) -> bool {
         corners.as_ref().iter().all(|&s| {
             let site = self.site(s);
-            site.point == motion.before[site.id as usize]
+            site.point == before[site.id as usize]
         })
     }
 
-    /// Whether a simplex certainly stayed positive on the way.
-    fn stayed_positive(&self, corners: &G::Corners, motion: Motion<G>) -> bool {
+    /// Whether a simplex certainly was positive all the way.
+    fn stayed_positive(&self, corners: &G::Corners, before: &[G::Point]) -> bool {
         let (mut old, mut new) = ([&self.sites[0].point; 4], [&self.sites[0].point; 4]);
         for (k, &s) in corners.as_ref().iter().enumerate() {
             let site = self.site(s);
-            (old[k], new[k]) = (&motion.before[site.id as usize], &site.point);
+            (old[k], new[k]) = (&before[site.id as usize], &site.point);
         }
         G::stays_positive(&old[..G::Corners::N], &new[..G::Corners::N])
     }
@@ -340,13 +312,12 @@ pub(super) fn triangle_holds(t: &Delaunay<Plane>, c: u32) -> bool {
 /// Likewise for a tetrahedron.
 #[inline(always)]
 pub(super) fn certify_tetrahedron(t: &Delaunay<Space>, c: u32) -> (bool, u8) {
-    if tetrahedron_holds(t, c, 0.0) { (true, 0) } else { t.certify_exactly(c) }
+    if tetrahedron_holds(t, c) { (true, 0) } else { t.certify_exactly(c) }
 }
 
-/// Whether a finite tetrahedron surely has no other corner of a neighbour in its sphere, is positively oriented, and has
-/// been so while its corners moved up to `farthest`.
+/// Likewise for a tetrahedron.
 #[inline(always)]
-pub(super) fn tetrahedron_holds(t: &Delaunay<Space>, c: u32, farthest: f64) -> bool {
+pub(super) fn tetrahedron_holds(t: &Delaunay<Space>, c: u32) -> bool {
     let cell = t.complex.cell(c);
     let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
     let sphere = predicates::sphere(a, b, d, e);
@@ -356,8 +327,7 @@ pub(super) fn tetrahedron_holds(t: &Delaunay<Space>, c: u32, farthest: f64) -> b
         if apex == INFINITE { f64::NEG_INFINITY } else { side }
     };
     let greatest = max(max(side(0), side(1)), max(side(2), side(3)));
-    let change = if farthest == 0.0 { 0.0 } else { change_of_volume([a, b, d, e], farthest) };
-    sphere[3] > t.filter.orient + change && greatest < -t.filter.prepared
+    sphere[3] > t.filter.orient && greatest < -t.filter.prepared
 }
 
 /// Whether the bi-cell of an edge between finite triangles surely passes [`Delaunay::check_bicell`].
@@ -376,7 +346,7 @@ pub(super) fn bicell_holds_in_plane(t: &Delaunay<Plane>, edge: Facet) -> bool {
 
 /// Likewise for a facet between finite tetrahedra.
 #[inline(always)]
-pub(super) fn bicell_holds_in_space(t: &Delaunay<Space>, facet: Facet, farthest: f64) -> bool {
+pub(super) fn bicell_holds_in_space(t: &Delaunay<Space>, facet: Facet) -> bool {
     let cell = t.complex.cell(facet.cell());
     let across = cell.neighbour(facet.index());
     let corners = t.complex.cell(across.cell()).corners;
@@ -385,22 +355,7 @@ pub(super) fn bicell_holds_in_space(t: &Delaunay<Space>, facet: Facet, farthest:
     let side = predicates::side_of_sphere(&sphere, a, t.view().point(corners[across.index()]));
     let beyond = corners.map(|s| t.view().point(s));
     let volume = predicates::sphere(beyond[0], beyond[1], beyond[2], beyond[3])[3];
-    sphere[3] > t.filter.orient + change_of_volume([a, b, d, e], farthest)
-        && volume > t.filter.orient + change_of_volume(beyond, farthest)
-        && side < -t.filter.prepared
-}
-
-/// Upper bound of how much the determinant of a tetrahedron has changed while none of its corners has moved farther. A
-/// difference of two corners has moved up to 2 δ and was never longer than L = |longest| + 2 δ, so the determinant,
-/// linear in each of three, has changed by at most 6 δ L².
-#[inline(always)]
-pub(super) fn change_of_volume([a, b, c, d]: [&[f64; 3]; 4], farthest: f64) -> f64 {
-    let square = max(
-        max(predicates::squared_distance(a, b), predicates::squared_distance(a, c)),
-        predicates::squared_distance(a, d),
-    );
-    // (x + y)² ≤ 2 x² + 2 y²; the factor is rounded up for what is rounded off.
-    6.1 * farthest * (2.0 * square + 8.0 * farthest * farthest)
+    sphere[3] > t.filter.orient && volume > t.filter.orient && side < -t.filter.prepared
 }
 
 /// The greater one, in one instruction.

@@ -119,11 +119,11 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Whether a finite cell is positively oriented, and a bit for each facet, to a finite cell of a lower index, that
     /// fails the empty-sphere test.
     fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8);
-    /// Whether a finite cell that has moved up to `farthest` surely passes all tests of
-    /// [`check_cells`](Delaunay::check_cells).
-    fn cell_holds(t: &Delaunay<Self>, cell: u32, farthest: f64) -> bool;
-    /// Whether a bi-cell that has moved up to `farthest` surely passes [`check_bicell`](Delaunay::check_bicell).
-    fn bicell_holds(t: &Delaunay<Self>, facet: Facet, farthest: f64) -> bool;
+    /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
+    fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool;
+    /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
+    /// test.
+    fn bicell_holds(t: &Delaunay<Self>, facet: Facet) -> bool;
     /// Whether a cell certainly stays positively oriented while its `D + 1` corners go straight from `old` to `new`.
     fn stays_positive(old: &[&Self::Point], new: &[&Self::Point]) -> bool;
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may. Appends those that fail still,
@@ -289,12 +289,12 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn cell_holds(t: &Delaunay<Self>, cell: u32, _: f64) -> bool {
+    fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool {
         certify::triangle_holds(t, cell)
     }
 
     #[inline(always)]
-    fn bicell_holds(t: &Delaunay<Self>, edge: Facet, _: f64) -> bool {
+    fn bicell_holds(t: &Delaunay<Self>, edge: Facet) -> bool {
         certify::bicell_holds_in_plane(t, edge)
     }
 
@@ -463,13 +463,13 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn cell_holds(t: &Delaunay<Self>, cell: u32, farthest: f64) -> bool {
-        certify::tetrahedron_holds(t, cell, farthest)
+    fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool {
+        certify::tetrahedron_holds(t, cell)
     }
 
     #[inline(always)]
-    fn bicell_holds(t: &Delaunay<Self>, facet: Facet, farthest: f64) -> bool {
-        certify::bicell_holds_in_space(t, facet, farthest)
+    fn bicell_holds(t: &Delaunay<Self>, facet: Facet) -> bool {
+        certify::bicell_holds_in_space(t, facet)
     }
 
     fn stays_positive(old: &[&[f64; 3]], new: &[&[f64; 3]]) -> bool {

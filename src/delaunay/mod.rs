@@ -48,7 +48,7 @@ mod validate;
 
 pub use build::Merge;
 pub use cavity::Insertion;
-pub use certify::{Failures, Motion};
+pub use certify::Failures;
 pub use dimension::{Coordinates, Dimension, Plane, Space};
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};

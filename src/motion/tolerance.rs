@@ -114,22 +114,21 @@ impl<G: Dimension> MovingTriangulation<G> {
         report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
         if self.staging.vertices.is_empty() {
             // Nothing is left that could fail and ask for the old positions.
-            report.moved += self.move_whole::<false>().0;
+            report.moved += self.move_whole::<false>();
             return;
         }
-        report.moved += self.move_whole::<true>().0;
+        report.moved += self.move_whole::<true>();
         for k in 0..self.staging.vertices.len() {
             report.moved -= u64::from(self.exchange_position(self.staging.vertices[k]));
         }
     }
 
     /// Moves all vertices of a whole staging, which holds their old positions then if they are to be kept. Returns how
-    /// many positions differ and, if they are kept and in space, an upper bound of how far any has moved. No two
-    /// vertices may share a site.
+    /// many positions differ. No two vertices may share a site.
     ///
     /// Sites are asked for in advance, as they are in another order than the vertices.
-    pub(super) fn move_whole<const KEEPS: bool>(&mut self) -> (u64, f64) {
-        let (mut moved, mut farthest) = (0, 0.0);
+    pub(super) fn move_whole<const KEEPS: bool>(&mut self) -> u64 {
+        let mut moved = 0;
         let sites = self.kernel.sites_mut();
         for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
             if let Some(&next) = self.site_of.get(v + AHEAD) {
@@ -137,19 +136,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let point = &mut sites[s as usize].point;
             moved += u64::from(point != p);
-            if !KEEPS {
+            if KEEPS {
+                std::mem::swap(point, p);
+            } else {
                 *point = *p;
-                continue;
             }
-            if G::D == 3 {
-                let square = G::squared_distance(point, p);
-                farthest = if square > farthest { square } else { farthest };
-            }
-            std::mem::swap(point, p);
         }
         self.staging.others_applied = true;
-        // More than what six roundings and underflow may take off.
-        (moved, farthest.sqrt() * (1.0 + 16.0 * f64::EPSILON) + 1e-140)
+        moved
     }
 
     /// Moves those of the listed vertices that stay in their regions, and puts them before the others.

@@ -17,23 +17,23 @@
 //!
 //! # What a timestamp proves
 //!
-//! Call a bi-cell *held* if it is not watched and no vertex of it is beyond its tolerance. It has been found to be locally
-//! Delaunay at some earlier timestamp, and no vertex has left its side of what separates them, now or on the
-//! straight way from the timestamp before. Every other one is checked where it is now. Then all cells are
-//! positive, the hull is convex and winds once, and every facet is locally Delaunay:
+//! Every bi-cell that is not watched had, when it was computed, tolerance for the balls of its vertices around their
+//! fixed positions: whatever those of its vertices do that are in their balls, they are on their sides of what
+//! separates it ([`predicates::tolerance`](crate::predicates)). Then:
 //!
-//! - *In the plane* a triangle with three held bi-cells is positive. Each of them has a disk with its edge inside
-//!   and the triangle's third corner outside; if the corners were ever in line, the one between the others would be inside,
-//!   as a disk is convex. All other triangles are checked. With positive triangles a held bi-cell is locally
-//!   Delaunay ([`predicates::tolerance`](crate::predicates)).
-//! - *In space* that does not hold of four corners that get into a plane as two and two, and the argument is that of
-//!   the tolerance algorithm, about the first moment at which a cell of held bi-cells goes flat. The other cells must not
-//!   have been flat before that: they are checked all the way
-//!   ([`stays_positive`](crate::delaunay::Dimension::stays_positive)).
-//! - *At the hull* every ridge is held or checked all the way; so the hull was never folded, and winds as often as
-//!   before.
+//! - *Every finite cell is positive.* It is checked if a corner is beyond its tolerance or a bi-cell of it is watched.
+//!   Otherwise its corners have never been in one hyperplane, now or on the straight way from the timestamp
+//!   before. By Radon they would be parted so that the hulls of both parts meet. One corner within the hull of the
+//!   others: the bi-cell of the facet opposite has a ball that holds these and not it, or a plane between. In
+//!   space, two segments `ab` and `ec` that cross at x: if no bi-cell has a plane between them, those of the facets
+//!   at `ab` have a ball with `a` and `b` inside and `e` and `c` outside, those at `ec` the opposite; the difference
+//!   of the powers, an affine function, is negative at `a` and `b` and positive at `e` and `c`, and both at x.
+//! - *Every facet is locally Delaunay.* It is checked if it is watched, or one of the D + 2 vertices beyond, as it is then
+//!   a facet of a cell at that vertex. Otherwise all of them are on their sides, and both cells positive.
+//! - *The hull is convex and winds once.* Each ridge has the orientation of D + 1 points for certificate, which is held
+//!   or checked, in both cases all the way: the dihedral angles have never been 0 or π, so the hull was never folded.
 //!
-//! What a check leaves open, as it does where a cell was inverted only in between, a sweep of all certificates decides.
+//! What the check of a ridge leaves open a sweep of all certificates decides.
 //!
 //! Cost: 3 ns a vertex; about 15 or 40 ns for a watched bi-cell; and for a vertex beyond its star and the bi-cells
 //! there. Both counts shrink with the root of the displacement.
@@ -41,7 +41,7 @@
 use super::regions::Filter;
 use super::repair::Repair;
 use super::{CommitReport, MovingTriangulation};
-use crate::delaunay::{Dimension, Motion};
+use crate::delaunay::Dimension;
 use crate::error::Result;
 
 /// More than one vertex in so many beyond its tolerance: a sweep of everything is cheaper.
@@ -71,15 +71,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n_beyond = self.staging.vertices.len();
         report.within_tolerance += (self.n_present - n_beyond) as u64;
         if n_beyond + self.regions.n_watched() == 0 {
-            report.moved += self.move_whole::<false>().0;
+            report.moved += self.move_whole::<false>();
             return Ok(true);
         }
-        let (moved, farthest) = self.move_whole::<true>();
-        report.moved += moved;
+        report.moved += self.move_whole::<true>();
         self.staging.applied = n_beyond;
 
         let mut repair = std::mem::take(&mut self.repair);
-        self.check_moved(farthest, &mut repair);
+        self.check_moved(&mut repair);
         let done = if repair.failures.are_none() {
             report.unchanged += n_beyond as u64;
             let sites = self.staging.vertices.iter().map(|&v| self.site_of[v as usize]);
@@ -94,7 +93,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Checks the bi-cells that are not held; lists the cells of the stars of the vertices beyond, each once.
-    fn check_moved(&mut self, farthest: f64, repair: &mut Repair) {
+    fn check_moved(&mut self, repair: &mut Repair) {
         let Repair { failures, touched, .. } = repair;
         failures.clear();
         touched.clear();
@@ -106,10 +105,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             touched.extend(self.kernel.gathered_star().iter().map(|&(c, _)| c));
         }
         self.kernel.tidy_changes(touched);
-        let motion = Motion { before: &self.staging.positions, farthest };
-        let kernel = &self.kernel;
-        self.regions.for_watched(kernel, |facet| kernel.check_bicell(facet, motion, failures));
-        self.kernel.check_cells(touched, motion, failures);
+        let (kernel, before) = (&self.kernel, &self.staging.positions);
+        self.regions.for_watched(kernel, |facet| kernel.check_bicell(facet, before, failures));
+        self.kernel.check_cells(touched, before, failures);
         self.kernel.count_certificates(3 * self.regions.n_watched());
     }
 
