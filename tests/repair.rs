@@ -1,4 +1,4 @@
-//! *Repair* and *auto* under adversarial motion: after every commit the cells are those of a fresh build.
+//! *Repair*, *watching* and *auto* under adversarial motion: after every commit the cells are those of a fresh build.
 //!
 //! Each history is a sequence of motions, drawn by its seed from those of [`MOTIONS`], on random points or on
 //! a grid, whose ties every motion breaks or makes. `DELDRIFT_SOAK` multiplies the number of seeds.
@@ -134,15 +134,17 @@ fn agree<G: Dimension>(algorithm: Algorithm, seed: u64) -> CommitReport {
 
 fn all_agree<G: Dimension>() {
     for algorithm in [Algorithm::Repair, Algorithm::Watching, Algorithm::Auto] {
-        let (mut flips, mut placements, mut rebuilds) = (0, 0, 0);
+        let (mut flips, mut placements, mut rebuilds, mut within) = (0, 0, 0, 0);
         for seed in seeds(1000) {
             let sums = agree::<G>(algorithm, seed);
             flips += sums.flips;
             placements += sums.placements;
             rebuilds += sums.rebuilds;
+            within += sums.within_tolerance;
         }
         let taken = [flips, placements, rebuilds];
         assert!(taken.iter().all(|&times| times > 500), "{algorithm:?}: a way was hardly taken: {taken:?}");
+        assert!(algorithm != Algorithm::Watching || within > 10_000, "tolerances were hardly used: {within}");
     }
 }
 
