@@ -239,6 +239,29 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
         assert!(total.cases >= 100_000 && total.big >= 50_000 && total.zero >= 5_000);
         assert!(n_static >= 10_000 && n_wrong >= 10_000);
     }
+
+    /// Points of a grid whose spacing is next to the least for which determinants are evaluated in integers of fixed
+    /// width, some of them a little off: what is left of a tie there is close to underflow.
+    fn check_fine_grids(&self) {
+        let mut random = Random(206);
+        let mut tally = Tally::default();
+        for case in 0..40_000 {
+            let spacing = power_of_two(-175 - case % 40);
+            let moved = random.below(D);
+            let points: [[f64; D]; N] = from_fn(|_| {
+                let mut p = from_fn(|_| (1_000 + random.below(3)) as f64 * spacing);
+                if random.below(2) == 0 {
+                    p[moved] += spacing * (random.unit() - 0.5) * power_of_two(-20);
+                }
+                p
+            });
+            let [lower, upper] = bounding_box(&points);
+            let value = (self.value)(&(self.filter)(lower, upper), &points);
+            let sign = value.partial_cmp(&0.0).expect("not NaN");
+            assert_eq!(sign, exact_sign(&points, &mut tally), "{points:?}");
+        }
+        assert!(tally.zero > 1_000 && tally.cases - tally.zero > 1_000);
+    }
 }
 
 #[test]
@@ -250,7 +273,9 @@ fn orient2d_has_the_exact_sign() {
 #[test]
 fn incircle_has_the_exact_sign() {
     let value = |f: &StaticFilter, [a, b, c, d]: &[[f64; 2]; 4]| incircle(f, a, b, c, d);
-    Predicate { value, filter: StaticFilter::plane, bound: |f| f.in_sphere }.check();
+    let predicate = Predicate { value, filter: StaticFilter::plane, bound: |f| f.in_sphere };
+    predicate.check();
+    predicate.check_fine_grids();
 }
 
 #[test]
@@ -262,7 +287,9 @@ fn orient3d_has_the_exact_sign() {
 #[test]
 fn insphere_has_the_exact_sign() {
     let value = |f: &StaticFilter, [a, b, c, d, e]: &[[f64; 3]; 5]| insphere(f, a, b, c, d, e);
-    Predicate { value, filter: StaticFilter::space, bound: |f| f.in_sphere }.check();
+    let predicate = Predicate { value, filter: StaticFilter::space, bound: |f| f.in_sphere };
+    predicate.check();
+    predicate.check_fine_grids();
 }
 
 #[test]

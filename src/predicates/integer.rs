@@ -12,15 +12,18 @@
 //! [`MIN_EXTENT`]). Hence it suffices to know D modulo 2²⁵⁶, which costs a few wrapping multiplications
 //! ([`Wide`]), and overflow of intermediate values is of no consequence.
 
+use super::filter::UNDERFLOW;
+
 /// Bits of a scaled difference.
 const N_BITS: i32 = 59;
 
 /// Least extent at which the determinants are known to fit.
 ///
-/// Let the extent be at least 2ᵉ, and the unit 2ᵉ⁻⁵⁸. For e ≥ 0, twice the term for underflow is
-/// 2⁻¹⁰⁶³·2⁽ᵉ⁺¹⁾⁽ᵏ⁻²⁾, in units 2⁻¹⁰⁶³⁺⁵⁸ᵏ⁺⁽ᵏ⁻²⁾⁻²ᵉ < 1. For e < 0 it is 2⁻¹⁰⁶³, in units 2⁻¹⁰⁶³⁺⁽⁵⁸⁻ᵉ⁾ᵏ,
-/// which for e = −200 and k = 5 is 2²²⁷.
-const MIN_EXTENT: f64 = power_of_two(-200);
+/// Let the extent be at least 2ᵉ, and the unit 2ᵉ⁻⁵⁸. For e ≥ 0, twice the term for underflow, [`UNDERFLOW`], is
+/// 2⁻¹⁰²¹·2⁽ᵉ⁺¹⁾⁽ᵏ⁻²⁾, in units 2⁻¹⁰²¹⁺⁵⁸ᵏ⁺⁽ᵏ⁻²⁾⁻²ᵉ < 1. For e < 0 it is 2⁻¹⁰²¹, in units 2⁻¹⁰²¹⁺⁽⁵⁸⁻ᵉ⁾ᵏ,
+/// which for e = −190 and k = 5 is 2²¹⁹.
+const MIN_EXTENT: f64 = power_of_two(-190);
+const _: () = assert!(UNDERFLOW <= power_of_two(-1022), "twice of it is 2⁻¹⁰²¹");
 
 const fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((f64::MAX_EXP - 1 + exponent) as u64) << (f64::MANTISSA_DIGITS - 1))
@@ -157,7 +160,7 @@ mod tests {
 
     #[test]
     fn values_keep_their_sign() {
-        let scaled = Scaled::new(&[0.0], [&[1e-60]], 1e-60).unwrap();
+        let scaled = Scaled::new(&[0.0], [&[1e-57]], 1e-57).unwrap();
         assert!(scaled.value(Wide::from(1), 5) > 0.0 && scaled.value(Wide::from(-1), 5) < 0.0);
         assert_eq!(scaled.value(Wide::from(0), 5), 0.0);
     }
