@@ -5,6 +5,9 @@
 //! regions. With a filter that keeps safe regions the delimiters are stored; a vertex found inside its safe region may be
 //! outside its ball.
 //!
+//! With the filter of watching, a bi-cell is either *watched*, and lowers no tolerance, or all that is said here holds for
+//! it.
+//!
 //! While cells change (a queue, an insertion, a removal) the regions are not valid. They are again once
 //! every bi-cell that has a new cell or a relocated vertex has been computed at the positions of that moment
 //! ([`with_regions`]): the points of all other bi-cells have stayed, since they were last known to be on
