@@ -111,7 +111,7 @@ pub(super) struct Regions<G: Dimension> {
     delimiters: Vec<(G::Point, f64)>,
     /// The bi-cells that are watched instead of lowering tolerances.
     watched: Watched,
-    /// Memory of the kernel's record of changed cells.
+    /// The kernel's record of changed cells, or its memory.
     changed: Vec<u32>,
     /// Vertices that have been relocated during the change under way.
     relocated: Vec<u32>,
@@ -402,11 +402,11 @@ impl<G: Dimension> Regions<G> {
         kernel: &mut Delaunay<G>,
         n_ids: usize,
         filter: Filter,
-        mut changed: Vec<u32>,
         relocated: impl Iterator<Item = u32>,
         elsewhere: &[G::Point],
         report: &mut CommitReport,
     ) -> Result<()> {
+        let mut changed = std::mem::take(&mut self.changed);
         self.watched.forget(&changed);
         kernel.tidy_changes(&mut changed);
         if 2 * changed.len() > kernel.complex().n_finite() {
@@ -465,9 +465,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             let sites =
                 relocated.iter().map(|&v| self.site_of[v as usize]).filter(|&s| !self.hidden.any_at(s));
             // Without the memory for it the regions stay invalid, and the next commit says so.
+            self.regions.changed = changed;
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
             let kernel = &mut self.kernel;
-            let _ = self.regions.follow(kernel, n_ids, filter, changed, sites, elsewhere, report);
+            let _ = self.regions.follow(kernel, n_ids, filter, sites, elsewhere, report);
             self.regions.relocated = relocated;
         }
         done

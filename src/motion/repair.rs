@@ -120,8 +120,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::Cancelled);
         }
         for _ in 0..ROUNDS {
-            if !is_triangulation
-                && !(self.take_back_failed(repair, most) && self.kernel.winds_once(&repair.failures.ghosts))
+            if !(is_triangulation
+                || self.take_back_failed(repair, most) && self.kernel.winds_once(&repair.failures.ghosts))
             {
                 return Ok(false);
             }
