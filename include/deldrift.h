@@ -213,6 +213,11 @@ enum deldrift_algorithm
     /// that would make it too small. For displacements of up to a few hundredths of the spacing. Commits
     /// that do not move all vertices at once, or while vertices share a place, are those of repair.
     DELDRIFT_WATCHING = 9,
+    /// As repair, but only the certificates of those bi-cells are checked whose own tolerance is used up by
+    /// the ways that their vertices have gone. For displacements of up to about a thousandth of the spacing in
+    /// 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
+    /// while vertices share a place, are those of repair.
+    DELDRIFT_SLACK = 10,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -133,7 +133,7 @@ fn agree<G: Dimension>(algorithm: Algorithm, seed: u64) -> CommitReport {
 }
 
 fn all_agree<G: Dimension>() {
-    for algorithm in [Algorithm::Repair, Algorithm::Watching, Algorithm::Auto] {
+    for algorithm in [Algorithm::Repair, Algorithm::Watching, Algorithm::Slack, Algorithm::Auto] {
         let (mut flips, mut placements, mut rebuilds, mut within) = (0, 0, 0, 0);
         for seed in seeds(1000) {
             let sums = agree::<G>(algorithm, seed);

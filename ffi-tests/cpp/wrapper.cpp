@@ -136,7 +136,7 @@ static void algorithms(std::uint32_t dimension) {
     std::vector<double> positions(dimension * 200);
     for (double &x : positions) x = anywhere(random);
     std::vector<Triangulation> all;
-    for (std::uint32_t algorithm = DELDRIFT_AUTO; algorithm <= DELDRIFT_WATCHING; algorithm++) {
+    for (std::uint32_t algorithm = DELDRIFT_AUTO; algorithm <= DELDRIFT_SLACK; algorithm++) {
         deldrift_options options = deldrift::default_options();
         options.algorithm = static_cast<deldrift_algorithm>(algorithm);
         options.switch_share = 0.5;

@@ -53,6 +53,11 @@ pub enum deldrift_algorithm {
     /// that would make it too small. For displacements of up to a few hundredths of the spacing. Commits
     /// that do not move all vertices at once, or while vertices share a place, are those of repair.
     DELDRIFT_WATCHING = 9,
+    /// As repair, but only the certificates of those bi-cells are checked whose own tolerance is used up by
+    /// the ways that their vertices have gone. For displacements of up to about a thousandth of the spacing in
+    /// 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
+    /// while vertices share a place, are those of repair.
+    DELDRIFT_SLACK = 10,
 }
 
 /// What happens when vertices come to lie at the same place.
@@ -270,6 +275,7 @@ pub(super) fn algorithm(field: &'static str, code: AlgorithmCode) -> Result<Algo
         7 => Ok(Algorithm::RebuildingTolerance),
         8 => Ok(Algorithm::Repair),
         9 => Ok(Algorithm::Watching),
+        10 => Ok(Algorithm::Slack),
         other => Err(invalid(field, other, "a deldrift_algorithm")),
     }
 }
@@ -287,6 +293,7 @@ pub(super) fn algorithm_code(algorithm: Algorithm) -> AlgorithmCode {
         Algorithm::RebuildingTolerance => deldrift_algorithm::DELDRIFT_REBUILDING_TOLERANCE,
         Algorithm::Repair => deldrift_algorithm::DELDRIFT_REPAIR,
         Algorithm::Watching => deldrift_algorithm::DELDRIFT_WATCHING,
+        Algorithm::Slack => deldrift_algorithm::DELDRIFT_SLACK,
     };
     code as AlgorithmCode
 }
@@ -301,10 +308,10 @@ mod tests {
 
     #[test]
     fn algorithms_and_their_numbers_agree() {
-        for code in 0..10 {
+        for code in 0..11 {
             assert_eq!(algorithm("", code).map(algorithm_code).ok(), Some(code));
         }
-        assert!(algorithm("", 10).is_err());
+        assert!(algorithm("", 11).is_err());
     }
 
     #[test]

@@ -173,6 +173,11 @@ impl<C: Corners> Complex<C> {
         unsafe { self.cells.get_unchecked(cell as usize) }
     }
 
+    /// All cells by index, free ones included.
+    pub(crate) fn cells(&self) -> &[Cell<C>] {
+        &self.cells
+    }
+
     /// The corner of a facet's cell that is opposite the facet.
     #[inline(always)]
     pub(crate) fn apex(&self, facet: Facet) -> u32 {

@@ -29,8 +29,11 @@ pub struct Failures {
     pub open_ghosts: Vec<u32>,
     /// All ghost cells, after a sweep.
     pub ghosts: Vec<u32>,
-    /// Whether a look at some of the certificates leaves open what became of others: a sweep has to follow.
+    /// Whether a sweep has to find out what has failed.
     pub are_open: bool,
+    /// Whether, even if the hull is convex at every ridge, it may wind more than once: some may not have been convex all
+    /// the way.
+    pub may_wind: bool,
 }
 
 impl Failures {
@@ -42,11 +45,17 @@ impl Failures {
         self.open_ghosts.clear();
         self.ghosts.clear();
         self.are_open = false;
+        self.may_wind = false;
     }
 
     /// Whether nothing has failed.
     pub fn are_none(&self) -> bool {
-        self.cells.is_empty() && self.facets.is_empty() && self.ridges.is_empty() && !self.are_open
+        self.is_triangulation() && self.facets.is_empty() && !self.are_open
+    }
+
+    /// Whether all cells are positive and the hull is convex and winds once.
+    pub fn is_triangulation(&self) -> bool {
+        self.cells.is_empty() && self.ridges.is_empty() && !self.may_wind
     }
 
     /// Adds those of a later range.
@@ -80,6 +89,7 @@ impl<G: Dimension> Delaunay<G> {
             return false;
         }
         failures.open_ghosts.clone_from(&failures.ghosts);
+        failures.may_wind = true;
         self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
         true
     }
@@ -109,11 +119,22 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Checks the ridges of the ghost cells that are open. Finite cells must be positive.
-    pub(crate) fn check_ridges(&self, failures: &mut Failures) {
+    /// Checks the ridges of the ghost cells that are open. Finite cells must be positive. `before` tells, by id, from where a
+    /// vertex has come, if it has moved.
+    pub(crate) fn check_ridges<'p>(
+        &self,
+        failures: &mut Failures,
+        before: impl Fn(u32) -> Option<&'p G::Point>,
+    ) {
         for g in failures.open_ghosts.drain(..) {
-            let ridges = (0..Self::LAST).map(|i| Facet::new(g, i));
-            failures.ridges.extend(ridges.filter(|&ridge| !self.is_convex(ridge)));
+            for ridge in (0..Self::LAST).map(|i| Facet::new(g, i)) {
+                if !self.is_convex(ridge) {
+                    failures.ridges.push(ridge);
+                } else {
+                    failures.may_wind =
+                        failures.may_wind || !self.stayed_positive(&self.simplex_at_hull(ridge), &before);
+                }
+            }
         }
     }
 
@@ -125,15 +146,13 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Checks the certificates of a bi-cell after the vertices have moved from where they were `before`, by id. Of
     /// finite cells: both are positive, and the facet passes the empty-sphere test. At the hull: the finite cell is
-    /// positive, or the ridge is convex, and has been so all the way.
+    /// positive, or the ridge is convex, and has been so all the way. Whether all is as it must be now.
     #[inline(always)]
-    pub(crate) fn check_bicell(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) {
+    pub(crate) fn check_bicell(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         match [facet, across].map(|side| self.complex.cell(side.cell()).is_ghost()) {
             [false, false] => {
-                if !G::bicell_holds(self, facet) {
-                    self.check_bicell_exactly(facet, before, failures);
-                }
+                G::bicell_holds(self, facet) || self.check_bicell_exactly(facet, before, failures)
             }
             [true, true] => self.check_ridge(facet, before, failures),
             [true, false] => self.check_orientation_of(across.cell(), failures),
@@ -143,50 +162,57 @@ impl<G: Dimension> Delaunay<G> {
 
     #[cold]
     #[inline(never)]
-    fn check_bicell_exactly(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) {
+    fn check_bicell_exactly(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         let cells = [facet.cell(), across.cell()];
         // Ties are dear, and as they were.
         if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, before)) {
-            return;
+            return true;
         }
-        let n_inverted = failures.cells.len();
-        cells.iter().for_each(|&c| self.check_orientation_of(c, failures));
-        if failures.cells.len() == n_inverted && !self.is_locally_delaunay(facet) {
+        let are_positive = cells.map(|c| self.check_orientation_of(c, failures)) == [true; 2];
+        let holds = are_positive && self.is_locally_delaunay(facet);
+        if are_positive && !holds {
             failures.facets.push(facet);
         }
+        holds
     }
 
     /// Checks that a finite cell is positive.
-    fn check_orientation_of(&self, c: u32, failures: &mut Failures) {
-        if !self.is_positive(c) {
+    fn check_orientation_of(&self, c: u32, failures: &mut Failures) -> bool {
+        let is_positive = self.is_positive(c);
+        if !is_positive {
             failures.cells.push(c);
         }
+        is_positive
     }
 
-    /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way.
-    fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) {
+    /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way. Whether it is now.
+    fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
         let simplex = self.simplex_at_hull(ridge);
         if self.are_at_rest(&simplex, before) {
-            return;
+            return true;
         }
         // In a flat part of the hull the cell behind decides, so it must be positive.
         let behind = self.complex.cell(ridge.cell()).neighbour(Self::LAST).cell();
-        if !self.is_positive(behind) {
-            failures.cells.push(behind);
+        if !self.check_orientation_of(behind, failures) {
             failures.open_ghosts.push(ridge.cell());
-        } else if !self.is_convex(ridge) {
-            failures.ridges.push(ridge);
-        } else if !self.stayed_positive(&simplex, before) {
-            failures.are_open = true;
+            return false;
         }
+        if !self.is_convex(ridge) {
+            failures.ridges.push(ridge);
+            return false;
+        }
+        failures.may_wind |= !self.stayed_positive(&simplex, |id| Some(&before[id as usize]));
+        true
     }
 
     /// Checks all certificates of these cells after a motion, like [`check_bicell`](Self::check_bicell).
     pub(crate) fn check_cells(&mut self, cells: &[u32], before: &[G::Point], failures: &mut Failures) {
         for &c in cells {
             if self.complex.cell(c).is_ghost() {
-                (0..Self::LAST).for_each(|i| self.check_ridge(Facet::new(c, i), before, failures));
+                for i in 0..Self::LAST {
+                    self.check_ridge(Facet::new(c, i), before, failures);
+                }
             } else if !G::cell_holds(self, c) {
                 self.check_cell_exactly(c, failures);
             }
@@ -228,14 +254,20 @@ impl<G: Dimension> Delaunay<G> {
         })
     }
 
-    /// Whether a simplex certainly was positive all the way.
-    fn stayed_positive(&self, corners: &G::Corners, before: &[G::Point]) -> bool {
+    /// Whether a simplex that is not negative now has not become so on the way from where its vertices were before: it was
+    /// certainly positive all the way, or nothing has moved.
+    fn stayed_positive<'p>(
+        &self,
+        corners: &G::Corners,
+        before: impl Fn(u32) -> Option<&'p G::Point>,
+    ) -> bool {
         let (mut old, mut new) = ([&self.sites[0].point; 4], [&self.sites[0].point; 4]);
         for (k, &s) in corners.as_ref().iter().enumerate() {
             let site = self.site(s);
-            (old[k], new[k]) = (&before[site.id as usize], &site.point);
+            (old[k], new[k]) = (before(site.id).unwrap_or(&site.point), &site.point);
         }
-        G::stays_positive(&old[..G::Corners::N], &new[..G::Corners::N])
+        let (old, new) = (&old[..G::Corners::N], &new[..G::Corners::N]);
+        old == new || G::stays_positive(old, new)
     }
 
     /// Checks the cells of the star of a site; all its facets may fail.

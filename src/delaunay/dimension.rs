@@ -101,6 +101,8 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn set_bicell(bicells: &mut Self::BiCells, lane: usize, points: &[&Self::Point]);
     /// As [`tolerance`](Self::tolerance), of all of them.
     fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES];
+    /// For each lane, whether the bi-cell surely has two positive cells and passes the empty-sphere test.
+    fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
     /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
     fn orientation_tolerance(points: &[&Self::Point]) -> f64;
     /// As [`predicates::squared_distance`].
@@ -225,6 +227,11 @@ impl Dimension for Plane {
     #[inline(always)]
     fn tolerances(bicells: &Self::BiCells, _: [f64; LANES]) -> [f64; LANES] {
         predicates::tolerances2d(bicells)
+    }
+
+    #[inline(always)]
+    fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES] {
+        predicates::bicells_hold2d(f, bicells)
     }
 
     #[inline(always)]
@@ -396,6 +403,11 @@ impl Dimension for Space {
     #[inline(always)]
     fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES] {
         predicates::tolerances3d(bicells, enough)
+    }
+
+    #[inline(always)]
+    fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES] {
+        predicates::bicells_hold3d(f, bicells)
     }
 
     #[inline(always)]

@@ -219,6 +219,11 @@ impl<G: Dimension> Delaunay<G> {
         self.sites[s as usize].point = point;
     }
 
+    /// The static filter.
+    pub(crate) fn filter(&self) -> &StaticFilter {
+        &self.filter
+    }
+
     /// Least coordinates of the points for which the static filter is valid.
     pub fn lower(&self) -> G::Point {
         self.lower

@@ -4,15 +4,17 @@
 //! |---|---|
 //! | of few of the vertices | tolerance if it is up to date, else placement by flips |
 //! | of all vertices, while few leave their tolerance | watching |
+//! | of all vertices, while few bi-cells use theirs up, in space | slack |
 //! | otherwise | repair, which rebuilds where too much fails |
 //! | after such a rebuild | rebuilding, for a while |
 //!
-//! **Watching or sweeping.** Few flips in a repair announce that most vertices stay within tolerance. Before that of
-//! all is computed, for five sweeps or three, a sample is looked at, and ever more rarely if it says no or watching
-//! does not last. While it does, what is watched and what is computed anew is counted, and weighed by measured costs
-//! ([`Costs`]): when it has cost half a computation of all tolerances more than sweeps would have, watching ends; when
-//! either count has cost one more than the other, all tolerances are computed again, so that what is watched
-//! follows from how far the vertices go now.
+//! **Looking at everything or not.** Few flips in a repair announce that most bi-cells have tolerance left. To compute that
+//! of all costs three to five sweeps. What is computed anew after that, and watched, is counted and weighed by measured
+//! costs ([`Costs`]): when it has cost half a computation of all more than the dearer way would have, that is taken, and
+//! the cheaper one tried ever more rarely. In space the way down is repair, slack, watching; in the plane a sweep is so
+//! cheap that slack would seldom pay. Before watching a sample of the vertices is looked at. When what is watched or
+//! what is computed anew has cost more than the other by a computation of all, all tolerances are computed again, so that
+//! what is watched follows from how far the vertices go now.
 //!
 //! **Rebuilding.** After a repair that had to rebuild, so many commits rebuild at once as have failed in a row, and
 //! twice as many the next time.
@@ -43,21 +45,55 @@ struct Costs {
     beyond: f64,
     /// Per vertex, what a sweep costs that is spared.
     sweep: f64,
-    /// Per vertex, to get ready to mend anything.
-    mending: f64,
+    /// Per vertex, a look at the slack of all cells; none if that never pays.
+    slack: Option<f64>,
+    /// A bi-cell that has used up its slack.
+    used_up: f64,
     /// Per vertex, to compute all tolerances.
     computed: f64,
-    /// A repair of no more flips and placements than one vertex in so many announces that watching pays.
+    /// A repair of no more flips and placements than one vertex in so many announces that the next way down pays.
     calm: u64,
 }
 
 /// Measured with 10,000 vertices; only the ratios matter.
 const fn costs<G: Dimension>() -> Costs {
     if G::D == 2 {
-        Costs { watched: 14.0, beyond: 400.0, sweep: 16.0, mending: 4.0, computed: 90.0, calm: 150 }
+        Costs {
+            watched: 14.0,
+            beyond: 400.0,
+            sweep: 16.0,
+            slack: None,
+            used_up: 0.0,
+            computed: 90.0,
+            calm: 150,
+        }
     } else {
-        Costs { watched: 45.0, beyond: 7000.0, sweep: 120.0, mending: 25.0, computed: 500.0, calm: 500 }
+        let slack = Some(18.0);
+        Costs {
+            watched: 45.0,
+            beyond: 7000.0,
+            sweep: 120.0,
+            slack,
+            used_up: 110.0,
+            computed: 500.0,
+            calm: 120,
+        }
     }
+}
+
+/// Fewer than one bi-cell in so many vertices that use up their slack announce that watching pays.
+const STILL: u64 = 60;
+
+/// How much is looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Look {
+    /// Repair: everything.
+    #[default]
+    All,
+    /// Slack: all cells, and the bi-cells that have none left.
+    Slack,
+    /// Watching: all vertices, those beyond, and what is watched.
+    Watched,
 }
 
 /// Most commits rebuilt without a look.
@@ -66,16 +102,15 @@ const REBUILT: u32 = 15;
 /// What the last commits found.
 #[derive(Debug, Default)]
 pub(super) struct Auto {
-    /// Whether *watching* is in force.
-    is_watching: bool,
-    /// What it has cost more than sweeps would have, and what the watched bi-cells have cost more than the vertices beyond,
-    /// in nanoseconds.
+    look: Look,
+    /// What that has cost more than the dearer way would have, and what the watched bi-cells have cost more than the
+    /// vertices beyond, in nanoseconds.
     excess: f64,
     imbalance: f64,
-    /// Flips and placements of the last commit, and of the one after which watching ended.
+    /// Flips and placements of the last commit, and of the one after which a way was given up.
     mended: u64,
     mended_at_stop: u64,
-    /// Commits until *watching* may be tried again, and how many they will be next time.
+    /// Commits until a cheaper way may be tried again, and how many they will be next time.
     wait: u32,
     next_wait: u32,
     /// Commits still to be rebuilt without a look, and how many they were last time.
@@ -103,11 +138,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.auto.rebuilds -= 1;
             return self.rebuild_staged(report);
         }
-        if self.auto.is_watching
-            && self.staging.is_whole()
-            && self.hidden.count() == 0
-            && self.commit_if_calm(report)?
-        {
+        if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_look(report)? {
             return Ok(());
         }
         self.commit_by_repair(report)?;
@@ -115,37 +146,63 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Commits by watching if few vertices are beyond; otherwise nothing has moved.
-    fn commit_if_calm(&mut self, report: &mut CommitReport) -> Result<bool> {
-        if self.regions.kept_for() != Some(Filter::Watch) && !self.is_calm() {
-            self.stop_watching();
-            return Ok(false);
+    /// Commits by watching or by slack, if that is in force; `false` if a repair has to follow.
+    fn commit_by_look(&mut self, report: &mut CommitReport) -> Result<bool> {
+        if self.auto.look == Look::Watched {
+            let is_kept = self.regions.kept_for() == Some(Filter::Watch);
+            if (is_kept || self.is_calm()) && self.commit_by_watching(self.n_present / BEYOND, report)? {
+                self.weigh_watching(report);
+                return Ok(true);
+            }
+            self.give_up();
         }
-        if !self.commit_by_watching(self.n_present / BEYOND, report)? {
-            self.stop_watching();
-            return Ok(false);
+        if self.auto.look == Look::Slack {
+            let was_kept = self.regions.kept_for() == Some(Filter::Slack);
+            if self.commit_by_slack(report)? {
+                if was_kept {
+                    self.weigh_slack(report);
+                }
+                return Ok(true);
+            }
+            self.give_up();
         }
-        self.weigh_watching(report);
-        Ok(true)
+        Ok(false)
     }
 
-    /// Weighs what watching has cost against a sweep, and what is watched against what is computed anew.
+    /// Weighs what watching has cost against the dearer way, and what is watched against what is computed anew.
     fn weigh_watching(&mut self, report: &CommitReport) {
         let costs = costs::<G>();
         let n = self.n_present as f64;
         let watched = self.regions.n_watched() as f64 * costs.watched;
         let beyond = (self.n_present as f64 - report.within_tolerance as f64) * costs.beyond;
-        let mended = report.flips + report.placements;
-        let mending = if mended > 0 { n * costs.mending } else { 0.0 };
-        let auto = &mut self.auto;
-        auto.mended = mended;
-        auto.excess = (auto.excess + watched + beyond + mending - n * costs.sweep).max(0.0);
-        auto.imbalance += watched - beyond;
-        if 2.0 * auto.excess > n * costs.computed {
-            self.stop_watching();
-        } else if auto.imbalance.abs() > n * costs.computed {
-            auto.imbalance = 0.0;
+        self.auto.imbalance += watched - beyond;
+        self.weigh(report, watched + beyond - n * costs.slack.unwrap_or(costs.sweep));
+        if self.auto.imbalance.abs() > n * costs.computed {
+            self.auto.imbalance = 0.0;
             self.regions.invalidate();
+        }
+    }
+
+    /// Weighs what slack has cost against a sweep.
+    fn weigh_slack(&mut self, report: &CommitReport) {
+        let costs = costs::<G>();
+        let n = self.n_present as f64;
+        let spared = costs.sweep - costs.slack.unwrap_or_default();
+        self.weigh(report, report.tolerances as f64 * costs.used_up - n * spared);
+        let auto = &mut self.auto;
+        if auto.wait == 0 && report.tolerances * STILL < self.n_present as u64 {
+            auto.look = Look::Watched;
+        }
+    }
+
+    /// Enters by how much a commit has cost more than the dearer way; when that has become too much it is taken.
+    fn weigh(&mut self, report: &CommitReport, excess: f64) {
+        let auto = &mut self.auto;
+        auto.mended = report.flips + report.placements;
+        auto.excess = (auto.excess + excess).max(0.0);
+        auto.wait = auto.wait.saturating_sub(1);
+        if 2.0 * auto.excess > self.n_present as f64 * costs::<G>().computed {
+            self.give_up();
         } else {
             auto.next_wait = auto.next_wait.saturating_sub(1);
         }
@@ -156,12 +213,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE
     }
 
-    fn stop_watching(&mut self) {
-        self.auto.is_watching = false;
-        self.auto.mended_at_stop = self.auto.mended;
-        (self.auto.excess, self.auto.imbalance) = (0.0, 0.0);
-        self.auto.next_wait = (2 * self.auto.next_wait + 4).min(PATIENCE);
-        self.auto.wait = self.auto.next_wait;
+    /// From now on the dearer way is taken.
+    fn give_up(&mut self) {
+        let auto = &mut self.auto;
+        auto.look =
+            if auto.look == Look::Watched && costs::<G>().slack.is_some() { Look::Slack } else { Look::All };
+        auto.mended_at_stop = auto.mended;
+        (auto.excess, auto.imbalance) = (0.0, 0.0);
+        auto.next_wait = (2 * auto.next_wait + 4).min(PATIENCE);
+        auto.wait = auto.next_wait;
     }
 
     /// Counts an immediate relocation, and decides after a round of them whether tolerances are to be kept.
@@ -181,7 +241,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_kept {
             if !are_most(within) {
                 self.regions.invalidate();
-                self.stop_watching();
+                self.give_up();
             }
         } else if auto.wait > 0 {
             auto.wait -= 1;
@@ -210,6 +270,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         auto.mended = report.flips + report.placements;
         // Also before the wait is over if it has become much calmer.
         let may_try = auto.wait == 0 || 3 * auto.mended < auto.mended_at_stop;
-        auto.is_watching = may_try && auto.mended * costs::<G>().calm <= self.n_present as u64;
+        let costs = costs::<G>();
+        if may_try && auto.mended * costs.calm <= self.n_present as u64 {
+            auto.look = if costs.slack.is_some() { Look::Slack } else { Look::Watched };
+        }
     }
 }

@@ -15,7 +15,8 @@ pub(super) struct BiCell<'k, G: Dimension> {
 }
 
 impl<'k, G: Dimension> BiCell<'k, G> {
-    /// The bi-cell of a facet: the opposing vertices are the first and the last of the `D + 2` corners of an interior one.
+    /// The bi-cell of a facet: the opposing vertices are the first and the last of the `D + 2` corners of an interior one;
+    /// the vertices of the facet and then the first of all are in the order of a positive orientation.
     /// At the hull only the `D + 1` finite corners are listed, in the order of a positive orientation.
     #[inline(always)]
     pub(super) fn of(kernel: &'k Delaunay<G>, facet: Facet) -> Self {
@@ -27,10 +28,11 @@ impl<'k, G: Dimension> BiCell<'k, G> {
         if cell.is_ghost() || apex == INFINITE {
             return Self::at_hull(kernel, facet);
         }
+        let corners = cell.corners.rotated_to_last(i);
+        let (facet, opposite) = corners.as_ref().split_at(G::D);
         let mut sites = [apex; 5];
-        for (k, s) in sites.iter_mut().enumerate().take(G::Corners::N) {
-            *s = cell.corners[(i + k) % G::Corners::N];
-        }
+        sites[..1].copy_from_slice(opposite);
+        sites[1..=G::D].copy_from_slice(facet);
         BiCell { sites, points: sites.map(|s| kernel.place(s)), n: G::D + 2 }
     }
 

@@ -47,6 +47,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             Algorithm::RebuildingTolerance => self.commit_by_switching(report)?,
             Algorithm::Repair => self.commit_by_repair(report)?,
             Algorithm::Watching => self.watch_or_repair(report)?,
+            Algorithm::Slack => self.slack_or_repair(report)?,
             Algorithm::Rebuilding => self.rebuild_staged(report)?,
             Algorithm::Auto => self.commit_by_auto(report)?,
         }

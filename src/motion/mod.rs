@@ -11,6 +11,7 @@
 //! | `switching` | section 5.2 | rebuild until few do |
 //! | `repair` | | move all at once, check every certificate, mend what fails |
 //! | `watch` | | as repair, but of what has left its tolerance, or soon will |
+//! | `slack` | | as repair, but of bi-cells whose own tolerance is used up |
 //! | `auto` | | watching, repair or rebuilding, by what the last commits found |
 //!
 //! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4).
@@ -36,6 +37,8 @@ mod query;
 mod rebuilding;
 mod regions;
 mod repair;
+mod slack;
+mod slacks;
 mod staging;
 mod switching;
 mod tolerance;

@@ -33,6 +33,9 @@ pub enum Algorithm {
     /// As repair, but only the certificates of vertices beyond their tolerance are checked, and those that would make
     /// it too small. Where vertices share a place or not all are staged at once, repair.
     Watching,
+    /// As repair, but only the certificates of those bi-cells are checked that have used up their own tolerance. Where
+    /// vertices share a place or not all are staged at once, repair.
+    Slack,
 }
 
 /// When *rebuilding + tolerance* swaps from the one to the other.

@@ -24,6 +24,7 @@
 //! reach are half the least width of their simplex.
 
 use super::bicell::BiCell;
+use super::slacks::Slacks;
 use super::watched::Watched;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet};
@@ -51,6 +52,8 @@ pub(super) enum Filter {
     Both,
     /// The tolerance, of those bi-cells that are not [watched](super::watch).
     Watch,
+    /// The tolerance of each bi-cell for itself.
+    Slack,
 }
 
 impl Filter {
@@ -102,6 +105,8 @@ pub(super) struct Regions<G: Dimension> {
     /// Greatest tolerance that is kept: a small part of the least extent of all vertices. The kernel's static filter
     /// covers all fixed positions and as much around them, so that a vertex within tolerance need not be looked at for that.
     most: f64,
+    /// With a filter of slacks: how far every vertex may still go until the static filter must cover more.
+    room: f64,
     /// By vertex id, so that what a timestamp reads that changes nothing is one stream. For a site with several
     /// vertices, that of its representative is in force.
     fixed: Vec<Fixed<G>>,
@@ -111,6 +116,8 @@ pub(super) struct Regions<G: Dimension> {
     delimiters: Vec<(G::Point, f64)>,
     /// The bi-cells that are watched instead of lowering tolerances.
     watched: Watched,
+    /// With a filter of slacks, all there is.
+    pub(super) slacks: Slacks<G>,
     /// The kernel's record of changed cells, or its memory.
     changed: Vec<u32>,
     /// Vertices that have been relocated during the change under way.
@@ -122,10 +129,12 @@ impl<G: Dimension> Default for Regions<G> {
         Regions {
             valid_for: None,
             most: 0.0,
+            room: 0.0,
             fixed: Vec::new(),
             reach: Vec::new(),
             delimiters: Vec::new(),
             watched: Watched::default(),
+            slacks: Slacks::default(),
             changed: Vec::new(),
             relocated: Vec::new(),
         }
@@ -152,11 +161,15 @@ impl<G: Dimension> Regions<G> {
         self.fixed.capacity() * size_of::<Fixed<G>>()
             + self.delimiters.capacity() * size_of::<(G::Point, f64)>()
             + self.watched.memory_bytes()
+            + self.slacks.memory_bytes()
             + self.reach.capacity() * 8
     }
 
     /// Follows the number of ids and cells. New vertices have no bi-cells yet, so no tolerance smaller than any.
     fn grow(&mut self, kernel: &Delaunay<G>, n_ids: usize, filter: Filter) -> Result<()> {
+        if filter == Filter::Slack {
+            return self.slacks.grow(kernel);
+        }
         let more_ids = n_ids.saturating_sub(self.fixed.len());
         let more_facets = if filter.keeps_delimiters() {
             (4 * kernel.complex().n_slots()).saturating_sub(self.delimiters.len())
@@ -197,6 +210,12 @@ impl<G: Dimension> Regions<G> {
         let (lower, upper) = (kernel.lower(), kernel.upper());
         self.most = (0..G::D).map(|axis| upper[axis] - lower[axis]).fold(f64::INFINITY, f64::min) / CAPPED;
         kernel.cover_around(&lower, &upper, self.most);
+        if filter == Filter::Slack {
+            self.room = self.most;
+            report.tolerances += self.slacks.compute(kernel, elsewhere)?;
+            self.valid_for = Some(filter);
+            return Ok(());
+        }
         self.grow(kernel, n_ids, filter)?;
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
             self.fixed[site.id as usize].point = site.point;
@@ -213,6 +232,17 @@ impl<G: Dimension> Regions<G> {
         self.lower_batch(filter, elsewhere, &mut batch);
         self.valid_for = Some(filter);
         Ok(())
+    }
+
+    /// Every vertex has gone at most so far: the kernel's static filter follows.
+    pub(super) fn follow_motion(&mut self, kernel: &mut Delaunay<G>, distance: f64) {
+        self.room = (self.room - distance).next_down();
+        if self.room < 0.0 {
+            kernel.tighten_filter();
+            let (lower, upper) = (kernel.lower(), kernel.upper());
+            kernel.cover_around(&lower, &upper, self.most);
+            self.room = self.most;
+        }
     }
 
     /// Fixed positions and tolerances by vertex id.
@@ -413,7 +443,7 @@ impl<G: Dimension> Regions<G> {
             self.compute(kernel, n_ids, filter, elsewhere, report)?;
         } else {
             self.grow(kernel, n_ids, filter)?;
-            self.compute_anew(kernel, filter, &changed, relocated, elsewhere, report);
+            self.compute_anew(kernel, filter, &changed, relocated, elsewhere, report)?;
             self.valid_for = Some(filter);
         }
         self.changed = changed;
@@ -430,11 +460,17 @@ impl<G: Dimension> Regions<G> {
         relocated: impl Iterator<Item = u32>,
         elsewhere: &[G::Point],
         report: &mut CommitReport,
-    ) {
+    ) -> Result<()> {
         for s in relocated {
             let point = kernel.site(s).point;
             kernel.cover_around(&point, &point, self.most);
-            self.fix(kernel.site(s));
+            if filter != Filter::Slack {
+                self.fix(kernel.site(s));
+            }
+        }
+        if filter == Filter::Slack {
+            report.tolerances += self.slacks.compute_anew(kernel, cells)?;
+            return Ok(());
         }
         let mut batch = Batch::default();
         kernel.for_facets_of(cells, |kernel, facet| {
@@ -442,6 +478,7 @@ impl<G: Dimension> Regions<G> {
             report.tolerances += 1;
         });
         self.lower_batch(filter, elsewhere, &mut batch);
+        Ok(())
     }
 }
 

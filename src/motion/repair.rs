@@ -91,7 +91,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// does, after a look that has found failures. `false` if too many vertices would have to be placed; otherwise
     /// those that are to be are not applied.
     pub(super) fn mend_moved(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
-        self.begin_moves(repair);
+        self.begin_moves(repair, report.moved);
         self.mend(repair, report)
     }
 
@@ -106,23 +106,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
         let most = self.n_present / placed::<G>();
         // A vertex taken back mends about three cells.
-        let failures = &mut repair.failures;
-        let mut is_triangulation =
-            !failures.are_open && failures.cells.is_empty() && failures.ridges.is_empty();
-        if failures.are_open {
-            if !self.kernel.sweep(failures, 3 * most) {
-                return Ok(false);
-            }
-        } else if !is_triangulation {
-            self.kernel.list_ghosts(&mut failures.ghosts);
+        if repair.failures.are_open && !self.kernel.sweep(&mut repair.failures, 3 * most) {
+            return Ok(false);
         }
+        let mut is_triangulation = repair.failures.is_triangulation();
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
         for _ in 0..ROUNDS {
-            if !(is_triangulation
-                || self.take_back_failed(repair, most) && self.kernel.winds_once(&repair.failures.ghosts))
-            {
+            if !(is_triangulation || self.take_back_failed(repair, most) && self.winds_once(repair)) {
                 return Ok(false);
             }
             repair.suspects.clone_from(&repair.failures.facets);
@@ -137,20 +129,35 @@ impl<G: Dimension> MovingTriangulation<G> {
             if repair.sites.is_empty() {
                 return Ok(false);
             }
-            if is_triangulation {
-                self.kernel.list_ghosts(&mut repair.failures.ghosts);
-                is_triangulation = false;
-            }
+            is_triangulation = false;
             self.take_back_listed(repair);
         }
         Ok(false)
     }
 
-    /// Notes the vertices that have been moved.
-    fn begin_moves(&mut self, repair: &mut Repair) {
+    /// Whether a convex hull winds once.
+    fn winds_once(&self, repair: &mut Repair) -> bool {
+        let failures = &mut repair.failures;
+        if !failures.may_wind {
+            return true;
+        }
+        if failures.ghosts.is_empty() {
+            self.kernel.list_ghosts(&mut failures.ghosts);
+        }
+        self.kernel.winds_once(&failures.ghosts)
+    }
+
+    /// Notes the vertices that have been moved: of a whole staging all, `moved` of which have gone to another place.
+    fn begin_moves(&mut self, repair: &mut Repair, moved: u64) {
         repair.at.clear();
-        repair.at.resize(self.site_of.len(), At::Rest);
+        repair.queue.clear();
         (repair.n_new, repair.n_old) = (0, 0);
+        if self.staging.is_whole() {
+            repair.at.resize(self.site_of.len(), At::New);
+            repair.n_new = moved as usize;
+            return;
+        }
+        repair.at.resize(self.site_of.len(), At::Rest);
         for &v in &self.staging.vertices[..self.staging.applied] {
             if self.kernel.site(self.site_of[v as usize]).point != self.staging.positions[v as usize] {
                 repair.at[v as usize] = At::New;
@@ -161,7 +168,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves all staged vertices that have sites of their own and have not moved yet.
     fn move_staged(&mut self, repair: &mut Repair) {
-        self.begin_moves(repair);
+        self.begin_moves(repair, 0);
         // As in the test for tolerances: sites are asked for in advance, as they are in another order than the vertices.
         let (site_of, positions) = (&self.site_of[..], &mut self.staging.positions[..]);
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
@@ -174,6 +181,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let s = site_of[v as usize];
             if self.hidden.any_at(s) {
                 repair.at[v as usize] = At::Old;
+                repair.queue.push(v);
                 repair.n_old += 1;
                 continue;
             }
@@ -207,7 +215,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                     return false;
                 }
             }
-            self.kernel.check_ridges(&mut repair.failures);
+            let (at, before) = (&repair.at, &self.staging.positions);
+            let before = |id: u32| (at[id as usize] != At::Old).then(|| &before[id as usize]);
+            self.kernel.check_ridges(&mut repair.failures, before);
             if repair.failures.ridges.is_empty() {
                 return true;
             }
@@ -239,10 +249,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn farthest(&self, repair: &Repair, sites: &[u32]) -> Option<u32> {
         let displacement = |s: u32| {
             let site = self.kernel.site(s);
-            let is_new = s != INFINITE && repair.at[site.id as usize] == At::New;
-            is_new.then(|| G::squared_distance(&site.point, &self.staging.positions[site.id as usize]))
+            let other = &self.staging.positions[site.id as usize];
+            let is_new = repair.at[site.id as usize] == At::New && site.point != *other;
+            is_new.then(|| G::squared_distance(&site.point, other))
         };
-        let with_displacement = sites.iter().filter_map(|&s| displacement(s).map(|d| (d, s)));
+        let finite = sites.iter().filter(|&&s| s != INFINITE);
+        let with_displacement = finite.filter_map(|&s| displacement(s).map(|d| (d, s)));
         with_displacement.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
     }
 
@@ -251,6 +263,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let v = self.kernel.site(s).id;
         self.exchange_position(v);
         repair.at[v as usize] = At::Old;
+        repair.queue.push(v);
         repair.n_new -= 1;
         repair.n_old += 1;
         self.kernel.check_star(s, &mut repair.failures);
@@ -287,19 +300,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         repair.sites = sites;
     }
 
-    /// Puts the vertices that are to be placed behind the others.
+    /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed.
     fn settle(&mut self, repair: &mut Repair) {
+        let is_whole = self.staging.is_whole();
         let vertices = &mut self.staging.vertices;
-        let queue = &mut repair.queue;
-        queue.clear();
-        vertices.retain(|&v| {
-            let is_old = repair.at[v as usize] == At::Old;
-            if is_old {
-                queue.push(v);
-            }
-            !is_old
-        });
+        if is_whole {
+            vertices.clear();
+        } else if repair.n_old > 0 {
+            vertices.retain(|&v| repair.at[v as usize] != At::Old);
+        }
         self.staging.applied = vertices.len();
-        vertices.append(queue);
+        vertices.append(&mut repair.queue);
+        self.order_queue_by_site();
     }
 }

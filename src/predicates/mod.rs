@@ -71,6 +71,7 @@
 //! | [`orient3d`] | 23 | 40 u | 2.4 ns | 5.0 ns | 18 ns | 160 ns |
 //! | [`insphere`] | 74 | 756 u | 7.7 ns | 11.5 ns | 79 ns | 2,800 ns |
 
+mod bicells;
 mod big;
 mod distance;
 mod filter;
@@ -86,6 +87,7 @@ mod sphere;
 mod tally;
 mod tolerance;
 
+pub use bicells::{bicells_hold2d, bicells_hold3d};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::{BiCells, LANES};

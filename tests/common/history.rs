@@ -7,7 +7,7 @@ use deldrift::delaunay::Dimension;
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
 use std::collections::BTreeMap;
 
-pub const ALGORITHMS: [Algorithm; 10] = [
+pub const ALGORITHMS: [Algorithm; 11] = [
     Algorithm::Rebuilding,
     Algorithm::Placement,
     Algorithm::PlacementFlips,
@@ -17,6 +17,7 @@ pub const ALGORITHMS: [Algorithm; 10] = [
     Algorithm::RebuildingTolerance,
     Algorithm::Repair,
     Algorithm::Watching,
+    Algorithm::Slack,
     Algorithm::Auto,
 ];
 

@@ -1,0 +1,99 @@
+//! *Slack*: a tolerance for each bi-cell, and a look at each timestamp at those that have used it up.
+//!
+//! ```text
+//! move all vertices, and add to their ways
+//! for each cell with a vertex that has gone as far as one of its bi-cells allows:
+//!     check the bi-cells that have no slack left; compute the tolerances of those that hold
+//! if something failed: mend it, as a repair does, and compute the bi-cells of all new cells
+//! ```
+//!
+//! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star computed anew, in
+//! space 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
+//! ([`Slacks`](super::slacks::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers each.
+//!
+//! What a timestamp proves is what it proves in [watching](super::watch): read "held" for a bi-cell that has slack left,
+//! "watched" for one that has none.
+//!
+//! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the displacement, but
+//! for a logarithm.
+
+use super::prefetch::{AHEAD, prefetch};
+use super::regions::Filter;
+use super::{CommitReport, MovingTriangulation};
+use crate::delaunay::Dimension;
+use crate::error::Result;
+
+/// More than one cell in so many past a deadline: a sweep of everything is cheaper.
+const MANY: usize = 3;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Commits by slack where that is possible, else by repair.
+    pub(super) fn slack_or_repair(&mut self, report: &mut CommitReport) -> Result<()> {
+        let can = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
+        if can && self.commit_by_slack(report)? {
+            return Ok(());
+        }
+        self.commit_by_repair(report)
+    }
+
+    /// Brings all vertices of a whole staging to their new positions; `false` if they are there, but too many bi-cells
+    /// have no slack left. No two vertices may share a site.
+    pub(super) fn commit_by_slack(&mut self, report: &mut CommitReport) -> Result<bool> {
+        if self.regions.kept_for() != Some(Filter::Slack) {
+            self.kernel.sort_cells()?;
+            let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
+            self.regions.compute(&mut self.kernel, n_ids, Filter::Slack, elsewhere, report)?;
+        }
+        let (moved, greatest) = self.move_whole_on_record();
+        let most = self.kernel.complex().n_finite() / MANY;
+        let mut repair = std::mem::take(&mut self.repair);
+        repair.failures.clear();
+        repair.touched.clear();
+        let (before, failures) = (&self.staging.positions, &mut repair.failures);
+        let checked = self.regions.slacks.check_expired(&self.kernel, before, greatest, most, failures);
+        let done = match checked {
+            None => Ok(false),
+            Some(n) => {
+                report.moved += moved;
+                report.tolerances += n;
+                self.kernel.count_certificates(3 * n as usize);
+                if repair.failures.are_none() {
+                    Ok(true)
+                } else {
+                    self.mend_checked(&mut repair, report).map(|()| true)
+                }
+            }
+        };
+        self.repair = repair;
+        done
+    }
+
+    /// Moves all vertices of a whole staging, which holds their old positions then, and adds to their ways. Returns how
+    /// many positions differ, and the longest way. No two vertices may share a site.
+    fn move_whole_on_record(&mut self) -> (u64, f64) {
+        let mut moved = 0;
+        let (mut sum, mut greatest) = (0.0, 0.0);
+        let sites = self.kernel.sites_mut();
+        for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
+            if let Some(&next) = self.site_of.get(v + AHEAD) {
+                prefetch(sites, next as usize);
+            }
+            let point = &mut sites[s as usize].point;
+            if point == p {
+                continue;
+            }
+            let distance = G::distance_above(point, p);
+            self.regions.slacks.travel(s, distance);
+            sum += distance;
+            greatest = if distance > greatest { distance } else { greatest };
+            moved += 1;
+            std::mem::swap(point, p);
+        }
+        self.staging.others_applied = true;
+        self.regions.follow_motion(&mut self.kernel, greatest);
+        if !self.regions.slacks.expect(sum / moved.max(1) as f64) {
+            self.regions.invalidate();
+        }
+        (moved, greatest)
+    }
+}

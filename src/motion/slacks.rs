@@ -1,0 +1,459 @@
+//! The slack of each bi-cell: what is left of its tolerance.
+//!
+//! Every site has an odometer, an upper bound of the way it has gone. For each cell are kept the slacks of the bi-cells of
+//! its facets, and for each corner a *deadline*: the odometer of the corner when these slacks were entered, plus the
+//! least of them. While no corner has passed its deadline in either of two cells with a common facet, none of the D + 2
+//! vertices has gone farther than the tolerance that their bi-cell had when it was computed: each is a corner of one of
+//! the cells, and both have at most that slack for the facet.
+//!
+//! When a corner passes its deadline the cell is *referred* to the present: the longest way of a corner since is taken off
+//! its slacks, which is exact, and new deadlines follow. The bi-cells that have none left are checked and computed
+//! anew; they concern no more than the two cells.
+//!
+//! **Units.** Ways and slacks are integers of 16 bits. The unit is a power of two of about a sixteenth of the mean way of
+//! a timestamp, chosen when all are computed, and again when it has not fitted for long. Ways are rounded up, slacks down.
+//! Odometers may overflow: only differences count, which are below 2¹⁵ in magnitude as slacks are cut at 2¹⁴ and the
+//! ways of one timestamp at one more.
+//!
+//! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these. Memory:
+//! so many bytes for a cell, and 2 for a site.
+
+#![allow(unsafe_code)]
+
+use super::bicell::BiCell;
+use super::prefetch::prefetch;
+use crate::complex::{Cell, Complex, Corners, Facet, NONE, memory};
+use crate::delaunay::{Delaunay, Dimension, Failures};
+use crate::error::Result;
+use crate::predicates::LANES;
+
+/// Greatest slack, in units.
+const LIMIT: u16 = 1 << 14;
+/// The slack of a bi-cell that has none: as a signed number it is negative.
+const NONE_LEFT: u16 = u16::MAX;
+/// Units in the mean way of a timestamp when they are chosen, to a factor of two.
+const UNITS: f64 = 16.0;
+/// How much smaller or greater it may become, and for how many timestamps it may be beyond that.
+const FITTING: f64 = 16.0;
+const UNFIT: u32 = 32;
+/// A slack of so many timestamps is not worth an effort to find more.
+const ENOUGH: f64 = 64.0;
+/// How many cells or bi-cells in advance to ask for.
+const AHEAD: usize = 8;
+/// Cells looked at in one go.
+const BLOCK: usize = 64;
+
+/// Bi-cells whose tolerances are to be computed together.
+#[derive(Debug, Default)]
+struct Batch<G: Dimension> {
+    bicells: G::BiCells,
+    facets: [[u32; 2]; LANES],
+    n: usize,
+}
+
+#[derive(Debug)]
+pub(super) struct Slacks<G: Dimension> {
+    /// Units in a length of 1: a power of two.
+    per_length: f64,
+    /// For how many timestamps the unit has not fitted.
+    unfit: u32,
+    /// A tolerance that need not be sharp.
+    enough: f64,
+    /// By site, odometers.
+    travelled: Vec<u16>,
+    /// By cell: in the lower half of entry `i` the deadline of corner `i`, in the upper half the slack of facet `i`, as a
+    /// signed number, since the cell was last referred.
+    entries: Vec<G::Corners>,
+    /// Cells of which a corner has passed its deadline, and the facets of bi-cells that have no slack left.
+    expired: Vec<u32>,
+    facets: Vec<u32>,
+    /// Cells that are *open*: referred to the present, with odometers in place of deadlines. A bit for each.
+    open: Vec<u32>,
+    is_open: Vec<u64>,
+    batch: Batch<G>,
+}
+
+impl<G: Dimension> Default for Slacks<G> {
+    fn default() -> Self {
+        Slacks {
+            per_length: 0.0,
+            unfit: 0,
+            enough: 0.0,
+            travelled: Vec::new(),
+            entries: Vec::new(),
+            expired: Vec::new(),
+            facets: Vec::new(),
+            open: Vec::new(),
+            is_open: Vec::new(),
+            batch: Batch::default(),
+        }
+    }
+}
+
+/// Whether bi-cells that are computed are checked before.
+enum Check<'c, G: Dimension> {
+    /// They are known to hold.
+    Not,
+    /// After a motion from where the vertices were before, by id, none of which has gone farther than so.
+    Moved(&'c [G::Point], f64, &'c mut Failures),
+}
+
+impl<G: Dimension> Check<'_, G> {
+    #[cold]
+    #[inline(never)]
+    fn holds(&mut self, kernel: &Delaunay<G>, facet: Facet) -> bool {
+        match self {
+            Check::Not => true,
+            Check::Moved(before, _, failures) => kernel.check_bicell(facet, before, failures),
+        }
+    }
+}
+
+fn deadline(entry: u32) -> u16 {
+    entry as u16
+}
+
+fn slack(entry: u32) -> i16 {
+    (entry >> 16) as i16
+}
+
+fn entry(deadline: u16, slack: i16) -> u32 {
+    u32::from(deadline) | u32::from(slack as u16) << 16
+}
+
+/// The least slack of a cell.
+#[inline(always)]
+fn least<C: Corners>(entries: &C) -> i16 {
+    let mut least = slack(entries[0]);
+    for i in 1..C::N {
+        least = least.min(slack(entries[i]));
+    }
+    least
+}
+
+/// Lists those of at most [`BLOCK`] cells of which a corner has passed its deadline, by a loop without branches: they cannot
+/// be predicted. The corners must be indices of odometers.
+#[inline(never)]
+fn list_expired_of<'l, C: Corners>(
+    cells: &[Cell<C>],
+    entries: &[C],
+    travelled: &[u16],
+    listed: &'l mut [u32; BLOCK],
+) -> &'l [u32] {
+    let mut n = 0;
+    for (k, (cell, entries)) in cells.iter().zip(entries).enumerate() {
+        if cell.corners[0] == NONE {
+            continue;
+        }
+        let mut differences = 0;
+        for i in 0..C::N {
+            // SAFETY: the caller's promise; a free cell, which has no corners, is not here.
+            let travelled = unsafe { *travelled.get_unchecked(cell.corners[i] as usize) };
+            differences |= entries[i].wrapping_sub(u32::from(travelled));
+        }
+        listed[n % BLOCK] = k as u32;
+        n += (differences >> 15 & 1) as usize;
+    }
+    &listed[..n]
+}
+
+impl<G: Dimension> Slacks<G> {
+    /// Forgets everything; keeps the memory.
+    pub(super) fn clear(&mut self) {
+        self.travelled.clear();
+        self.entries.clear();
+        self.is_open.clear();
+    }
+
+    /// Follows the number of sites and cells.
+    pub(super) fn grow(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        let more_sites = kernel.sites().len().saturating_sub(self.travelled.len());
+        let more_cells = kernel.complex().n_slots().saturating_sub(self.entries.len());
+        memory::reserve(&mut self.travelled, more_sites)?;
+        memory::reserve(&mut self.entries, more_cells)?;
+        self.entries.resize(self.entries.len() + more_cells, G::Corners::filled(0));
+        self.travelled.resize(self.travelled.len() + more_sites, 0);
+        let more_words = self.entries.len().div_ceil(64).saturating_sub(self.is_open.len());
+        memory::reserve(&mut self.is_open, more_words)?;
+        self.is_open.resize(self.is_open.len() + more_words, 0);
+        Ok(())
+    }
+
+    /// Computes the bi-cells of all facets; returns how many. The vertices were `elsewhere`, by id, a timestamp ago, or
+    /// will be at the next.
+    pub(super) fn compute(&mut self, kernel: &Delaunay<G>, elsewhere: &[G::Point]) -> Result<u64> {
+        self.clear();
+        self.grow(kernel)?;
+        self.choose_unit(kernel, elsewhere);
+        let complex = kernel.complex();
+        let mut n = 0;
+        self.is_open.fill(u64::MAX);
+        for c in complex.live() {
+            for i in 0..G::Corners::N {
+                if c < complex.cell(c).neighbour(i).cell() {
+                    self.push(kernel, Facet::new(c, i), &mut Check::Not);
+                    n += 1;
+                }
+            }
+        }
+        self.enter_batch(kernel, &mut Check::Not);
+        self.is_open.fill(0);
+        complex.live().for_each(|c| self.set_deadlines(complex, c));
+        Ok(n)
+    }
+
+    fn choose_unit(&mut self, kernel: &Delaunay<G>, elsewhere: &[G::Point]) {
+        let (mut sum, mut n) = (0.0, 0.0);
+        for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
+            let there = elsewhere.get(site.id as usize);
+            sum += there.map_or(0.0, |p| G::distance_above(&site.point, p));
+            n += 1.0;
+        }
+        // Of no use, but no error either, where nothing moves. A power of two that is no number any more would make
+        // all ways 0.
+        self.per_length = (UNITS * n / sum).log2().floor().clamp(-900.0, 900.0).exp2();
+        self.unfit = 0;
+        self.expect(sum / n);
+    }
+
+    /// Computes the bi-cells of all facets of these cells, each listed once; returns how many.
+    pub(super) fn compute_anew(&mut self, kernel: &mut Delaunay<G>, cells: &[u32]) -> Result<u64> {
+        memory::reserve(&mut self.open, (1 + G::Corners::N) * cells.len())?;
+        for &c in cells {
+            self.is_open[c as usize / 64] |= 1 << (c % 64);
+            self.open.push(c);
+        }
+        let mut n = 0;
+        kernel.for_facets_of(cells, |kernel, facet| {
+            self.push(kernel, facet, &mut Check::Not);
+            n += 1;
+        });
+        self.enter_batch(kernel, &mut Check::Not);
+        self.close(kernel.complex());
+        Ok(n)
+    }
+
+    /// The vertices have moved by about so much in a timestamp. Whether the unit still fits.
+    pub(super) fn expect(&mut self, step: f64) -> bool {
+        self.enough = ENOUGH * step;
+        let units = step * self.per_length / UNITS;
+        let fits = units * FITTING > 1.0 && units < FITTING;
+        self.unfit = if fits { 0 } else { self.unfit + 1 };
+        self.unfit < UNFIT
+    }
+
+    /// Adds to the way of a site; `distance` is an upper bound.
+    #[inline(always)]
+    pub(super) fn travel(&mut self, s: u32, distance: f64) {
+        // The cut is that of a conversion to less than the range.
+        let way = ((distance * self.per_length) as u32).min(u32::from(LIMIT)) as u16 + 1;
+        let travelled = &mut self.travelled[s as usize];
+        *travelled = travelled.wrapping_add(way);
+    }
+
+    /// Checks the bi-cells that have no slack left after a motion from where the vertices were `before`, by id, by at most
+    /// `greatest` each, and computes those anew that hold; returns how many there were. `None`, and nothing checked, if
+    /// more than `most` cells are concerned.
+    pub(super) fn check_expired(
+        &mut self,
+        kernel: &Delaunay<G>,
+        before: &[G::Point],
+        greatest: f64,
+        most: usize,
+        failures: &mut Failures,
+    ) -> Option<u64> {
+        let complex = kernel.complex();
+        let mut expired = std::mem::take(&mut self.expired);
+        let mut facets = std::mem::take(&mut self.facets);
+        let are_few = self.list_expired(kernel, most, &mut expired);
+        let mut n = 0;
+        let can = are_few && self.reserve(expired.len(), &mut facets).is_ok();
+        if can {
+            self.list_facets(complex, &expired, &mut facets);
+            n = self.check_facets(kernel, &facets, &mut Check::Moved(before, greatest, failures));
+            self.close(complex);
+        }
+        self.expired = expired;
+        self.facets = facets;
+        can.then_some(n)
+    }
+
+    /// Makes room for the facets of so many cells, and for these and their neighbours to be open.
+    fn reserve(&mut self, n_cells: usize, facets: &mut Vec<u32>) -> Result<()> {
+        memory::reserve(facets, G::Corners::N * n_cells)?;
+        memory::reserve(&mut self.open, (1 + G::Corners::N) * n_cells)
+    }
+
+    /// Lists the cells of which a corner has passed its deadline; `false` if these are more than `most`.
+    fn list_expired(&self, kernel: &Delaunay<G>, most: usize, expired: &mut Vec<u32>) -> bool {
+        let cells = &kernel.complex().cells()[..self.entries.len()];
+        // There is an odometer for each site.
+        let travelled = &self.travelled[..kernel.sites().len()];
+        let mut listed = [0; BLOCK];
+        expired.clear();
+        for (b, (cells, entries)) in cells.chunks(BLOCK).zip(self.entries.chunks(BLOCK)).enumerate() {
+            let listed = list_expired_of(cells, entries, travelled, &mut listed);
+            if expired.len() + listed.len() > most || memory::reserve(expired, listed.len()).is_err() {
+                return false;
+            }
+            expired.extend(listed.iter().map(|k| (b * BLOCK) as u32 + k));
+        }
+        true
+    }
+
+    /// Lists the facets without slack of these cells, and opens these.
+    fn list_facets(&mut self, complex: &Complex<G::Corners>, cells: &[u32], facets: &mut Vec<u32>) {
+        facets.clear();
+        for (k, &c) in cells.iter().enumerate() {
+            if let Some(&next) = cells.get(k + AHEAD) {
+                prefetch(&self.entries, next as usize);
+                prefetch(complex.cells(), next as usize);
+            }
+            self.open(complex, c);
+            for i in 0..G::Corners::N {
+                if slack(self.entries[c as usize][i]) < 0 {
+                    facets.push(Facet::new(c, i).code());
+                }
+            }
+        }
+    }
+
+    /// Checks and computes the listed bi-cells; returns how many they are. Each may be listed from both sides.
+    fn check_facets(&mut self, kernel: &Delaunay<G>, facets: &[u32], check: &mut Check<'_, G>) -> u64 {
+        let complex = kernel.complex();
+        let mut n = 0;
+        for (k, &code) in facets.iter().enumerate() {
+            if let Some(&next) = facets.get(k + AHEAD) {
+                let next = Facet::from_code(next);
+                let across = complex.cell(next.cell()).neighbour(next.index()).cell();
+                prefetch(&self.entries, across as usize);
+                prefetch(complex.cells(), across as usize);
+            }
+            let facet = Facet::from_code(code);
+            if slack(self.entries[facet.cell() as usize][facet.index()]) < 0 {
+                self.push(kernel, facet, check);
+                n += 1;
+            }
+        }
+        self.enter_batch(kernel, check);
+        n
+    }
+
+    /// Has a bi-cell computed, given from an open cell; until then it has the greatest slack.
+    #[inline(always)]
+    fn push(&mut self, kernel: &Delaunay<G>, facet: Facet, check: &mut Check<'_, G>) {
+        let complex = kernel.complex();
+        let across = complex.cell(facet.cell()).neighbour(facet.index());
+        self.open(complex, across.cell());
+        self.enter([facet, across], LIMIT);
+        let bicell = BiCell::of(kernel, facet);
+        let Some(points) = bicell.interior() else {
+            self.enter_at_hull(kernel, [facet, across], bicell.hull_tolerance(), check);
+            return;
+        };
+        let batch = &mut self.batch;
+        G::set_bicell(&mut batch.bicells, batch.n, points);
+        batch.facets[batch.n] = [facet, across].map(Facet::code);
+        batch.n += 1;
+        if batch.n == LANES {
+            self.enter_batch(kernel, check);
+        }
+    }
+
+    #[cold]
+    fn enter_at_hull(
+        &mut self,
+        kernel: &Delaunay<G>,
+        sides: [Facet; 2],
+        tolerance: f64,
+        check: &mut Check<'_, G>,
+    ) {
+        // What tolerates the way back was positive all the way.
+        let tolerates = matches!(check, Check::Moved(_, greatest, _) if tolerance > *greatest);
+        let holds = tolerates || check.holds(kernel, sides[0]);
+        self.enter(sides, if holds { self.slack_of(tolerance) } else { NONE_LEFT });
+    }
+
+    /// Checks the bi-cells of the batch, if they are to be checked, and computes their tolerances. It is empty then.
+    fn enter_batch(&mut self, kernel: &Delaunay<G>, check: &mut Check<'_, G>) {
+        let n = std::mem::take(&mut self.batch.n);
+        if n == 0 {
+            return;
+        }
+        let hold = match check {
+            Check::Moved(..) => G::bicells_hold(kernel.filter(), &self.batch.bicells),
+            Check::Not => [true; LANES],
+        };
+        let tolerances = G::tolerances(&self.batch.bicells, [self.enough; LANES]);
+        for k in 0..n {
+            let sides = self.batch.facets[k].map(Facet::from_code);
+            let holds = hold[k] || check.holds(kernel, sides[0]);
+            let slack = if holds { self.slack_of(tolerances[k]) } else { NONE_LEFT };
+            self.enter(sides, slack);
+        }
+    }
+
+    fn slack_of(&self, tolerance: f64) -> u16 {
+        ((tolerance * self.per_length) as u32).min(u32::from(LIMIT)) as u16
+    }
+
+    /// Enters the slack of a bi-cell for both cells, which are open.
+    #[inline(always)]
+    fn enter(&mut self, sides: [Facet; 2], slack: u16) {
+        for side in sides {
+            self.entries[side.cell() as usize][side.index()] = entry(0, slack as i16);
+        }
+    }
+
+    /// Refers a cell to the present, unless it is.
+    #[inline(always)]
+    fn open(&mut self, complex: &Complex<G::Corners>, c: u32) {
+        let (word, bit) = (&mut self.is_open[c as usize / 64], 1 << (c % 64));
+        if *word & bit != 0 {
+            return;
+        }
+        *word |= bit;
+        self.open.push(c);
+        let corners = complex.cell(c).corners;
+        let entries = &mut self.entries[c as usize];
+        let least = least(entries) as u16;
+        let mut way = 0;
+        for k in 0..G::Corners::N {
+            let reference = deadline(entries[k]).wrapping_sub(least);
+            way = way.max(self.travelled[corners[k] as usize].wrapping_sub(reference));
+        }
+        // There is nowhere more to be used up.
+        let way = way.min(LIMIT + 1) as i16;
+        for i in 0..G::Corners::N {
+            entries[i] = entry(0, (slack(entries[i]) - way).max(-1));
+        }
+    }
+
+    /// Gives all open cells their deadlines.
+    fn close(&mut self, complex: &Complex<G::Corners>) {
+        let open = std::mem::take(&mut self.open);
+        for &c in &open {
+            self.is_open[c as usize / 64] = 0;
+            self.set_deadlines(complex, c);
+        }
+        self.open = open;
+        self.open.clear();
+    }
+
+    #[inline(always)]
+    fn set_deadlines(&mut self, complex: &Complex<G::Corners>, c: u32) {
+        let corners = complex.cell(c).corners;
+        let entries = &mut self.entries[c as usize];
+        let least = least(entries);
+        for k in 0..G::Corners::N {
+            let travelled = self.travelled[corners[k] as usize];
+            entries[k] = entry(travelled.wrapping_add(least as u16), slack(entries[k]));
+        }
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.travelled.capacity() * size_of::<u16>()
+            + (self.expired.capacity() + self.facets.capacity()) * size_of::<u32>()
+            + self.entries.capacity() * size_of::<G::Corners>()
+    }
+}
