@@ -7,7 +7,9 @@ mod common;
 
 use common::{Rng, assert_same_cells, cell_set, fresh_cells};
 use deldrift::delaunay::{Coordinates, Dimension, Plane, Space};
-use deldrift::motion::{Algorithm, CommitReport, Level, MovingTriangulation, Options, SwitchingRule};
+use deldrift::motion::{
+    Algorithm, CoincidencePolicy, CommitReport, Level, MovingTriangulation, Options, SwitchingRule,
+};
 
 const MAINTENANCE: [Algorithm; 4] = [
     Algorithm::Tolerance,
@@ -194,5 +196,59 @@ fn tolerances_follow_insertions_and_removals() {
     for algorithm in [Algorithm::Tolerance, Algorithm::SafeRegionTolerance] {
         check::<Plane>(algorithm);
         check::<Space>(algorithm);
+    }
+}
+
+/// Immediate relocations within tolerance have a short way, which is not taken while there are views to end. It does, counts
+/// and refuses what the long way does.
+fn ways_agree<G: Dimension>(algorithm: Algorithm, coincidence: CoincidencePolicy) {
+    let rng = &mut Rng::new(9);
+    let mut now: Vec<G::Point> = positions::<G>(0, 90, rng).into_iter().flatten().collect();
+    let options = || Options { algorithm, coincidence, ..Options::default() };
+    let [mut short, mut long] =
+        [(); 2].map(|()| MovingTriangulation::<G>::new(&now, options()).expect("a build"));
+    for t in [&mut short, &mut long] {
+        // A calm commit, after which rebuilding + tolerance has switched.
+        t.move_all(&now).expect("moves");
+        t.commit_timestamp().expect("a commit");
+        t.remove_vertex(5).expect("a removal");
+        t.move_vertices(&[7], &[now[7]]).expect("a move");
+    }
+    let mut refused = 0;
+    for size in [1e-9, 1e-5, 1e-5, 1e-9, 1e-3, 0.3, 0.3, 0.3, 1e-6, 1e-6, 1e-6, 1e-6] {
+        for v in 0..now.len() + 1 {
+            let mut q = now.get(v).copied().unwrap_or_default();
+            match rng.below(16) {
+                0..3 => {}
+                3 => q[G::D - 1] = *rng.pick(&[f64::NAN, f64::INFINITY, 2e57, -1e58]),
+                4 if size == 0.3 => q = *rng.pick(&now),
+                _ => nudge(&mut q, G::D, size, rng),
+            }
+            let _ = long.cells();
+            let done = long.relocate_vertex(v as u32, &q);
+            // Not a number is not equal to itself.
+            assert_eq!(format!("{:?}", short.relocate_vertex(v as u32, &q)), format!("{done:?}"));
+            assert_eq!(short.statistics(), long.statistics(), "{algorithm:?}, vertex {v}, {size}");
+            refused += u32::from(done.is_err());
+            if done.is_ok() {
+                now[v] = q;
+            }
+        }
+        let present: Vec<_> = now.iter().enumerate().map(|(v, &p)| (v != 5).then_some(p)).collect();
+        let context = || format!("{algorithm:?} in {} dimensions, {size}", G::D);
+        assert_same_cells(&cell_set(&short), &fresh_cells::<G>(&present), context);
+        short.validate(Level::Delaunay).unwrap_or_else(|v| panic!("{}: {v}", context()));
+    }
+    let sums = short.statistics();
+    assert!(sums.within_tolerance > 200 && sums.placements + sums.flips > 50 && refused > 50, "{sums:?}");
+}
+
+#[test]
+fn short_relocations_are_like_long_ones() {
+    for algorithm in [Algorithm::Tolerance, Algorithm::RebuildingTolerance, Algorithm::Auto] {
+        for coincidence in [CoincidencePolicy::Merge, CoincidencePolicy::Reject] {
+            ways_agree::<Plane>(algorithm, coincidence);
+            ways_agree::<Space>(algorithm, coincidence);
+        }
     }
 }

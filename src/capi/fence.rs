@@ -97,6 +97,22 @@ pub(super) unsafe fn change(
     })
 }
 
+/// Makes a change so short that the fence would cost as much: the body cannot panic, and calls nothing of the
+/// caller's. Whether it was made; if not, nothing has happened.
+///
+/// # Safety
+/// As for [`change`].
+#[inline(always)]
+pub(super) unsafe fn change_shortly(
+    t: *mut deldrift_triangulation,
+    body: impl FnOnce(&mut Kernel) -> bool,
+) -> bool {
+    // SAFETY: the caller's promise.
+    let handle = unsafe { pointers::reference("t", t.cast_const()) };
+    // SAFETY: as in `read`.
+    handle.is_ok_and(|handle| handle.check_ready().is_ok() && body(unsafe { &mut *handle.kernel() }))
+}
+
 /// The message of the last failure on this thread.
 pub(super) fn last_message() -> *const c_char {
     MESSAGE.with(|message| message.as_ptr().cast_const().cast())

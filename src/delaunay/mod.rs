@@ -252,6 +252,16 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Whether the static filter is valid for a point.
+    #[inline(always)]
+    pub(crate) fn is_covered(&self, p: &G::Point) -> bool {
+        let mut is_covered = true;
+        for k in 0..G::D {
+            is_covered &= (self.lower[k] <= p[k]) & (p[k] <= self.upper[k]);
+        }
+        is_covered
+    }
+
     /// As [`cover`](Self::cover), for points up to `distance` off the box.
     pub(crate) fn cover_around(&mut self, lower: &G::Point, upper: &G::Point, distance: f64) {
         let (mut lower, mut upper) = (*lower, *upper);

@@ -224,17 +224,38 @@ impl<G: Dimension> MovingTriangulation<G> {
         auto.wait = auto.next_wait;
     }
 
+    /// Immediate relocations in a round.
+    #[inline(always)]
+    fn round(&self) -> u64 {
+        self.n_present.max(SAMPLE as usize) as u64
+    }
+
+    /// Whether the next immediate relocation is the last of its round.
+    #[inline(always)]
+    pub(super) fn is_round_ending(&self) -> bool {
+        self.auto.relocated + 1 >= self.round()
+    }
+
+    /// Counts immediate relocations within tolerance, none of them the last of its round.
+    #[inline(always)]
+    pub(super) fn count_within(&mut self, relocated: u64) {
+        self.auto.relocated += relocated;
+        self.auto.within += relocated;
+        self.auto.still += relocated;
+    }
+
     /// Counts an immediate relocation, and decides after a round of them whether tolerances are to be kept.
     pub(super) fn follow_relocation(&mut self, done: &CommitReport) {
         let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
+        let is_last = self.is_round_ending();
         let auto = &mut self.auto;
         auto.relocated += 1;
         auto.within += done.within_tolerance;
         auto.still += done.within_tolerance + done.unchanged;
-        let round = auto.relocated;
-        if round < self.n_present.max(SAMPLE as usize) as u64 {
+        if !is_last {
             return;
         }
+        let round = auto.relocated;
         let (within, still) = (auto.within, auto.still);
         (auto.relocated, auto.within, auto.still) = (0, 0, 0);
         let are_most = |some: u64| 10 * some >= 6 * round;

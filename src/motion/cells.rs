@@ -107,6 +107,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         }))
     }
 
+    /// Whether anything derived from the cells is kept.
+    #[inline(always)]
+    pub(super) fn has_views(&self) -> bool {
+        self.cells.get().is_some() || self.changed.get().is_some()
+    }
+
     /// Drops what was derived from the cells: they are about to change.
     pub(super) fn forget_views(&mut self) {
         self.cells.take();

@@ -20,6 +20,7 @@ impl Hidden {
     }
 
     /// Whether there are any at a site.
+    #[inline(always)]
     pub(super) fn any_at(&self, s: u32) -> bool {
         !self.at.is_empty() && self.at.contains_key(&s)
     }

@@ -134,7 +134,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
     /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
+    #[inline]
     pub fn relocate_vertex(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
+        if self.relocate_within_tolerance(vertex, position) {
+            return Ok(());
+        }
+        self.relocate_checked(vertex, position)
+    }
+
+    /// The long way of [`relocate_vertex`](Self::relocate_vertex), kept out of the short one's registers.
+    #[inline(never)]
+    fn relocate_checked(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
         let q = check_position::<G>("position", 0, position)?;
         if self.staging.is_staged(vertex) {

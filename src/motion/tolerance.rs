@@ -33,6 +33,7 @@
 
 use super::prefetch::{AHEAD, prefetch};
 use super::regions::Filter;
+use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::memory;
 use crate::delaunay::{Dimension, Shortcut};
@@ -175,6 +176,52 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.kernel.cover(&p, &p);
         report.moved += u64::from(self.exchange_position(vertex));
+        true
+    }
+
+    /// The short way of [`relocate_vertex`](Self::relocate_vertex): moves a vertex that certainly stays within the tolerance
+    /// kept of it if nothing follows from that but a few counts. Otherwise it does nothing and says `false`; the long
+    /// way finds out what is to be done, or is wrong. It cannot panic, so C needs no fence around it.
+    ///
+    /// No other vertex can be at the new place. All are within their tolerances, so the cells still are a triangulation
+    /// when this one has moved, and positive; if two of its vertices were at one place, cells of theirs would overlap.
+    ///
+    /// Sites are not stored in the order of ids, so what they hold comes late. Nothing waits for it here: a vertex that is
+    /// there already is moved like the others, and counts nothing.
+    #[inline(always)]
+    pub(crate) fn relocate_within_tolerance(&mut self, vertex: u32, position: &G::Point) -> bool {
+        let v = vertex as usize;
+        let (Some(&s), Some(fixed)) = (self.site_of.get(v), self.regions.fixed().get(v)) else {
+            return false;
+        };
+        let Ok(q) = check_position::<G>("position", 0, position) else {
+            return false;
+        };
+        let is_auto = self.options.algorithm == Algorithm::Auto;
+        let may_move = self.kernel.has_cells()
+            && self.regions.kept_for() == Some(Filter::Tolerance)
+            && self.filter() == Some(Filter::Tolerance)
+            && fixed.holds(&q)
+            && !self.staging.is_staged(vertex)
+            && !self.hidden.any_at(s)
+            && !self.has_views()
+            && self.kernel.is_covered(&q)
+            && !(is_auto && self.is_round_ending());
+        // A removed vertex has no site.
+        let Some(site) = self.kernel.sites_mut().get_mut(s as usize).filter(|_| may_move) else {
+            return false;
+        };
+        let old = std::mem::replace(&mut site.point, q);
+        let mut differs = false;
+        for axis in 0..G::D {
+            differs |= old[axis] != q[axis];
+        }
+        let moved = u64::from(differs);
+        self.statistics.moved += moved;
+        self.statistics.within_tolerance += moved;
+        if is_auto {
+            self.count_within(moved);
+        }
         true
     }
 
