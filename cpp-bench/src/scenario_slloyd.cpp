@@ -17,6 +17,7 @@ constexpr std::size_t n_directions = 2048;
 struct Dual {
     Vector3 centre{};
     bool is_inside = false;  // the ball; never of an infinite cell
+    std::uint32_t number = 0;  // of the cell
 };
 
 using Space = ReportSpace<3, Dual>;
@@ -51,9 +52,11 @@ private:
     Vector3 site(std::uint32_t id) const { return vector(from_ + 3 * std::size_t{id}); }
 
     void find_duals(double radius) {
+        std::uint32_t n_cells = 0;
         for (auto cell = triangulation_.all_cells_begin(); cell != triangulation_.all_cells_end(); ++cell) {
             Dual &dual = cell->info();
             dual = {};
+            dual.number = n_cells++;
             if (!triangulation_.is_infinite(cell)) {
                 std::array<Vector3, 4> corner;
                 for (int i = 0; i < 4; ++i) corner[i] = site(cell->vertex(i)->info().id);
@@ -69,13 +72,14 @@ private:
 
     /// A facet of a Voronoi cell belongs to an edge, and the edge's midpoint is in its plane. An edge of the
     /// facet belongs to a triangle: with the midpoint it makes a (signed) triangle of the facet, and with
-    /// either site a tetrahedron of that site's cell.
+    /// either site a tetrahedron of that site's cell. The order of the sums shows in their last bits, and addresses
+    /// change from run to run: cells are compared by their numbers.
     void add_exact_parts() {
         for (auto cell = triangulation_.finite_cells_begin(); cell != triangulation_.finite_cells_end();
              ++cell)
             for (int corner = 0; corner < 4; ++corner) {
                 const auto other = cell->neighbor(corner);
-                if (triangulation_.is_infinite(other) || !(&*cell < &*other)) continue;
+                if (triangulation_.is_infinite(other) || cell->info().number > other->info().number) continue;
                 // Counter-clockwise seen from the neighbour.
                 const std::array<int, 3> facet =
                     corner % 2 == 0
