@@ -7,7 +7,7 @@ mod common;
 
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
 use deldrift::delaunay::{Dimension, Plane, Space};
-use deldrift::motion::{Algorithm, CommitReport, Level, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, CommitReport, Level, Location, MovingTriangulation, Options};
 
 /// A motion of all positions; it gets the positions of the beginning and those of now.
 type Motion<G> = fn(&[Point<G>], &mut [Point<G>], &mut Rng);
@@ -183,4 +183,25 @@ fn relocations_agree<G: Dimension>() {
 fn relocations_by_auto_match_fresh_builds() {
     relocations_agree::<Plane>();
     relocations_agree::<Space>();
+}
+
+/// Walks begin in the cell of the latest change, here an insertion: a flip that frees it must leave another one for that.
+#[test]
+fn walks_begin_in_a_cell_after_flips() {
+    let mut flips = 0;
+    for seed in seeds(2000) {
+        let mut rng = Rng::new(seed);
+        let mut now: Vec<_> = (0..20).map(|_| point::<Space>(|_| EXTENT * rng.unit())).collect();
+        let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
+        let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
+        now.push([EXTENT / 2.0; 3]);
+        t.insert_vertex(&now[20]).expect("an insertion");
+        tremble::<Space>(&mut now, 0.02, &mut rng);
+        tremble::<Space>(&mut now[20..], 0.5, &mut rng);
+        t.move_all(&now).expect("moves");
+        flips += t.commit_timestamp().expect("a commit").flips;
+        t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("seed {seed}: {v}"));
+        assert_eq!(t.locate(&now[20]), Ok(Location::Vertex(20)), "seed {seed}");
+    }
+    assert!(flips > 4000, "there were hardly any flips: {flips}");
 }

@@ -18,6 +18,7 @@ impl Delaunay<Space> {
     ) -> Result<u64> {
         self.journal.clear();
         let (mut flips, mut before) = (0, 0);
+        let mut recent = self.recent;
         loop {
             while let Some(facet) = suspects.pop() {
                 // The cell of a facet may have gone; then those around it are suspects, too.
@@ -34,6 +35,7 @@ impl Delaunay<Space> {
                     continue;
                 };
                 flips += 1;
+                recent = outer[0].cell();
                 for facet in outer {
                     for s in self.complex.cell(facet.cell()).corners {
                         self.corner_mut(s).cell = facet.cell();
@@ -42,6 +44,8 @@ impl Delaunay<Space> {
                 suspects.extend(outer);
             }
             if stuck.is_empty() {
+                // A flip may have freed the cell that was the recent one. If all are undone it comes back.
+                self.recent = recent;
                 // Nothing will be undone. Keep the memory for a few flips, not for those of a whole large set.
                 if let Some(changed) = &mut self.changed {
                     changed.extend(self.journal.iter().flat_map(Undo::cells));

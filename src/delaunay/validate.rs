@@ -129,7 +129,8 @@ impl<G: Dimension> Delaunay<G> {
                 && self.complex.cell(site.cell).corners.as_ref().contains(&s);
             ensure(points_back, level, || format!("the cell of vertex {} does not have it", site.id))?;
         }
-        Ok(())
+        let can_walk = !self.has_cells() || self.complex.is_live(self.recent);
+        ensure(can_walk, level, || format!("cell {}, where walks begin, is gone", self.recent))
     }
 
     fn check_orientation(&self) -> Check {
