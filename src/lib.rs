@@ -21,6 +21,7 @@ pub mod delaunay;
 mod error;
 pub mod motion;
 pub mod predicates;
+mod prefetch;
 mod threads;
 
 pub use error::{Error, Result};

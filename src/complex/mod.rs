@@ -27,6 +27,8 @@ pub use corners::Corners;
 pub use flips::Undo;
 
 use crate::error::{Error, Result};
+#[cfg(target_arch = "x86_64")]
+use crate::prefetch::prefetch;
 
 /// The ghost vertex: index 0 of the sites.
 pub const INFINITE: u32 = 0;
@@ -181,7 +183,20 @@ impl<C: Corners> Complex<C> {
     /// The corner of a facet's cell that is opposite the facet.
     #[inline(always)]
     pub(crate) fn apex(&self, facet: Facet) -> u32 {
-        self.cell(facet.cell()).corners[facet.index()]
+        debug_assert!((facet.cell() as usize) < self.cells.len() && facet.index() < C::N);
+        // In fewer operations than by cell and index.
+        let at = facet.code() as usize + 2 * (C::N - 2) * facet.cell() as usize;
+        // SAFETY: a cell is 2 N numbers, its corners and its neighbours; this is number `index` of an existing one.
+        unsafe { *self.cells.as_ptr().cast::<u32>().add(at) }
+    }
+
+    /// Asks for the neighbours of a cell, which may be free.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    pub(crate) fn prefetch_neighbours(&self, cell: u32) {
+        for i in 0..C::N {
+            prefetch(&self.cells, self.cell(cell).neighbour(i).cell() as usize);
+        }
     }
 
     #[inline(always)]

@@ -9,11 +9,19 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::{Delaunay, Dimension, Plane, Space};
+#[cfg(target_arch = "x86_64")]
+use crate::complex::Cell;
 use crate::complex::{Corners, Facet, INFINITE};
+#[cfg(target_arch = "x86_64")]
+use crate::predicates::avx2;
 use crate::{predicates, threads};
 
 /// A sweep of so many cells takes as long as to start a thread for them.
 const SWEPT_AT_LEAST: usize = 1 << 14;
+
+/// Bytes of cells above which they are asked for in advance: as many as a cache near the processor has.
+#[cfg(target_arch = "x86_64")]
+const FAR: usize = 4 << 20;
 
 /// What does not hold.
 #[derive(Debug, Default)]
@@ -96,27 +104,60 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Sweeps the cells of a range; stops when more than `most` cells of all ranges have failed.
     fn sweep_range(&self, range: Range<usize>, failures: &mut Failures, most: usize, n_failed: &AtomicUsize) {
-        for c in range.start as u32..range.end as u32 {
-            if self.complex.is_free(c) {
-                continue;
-            }
-            if self.complex.cell(c).is_ghost() {
-                failures.ghosts.push(c);
-                continue;
-            }
-            let (is_positive, failing) = G::certify(self, c);
-            if !is_positive {
-                failures.cells.push(c);
-                if n_failed.fetch_add(1, Relaxed) >= most {
-                    return;
+        self.screen(range.start as u32..range.end as u32, |c| {
+            self.sweep_cell(c, failures) || n_failed.fetch_add(1, Relaxed) < most
+        });
+    }
+
+    /// Calls `look` with each of these cells that is a ghost or does not surely hold, until it returns `false`; free ones
+    /// are skipped. Ghosts come in the order of the list, and so do finite cells.
+    #[inline(always)]
+    fn screen(&self, cells: impl Iterator<Item = u32> + Clone, look: impl FnMut(u32) -> bool) {
+        #[cfg(target_arch = "x86_64")]
+        if avx2::is_there() {
+            let is_far = self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR;
+            // SAFETY: it is.
+            return unsafe {
+                if is_far {
+                    self.screen_by_avx2::<true>(cells, look)
+                } else {
+                    self.screen_by_avx2::<false>(cells, look)
                 }
-            }
-            if failing != 0 {
-                failures
-                    .facets
-                    .extend((0..G::Corners::N).filter(|i| failing >> i & 1 == 1).map(|i| Facet::new(c, i)));
-            }
+            };
         }
+        self.screen_singly(cells, look);
+    }
+
+    /// As [`screen`](Self::screen), one cell at a time.
+    pub(super) fn screen_singly(
+        &self,
+        mut cells: impl Iterator<Item = u32>,
+        mut look: impl FnMut(u32) -> bool,
+    ) {
+        cells.all(|c| {
+            let is_ghost = self.complex.cell(c).is_ghost();
+            self.complex.is_free(c) || !is_ghost && G::cell_holds(self, c) || look(c)
+        });
+    }
+
+    /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets to cells of
+    /// higher indices are left to those.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn sweep_cell(&self, c: u32, failures: &mut Failures) -> bool {
+        let cell = self.complex.cell(c);
+        if cell.is_ghost() {
+            failures.ghosts.push(c);
+            return true;
+        }
+        if !self.is_positive(c) {
+            failures.cells.push(c);
+            return false;
+        }
+        let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
+        let lower = facets.filter(|&facet| cell.neighbour(facet.index()).cell() < c);
+        failures.facets.extend(lower.filter(|&facet| !self.is_locally_delaunay(facet)));
+        true
     }
 
     /// Checks the ridges of the ghost cells that are open. Finite cells must be positive. `before` tells, by id, from where a
@@ -286,23 +327,6 @@ impl<G: Dimension> Delaunay<G> {
         self.certificates += self.gathered_star().len() as u64;
     }
 
-    /// As [`Dimension::certify`], with exact predicates.
-    #[cold]
-    #[inline(never)]
-    fn certify_exactly(&self, c: u32) -> (bool, u8) {
-        if !self.is_positive(c) {
-            return (false, 0);
-        }
-        let cell = self.complex.cell(c);
-        let mut failing = 0;
-        for i in 0..G::Corners::N {
-            if cell.neighbour(i).cell() < c && !self.is_locally_delaunay(Facet::new(c, i)) {
-                failing |= 1 << i;
-            }
-        }
-        (true, failing)
-    }
-
     /// Whether a finite cell is positively oriented.
     pub(crate) fn is_positive(&self, cell: u32) -> bool {
         G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
@@ -315,15 +339,6 @@ impl<G: Dimension> Delaunay<G> {
         let apex = self.site(self.complex.apex(across));
         !self.is_in_conflict_with_ghost(ridge.cell(), &apex.point, apex.id)
     }
-}
-
-/// Whether a finite triangle is positively oriented, and a bit for each edge, to a triangle of a lower index, that fails.
-///
-/// The circle is prepared once, and holds the orientation. All edges are tested, from both sides: which side has the
-/// lower index cannot be predicted, and a wrong guess costs more than a test.
-#[inline(always)]
-pub(super) fn certify_triangle(t: &Delaunay<Plane>, c: u32) -> (bool, u8) {
-    if triangle_holds(t, c) { (true, 0) } else { t.certify_exactly(c) }
 }
 
 /// Whether a finite triangle surely is positively oriented and has no other corner of a neighbour in its circle.
@@ -339,12 +354,6 @@ pub(super) fn triangle_holds(t: &Delaunay<Plane>, c: u32) -> bool {
     };
     let greatest = max(max(side(0), side(1)), side(2));
     circle[2] > t.filter.orient && greatest < -t.filter.prepared
-}
-
-/// Likewise for a tetrahedron.
-#[inline(always)]
-pub(super) fn certify_tetrahedron(t: &Delaunay<Space>, c: u32) -> (bool, u8) {
-    if tetrahedron_holds(t, c) { (true, 0) } else { t.certify_exactly(c) }
 }
 
 /// Likewise for a tetrahedron.

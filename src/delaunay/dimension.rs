@@ -9,6 +9,8 @@ use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
 use super::cavity::Cavity;
+#[cfg(target_arch = "x86_64")]
+use super::screen;
 use super::site::Sites;
 use super::{Delaunay, cavity_plane, cavity_space, certify};
 use crate::complex::{Corners, Facet, INFINITE};
@@ -118,11 +120,15 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         from: &Self::Point,
         to: &Self::Point,
     ) -> bool;
-    /// Whether a finite cell is positively oriented, and a bit for each facet, to a finite cell of a lower index, that
-    /// fails the empty-sphere test.
-    fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8);
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool;
+    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit for each.
+    ///
+    /// # Safety
+    ///
+    /// The processor must have AVX2.
+    #[cfg(target_arch = "x86_64")]
+    unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
     /// test.
     fn bicell_holds(t: &Delaunay<Self>, facet: Facet) -> bool;
@@ -291,13 +297,14 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8) {
-        certify::certify_triangle(t, cell)
-    }
-
-    #[inline(always)]
     fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool {
         certify::triangle_holds(t, cell)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+        screen::triangles_hold(t, cells, apexes)
     }
 
     #[inline(always)]
@@ -470,13 +477,14 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn certify(t: &Delaunay<Self>, cell: u32) -> (bool, u8) {
-        certify::certify_tetrahedron(t, cell)
-    }
-
-    #[inline(always)]
     fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool {
         certify::tetrahedron_holds(t, cell)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+        screen::tetrahedra_hold(t, cells, apexes)
     }
 
     #[inline(always)]

@@ -14,7 +14,7 @@
 //! | `remove` | removal: fill the star by gift wrapping |
 //! | `hub` | removal of a vertex with very many neighbours |
 //! | `relocate` | one site to a new place; flips in the plane |
-//! | `certify` | all certificates at once |
+//! | `certify`, `screen` | all certificates at once |
 //! | `flip_space` | flips in space, and the way back |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
@@ -41,6 +41,8 @@ mod parallel;
 mod parts;
 mod relocate;
 mod remove;
+#[cfg(target_arch = "x86_64")]
+mod screen;
 pub mod site;
 mod spheres;
 mod unite;

@@ -32,7 +32,6 @@ mod coincidence;
 mod commit;
 mod options;
 mod placement;
-mod prefetch;
 mod query;
 mod rebuilding;
 mod regions;

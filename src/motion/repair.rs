@@ -19,11 +19,11 @@
 //! Where more break than is worth mending, the triangulation is rebuilt. The first repair after a build sorts
 //! the cells of a large triangulation. The sweep is done by several threads, all else by one.
 
-use super::prefetch::{AHEAD, prefetch};
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Dimension, Failures, Shortcut};
 use crate::error::{Error, Result};
+use crate::prefetch::{AHEAD, prefetch};
 
 /// Rebuild when more than one vertex in so many would have to be placed. (A placement costs less in the plane, next to a
 /// vertex rebuilt, and flips are never stuck there.)

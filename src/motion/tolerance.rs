@@ -31,13 +31,13 @@
 //! placement, and up to about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in
 //! the queue. `examples/tolerance_share` measures both.
 
-use super::prefetch::{AHEAD, prefetch};
 use super::regions::Filter;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::memory;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
+use crate::prefetch::{AHEAD, prefetch};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a filter and a queue.

@@ -9,25 +9,31 @@
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
 /// Numbers with the roundings of `f64`.
-pub(super) trait Real:
+pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// Answers to a comparison.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
     /// The same number in all lanes.
     fn splat(x: f64) -> Self;
+    /// Square root.
     fn sqrt(self) -> Self;
+    /// Magnitude.
     fn abs(self) -> Self;
+    /// Where a number is less than the other.
     fn is_less(self, other: Self) -> Self::Mask;
     /// `yes` where the mask is set, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
     // One instruction each, unlike those of `f64` with their regard for NaN.
+
+    /// The lesser one.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(self.is_less(other), self, other)
     }
 
+    /// The greater one.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(other.is_less(self), self, other)
@@ -100,48 +106,82 @@ impl<const D: usize, const P: usize> BiCells<D, P> {
 
 /// Four numbers at a time, by AVX2.
 #[cfg(target_arch = "x86_64")]
-pub(super) mod avx2 {
+pub(crate) mod avx2 {
     use super::{BiCells, LANES, Real, Stored};
     use std::arch::x86_64::*;
     use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
     /// Whether the processor has it. Nothing else of this module may be used if it has not.
     #[inline(always)]
-    pub(in super::super) fn is_there() -> bool {
+    pub(crate) fn is_there() -> bool {
         is_x86_feature_detected!("avx2")
     }
 
     /// Four numbers, or, as a mask, all bits set or none in each.
     #[derive(Clone, Copy)]
-    pub(in super::super) struct Lanes(__m256d);
+    pub(crate) struct Lanes(__m256d);
 
     impl Lanes {
         #[inline(always)]
-        pub(in super::super) fn load(x: &[f64; LANES]) -> Self {
+        pub(crate) fn load(x: &[f64; LANES]) -> Self {
             // SAFETY: AVX2 is there; the address is that of four numbers.
             Lanes(unsafe { _mm256_loadu_pd(x.as_ptr()) })
         }
 
         #[inline(always)]
-        pub(in super::super) fn store(self) -> [f64; LANES] {
+        pub(crate) fn store(self) -> [f64; LANES] {
             let mut x = Stored::default();
             // SAFETY: AVX2 is there; the address is that of four numbers, aligned.
             unsafe { _mm256_store_pd(x.0.as_mut_ptr(), self.0) };
             x.0
         }
 
+        /// Two numbers for each lane.
+        #[inline(always)]
+        pub(crate) fn of_pairs([a, b, c, d]: [&[f64; 2]; LANES]) -> [Lanes; 2] {
+            let (ac, bd) = (two_pairs(a, c), two_pairs(b, d));
+            // SAFETY: AVX2 is there.
+            unsafe { [Lanes(_mm256_unpacklo_pd(ac, bd)), Lanes(_mm256_unpackhi_pd(ac, bd))] }
+        }
+
+        /// Four numbers for each lane.
+        #[inline(always)]
+        pub(crate) fn of_fours(fours: [&[f64; 4]; LANES]) -> [Lanes; 4] {
+            let [a, b, c, d] = fours.map(|four| four.as_chunks::<2>().0);
+            let [x, y] = Lanes::of_pairs([&a[0], &b[0], &c[0], &d[0]]);
+            let [z, w] = Lanes::of_pairs([&a[1], &b[1], &c[1], &d[1]]);
+            [x, y, z, w]
+        }
+
+        /// Where these numbers are equal to `y`.
+        #[inline(always)]
+        pub(crate) fn are_equal(x: &[u32; LANES], y: u32) -> Lanes {
+            // SAFETY: AVX2 is there; the address is that of four numbers.
+            unsafe {
+                let are_equal = _mm_cmpeq_epi32(_mm_loadu_si128(x.as_ptr().cast()), _mm_set1_epi32(y as i32));
+                Lanes(_mm256_castsi256_pd(_mm256_cvtepi32_epi64(are_equal)))
+            }
+        }
+
         /// One bit for each lane of a mask.
         #[inline(always)]
-        pub(in super::super) fn bits(self) -> u32 {
+        pub(crate) fn bits(self) -> u32 {
             // SAFETY: AVX2 is there.
             unsafe { _mm256_movemask_pd(self.0) as u32 }
         }
     }
 
+    /// Two numbers, and two more behind them.
+    #[inline(always)]
+    fn two_pairs(low: &[f64; 2], high: &[f64; 2]) -> __m256d {
+        // SAFETY: AVX2 is there; the addresses are those of two numbers.
+        unsafe { _mm256_loadu2_m128d(high.as_ptr(), low.as_ptr()) }
+    }
+
     impl<const D: usize, const P: usize> BiCells<D, P> {
         /// The points, in lanes.
         #[inline(always)]
-        pub(in super::super) fn lanes(&self) -> [[Lanes; D]; P] {
+        pub(crate) fn lanes(&self) -> [[Lanes; D]; P] {
             let mut lanes = [[Lanes::splat(0.0); D]; P];
             for (lanes, p) in lanes.iter_mut().zip(&self.0) {
                 for (lanes, stored) in lanes.iter_mut().zip(p) {

@@ -91,6 +91,8 @@ pub use bicells::{bicells_hold2d, bicells_hold3d};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::{BiCells, LANES};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use lanes::{Real, avx2};
 pub use lifted::{Lifted, side_of_seen_circle};
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed};

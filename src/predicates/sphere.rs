@@ -26,15 +26,17 @@
 
 use super::StaticFilter;
 use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d};
+use super::lanes::Real;
+use super::tolerance::{cross, dot, minus};
 
 /// Vector and area of a cell of the plane: `[n_x, n_y, V]`.
-pub type Circle = [f64; 3];
+pub type Circle<T = f64> = [T; 3];
 /// Vector and volume of a cell of space: `[n_x, n_y, n_z, V]`.
-pub type Sphere = [f64; 4];
+pub type Sphere<T = f64> = [T; 4];
 
 /// The circle of the triangle `abc`.
 #[inline(always)]
-pub fn circle(a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> Circle {
+pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
     let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
     [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0], u[0] * v[1] - u[1] * v[0]]
@@ -44,19 +46,21 @@ pub fn circle(a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> Circle {
 /// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
 /// would be mispredicted.)
 #[inline(always)]
-pub fn side_of_circle([x, y, volume]: &Circle, a: &[f64; 2], q: &[f64; 2]) -> f64 {
+pub fn side_of_circle<T: Real>(&[x, y, volume]: &Circle<T>, a: &[T; 2], q: &[T; 2]) -> T {
     let s = [q[0] - a[0], q[1] - a[1]];
     (s[0] * x + s[1] * y) - (s[0] * s[0] + s[1] * s[1]) * volume
 }
 
 /// The sphere of the tetrahedron `abcd`.
 #[inline(always)]
-pub fn sphere(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> Sphere {
-    let [u, v, w] = [b, c, d].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
-    let [uu, vv, ww] = [u, v, w].map(|p| p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+pub fn sphere<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Sphere<T> {
+    let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
+    let (uu, vv, ww) = (dot(&u, &u), dot(&v, &v), dot(&w, &w));
     let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));
-    let n = |k: usize| uu * vw[k] - vv * uw[k] + ww * uv[k];
-    [n(0), n(1), n(2), u[0] * vw[0] + u[1] * vw[1] + u[2] * vw[2]]
+    let [mut x, mut y, mut z] = [uu * vw[0], uu * vw[1], uu * vw[2]];
+    [x, y, z] = [x - vv * uw[0], y - vv * uw[1], z - vv * uw[2]];
+    [x, y, z] = [x + ww * uv[0], y + ww * uv[1], z + ww * uv[2]];
+    [x, y, z, dot(&u, &vw)]
 }
 
 /// What lies beyond the plane of `a`, `b`, `c`, on the side from which they turn counter-clockwise.
@@ -71,9 +75,9 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
 /// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
 /// would be mispredicted.)
 #[inline(always)]
-pub fn side_of_sphere([x, y, z, volume]: &Sphere, a: &[f64; 3], q: &[f64; 3]) -> f64 {
-    let s = [q[0] - a[0], q[1] - a[1], q[2] - a[2]];
-    (s[0] * x + s[1] * y + s[2] * z) - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * volume
+pub fn side_of_sphere<T: Real>(&[x, y, z, volume]: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
+    let s = minus(q, a);
+    dot(&s, &[x, y, z]) - dot(&s, &s) * volume
 }
 
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
@@ -131,11 +135,6 @@ fn next_to(x: f64, lower: f64, upper: f64) -> f64 {
     } else {
         x
     }
-}
-
-#[inline(always)]
-fn cross(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
-    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
 #[cfg(test)]

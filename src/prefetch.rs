@@ -3,11 +3,11 @@
 #![allow(unsafe_code)]
 
 /// How many entries in advance to ask.
-pub(super) const AHEAD: usize = 24;
+pub(crate) const AHEAD: usize = 24;
 
 /// Asks for an entry that is going to be used soon; any index will do.
 #[inline(always)]
-pub(super) fn prefetch<T>(array: &[T], at: usize) {
+pub(crate) fn prefetch<T>(array: &[T], at: usize) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};

@@ -1,0 +1,300 @@
+//! The screen that holds back only what does not surely hold, four cells at a time, by AVX2.
+//!
+//! Nearly all cells hold after a motion. They are taken in blocks: first the sites beyond the facets of all cells of a
+//! block are looked up, then the certificates of four cells are evaluated together, by the very operations that evaluate
+//! those of one. Loads of the first step do not depend on each other, so that the processor waits for many at once.
+//!
+//! All facets are tested, from both sides, as in [`triangle_holds`](super::certify::triangle_holds): to collect those to
+//! be tested would take as many instructions as it saves.
+
+#![allow(unsafe_code)]
+
+use super::{Delaunay, Dimension, Plane, Space};
+use crate::complex::{Corners, INFINITE};
+use crate::predicates::avx2::Lanes;
+use crate::predicates::{self, LANES, Real};
+use crate::prefetch::{AHEAD, prefetch};
+
+/// Most cells of a block.
+const BLOCK: usize = 64;
+
+/// Finite cells, by lane.
+#[derive(Default)]
+struct Block {
+    n: usize,
+    cells: [[u32; LANES]; BLOCK / LANES],
+    /// Sites beyond the facets opposite each corner.
+    apexes: [[[u32; LANES]; BLOCK / LANES]; 4],
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// As [`screen`](Self::screen). `IS_FAR` if the cells are too many to stay in a cache near the processor: then the
+    /// neighbours of those to come are asked for in advance, and the sites, which would only cost time otherwise.
+    #[target_feature(enable = "avx2")]
+    pub(super) fn screen_by_avx2<const IS_FAR: bool>(
+        &self,
+        mut cells: impl Iterator<Item = u32> + Clone,
+        mut look: impl FnMut(u32) -> bool,
+    ) {
+        let mut ahead = cells.clone().skip(AHEAD);
+        let mut block = Block::default();
+        loop {
+            block.n = 0;
+            while block.n < BLOCK {
+                let Some(c) = cells.next() else { break };
+                if IS_FAR && let Some(next) = ahead.next() {
+                    self.complex.prefetch_neighbours(next);
+                }
+                let cell = self.complex.cell(c);
+                if self.complex.is_free(c) {
+                    continue;
+                }
+                if cell.is_ghost() {
+                    if !look(c) {
+                        return;
+                    }
+                    continue;
+                }
+                block.cells.as_flattened_mut()[block.n] = c;
+                for (i, apexes) in block.apexes[..G::Corners::N].iter_mut().enumerate() {
+                    let apex = self.complex.apex(cell.neighbour(i));
+                    apexes.as_flattened_mut()[block.n] = apex;
+                    if IS_FAR {
+                        prefetch(&self.sites, apex as usize);
+                    }
+                }
+                block.n += 1;
+            }
+            let Some(last) = block.n.checked_sub(1) else { return };
+            // Any finite cells fill the last lanes.
+            for k in block.n..block.n.next_multiple_of(LANES) {
+                block.cells.as_flattened_mut()[k] = block.cells.as_flattened()[last];
+            }
+            for k in 0..block.n.div_ceil(LANES) {
+                // SAFETY: AVX2 is there.
+                let hold =
+                    unsafe { G::cells_hold(self, &block.cells[k], block.apexes.each_ref().map(|a| &a[k])) };
+                let n = (block.n - k * LANES).min(LANES);
+                let mut open = !hold & ((1 << n) - 1);
+                while open != 0 {
+                    if !look(block.cells[k][open.trailing_zeros() as usize]) {
+                        return;
+                    }
+                    open &= open - 1;
+                }
+            }
+        }
+    }
+}
+
+/// As [`triangle_holds`](super::certify::triangle_holds), of several triangles: one bit for each.
+#[inline(always)]
+pub(super) fn triangles_hold(t: &Delaunay<Plane>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+    let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
+    let a = places_in_plane(t, [k[0], l[0], m[0], n[0]]);
+    let b = places_in_plane(t, [k[1], l[1], m[1], n[1]]);
+    let c = places_in_plane(t, [k[2], l[2], m[2], n[2]]);
+    let circle = predicates::circle(&a, &b, &c);
+    let mut hold = Lanes::splat(t.filter.orient).is_less(circle[2]);
+    for apexes in &apexes[..3] {
+        let side = predicates::side_of_circle(&circle, &a, &places_in_plane(t, **apexes));
+        hold = hold & (side.is_less(Lanes::splat(-t.filter.prepared)) | Lanes::are_equal(apexes, INFINITE));
+    }
+    hold.bits()
+}
+
+#[inline(always)]
+fn places_in_plane(t: &Delaunay<Plane>, sites: [u32; LANES]) -> [Lanes; 2] {
+    Lanes::of_pairs(sites.map(|s| t.view().point(s)))
+}
+
+/// Likewise for tetrahedra.
+#[inline(always)]
+pub(super) fn tetrahedra_hold(t: &Delaunay<Space>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+    let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
+    let a = places_in_space(t, [k[0], l[0], m[0], n[0]]);
+    let b = places_in_space(t, [k[1], l[1], m[1], n[1]]);
+    let c = places_in_space(t, [k[2], l[2], m[2], n[2]]);
+    let d = places_in_space(t, [k[3], l[3], m[3], n[3]]);
+    let sphere = predicates::sphere(&a, &b, &c, &d);
+    let mut hold = Lanes::splat(t.filter.orient).is_less(sphere[3]);
+    for apexes in apexes {
+        let side = predicates::side_of_sphere(&sphere, &a, &places_in_space(t, *apexes));
+        hold = hold & (side.is_less(Lanes::splat(-t.filter.prepared)) | Lanes::are_equal(apexes, INFINITE));
+    }
+    hold.bits()
+}
+
+#[inline(always)]
+fn places_in_space(t: &Delaunay<Space>, sites: [u32; LANES]) -> [Lanes; 3] {
+    let [x, y, z, _] = Lanes::of_fours(sites.map(|s| t.view().padded_point(s)));
+    [x, y, z]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::Failures;
+    use crate::predicates::avx2;
+
+    /// In [0, 1).
+    fn unit(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+        (*state >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn point<G: Dimension>(mut coordinate: impl FnMut() -> f64) -> G::Point {
+        let mut p = G::Point::default();
+        (0..G::D).for_each(|k| p[k] = coordinate());
+        p
+    }
+
+    /// Random points, points of a small grid, or points on a sphere, so that there are very many ghosts.
+    fn points<G: Dimension>(kind: usize, n: usize, state: &mut u64) -> Vec<G::Point> {
+        let mut points: Vec<G::Point> = (0..n)
+            .map(|_| {
+                point::<G>(|| if kind == 1 { (unit(state) * 7.0).floor() } else { unit(state) * 6.0 - 3.0 })
+            })
+            .collect();
+        if kind == 2 {
+            for p in &mut points {
+                let length = p.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
+                (0..G::D).for_each(|k| p[k] /= length);
+            }
+        }
+        points
+    }
+
+    /// Moves one site in so many by up to `size` along each axis.
+    fn move_sites<G: Dimension>(t: &mut Delaunay<G>, one_in: f64, size: f64, state: &mut u64) {
+        let (mut lower, mut upper) = (t.lower(), t.upper());
+        for s in t.live_sites().collect::<Vec<_>>() {
+            if unit(state) * one_in < 1.0 {
+                let mut q = t.site(s).point;
+                for k in 0..G::D {
+                    q[k] += size * (2.0 * unit(state) - 1.0);
+                    (lower[k], upper[k]) = (lower[k].min(q[k]), upper[k].max(q[k]));
+                }
+                t.set_point(s, q);
+            }
+        }
+        t.cover(&lower, &upper);
+    }
+
+    /// What is found by a look at the cells that this passes on.
+    fn failures<G: Dimension>(
+        t: &Delaunay<G>,
+        screen: impl FnOnce(&mut dyn FnMut(u32) -> bool),
+    ) -> [Vec<u32>; 3] {
+        let mut failures = Failures::default();
+        screen(&mut |c| {
+            t.sweep_cell(c, &mut failures);
+            true
+        });
+        let facets = failures.facets.iter().map(|facet| facet.code()).collect();
+        [failures.cells, facets, failures.ghosts]
+    }
+
+    /// Returns how many of each have failed, and how many cells there were to look at.
+    fn agree<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 3] {
+        let all = 0..t.complex.n_slots() as u32;
+        let expected = failures(t, |look| t.complex.live().for_each(|c| assert!(look(c))));
+        let found = failures(t, |look| t.screen_singly(all.clone(), look));
+        assert_eq!(found, expected, "{context}, singly");
+        if !avx2::is_there() {
+            return [0; 3];
+        }
+        // SAFETY: AVX2 is there.
+        let found = failures(t, |look| unsafe { t.screen_by_avx2::<false>(all.clone(), look) });
+        assert_eq!(found, expected, "{context}, near");
+        // SAFETY: AVX2 is there.
+        let found = failures(t, |look| unsafe { t.screen_by_avx2::<true>(all.clone(), look) });
+        assert_eq!(found, expected, "{context}, far");
+        let mut n_open = 0;
+        // SAFETY: AVX2 is there.
+        unsafe {
+            t.screen_by_avx2::<false>(all, |_| {
+                n_open += 1;
+                true
+            });
+        }
+        [expected[0].len(), expected[1].len(), n_open - expected[2].len()]
+    }
+
+    /// All screens lead to the failures that a look at all cells finds.
+    fn all_agree<G: Dimension>() {
+        let mut state = 3;
+        for kind in 0..3 {
+            let mut total = [0; 3];
+            for round in 0..40 {
+                let mut t = Delaunay::<G>::default();
+                let n = G::D + 1 + (unit(&mut state) * [20.0, 400.0][round % 2]) as usize;
+                t.add_sites(&points::<G>(kind, n, &mut state)).expect("room for it");
+                t.rebuild(&mut |_| true).expect("room for it");
+                // Leaves free cells among the others.
+                for s in t.live_sites().collect::<Vec<_>>() {
+                    if unit(&mut state) < 0.05 && t.has_cells() {
+                        t.remove_site(s).expect("room for it");
+                    }
+                }
+                let mut n_failed = agree(&t, &format!("{n} points of kind {kind}, at rest"));
+                assert_eq!(n_failed[..2], [0, 0]);
+                for (one_in, size) in [(20.0, 0.01), (1.0, 1e-9), (20.0, 3.0), (1.0, 0.05), (1.0, 1.0)] {
+                    move_sites(&mut t, one_in, size, &mut state);
+                    let context = format!("{n} points of kind {kind}, moved by {size}");
+                    let more = agree(&t, &context);
+                    (0..3).for_each(|k| n_failed[k] += more[k]);
+                }
+                (0..3).for_each(|k| total[k] += n_failed[k]);
+            }
+            if avx2::is_there() {
+                assert!(total[0] > 300 && total[1] > 300, "kind {kind}: {total:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn screens_of_triangles_agree() {
+        all_agree::<Plane>();
+    }
+
+    #[test]
+    fn screens_of_tetrahedra_agree() {
+        all_agree::<Space>();
+    }
+
+    /// A random triangulation at rest leaves next to nothing to look at, so that the screen is worth it.
+    #[test]
+    fn cells_at_rest_pass() {
+        fn n_open<G: Dimension>() -> usize {
+            let mut t = Delaunay::<G>::default();
+            t.add_sites(&points::<G>(0, 1000, &mut 5)).expect("room for it");
+            t.rebuild(&mut |_| true).expect("room for it");
+            agree(&t, "at rest")[2]
+        }
+        assert_eq!([n_open::<Plane>(), n_open::<Space>()], [0, 0]);
+    }
+
+    /// Nothing is passed on after a look that wants no more.
+    #[test]
+    fn looks_end_the_screen() {
+        let mut t = Delaunay::<Plane>::default();
+        t.add_sites(&points::<Plane>(0, 500, &mut 7)).expect("room for it");
+        t.rebuild(&mut |_| true).expect("room for it");
+        move_sites(&mut t, 1.0, 1.0, &mut 9);
+        for most in [1, 2, 5, 100] {
+            if avx2::is_there() {
+                let mut n = 0;
+                let all = 0..t.complex.n_slots() as u32;
+                // SAFETY: AVX2 is there.
+                unsafe {
+                    t.screen_by_avx2::<false>(all, |_| {
+                        n += 1;
+                        n < most
+                    });
+                }
+                assert_eq!(n, most);
+            }
+        }
+    }
+}
