@@ -186,7 +186,8 @@ impl<C: Corners> Complex<C> {
         debug_assert!((facet.cell() as usize) < self.cells.len() && facet.index() < C::N);
         // In fewer operations than by cell and index.
         let at = facet.code() as usize + 2 * (C::N - 2) * facet.cell() as usize;
-        // SAFETY: a cell is 2 N numbers, its corners and its neighbours; this is number `index` of an existing one.
+        // SAFETY: a cell is 2 N numbers, its corners and then its neighbours; this is number `index` of a cell
+        // that there is.
         unsafe { *self.cells.as_ptr().cast::<u32>().add(at) }
     }
 

@@ -109,14 +109,14 @@ impl<G: Dimension> Delaunay<G> {
         });
     }
 
-    /// Calls `look` with each of these cells that is a ghost or does not surely hold, until it returns `false`; free ones
-    /// are skipped. Ghosts come in the order of the list, and so do finite cells.
+    /// Calls `look` with each of these cells that is a ghost or does not surely hold, until it returns `false`.
+    /// Free ones are skipped. Ghosts come in the order of the list, and so do finite cells.
     #[inline(always)]
     fn screen(&self, cells: impl Iterator<Item = u32> + Clone, look: impl FnMut(u32) -> bool) {
         #[cfg(target_arch = "x86_64")]
         if avx2::is_there() {
             let is_far = self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR;
-            // SAFETY: it is.
+            // SAFETY: AVX2 and FMA are there.
             return unsafe {
                 if is_far {
                     self.screen_by_avx2::<true>(cells, look)
@@ -140,8 +140,8 @@ impl<G: Dimension> Delaunay<G> {
         });
     }
 
-    /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets to cells of
-    /// higher indices are left to those.
+    /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets
+    /// to cells of higher indices are left to those.
     #[cold]
     #[inline(never)]
     pub(super) fn sweep_cell(&self, c: u32, failures: &mut Failures) -> bool {

@@ -122,11 +122,11 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     ) -> bool;
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool;
-    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit for each.
+    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each.
     ///
     /// # Safety
     ///
-    /// The processor must have AVX2.
+    /// The processor must have AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere

@@ -1,11 +1,9 @@
-//! The screen that holds back only what does not surely hold, four cells at a time, by AVX2.
+//! The screen that holds back only what does not surely hold, four cells at a time, by AVX2 and FMA.
 //!
-//! Nearly all cells hold after a motion. They are taken in blocks: first the sites beyond the facets of all cells of a
-//! block are looked up, then the certificates of four cells are evaluated together, by the very operations that evaluate
-//! those of one. Loads of the first step do not depend on each other, so that the processor waits for many at once.
-//!
-//! All facets are tested, from both sides, as in [`triangle_holds`](super::certify::triangle_holds): to collect those to
-//! be tested would take as many instructions as it saves.
+//! Nearly all cells hold after a motion. They are taken in blocks: first the sites beyond the facets of all
+//! cells of a block are looked up, then the certificates of four cells are evaluated together. The loads of
+//! the first step do not depend on each other, so that the processor waits for many at once. All facets are
+//! tested, from both sides, as in [`triangle_holds`](super::certify::triangle_holds).
 
 #![allow(unsafe_code)]
 
@@ -28,9 +26,9 @@ struct Block {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// As [`screen`](Self::screen). `IS_FAR` if the cells are too many to stay in a cache near the processor: then the
-    /// neighbours of those to come are asked for in advance, and the sites, which would only cost time otherwise.
-    #[target_feature(enable = "avx2")]
+    /// As [`screen`](Self::screen). `IS_FAR` if the cells are too many to stay in a cache near the processor:
+    /// then neighbours and sites are asked for in advance, which would only cost time otherwise.
+    #[target_feature(enable = "avx2,fma")]
     pub(super) fn screen_by_avx2<const IS_FAR: bool>(
         &self,
         mut cells: impl Iterator<Item = u32> + Clone,
@@ -71,7 +69,7 @@ impl<G: Dimension> Delaunay<G> {
                 block.cells.as_flattened_mut()[k] = block.cells.as_flattened()[last];
             }
             for k in 0..block.n.div_ceil(LANES) {
-                // SAFETY: AVX2 is there.
+                // SAFETY: AVX2 and FMA are there.
                 let hold =
                     unsafe { G::cells_hold(self, &block.cells[k], block.apexes.each_ref().map(|a| &a[k])) };
                 let n = (block.n - k * LANES).min(LANES);
@@ -204,14 +202,14 @@ mod tests {
         if !avx2::is_there() {
             return [0; 3];
         }
-        // SAFETY: AVX2 is there.
+        // SAFETY: AVX2 and FMA are there.
         let found = failures(t, |look| unsafe { t.screen_by_avx2::<false>(all.clone(), look) });
         assert_eq!(found, expected, "{context}, near");
-        // SAFETY: AVX2 is there.
+        // SAFETY: AVX2 and FMA are there.
         let found = failures(t, |look| unsafe { t.screen_by_avx2::<true>(all.clone(), look) });
         assert_eq!(found, expected, "{context}, far");
         let mut n_open = 0;
-        // SAFETY: AVX2 is there.
+        // SAFETY: AVX2 and FMA are there.
         unsafe {
             t.screen_by_avx2::<false>(all, |_| {
                 n_open += 1;
@@ -286,7 +284,7 @@ mod tests {
             if avx2::is_there() {
                 let mut n = 0;
                 let all = 0..t.complex.n_slots() as u32;
-                // SAFETY: AVX2 is there.
+                // SAFETY: AVX2 and FMA are there.
                 unsafe {
                     t.screen_by_avx2::<false>(all, |_| {
                         n += 1;

@@ -27,6 +27,14 @@
 //! would give 8 u, 80 u and 46 u for the first three, as found in CGAL, Geogram and HXT; those have 1122 u
 //! for the in-sphere determinant, which they expand into four products of a lift instead of three.
 //!
+//! # Products and sums in one
+//!
+//! Where a product and a sum are one operation with one rounding (`lanes.rs`), the rules hold as they are.
+//! With x y + z in place of fl(x y) + z the sum adds the exact product, which is bounded by what bounds
+//! the rounded one, and an error has gone. The result may underflow, which a sum does not, and is η off
+//! then: the η granted to the product. As the last operation it is right in sign unless it underflows, and
+//! then it does not exceed a bound, all of which are at least the least normal number.
+//!
 //! # Underflow
 //!
 //! Both numbers of a value of degree k hold up to an absolute term, too, `underflow` times η·Mᵏ⁻², where M is

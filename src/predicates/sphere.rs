@@ -10,8 +10,9 @@
 //! ```
 //!
 //! since u·n = |u|² V, and likewise for v and w, determines n. A test costs 9 or 14 operations instead of 25
-//! or 74. The bound is derived like those of the other determinants, for this operation order, and is static
-//! only: what it leaves uncertain goes to [`incircle`](super::incircle) or [`insphere`](super::insphere).
+//! or 74, and fewer in lanes, where a product and a sum are one. The bound is derived like those of the
+//! other determinants, for this operation order, and is static only: what it leaves uncertain goes to
+//! [`incircle`](super::incircle) or [`insphere`](super::insphere).
 //!
 //! The half-space beyond a hull facet is the sphere of a ghost cell: V = 0 and n is the facet's outer normal,
 //! times [`StaticFilter::largest_square`], so that its values have the same degree. Their sign is that of the
@@ -27,7 +28,7 @@
 use super::StaticFilter;
 use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d};
 use super::lanes::Real;
-use super::tolerance::{cross, dot, minus};
+use super::tolerance::minus;
 
 /// Vector and area of a cell of the plane: `[n_x, n_y, V]`.
 pub type Circle<T = f64> = [T; 3];
@@ -38,8 +39,8 @@ pub type Sphere<T = f64> = [T; 4];
 #[inline(always)]
 pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-    let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
-    [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0], u[0] * v[1] - u[1] * v[0]]
+    let (uu, vv) = (dot(&u, &u), dot(&v, &v));
+    [minor(uu, v[1], vv, u[1]), minor(vv, u[0], uu, v[0]), minor(u[0], v[1], u[1], v[0])]
 }
 
 /// Positive if `q` is inside the circle of which `a` is the first corner, negative if outside; open if the
@@ -48,7 +49,7 @@ pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
 #[inline(always)]
 pub fn side_of_circle<T: Real>(&[x, y, volume]: &Circle<T>, a: &[T; 2], q: &[T; 2]) -> T {
     let s = [q[0] - a[0], q[1] - a[1]];
-    (s[0] * x + s[1] * y) - (s[0] * s[0] + s[1] * s[1]) * volume
+    dot(&s, &[x, y]).minus_product(dot(&s, &s), volume)
 }
 
 /// The sphere of the tetrahedron `abcd`.
@@ -57,10 +58,8 @@ pub fn sphere<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Sphere
     let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
     let (uu, vv, ww) = (dot(&u, &u), dot(&v, &v), dot(&w, &w));
     let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));
-    let [mut x, mut y, mut z] = [uu * vw[0], uu * vw[1], uu * vw[2]];
-    [x, y, z] = [x - vv * uw[0], y - vv * uw[1], z - vv * uw[2]];
-    [x, y, z] = [x + ww * uv[0], y + ww * uv[1], z + ww * uv[2]];
-    [x, y, z, dot(&u, &vw)]
+    let [x, y, z] = [minor(uu, vw[0], vv, uw[0]), minor(uu, vw[1], vv, uw[1]), minor(uu, vw[2], vv, uw[2])];
+    [ww.times_plus(uv[0], x), ww.times_plus(uv[1], y), ww.times_plus(uv[2], z), dot(&u, &vw)]
 }
 
 /// What lies beyond the plane of `a`, `b`, `c`, on the side from which they turn counter-clockwise.
@@ -77,7 +76,7 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
 #[inline(always)]
 pub fn side_of_sphere<T: Real>(&[x, y, z, volume]: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
     let s = minus(q, a);
-    dot(&s, &[x, y, z]) - dot(&s, &s) * volume
+    dot(&s, &[x, y, z]).minus_product(dot(&s, &s), volume)
 }
 
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
@@ -135,6 +134,26 @@ fn next_to(x: f64, lower: f64, upper: f64) -> f64 {
     } else {
         x
     }
+}
+
+/// `a` · `b` − `c` · `d`.
+#[inline(always)]
+fn minor<T: Real>(a: T, b: T, c: T, d: T) -> T {
+    (a * b).minus_product(c, d)
+}
+
+#[inline(always)]
+fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
+    [minor(p[1], q[2], p[2], q[1]), minor(p[2], q[0], p[0], q[2]), minor(p[0], q[1], p[1], q[0])]
+}
+
+#[inline(always)]
+fn dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
+    let mut sum = p[0] * q[0];
+    for k in 1..D {
+        sum = p[k].times_plus(q[k], sum);
+    }
+    sum
 }
 
 #[cfg(test)]
