@@ -61,7 +61,7 @@ const fn costs<G: Dimension>() -> Costs {
         Costs {
             watched: 14.0,
             beyond: 400.0,
-            sweep: 16.0,
+            sweep: 9.0,
             slack: None,
             used_up: 0.0,
             computed: 90.0,
@@ -72,11 +72,11 @@ const fn costs<G: Dimension>() -> Costs {
         Costs {
             watched: 45.0,
             beyond: 7000.0,
-            sweep: 120.0,
+            sweep: 55.0,
             slack,
             used_up: 110.0,
             computed: 500.0,
-            calm: 120,
+            calm: 250,
         }
     }
 }

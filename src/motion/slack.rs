@@ -17,11 +17,11 @@
 //! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the displacement, but
 //! for a logarithm.
 
-use super::prefetch::{AHEAD, prefetch};
 use super::regions::Filter;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::prefetch::{AHEAD, prefetch};
 
 /// More than one cell in so many past a deadline: a sweep of everything is cheaper.
 const MANY: usize = 3;

@@ -21,11 +21,11 @@
 #![allow(unsafe_code)]
 
 use super::bicell::BiCell;
-use super::prefetch::prefetch;
 use crate::complex::{Cell, Complex, Corners, Facet, NONE, memory};
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::predicates::LANES;
+use crate::prefetch::prefetch;
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;
