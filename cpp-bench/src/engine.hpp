@@ -14,6 +14,11 @@
 
 namespace bench {
 
+struct Counts {
+    std::uint64_t changes = 0;  // flips, placements and rebuilds
+    std::uint64_t within_tolerance = 0;
+};
+
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -41,8 +46,8 @@ public:
     /// What the library says it has allocated, or 0 where it does not say.
     virtual std::size_t reported_bytes() const { return 0; }
 
-    /// Flips, placements and rebuilds of all updates so far, or 0 where the library does not count them.
-    virtual std::uint64_t n_changes() const { return 0; }
+    /// What all updates so far have done, nothing where the library does not count it.
+    virtual Counts counts() const { return {}; }
 };
 
 /// Makes an engine for a dimension and a number of threads, which CGAL's take no notice of.

@@ -71,10 +71,10 @@ public:
         return bytes;
     }
 
-    std::uint64_t n_changes() const override {
+    Counts counts() const override {
         deldrift_commit_report sums;
         require(deldrift_statistics(triangulation_, &sums), "deldrift_statistics");
-        return sums.flips + sums.placements + sums.rebuilds;
+        return {sums.flips + sums.placements + sums.rebuilds, sums.within_tolerance};
     }
 
 private:

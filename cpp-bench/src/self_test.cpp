@@ -375,19 +375,25 @@ void test_measure(Tests &tests) {
 void test_targets(Tests &tests) {
     Progress progress(Progress::Output::silent);
     std::vector<Checks> checks;
-    const std::vector<Target> targets = measure_targets({300, 5, 500, 2}, 1, checks, progress);
+    const std::vector<Target> targets = measure_targets({300, 5, 300, 500, 2}, 1, checks, progress);
     const auto is_measured = [](const Target &target) {
-        return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted > 1;
+        return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted >= 1;
     };
-    tests.expect(targets.size() == 12 && std::all_of(targets.begin(), targets.end(), is_measured),
+    tests.expect(targets.size() == 16 && std::all_of(targets.begin(), targets.end(), is_measured),
                  "targets: all are measured");
     std::size_t n_comparisons = 0;
     for (const Checks &check : checks) n_comparisons += check.n_comparisons;
-    tests.expect(n_comparisons == 20, "targets: the cells of all engines are compared");
+    tests.expect(n_comparisons == 28, "targets: the cells of all engines are compared");
     const auto is_swept_in_vain = [](const Target &target) { return target.what == "swept" && target.n_changes > 0; };
     tests.expect(std::none_of(targets.begin(), targets.end(), is_swept_in_vain),
                  "targets: every certificate that is swept holds");
-    Target target = {"", 2, 1, "", "", 30, 10, 3, 0};
+    const auto is_within_as_named = [](const Target &target) {
+        return (target.what != "tolerance_test" || target.within == 1) &&
+               (target.what != "half_within" || (target.within > 0.4 && target.within < 0.7));
+    };
+    tests.expect(std::all_of(targets.begin(), targets.end(), is_within_as_named),
+                 "targets: all vertices, or half of them, are within tolerance");
+    Target target = {"", 2, 1, "", "", 30, 10, 3, 0, 0};
     tests.expect(target.verdict() == std::string("pass"), "targets: reached");
     target.contender_ns = 10.1;
     tests.expect(target.verdict() == std::string("missed"), "targets: missed by little");

@@ -20,10 +20,13 @@ constexpr double converged_displacement = 1e-7;
 /// So little that not one certificate among those of a million points is expected to fail.
 constexpr double swept_displacement = 1e-10;
 
+/// By so much that a little more than half of the vertices stay within their tolerance, in 2D and 3D.
+constexpr double half_displacements[] = {0.01, 0.001};
+
 /// DELDRIFT_AUTO computes tolerances after a calm commit, or a calm
 /// round of relocations, and uses them later.
 constexpr std::size_t n_warm = 2;
-/// Consecutive rounds of relocations at a turn: at such sizes it matters what is in the caches.
+/// Consecutive timestamps at a turn where the data fits into caches: it matters then what is in them.
 constexpr std::size_t rounds_at_a_turn = 4;
 
 constexpr double wanted_of_two_threads = 1.8;
@@ -59,6 +62,7 @@ struct Outcome {
     std::string name;
     double ns;         // of an update, per vertex: the median
     double n_changes;  // of an update
+    double within;     // tolerance: share of the vertices, over all updates
 };
 
 /// Replays a series to the entrants in turns of so many timestamps, and compares their cells at the last one.
@@ -68,12 +72,12 @@ std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &en
     const auto go_on = [](std::size_t) {};
     Replay replay(series);
     std::vector<Lane> lanes = lanes_of(entrants);
-    std::vector<std::uint64_t> changes_before;
+    std::vector<Counts> before;
     progress.begin(series.name + ": timing " + std::to_string(last - n_warm) + " updates", last - n_warm);
     for (Lane &lane : lanes) {
         lane.restart(series.dimension);
         replay.run_block(lane, 1, n_warm, go_on);
-        changes_before.push_back(lane.engine->n_changes());
+        before.push_back(lane.engine->counts());
         lane.seconds.clear();
     }
     for (std::size_t first = n_warm + 1; first <= last; first += turn) {
@@ -91,10 +95,13 @@ std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &en
         progress.step();
         std::vector<double> seconds;
         for (const auto &[timestamp, repeats] : lanes[i].seconds) seconds.push_back(repeats.front());
-        const auto n_changes = static_cast<double>(lanes[i].engine->n_changes() - changes_before[i]);
-        outcomes.push_back({lanes[i].entrant->name(),
-                            1e9 * median(seconds) / static_cast<double>(series.n_points),
-                            n_changes / static_cast<double>(last - n_warm)});
+        const Counts after = lanes[i].engine->counts();
+        const auto n_updates = static_cast<double>(last - n_warm);
+        const auto n_points = static_cast<double>(series.n_points);
+        const auto n_within = static_cast<double>(after.within_tolerance - before[i].within_tolerance);
+        outcomes.push_back({lanes[i].entrant->name(), 1e9 * median(seconds) / n_points,
+                            static_cast<double>(after.changes - before[i].changes) / n_updates,
+                            n_within / (n_updates * n_points)});
     }
     return outcomes;
 }
@@ -112,7 +119,7 @@ std::vector<Outcome> build(const Series &series, const std::vector<Entrant> &ent
         engine->build(series.frame(0), series.n_points);
         referee.judge(entrants[i], *engine);
         progress.step();
-        outcomes.push_back({entrants[i].name(), rows[i].ns_per_vertex_timestamp(), 0});
+        outcomes.push_back({entrants[i].name(), rows[i].ns_per_vertex_timestamp(), 0, 0});
     }
     return outcomes;
 }
@@ -124,6 +131,8 @@ public:
 
     std::vector<Target> run() {
         for (const unsigned dimension : {2u, 3u}) {
+            test(dimension, dimension == 2 ? 100 : 500);
+            stay_by_half(dimension);
             relocate(dimension, dimension == 2 ? 8 : 30);
             converge(dimension, dimension == 2 ? 30 : 150);
             sweep(dimension, dimension == 2 ? 12 : 22);
@@ -133,6 +142,26 @@ public:
     }
 
 private:
+    void test(unsigned dimension, double wanted) {
+        const std::size_t last = n_warm + sizes_.n_rounds;
+        const Series series =
+            trembling_points("tested", dimension, sizes_.n_tested, swept_displacement, last, seed_);
+        const auto done =
+            replay(series, {entrant("cgal/rebuilding", 1, last), entrant("deldrift/tolerance", 1, last)},
+                   rounds_at_a_turn, checks_of(series), progress_);
+        add("tolerance_test", series, done[0], done[1], wanted);
+    }
+
+    void stay_by_half(unsigned dimension) {
+        const std::size_t last = n_warm + sizes_.n_rounds;
+        const Series series = trembling_points("half", dimension, sizes_.n_relocated,
+                                               half_displacements[dimension - 2], last, seed_);
+        const auto done =
+            replay(series, {entrant("deldrift/placement", 1, last), entrant("deldrift/tolerance", 1, last)}, 1,
+                   checks_of(series), progress_);
+        add("half_within", series, done[0], done[1], 1);
+    }
+
     void relocate(unsigned dimension, double wanted) {
         const std::size_t last = n_warm + sizes_.n_rounds;
         Series series =
@@ -185,7 +214,7 @@ private:
     void add(const char *what, const Series &series, const Outcome &reference, const Outcome &contender,
              double wanted) {
         targets_.push_back({what, series.dimension, series.n_points, reference.name, contender.name,
-                            reference.ns, contender.ns, wanted, contender.n_changes});
+                            reference.ns, contender.ns, wanted, contender.n_changes, contender.within});
     }
 
     TargetSizes sizes_;
@@ -203,8 +232,8 @@ std::vector<Target> measure_targets(const TargetSizes &sizes, std::uint64_t seed
 }
 
 void run_targets(const Options &options) {
-    const TargetSizes whole = {10'000, 24, 1'000'000, 7};
-    const TargetSizes smoke = {1'000, 4, 2'000, 3};
+    const TargetSizes whole = {10'000, 24, 100'000, 1'000'000, 7};
+    const TargetSizes smoke = {1'000, 4, 1'000, 2'000, 3};
     keep_memory();
     Progress progress;
     std::vector<Checks> checks;
@@ -213,12 +242,13 @@ void run_targets(const Options &options) {
 
     std::vector<std::vector<std::string>> lines = {{"dimension", "target", "n", "reference", "reference_ns",
                                                     "contender", "contender_ns", "ratio", "wanted", "verdict",
-                                                    "changes"}};
+                                                    "changes", "within"}};
     for (const Target &target : targets)
         lines.push_back({std::to_string(target.dimension), target.what, std::to_string(target.n),
                          target.reference, significant(target.reference_ns, 4), target.contender,
                          significant(target.contender_ns, 4), significant(target.ratio(), 3),
-                         significant(target.wanted, 2), target.verdict(), significant(target.n_changes, 3)});
+                         significant(target.wanted, 2), target.verdict(), significant(target.n_changes, 3),
+                         significant(target.within, 3)});
     print_checks(std::cout, checks);
     std::cout << '\n';
     publish(options.results, "targets.csv", lines);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The speeds that deldrift sets itself where next to nothing changes, and what two threads must gain.
+// The speeds that deldrift sets itself where next to nothing changes, of the test for tolerances, and what two threads
+// must gain.
 #pragma once
 
 #include "options.hpp"
@@ -17,6 +18,7 @@ namespace bench {
 struct TargetSizes {
     std::size_t n_relocated;  // points that are relocated one by one, at once
     std::size_t n_rounds;     // of all of them
+    std::size_t n_tested;     // points that stay within their tolerance
     std::size_t n_committed;  // points that are committed, or built, together
     std::size_t n_commits;    // and builds
 };
@@ -32,6 +34,7 @@ struct Target {
     double contender_ns;
     double wanted;
     double n_changes;  // the contender's flips, placements and rebuilds, per update
+    double within;     // share of the vertices that the contender finds within their tolerance
 
     double ratio() const { return reference_ns / contender_ns; }
     const char *verdict() const { return ratio() >= wanted ? "pass" : "missed"; }

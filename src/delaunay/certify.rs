@@ -14,7 +14,8 @@ use crate::complex::Cell;
 use crate::complex::{Corners, Facet, INFINITE};
 #[cfg(target_arch = "x86_64")]
 use crate::predicates::avx2;
-use crate::{predicates, threads};
+use crate::predicates::{self, LANES};
+use crate::threads;
 
 /// A sweep of so many cells takes as long as to start a thread for them.
 const SWEPT_AT_LEAST: usize = 1 << 14;
@@ -42,6 +43,13 @@ pub struct Failures {
     /// Whether, even if the hull is convex at every ridge, it may wind more than once: some may not have been convex all
     /// the way.
     pub may_wind: bool,
+}
+
+/// Facets between finite cells that wait until they are as many as can be checked together.
+#[derive(Debug, Default)]
+pub(crate) struct Waiting {
+    facets: [Option<Facet>; LANES],
+    n: usize,
 }
 
 impl Failures {
@@ -201,6 +209,51 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// As [`check_bicell`](Self::check_bicell) of many bi-cells, of which those of finite cells wait for each other; after
+    /// the last one comes [`check_waiting`](Self::check_waiting).
+    #[inline(always)]
+    pub(crate) fn check_bicell_of_many(
+        &self,
+        facet: Facet,
+        waiting: &mut Waiting,
+        before: &[G::Point],
+        failures: &mut Failures,
+    ) {
+        let across = self.complex.cell(facet.cell()).neighbour(facet.index());
+        if [facet, across].iter().any(|side| self.complex.cell(side.cell()).is_ghost()) {
+            self.check_bicell(facet, before, failures);
+            return;
+        }
+        waiting.facets[waiting.n] = Some(facet);
+        waiting.n += 1;
+        if waiting.n == LANES {
+            self.check_waiting(waiting, before, failures);
+        }
+    }
+
+    /// Checks the bi-cells that wait.
+    pub(crate) fn check_waiting(&self, waiting: &mut Waiting, before: &[G::Point], failures: &mut Failures) {
+        #[cfg(target_arch = "x86_64")]
+        {
+            #[target_feature(enable = "avx2,fma")]
+            fn all_hold<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> bool {
+                // SAFETY: AVX2 and FMA are there.
+                unsafe { G::facets_hold(t, facets) == (1 << LANES) - 1 }
+            }
+            if let [Some(a), Some(b), Some(c), Some(d)] = waiting.facets
+                && avx2::is_there()
+                // SAFETY: they are.
+                && unsafe { all_hold(self, &[a, b, c, d]) }
+            {
+                *waiting = Waiting::default();
+                return;
+            }
+        }
+        for facet in std::mem::take(waiting).facets.into_iter().flatten() {
+            self.check_bicell(facet, before, failures);
+        }
+    }
+
     #[cold]
     #[inline(never)]
     fn check_bicell_exactly(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
@@ -230,7 +283,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way. Whether it is now.
     fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
         let simplex = self.simplex_at_hull(ridge);
-        if self.are_at_rest(&simplex, before) {
+        if self.stayed_positive(&simplex, |id| Some(&before[id as usize])) {
             return true;
         }
         // In a flat part of the hull the cell behind decides, so it must be positive.
@@ -243,21 +296,22 @@ impl<G: Dimension> Delaunay<G> {
             failures.ridges.push(ridge);
             return false;
         }
-        failures.may_wind |= !self.stayed_positive(&simplex, |id| Some(&before[id as usize]));
+        failures.may_wind = true;
         true
     }
 
     /// Checks all certificates of these cells after a motion, like [`check_bicell`](Self::check_bicell).
     pub(crate) fn check_cells(&mut self, cells: &[u32], before: &[G::Point], failures: &mut Failures) {
-        for &c in cells {
+        self.screen(cells.iter().copied(), |c| {
             if self.complex.cell(c).is_ghost() {
                 for i in 0..Self::LAST {
                     self.check_ridge(Facet::new(c, i), before, failures);
                 }
-            } else if !G::cell_holds(self, c) {
+            } else {
                 self.check_cell_exactly(c, failures);
             }
-        }
+            true
+        });
         self.certificates += (cells.len() * (G::D + 2)) as u64;
     }
 

@@ -129,6 +129,12 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// The processor must have AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
+    /// As [`bicell_holds`](Self::bicell_holds), of several facets: one bit each.
+    ///
+    /// # Safety
+    /// The processor must have AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    unsafe fn facets_hold(t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32;
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
     /// test.
     fn bicell_holds(t: &Delaunay<Self>, facet: Facet) -> bool;
@@ -305,6 +311,12 @@ impl Dimension for Plane {
     #[inline(always)]
     unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
         screen::triangles_hold(t, cells, apexes)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn facets_hold(t: &Delaunay<Self>, edges: &[Facet; LANES]) -> u32 {
+        screen::edges_hold(t, edges)
     }
 
     #[inline(always)]
@@ -485,6 +497,12 @@ impl Dimension for Space {
     #[inline(always)]
     unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
         screen::tetrahedra_hold(t, cells, apexes)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn facets_hold(t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32 {
+        screen::faces_hold(t, facets)
     }
 
     #[inline(always)]

@@ -51,6 +51,7 @@ mod validate;
 pub use build::Merge;
 pub use cavity::Insertion;
 pub use certify::Failures;
+pub(crate) use certify::Waiting;
 pub use dimension::{Coordinates, Dimension, Plane, Space};
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};

@@ -8,7 +8,7 @@
 #![allow(unsafe_code)]
 
 use super::{Delaunay, Dimension, Plane, Space};
-use crate::complex::{Corners, INFINITE};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::predicates::avx2::Lanes;
 use crate::predicates::{self, LANES, Real};
 use crate::prefetch::{AHEAD, prefetch};
@@ -83,6 +83,38 @@ impl<G: Dimension> Delaunay<G> {
             }
         }
     }
+}
+
+/// As [`bicell_holds_in_plane`](super::certify::bicell_holds_in_plane), of several edges: one bit for each.
+#[inline(always)]
+pub(super) fn edges_hold(t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
+    let [k, l, m, n] = edges.map(|edge| t.complex.cell(edge.cell()).corners.rotated_to_last(edge.index()));
+    let bicells = [
+        places_in_plane(t, [k[0], l[0], m[0], n[0]]),
+        places_in_plane(t, [k[1], l[1], m[1], n[1]]),
+        places_in_plane(t, [k[2], l[2], m[2], n[2]]),
+        places_in_plane(t, edges.map(|edge| apex_beyond(t, edge))),
+    ];
+    predicates::bicells_surely_hold2d(&t.filter, &bicells).bits()
+}
+
+/// Likewise for the facets of tetrahedra.
+#[inline(always)]
+pub(super) fn faces_hold(t: &Delaunay<Space>, faces: &[Facet; LANES]) -> u32 {
+    let [k, l, m, n] = faces.map(|face| t.complex.cell(face.cell()).corners.rotated_to_last(face.index()));
+    let bicells = [
+        places_in_space(t, [k[0], l[0], m[0], n[0]]),
+        places_in_space(t, [k[1], l[1], m[1], n[1]]),
+        places_in_space(t, [k[2], l[2], m[2], n[2]]),
+        places_in_space(t, [k[3], l[3], m[3], n[3]]),
+        places_in_space(t, faces.map(|face| apex_beyond(t, face))),
+    ];
+    predicates::bicells_surely_hold3d(&t.filter, &bicells).bits()
+}
+
+#[inline(always)]
+fn apex_beyond<G: Dimension>(t: &Delaunay<G>, facet: Facet) -> u32 {
+    t.complex.apex(t.complex.cell(facet.cell()).neighbour(facet.index()))
 }
 
 /// As [`triangle_holds`](super::certify::triangle_holds), of several triangles: one bit for each.

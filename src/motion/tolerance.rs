@@ -39,6 +39,15 @@ use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 use crate::prefetch::{AHEAD, prefetch};
 
+/// Bytes of sites above which they are asked for in advance: as many as a cache near the processor has.
+const FAR: usize = 1 << 20;
+
+/// Whether two places, without negative zeros, differ.
+#[inline(always)]
+fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
+    (0..G::D).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
+}
+
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a filter and a queue.
     pub(super) fn commit_by_filter(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
@@ -59,11 +68,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<bool> {
         self.pre_compute(filter, report)?;
         if filter == Filter::Tolerance && self.staging.is_whole() && self.hidden.count() == 0 {
-            let are_few = self.queue_beyond(most)?;
-            if are_few {
-                self.accept_others(report);
+            let moved = self.move_and_queue::<false>(most)?;
+            if let Some(moved) = moved {
+                report.moved += moved;
+                report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
             }
-            return Ok(are_few);
+            return Ok(moved.is_some());
         }
         self.staging.list()?;
         self.accept_listed(filter, report);
@@ -87,64 +97,62 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.regions.compute(&mut self.kernel, n_ids, filter, elsewhere, report)
     }
 
-    /// Of a whole staging, queues the vertices beyond their tolerance; `false`, and no queue, if they are more than
-    /// `most`. No two vertices may share a site.
+    /// Of a whole staging, moves the vertices within their tolerance, or all if `MOVES_ALL`, and queues the others; the
+    /// staging holds the old positions of those that have moved. Returns how many positions differ. `None`, and no queue,
+    /// and nothing has moved, if those to be queued are more than `most`. No two vertices may share a site.
     ///
-    /// This loop and the next are what a timestamp costs that changes nothing.
-    pub(super) fn queue_beyond(&mut self, most: usize) -> Result<bool> {
-        let queue = &mut self.staging.vertices;
-        let fixed = self.regions.fixed();
-        for (v, (p, fixed)) in self.staging.positions.iter().zip(fixed).enumerate() {
-            if fixed.holds(p) {
-                continue;
-            }
-            if queue.len() == most {
-                queue.clear();
-                return Ok(false);
-            }
-            if queue.len() == queue.capacity() {
-                memory::reserve(queue, 1)?;
-            }
-            queue.push(v as u32);
-        }
-        Ok(true)
-    }
-
-    /// Moves all vertices of a whole staging that are not queued, and counts them.
-    fn accept_others(&mut self, report: &mut CommitReport) {
-        report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
-        if self.staging.vertices.is_empty() {
-            // Nothing is left that could fail and ask for the old positions.
-            report.moved += self.move_whole::<false>();
-            return;
-        }
-        report.moved += self.move_whole::<true>();
-        for k in 0..self.staging.vertices.len() {
-            report.moved -= u64::from(self.exchange_position(self.staging.vertices[k]));
+    /// This loop is what a timestamp costs that changes nothing.
+    pub(super) fn move_and_queue<const MOVES_ALL: bool>(&mut self, most: usize) -> Result<Option<u64>> {
+        if size_of_val(self.kernel.sites()) > FAR {
+            self.move_and_queue_from::<MOVES_ALL, true>(most)
+        } else {
+            self.move_and_queue_from::<MOVES_ALL, false>(most)
         }
     }
 
-    /// Moves all vertices of a whole staging, which holds their old positions then if they are to be kept. Returns how
-    /// many positions differ. No two vertices may share a site.
-    ///
-    /// Sites are asked for in advance, as they are in another order than the vertices.
-    pub(super) fn move_whole<const KEEPS: bool>(&mut self) -> u64 {
-        let mut moved = 0;
+    /// As [`move_and_queue`](Self::move_and_queue). `IS_FAR` asks for sites in advance: they are in another order than the
+    /// vertices.
+    fn move_and_queue_from<const MOVES_ALL: bool, const IS_FAR: bool>(
+        &mut self,
+        most: usize,
+    ) -> Result<Option<u64>> {
+        let mut n_moved = 0;
         let sites = self.kernel.sites_mut();
-        for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
-            if let Some(&next) = self.site_of.get(v + AHEAD) {
+        let queue = &mut self.staging.vertices;
+        let movers = self.staging.positions.iter_mut().zip(self.regions.fixed()).zip(&self.site_of);
+        let mut ended = None;
+        for (v, ((p, fixed), &s)) in movers.enumerate() {
+            if IS_FAR && let Some(&next) = self.site_of.get(v + AHEAD) {
                 prefetch(sites, next as usize);
             }
-            let point = &mut sites[s as usize].point;
-            moved += u64::from(point != p);
-            if KEEPS {
-                std::mem::swap(point, p);
-            } else {
-                *point = *p;
+            if !fixed.holds(p) {
+                let room = if queue.len() == queue.capacity() { memory::reserve(queue, 1) } else { Ok(()) };
+                if queue.len() == most || room.is_err() {
+                    ended = Some((v, room));
+                    break;
+                }
+                queue.push(v as u32);
+                if !MOVES_ALL {
+                    continue;
+                }
             }
+            let point = &mut sites[s as usize].point;
+            n_moved += u64::from(differ::<G>(point, p));
+            std::mem::swap(point, p);
         }
-        self.staging.others_applied = true;
-        moved
+        let Some((end, room)) = ended else {
+            self.staging.others_applied = true;
+            return Ok(Some(n_moved));
+        };
+        let queue = std::mem::take(&mut self.staging.vertices);
+        let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
+        // Those that have not moved are exchanged in vain.
+        for v in (0..end as u32).chain(not_moved.iter().copied()) {
+            self.exchange_position(v);
+        }
+        self.staging.vertices = queue;
+        self.staging.vertices.clear();
+        room.map(|()| None)
     }
 
     /// Moves those of the listed vertices that stay in their regions, and puts them before the others.
@@ -212,11 +220,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return false;
         };
         let old = std::mem::replace(&mut site.point, q);
-        let mut differs = false;
-        for axis in 0..G::D {
-            differs |= old[axis] != q[axis];
-        }
-        let moved = u64::from(differs);
+        let moved = u64::from(differ::<G>(&old, &q));
         self.statistics.moved += moved;
         self.statistics.within_tolerance += moved;
         if is_auto {

@@ -41,7 +41,7 @@
 use super::regions::Filter;
 use super::repair::Repair;
 use super::{CommitReport, MovingTriangulation};
-use crate::delaunay::Dimension;
+use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 
 /// More than one vertex in so many beyond its tolerance: a sweep of everything is cheaper.
@@ -65,17 +65,16 @@ impl<G: Dimension> MovingTriangulation<G> {
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
             self.regions.compute(&mut self.kernel, n_ids, Filter::Watch, elsewhere, report)?;
         }
-        if !self.queue_beyond(most)? {
+        let Some(moved) = self.move_and_queue::<true>(most)? else {
             return Ok(false);
-        }
+        };
+        report.moved += moved;
         let n_beyond = self.staging.vertices.len();
         report.within_tolerance += (self.n_present - n_beyond) as u64;
+        self.staging.applied = n_beyond;
         if n_beyond + self.regions.n_watched() == 0 {
-            report.moved += self.move_whole::<false>();
             return Ok(true);
         }
-        report.moved += self.move_whole::<true>();
-        self.staging.applied = n_beyond;
 
         let mut repair = std::mem::take(&mut self.repair);
         self.check_moved(&mut repair);
@@ -105,9 +104,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.kernel.tidy_changes(touched);
         let (kernel, before) = (&self.kernel, &self.staging.positions);
+        let mut waiting = Waiting::default();
         self.regions.for_watched(kernel, |facet| {
-            kernel.check_bicell(facet, before, failures);
+            kernel.check_bicell_of_many(facet, &mut waiting, before, failures);
         });
+        kernel.check_waiting(&mut waiting, before, failures);
         self.kernel.check_cells(touched, before, failures);
         self.kernel.count_certificates(3 * self.regions.n_watched());
     }

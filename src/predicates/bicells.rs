@@ -19,14 +19,14 @@ pub fn bicells_hold2d(f: &StaticFilter, bicells: &BiCells<2, 4>) -> [bool; LANES
     {
         #[target_feature(enable = "avx2")]
         fn all(f: &StaticFilter, bicells: &BiCells<2, 4>) -> u32 {
-            hold2d(f, &bicells.lanes()).bits()
+            bicells_surely_hold2d(f, &bicells.lanes()).bits()
         }
         if avx2::is_there() {
             // SAFETY: it is.
             return bits(unsafe { all(f, bicells) });
         }
     }
-    std::array::from_fn(|i| hold2d(f, &bicells.lane(i)))
+    std::array::from_fn(|i| bicells_surely_hold2d(f, &bicells.lane(i)))
 }
 
 /// Likewise for tetrahedra, of the facet with `c` positively oriented and the reversed one with `d`.
@@ -36,14 +36,14 @@ pub fn bicells_hold3d(f: &StaticFilter, bicells: &BiCells<3, 5>) -> [bool; LANES
     {
         #[target_feature(enable = "avx2")]
         fn all(f: &StaticFilter, bicells: &BiCells<3, 5>) -> u32 {
-            hold3d(f, &bicells.lanes()).bits()
+            bicells_surely_hold3d(f, &bicells.lanes()).bits()
         }
         if avx2::is_there() {
             // SAFETY: it is.
             return bits(unsafe { all(f, bicells) });
         }
     }
-    std::array::from_fn(|i| hold3d(f, &bicells.lane(i)))
+    std::array::from_fn(|i| bicells_surely_hold3d(f, &bicells.lane(i)))
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -51,8 +51,9 @@ fn bits(mask: u32) -> [bool; LANES] {
     std::array::from_fn(|i| mask >> i & 1 == 1)
 }
 
+/// As [`bicells_hold2d`], of one bi-cell or of those in lanes.
 #[inline(always)]
-fn hold2d<T: Real>(filter: &StaticFilter, [a, b, c, d]: &[[T; 2]; 4]) -> T::Mask {
+pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, [a, b, c, d]: &[[T; 2]; 4]) -> T::Mask {
     let [u, v, s] = [b, c, d].map(|p| [p[0] - a[0], p[1] - a[1]]);
     let [uu, vv, ss] = [u, v, s].map(|p| p[0] * p[0] + p[1] * p[1]);
     let n = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
@@ -62,8 +63,9 @@ fn hold2d<T: Real>(filter: &StaticFilter, [a, b, c, d]: &[[T; 2]; 4]) -> T::Mask
     are_certain(filter, area, beyond, side)
 }
 
+/// As [`bicells_hold3d`], of one bi-cell or of those in lanes.
 #[inline(always)]
-fn hold3d<T: Real>(filter: &StaticFilter, [o, f, g, c, d]: &[[T; 3]; 5]) -> T::Mask {
+pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, [o, f, g, c, d]: &[[T; 3]; 5]) -> T::Mask {
     let (u, v, w, s) = (minus(f, o), minus(g, o), minus(c, o), minus(d, o));
     let (uu, vv, ww, ss) = (dot(&u, &u), dot(&v, &v), dot(&w, &w), dot(&s, &s));
     let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));

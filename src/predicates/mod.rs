@@ -88,6 +88,8 @@ mod tally;
 mod tolerance;
 
 pub use bicells::{bicells_hold2d, bicells_hold3d};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use bicells::{bicells_surely_hold2d, bicells_surely_hold3d};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::{BiCells, LANES};
