@@ -67,8 +67,9 @@ use flat::Flat;
 use parts::Parts;
 use remove::Hole;
 
-/// Lists of more than one cell in so many are put in storage order.
+/// Lists of more than one cell in so many are put in storage order, unless all cells are near the processor anyway.
 const SPARSE: usize = 32;
+const NEAR: usize = 1 << 14;
 
 /// A Delaunay triangulation of sites.
 #[derive(Debug)]
@@ -337,7 +338,7 @@ impl<G: Dimension> Delaunay<G> {
             }
             is_first
         });
-        if changed.len() * SPARSE > complex.n_slots() {
+        if complex.n_slots() > NEAR && changed.len() * SPARSE > complex.n_slots() {
             changed.clear();
             changed.extend((0..complex.n_slots() as u32).filter(|&c| complex.mark(c) != 0));
         }
