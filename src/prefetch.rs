@@ -2,6 +2,9 @@
 
 #![allow(unsafe_code)]
 
+/// Bytes of an array above which its entries are asked for in advance: as many as a cache near the processor has.
+pub(crate) const FAR: usize = 1 << 20;
+
 /// How many entries in advance to ask.
 pub(crate) const AHEAD: usize = 24;
 

@@ -46,10 +46,16 @@ pub struct Failures {
 }
 
 /// Facets between finite cells that wait until they are as many as can be checked together.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Waiting {
-    facets: [Option<Facet>; LANES],
+    facets: [Facet; LANES],
     n: usize,
+}
+
+impl Default for Waiting {
+    fn default() -> Self {
+        Waiting { facets: [Facet::new(0, 0); LANES], n: 0 }
+    }
 }
 
 impl Failures {
@@ -224,7 +230,7 @@ impl<G: Dimension> Delaunay<G> {
             self.check_bicell(facet, before, failures);
             return;
         }
-        waiting.facets[waiting.n] = Some(facet);
+        waiting.facets[waiting.n] = facet;
         waiting.n += 1;
         if waiting.n == LANES {
             self.check_waiting(waiting, before, failures);
@@ -233,23 +239,28 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Checks the bi-cells that wait.
     pub(crate) fn check_waiting(&self, waiting: &mut Waiting, before: &[G::Point], failures: &mut Failures) {
+        let Waiting { facets, n } = waiting;
+        let n = std::mem::take(n);
         #[cfg(target_arch = "x86_64")]
-        {
+        if avx2::is_there() && n > 0 {
             #[target_feature(enable = "avx2,fma")]
-            fn all_hold<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> bool {
+            fn hold<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> u32 {
                 // SAFETY: AVX2 and FMA are there.
-                unsafe { G::facets_hold(t, facets) == (1 << LANES) - 1 }
+                unsafe { G::facets_hold(t, facets) }
             }
-            if let [Some(a), Some(b), Some(c), Some(d)] = waiting.facets
-                && avx2::is_there()
-                // SAFETY: they are.
-                && unsafe { all_hold(self, &[a, b, c, d]) }
-            {
-                *waiting = Waiting::default();
-                return;
+            // Any facets between finite cells fill the last lanes.
+            let any = facets[0];
+            facets[n..].fill(any);
+            // SAFETY: AVX2 and FMA are there.
+            let hold = unsafe { hold(self, facets) };
+            for (k, &facet) in facets[..n].iter().enumerate() {
+                if hold >> k & 1 == 0 {
+                    self.check_bicell_exactly(facet, before, failures);
+                }
             }
+            return;
         }
-        for facet in std::mem::take(waiting).facets.into_iter().flatten() {
+        for &facet in &facets[..n] {
             self.check_bicell(facet, before, failures);
         }
     }

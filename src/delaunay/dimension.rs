@@ -129,7 +129,7 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// The processor must have AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
-    /// As [`bicell_holds`](Self::bicell_holds), of several facets: one bit each.
+    /// As [`bicell_holds`](Self::bicell_holds), of several facets, or by bounds that are sharper: one bit each.
     ///
     /// # Safety
     /// The processor must have AVX2 and FMA.

@@ -61,6 +61,7 @@ pub use validate::{Level, Violation};
 use crate::complex::{Complex, Corners, Facet, INFINITE, Undo, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
+use crate::prefetch::prefetch;
 use crate::threads::Threads;
 use cavity::Cavity;
 use flat::Flat;
@@ -363,6 +364,17 @@ impl<G: Dimension> Delaunay<G> {
         for &c in cells {
             self.complex.set_mark(c, 0);
         }
+    }
+
+    /// Asks for what a look at the bi-cell of a facet needs, but for the vertex beyond.
+    #[inline(always)]
+    pub(crate) fn prefetch_bicell(&self, facet: Facet) {
+        let cell = self.complex.cell(facet.cell());
+        // A free cell has corners that are no sites; they are only asked for.
+        for i in 0..G::Corners::N {
+            prefetch(&self.sites, cell.corners[i] as usize);
+        }
+        prefetch(self.complex.cells(), cell.neighbour(facet.index()).cell() as usize);
     }
 
     /// Enters cells into the record, if there is one.

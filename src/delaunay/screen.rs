@@ -16,6 +16,9 @@ use crate::prefetch::{AHEAD, prefetch};
 /// Most cells of a block.
 const BLOCK: usize = 64;
 
+/// A bit for each lane.
+const ALL: u32 = (1 << LANES) - 1;
+
 /// Finite cells, by lane.
 #[derive(Default)]
 struct Block {
@@ -73,7 +76,7 @@ impl<G: Dimension> Delaunay<G> {
                 let hold =
                     unsafe { G::cells_hold(self, &block.cells[k], block.apexes.each_ref().map(|a| &a[k])) };
                 let n = (block.n - k * LANES).min(LANES);
-                let mut open = !hold & ((1 << n) - 1);
+                let mut open = !hold & (ALL >> (LANES - n));
                 while open != 0 {
                     if !look(block.cells[k][open.trailing_zeros() as usize]) {
                         return;
@@ -85,7 +88,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-/// As [`bicell_holds_in_plane`](super::certify::bicell_holds_in_plane), of several edges: one bit for each.
+/// As [`bicell_holds_in_plane`](super::certify::bicell_holds_in_plane), of several edges, or by bounds that are sharper:
+/// one bit for each.
 #[inline(always)]
 pub(super) fn edges_hold(t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
     let [k, l, m, n] = edges.map(|edge| t.complex.cell(edge.cell()).corners.rotated_to_last(edge.index()));
@@ -95,7 +99,8 @@ pub(super) fn edges_hold(t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
         places_in_plane(t, [k[2], l[2], m[2], n[2]]),
         places_in_plane(t, edges.map(|edge| apex_beyond(t, edge))),
     ];
-    predicates::bicells_surely_hold2d(&t.filter, &bicells).bits()
+    let hold = predicates::bicells_surely_hold2d(&t.filter, &bicells).bits();
+    if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d(&bicells).bits() }
 }
 
 /// Likewise for the facets of tetrahedra.
@@ -109,7 +114,8 @@ pub(super) fn faces_hold(t: &Delaunay<Space>, faces: &[Facet; LANES]) -> u32 {
         places_in_space(t, [k[3], l[3], m[3], n[3]]),
         places_in_space(t, faces.map(|face| apex_beyond(t, face))),
     ];
-    predicates::bicells_surely_hold3d(&t.filter, &bicells).bits()
+    let hold = predicates::bicells_surely_hold3d(&t.filter, &bicells).bits();
+    if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d(&bicells).bits() }
 }
 
 #[inline(always)]

@@ -395,7 +395,7 @@ impl<G: Dimension> Regions<G> {
 
     /// Visits the facets that are watched.
     pub(super) fn for_watched(&mut self, kernel: &Delaunay<G>, visit: impl FnMut(Facet)) {
-        self.watched.for_each(|c| !kernel.complex().is_free(c), visit);
+        self.watched.for_each(kernel, visit);
     }
 
     /// About how many facets are watched.

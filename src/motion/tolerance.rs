@@ -37,10 +37,7 @@ use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::memory;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
-use crate::prefetch::{AHEAD, prefetch};
-
-/// Bytes of sites above which they are asked for in advance: as many as a cache near the processor has.
-const FAR: usize = 1 << 20;
+use crate::prefetch::{AHEAD, FAR, prefetch};
 
 /// Whether two places, without negative zeros, differ.
 #[inline(always)]

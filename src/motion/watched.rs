@@ -4,7 +4,9 @@
 //! stays listed until the list is gone through. A facet may be named from either side.
 
 use crate::complex::{Facet, memory};
+use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::prefetch::{AHEAD, FAR, prefetch};
 
 #[derive(Debug, Default)]
 pub(super) struct Watched {
@@ -66,19 +68,29 @@ impl Watched {
     }
 
     /// Visits all members named from live cells, and drops the others.
-    pub(super) fn for_each(&mut self, is_live: impl Fn(u32) -> bool, mut visit: impl FnMut(Facet)) {
-        let bits = &mut self.bits;
-        self.list.retain(|&code| {
-            let facet = Facet::from_code(code);
-            let bits = &mut bits[facet.cell() as usize];
-            let is_member = *bits & 1 << facet.index() != 0 && is_live(facet.cell());
-            if is_member {
+    pub(super) fn for_each<G: Dimension>(&mut self, kernel: &Delaunay<G>, mut visit: impl FnMut(Facet)) {
+        let is_far = size_of_val(kernel.sites()) > FAR;
+        let mut n = 0;
+        for k in 0..self.list.len() {
+            if is_far {
+                if let Some(&next) = self.list.get(k + 2 * AHEAD) {
+                    prefetch(kernel.complex().cells(), Facet::from_code(next).cell() as usize);
+                }
+                if let Some(&next) = self.list.get(k + AHEAD) {
+                    kernel.prefetch_bicell(Facet::from_code(next));
+                }
+            }
+            let facet = Facet::from_code(self.list[k]);
+            let bits = &mut self.bits[facet.cell() as usize];
+            if *bits & 1 << facet.index() != 0 && !kernel.complex().is_free(facet.cell()) {
                 visit(facet);
+                self.list[n] = facet.code();
+                n += 1;
             } else {
                 *bits &= !(0x11 << facet.index());
             }
-            is_member
-        });
+        }
+        self.list.truncate(n);
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

@@ -7,9 +7,11 @@
 
 use super::StaticFilter;
 #[cfg(target_arch = "x86_64")]
+use super::filter::{semi_static_bounds_2d, semi_static_bounds_3d};
+#[cfg(target_arch = "x86_64")]
 use super::lanes::avx2;
 use super::lanes::{BiCells, LANES, Real};
-use super::tolerance::{cross, dot, minus};
+use super::tolerance::{cross, dot};
 
 /// For each lane, whether both triangles, of the edge `ab` with `c` and `d`, surely are positively oriented, the second
 /// with the edge reversed, and `d` is outside the circle of the first.
@@ -53,31 +55,85 @@ fn bits(mask: u32) -> [bool; LANES] {
 
 /// As [`bicells_hold2d`], of one bi-cell or of those in lanes.
 #[inline(always)]
-pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, [a, b, c, d]: &[[T; 2]; 4]) -> T::Mask {
-    let [u, v, s] = [b, c, d].map(|p| [p[0] - a[0], p[1] - a[1]]);
-    let [uu, vv, ss] = [u, v, s].map(|p| p[0] * p[0] + p[1] * p[1]);
-    let n = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
-    let area = u[0] * v[1] - u[1] * v[0];
-    let beyond = s[0] * u[1] - s[1] * u[0];
-    let side = (s[0] * n[0] + s[1] * n[1]) - ss * area;
-    are_certain(filter, area, beyond, side)
+pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, bicells: &[[T; 2]; 4]) -> T::Mask {
+    let bounds = [filter.orient, filter.prepared].map(T::splat);
+    Certificates::in_plane(&differences(bicells)).exceed(bounds)
 }
 
 /// As [`bicells_hold3d`], of one bi-cell or of those in lanes.
 #[inline(always)]
-pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, [o, f, g, c, d]: &[[T; 3]; 5]) -> T::Mask {
-    let (u, v, w, s) = (minus(f, o), minus(g, o), minus(c, o), minus(d, o));
-    let (uu, vv, ww, ss) = (dot(&u, &u), dot(&v, &v), dot(&w, &w), dot(&s, &s));
-    let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));
-    let n = |k: usize| uu * vw[k] - vv * uw[k] + ww * uv[k];
-    let volume = dot(&u, &vw);
-    let beyond = T::splat(0.0) - dot(&s, &uv);
-    let side = dot(&s, &[n(0), n(1), n(2)]) - ss * volume;
-    are_certain(filter, volume, beyond, side)
+pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, bicells: &[[T; 3]; 5]) -> T::Mask {
+    let bounds = [filter.orient, filter.prepared].map(T::splat);
+    Certificates::in_space(&differences(bicells)).exceed(bounds)
 }
 
+/// The same by the bounds of the bi-cells' own extents.
+#[cfg(target_arch = "x86_64")]
 #[inline(always)]
-fn are_certain<T: Real>(filter: &StaticFilter, volume: T, beyond: T, side: T) -> T::Mask {
-    let orient = T::splat(filter.orient);
-    orient.is_less(volume) & orient.is_less(beyond) & side.is_less(T::splat(-filter.prepared))
+pub(crate) fn bicells_hold_for_their_size2d<T: Real>(bicells: &[[T; 2]; 4]) -> T::Mask {
+    let differences = differences(bicells);
+    Certificates::in_plane(&differences).exceed(semi_static_bounds_2d(extents(&differences)))
+}
+
+/// The same by the bounds of the bi-cells' own extents.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T::Mask {
+    let differences = differences(bicells);
+    Certificates::in_space(&differences).exceed(semi_static_bounds_3d(extents(&differences)))
+}
+
+/// From the first point to the others, of which there are `N`.
+#[inline(always)]
+fn differences<T: Real, const D: usize, const P: usize, const N: usize>(points: &[[T; D]; P]) -> [[T; D]; N] {
+    const { assert!(N + 1 == P) };
+    std::array::from_fn(|k| std::array::from_fn(|axis| points[k + 1][axis] - points[0][axis]))
+}
+
+/// The greatest magnitude along each axis.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn extents<T: Real, const D: usize, const N: usize>(differences: &[[T; D]; N]) -> [T; D] {
+    std::array::from_fn(|axis| {
+        let mut greatest = differences[0][axis].abs();
+        for difference in &differences[1..] {
+            greatest = difference[axis].abs().max(greatest);
+        }
+        greatest
+    })
+}
+
+/// All but the side are to be positive, that negative.
+struct Certificates<T> {
+    volume: T,
+    beyond: T,
+    side: T,
+}
+
+impl<T: Real> Certificates<T> {
+    #[inline(always)]
+    fn in_plane([u, v, s]: &[[T; 2]; 3]) -> Self {
+        let [uu, vv, ss] = [u, v, s].map(|p| p[0] * p[0] + p[1] * p[1]);
+        let n = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
+        let volume = u[0] * v[1] - u[1] * v[0];
+        let beyond = s[0] * u[1] - s[1] * u[0];
+        Certificates { volume, beyond, side: (s[0] * n[0] + s[1] * n[1]) - ss * volume }
+    }
+
+    #[inline(always)]
+    fn in_space([u, v, w, s]: &[[T; 3]; 4]) -> Self {
+        let (uu, vv, ww, ss) = (dot(u, u), dot(v, v), dot(w, w), dot(s, s));
+        let (vw, uw, uv) = (cross(v, w), cross(u, w), cross(u, v));
+        let n = |k: usize| uu * vw[k] - vv * uw[k] + ww * uv[k];
+        let volume = dot(u, &vw);
+        let beyond = T::splat(0.0) - dot(s, &uv);
+        Certificates { volume, beyond, side: dot(s, &[n(0), n(1), n(2)]) - ss * volume }
+    }
+
+    /// Whether all surely have the sign wanted, given the bounds of the volumes and of the side.
+    #[inline(always)]
+    fn exceed(&self, [orient, prepared]: [T; 2]) -> T::Mask {
+        let zero = T::splat(0.0);
+        orient.is_less(self.volume) & orient.is_less(self.beyond) & self.side.is_less(zero - prepared)
+    }
 }

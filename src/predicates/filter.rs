@@ -62,6 +62,9 @@
 //! extent. So one formula gives both the static bound, from a box of all points there are, and the
 //! semi-static bound, from the box of the few points at hand.
 
+#[cfg(target_arch = "x86_64")]
+use super::lanes::Real;
+
 /// Unit roundoff, u.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
@@ -279,6 +282,33 @@ pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
     let amplified = largest.max(1.0);
     PREPARED_3D * (extent * extent * extent * reach) * largest
         + UNDERFLOW * (amplified * amplified * amplified)
+}
+
+/// Bounds of `orient2d` and of a prepared circle for differences of at most these magnitudes.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(super) fn semi_static_bounds_2d<T: Real>([x, y]: [T; 2]) -> [T; 2] {
+    let [one, underflow] = [1.0, UNDERFLOW].map(T::splat);
+    let (area, largest) = (x * y, x.max(y));
+    let amplified = largest.max(one);
+    [
+        T::splat(ORIENT_2D) * area + underflow,
+        T::splat(PREPARED_2D) * area * (largest * largest) + underflow * (amplified * amplified),
+    ]
+}
+
+/// Bounds of `orient3d` and of a prepared sphere for differences of at most these magnitudes.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(super) fn semi_static_bounds_3d<T: Real>([x, y, z]: [T; 3]) -> [T; 2] {
+    let [one, underflow] = [1.0, UNDERFLOW].map(T::splat);
+    let (volume, largest) = (x * y * z, x.max(y).max(z));
+    let amplified = largest.max(one);
+    [
+        T::splat(ORIENT_3D) * volume + underflow * amplified,
+        T::splat(PREPARED_3D) * volume * (largest * largest)
+            + underflow * (amplified * amplified * amplified),
+    ]
 }
 
 fn lifted_bound_2d(constant: f64, extents @ [x, y]: [f64; 2]) -> f64 {

@@ -87,9 +87,12 @@ mod sphere;
 mod tally;
 mod tolerance;
 
-pub use bicells::{bicells_hold2d, bicells_hold3d};
 #[cfg(target_arch = "x86_64")]
-pub(crate) use bicells::{bicells_surely_hold2d, bicells_surely_hold3d};
+pub(crate) use bicells::{
+    bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
+    bicells_surely_hold3d,
+};
+pub use bicells::{bicells_hold2d, bicells_hold3d};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::{BiCells, LANES};

@@ -186,13 +186,14 @@ pub fn distance_above<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
 }
 
 /// What the [`squared_distance`] of a vertex from its fixed position must be below for the distance to be
-/// certainly below its tolerance; at most 0, which nothing is below, if that is too small to tell.
+/// certainly below its tolerance; 0, which nothing is below, if that is too small to tell.
 #[inline(always)]
 pub fn displacement_limit(tolerance: f64) -> f64 {
+    // Twice the least distance, so that its square is certainly above that of the least.
+    let t = if tolerance >= 2.0 * LEAST { tolerance } else { 0.0 };
     // 1e150 is no restriction, and its square is finite.
-    let t = if tolerance < 1e150 { tolerance } else { 1e150 };
-    // Less a square that only matters to tolerances about as small as the least distance.
-    t * t * SQUARE_BELOW - 4.0 * LEAST * LEAST
+    let t = if t < 1e150 { t } else { 1e150 };
+    t * t * SQUARE_BELOW
 }
 
 /// Whether `p` is certainly strictly inside the sphere.
