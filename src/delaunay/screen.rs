@@ -92,12 +92,13 @@ impl<G: Dimension> Delaunay<G> {
 /// one bit for each.
 #[inline(always)]
 pub(super) fn edges_hold(t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
-    let [k, l, m, n] = edges.map(|edge| t.complex.cell(edge.cell()).corners.rotated_to_last(edge.index()));
+    let [k, l, m, n] =
+        [corners_at(t, edges[0]), corners_at(t, edges[1]), corners_at(t, edges[2]), corners_at(t, edges[3])];
     let bicells = [
         places_in_plane(t, [k[0], l[0], m[0], n[0]]),
         places_in_plane(t, [k[1], l[1], m[1], n[1]]),
         places_in_plane(t, [k[2], l[2], m[2], n[2]]),
-        places_in_plane(t, edges.map(|edge| apex_beyond(t, edge))),
+        places_in_plane(t, apexes_beyond(t, edges)),
     ];
     let hold = predicates::bicells_surely_hold2d(&t.filter, &bicells).bits();
     if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d(&bicells).bits() }
@@ -106,21 +107,32 @@ pub(super) fn edges_hold(t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
 /// Likewise for the facets of tetrahedra.
 #[inline(always)]
 pub(super) fn faces_hold(t: &Delaunay<Space>, faces: &[Facet; LANES]) -> u32 {
-    let [k, l, m, n] = faces.map(|face| t.complex.cell(face.cell()).corners.rotated_to_last(face.index()));
+    let [k, l, m, n] =
+        [corners_at(t, faces[0]), corners_at(t, faces[1]), corners_at(t, faces[2]), corners_at(t, faces[3])];
     let bicells = [
         places_in_space(t, [k[0], l[0], m[0], n[0]]),
         places_in_space(t, [k[1], l[1], m[1], n[1]]),
         places_in_space(t, [k[2], l[2], m[2], n[2]]),
         places_in_space(t, [k[3], l[3], m[3], n[3]]),
-        places_in_space(t, faces.map(|face| apex_beyond(t, face))),
+        places_in_space(t, apexes_beyond(t, faces)),
     ];
     let hold = predicates::bicells_surely_hold3d(&t.filter, &bicells).bits();
     if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d(&bicells).bits() }
 }
 
+/// The corners of the cell of a facet, those of the facet first.
 #[inline(always)]
-fn apex_beyond<G: Dimension>(t: &Delaunay<G>, facet: Facet) -> u32 {
-    t.complex.apex(t.complex.cell(facet.cell()).neighbour(facet.index()))
+fn corners_at<G: Dimension>(t: &Delaunay<G>, facet: Facet) -> G::Corners {
+    t.complex.cell(facet.cell()).corners.rotated_to_last(facet.index())
+}
+
+#[inline(always)]
+fn apexes_beyond<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> [u32; LANES] {
+    let mut apexes = [INFINITE; LANES];
+    for (apex, facet) in apexes.iter_mut().zip(facets) {
+        *apex = t.complex.apex(t.complex.cell(facet.cell()).neighbour(facet.index()));
+    }
+    apexes
 }
 
 /// As [`triangle_holds`](super::certify::triangle_holds), of several triangles: one bit for each.

@@ -56,14 +56,14 @@ fn bits(mask: u32) -> [bool; LANES] {
 /// As [`bicells_hold2d`], of one bi-cell or of those in lanes.
 #[inline(always)]
 pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, bicells: &[[T; 2]; 4]) -> T::Mask {
-    let bounds = [filter.orient, filter.prepared].map(T::splat);
+    let bounds = [T::splat(filter.orient), T::splat(filter.prepared)];
     Certificates::in_plane(&differences(bicells)).exceed(bounds)
 }
 
 /// As [`bicells_hold3d`], of one bi-cell or of those in lanes.
 #[inline(always)]
 pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, bicells: &[[T; 3]; 5]) -> T::Mask {
-    let bounds = [filter.orient, filter.prepared].map(T::splat);
+    let bounds = [T::splat(filter.orient), T::splat(filter.prepared)];
     Certificates::in_space(&differences(bicells)).exceed(bounds)
 }
 
@@ -87,20 +87,31 @@ pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T
 #[inline(always)]
 fn differences<T: Real, const D: usize, const P: usize, const N: usize>(points: &[[T; D]; P]) -> [[T; D]; N] {
     const { assert!(N + 1 == P) };
-    std::array::from_fn(|k| std::array::from_fn(|axis| points[k + 1][axis] - points[0][axis]))
+    let mut differences = [[T::splat(0.0); D]; N];
+    for k in 0..N {
+        for axis in 0..D {
+            differences[k][axis] = points[k + 1][axis] - points[0][axis];
+        }
+    }
+    differences
+}
+
+#[inline(always)]
+fn square<T: Real>(p: &[T; 2]) -> T {
+    p[0] * p[0] + p[1] * p[1]
 }
 
 /// The greatest magnitude along each axis.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn extents<T: Real, const D: usize, const N: usize>(differences: &[[T; D]; N]) -> [T; D] {
-    std::array::from_fn(|axis| {
-        let mut greatest = differences[0][axis].abs();
-        for difference in &differences[1..] {
-            greatest = difference[axis].abs().max(greatest);
+    let mut greatest = [T::splat(0.0); D];
+    for difference in differences {
+        for axis in 0..D {
+            greatest[axis] = difference[axis].abs().max(greatest[axis]);
         }
-        greatest
-    })
+    }
+    greatest
 }
 
 /// All but the side are to be positive, that negative.
@@ -113,7 +124,7 @@ struct Certificates<T> {
 impl<T: Real> Certificates<T> {
     #[inline(always)]
     fn in_plane([u, v, s]: &[[T; 2]; 3]) -> Self {
-        let [uu, vv, ss] = [u, v, s].map(|p| p[0] * p[0] + p[1] * p[1]);
+        let (uu, vv, ss) = (square(u), square(v), square(s));
         let n = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
         let volume = u[0] * v[1] - u[1] * v[0];
         let beyond = s[0] * u[1] - s[1] * u[0];
@@ -124,10 +135,13 @@ impl<T: Real> Certificates<T> {
     fn in_space([u, v, w, s]: &[[T; 3]; 4]) -> Self {
         let (uu, vv, ww, ss) = (dot(u, u), dot(v, v), dot(w, w), dot(s, s));
         let (vw, uw, uv) = (cross(v, w), cross(u, w), cross(u, v));
-        let n = |k: usize| uu * vw[k] - vv * uw[k] + ww * uv[k];
+        let mut n = [uu; 3];
+        for k in 0..3 {
+            n[k] = uu * vw[k] - vv * uw[k] + ww * uv[k];
+        }
         let volume = dot(u, &vw);
         let beyond = T::splat(0.0) - dot(s, &uv);
-        Certificates { volume, beyond, side: dot(s, &[n(0), n(1), n(2)]) - ss * volume }
+        Certificates { volume, beyond, side: dot(s, &n) - ss * volume }
     }
 
     /// Whether all surely have the sign wanted, given the bounds of the volumes and of the side.

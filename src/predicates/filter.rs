@@ -288,7 +288,7 @@ pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(super) fn semi_static_bounds_2d<T: Real>([x, y]: [T; 2]) -> [T; 2] {
-    let [one, underflow] = [1.0, UNDERFLOW].map(T::splat);
+    let (one, underflow) = (T::splat(1.0), T::splat(UNDERFLOW));
     let (area, largest) = (x * y, x.max(y));
     let amplified = largest.max(one);
     [
@@ -301,7 +301,7 @@ pub(super) fn semi_static_bounds_2d<T: Real>([x, y]: [T; 2]) -> [T; 2] {
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(super) fn semi_static_bounds_3d<T: Real>([x, y, z]: [T; 3]) -> [T; 2] {
-    let [one, underflow] = [1.0, UNDERFLOW].map(T::splat);
+    let (one, underflow) = (T::splat(1.0), T::splat(UNDERFLOW));
     let (volume, largest) = (x * y * z, x.max(y).max(z));
     let amplified = largest.max(one);
     [
