@@ -81,4 +81,7 @@ std::unique_ptr<Engine> make_cgal_rebuilding_tolerance(unsigned dimension, unsig
 
 EngineMaker deldrift_by(deldrift_algorithm algorithm);
 
+/// The same, but positions are staged by `prepare`: an update is the commit alone.
+EngineMaker deldrift_staged_by(deldrift_algorithm algorithm);
+
 }  // namespace bench

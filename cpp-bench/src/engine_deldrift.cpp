@@ -15,7 +15,7 @@ void require(deldrift_status status, const char *call) {
     throw std::runtime_error(std::string(call) + ": " + deldrift_last_error());
 }
 
-class Deldrift final : public Engine {
+class Deldrift : public Engine {
 public:
     Deldrift(unsigned dimension, deldrift_algorithm algorithm, unsigned n_threads) : dimension_(dimension) {
         deldrift_options_init(&options_);
@@ -37,8 +37,8 @@ public:
     }
 
     void advance(const double *positions) override {
-        require(deldrift_move_vertices(triangulation_, nullptr, positions, n_points_), "deldrift_move_vertices");
-        require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp");
+        stage(positions);
+        commit();
     }
 
     void advance_sequentially(const double *positions) override {
@@ -77,12 +77,21 @@ public:
         return {sums.flips + sums.placements + sums.rebuilds, sums.within_tolerance};
     }
 
+protected:
+    bool is_built() const { return triangulation_ != nullptr; }
+
+    void stage(const double *positions) {
+        require(deldrift_move_vertices(triangulation_, nullptr, positions, n_points_), "deldrift_move_vertices");
+    }
+
+    void commit() { require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp"); }
+
 private:
     /// What the report calls pre-computations, of tolerances and delimiters, is done by the first commit.
     void pre_compute() {
         if (options_.algorithm == DELDRIFT_TOLERANCE || options_.algorithm == DELDRIFT_SAFE_REGION ||
             options_.algorithm == DELDRIFT_SAFE_REGION_TOLERANCE)
-            require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp");
+            commit();
     }
 
     unsigned dimension_;
@@ -92,7 +101,25 @@ private:
     bool rebuilds_ = false;
 };
 
+/// Stages before the clock starts. A build forgets what is staged.
+class StagedDeldrift final : public Deldrift {
+public:
+    using Deldrift::Deldrift;
+
+    void prepare(const double *positions, std::size_t) override {
+        if (is_built()) stage(positions);
+    }
+
+    void advance(const double *) override { commit(); }
+};
+
 }  // namespace
+
+EngineMaker deldrift_staged_by(deldrift_algorithm algorithm) {
+    return [algorithm](unsigned dimension, unsigned n_threads) {
+        return std::make_unique<StagedDeldrift>(dimension, algorithm, n_threads);
+    };
+}
 
 EngineMaker deldrift_by(deldrift_algorithm algorithm) {
     return [algorithm](unsigned dimension, unsigned n_threads) {

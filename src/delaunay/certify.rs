@@ -126,7 +126,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Calls `look` with each of these cells that is a ghost or does not surely hold, until it returns `false`.
     /// Free ones are skipped. Ghosts come in the order of the list, and so do finite cells.
     #[inline(always)]
-    fn screen(&self, cells: impl Iterator<Item = u32> + Clone, look: impl FnMut(u32) -> bool) {
+    pub(super) fn screen(&self, cells: impl Iterator<Item = u32> + Clone, look: impl FnMut(u32) -> bool) {
         #[cfg(target_arch = "x86_64")]
         if avx2::is_there() {
             let is_far = self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR;

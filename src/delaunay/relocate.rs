@@ -75,10 +75,11 @@ impl<G: Dimension> Delaunay<G> {
         let old = (self.site(s).point, self.site(s).id);
         self.sites[s as usize].point = *q;
         self.sites[s as usize].id = id;
+        if self.star_surely_holds() {
+            return Some(Relocation::InPlace);
+        }
         if self.star_is_positive() && self.star_is_convex() {
-            if let Some(changed) = &mut self.changed {
-                changed.extend(self.hole.star.iter().map(|&(c, _)| c));
-            }
+            self.record_star();
             if self.star_is_delaunay() {
                 return Some(Relocation::InPlace);
             }
@@ -91,6 +92,27 @@ impl<G: Dimension> Delaunay<G> {
         self.sites[s as usize].point = old.0;
         self.sites[s as usize].id = old.1;
         None
+    }
+
+    /// Enters the gathered star into the record of changes.
+    fn record_star(&mut self) {
+        if let Some(changed) = &mut self.changed {
+            changed.extend(self.hole.star.iter().map(|&(c, _)| c));
+        }
+    }
+
+    /// Whether all certificates of the gathered star hold, without ghosts or doubt; then it is recorded.
+    fn star_surely_holds(&mut self) -> bool {
+        let mut holds = true;
+        self.screen(self.hole.star.iter().map(|&(c, _)| c), |_| {
+            holds = false;
+            false
+        });
+        self.certificates += (self.hole.star.len() * (G::D + 3) / 2) as u64;
+        if holds {
+            self.record_star();
+        }
+        holds
     }
 
     /// Whether every finite cell of the gathered star is positively oriented.

@@ -20,8 +20,8 @@
 //! twice as many the next time.
 //!
 //! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
-//! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a fiftieth of a
-//! look at the star, a vertex beyond two or three looks.
+//! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a
+//! look at the star, a vertex beyond some eight looks.
 
 use super::regions::Filter;
 use super::{CommitReport, MovingTriangulation, SwitchingRule};
@@ -261,7 +261,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let round = auto.relocated;
         let (within, still) = (auto.within, auto.still);
         (auto.relocated, auto.within, auto.still) = (0, 0, 0);
-        let are_most = |some: u64| 10 * some >= 6 * round;
+        let are_most = |some: u64| 20 * some >= 17 * round;
         if is_kept {
             if !are_most(within) {
                 self.regions.invalidate();
