@@ -24,7 +24,7 @@ const LIVELY: f64 = 0.03;
 
 /// What allocates nothing: dimension, algorithm, displacements. (Lively repairs in space give
 /// the memory of their journal back, and rebuild at times.)
-const STEADY: [(usize, Algorithm, &[f64]); 16] = [
+const STEADY: [(usize, Algorithm, &[f64]); 18] = [
     (2, Algorithm::Placement, &[STILL, CALM, LIVELY]),
     (2, Algorithm::PlacementFlips, &[STILL, CALM, LIVELY]),
     (2, Algorithm::Tolerance, &[STILL, CALM, LIVELY]),
@@ -32,6 +32,7 @@ const STEADY: [(usize, Algorithm, &[f64]); 16] = [
     (2, Algorithm::SafeRegionTolerance, &[STILL, CALM, LIVELY]),
     (2, Algorithm::Repair, &[STILL, CALM, LIVELY]),
     (2, Algorithm::Watching, &[STILL, CALM, LIVELY]),
+    (2, Algorithm::Slack, &[STILL, CALM, LIVELY]),
     (2, Algorithm::Auto, &[STILL, CALM, LIVELY]),
     (3, Algorithm::Placement, &[STILL, CALM, LIVELY]),
     (3, Algorithm::PlacementFlips, &[STILL, CALM, LIVELY]),
@@ -40,14 +41,15 @@ const STEADY: [(usize, Algorithm, &[f64]); 16] = [
     (3, Algorithm::SafeRegionTolerance, &[STILL, CALM, LIVELY]),
     (3, Algorithm::Repair, &[STILL, CALM]),
     (3, Algorithm::Watching, &[STILL, CALM]),
+    (3, Algorithm::Slack, &[STILL, CALM]),
     (3, Algorithm::Auto, &[STILL, CALM]),
 ];
 
 const N: usize = 1000;
 /// Timestamps of a round.
 const PLACES: usize = 8;
-/// Rounds before allocations are counted: *auto* waits for up to 64
-/// commits until it tries something else again.
+/// Rounds before allocations are counted: *auto* waits for some 50
+/// commits until it tries something else for the second time.
 const WARM: usize = 20;
 const COUNTED: usize = 4;
 

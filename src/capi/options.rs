@@ -14,8 +14,9 @@ use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRul
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum deldrift_algorithm {
     /// The library chooses at each commit by what the last ones found: watching while few vertices leave
-    /// their tolerance, otherwise repair, or rebuilding where too much would fail. Where fewer than one vertex
-    /// in twenty is staged: tolerance if that is up to date, else placement with flips.
+    /// their tolerance, in 3D slack while few bi-cells use theirs up, otherwise repair, or rebuilding where too
+    /// much would fail. Where fewer than one vertex in twenty is staged: tolerance if that is up to date, else
+    /// placement with flips.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation anew from all positions.
     DELDRIFT_REBUILDING = 1,
@@ -27,9 +28,9 @@ pub enum deldrift_algorithm {
     DELDRIFT_PLACEMENT_FLIPS = 3,
     /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
     /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the
-    /// tolerances around it. For displacements so small that at least half of the vertices stay within, and
-    /// for schemes that converge. All tolerances are computed by the first commit, and by the first one
-    /// after an insertion or a removal.
+    /// tolerances around it. For displacements so small that nearly all vertices stay within, and for
+    /// schemes that converge. All tolerances are computed by the first commit, and by the first one after
+    /// another algorithm's.
     DELDRIFT_TOLERANCE = 4,
     /// As tolerance, with a larger region for each vertex: inside the delimiters of the facets it is on,
     /// outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not so far that
@@ -50,12 +51,13 @@ pub enum deldrift_algorithm {
     /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 8,
     /// As repair, but only the certificates of vertices that leave their tolerance are checked, and those
-    /// that would make it too small. For displacements of up to a few hundredths of the spacing. Commits
-    /// that do not move all vertices at once, or while vertices share a place, are those of repair.
+    /// that would make it too small. For displacements of up to about a thousandth of the spacing in 2D, and a
+    /// ten-thousandth in 3D. Commits that do not move all vertices at once, or while vertices share a place,
+    /// are those of repair.
     DELDRIFT_WATCHING = 9,
     /// As repair, but only the certificates of those bi-cells are checked whose own tolerance is used up by
-    /// the ways that their vertices have gone. For displacements of up to about a thousandth of the spacing in
-    /// 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
+    /// the ways that their vertices have gone. For displacements of up to a few ten-thousandths of the spacing
+    /// in 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
     /// while vertices share a place, are those of repair.
     DELDRIFT_SLACK = 10,
 }

@@ -323,6 +323,70 @@ mod tests {
         assert_eq!([n_open::<Plane>(), n_open::<Space>()], [0, 0]);
     }
 
+    /// How many facets between finite cells hold, and for how many of these that is certain.
+    fn certain_of<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 2] {
+        #[target_feature(enable = "avx2,fma")]
+        fn hold<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> u32 {
+            // SAFETY: AVX2 and FMA are there.
+            unsafe { G::facets_hold(t, facets) }
+        }
+        let is_ghost = |facet: Facet| t.complex.cell(facet.cell()).is_ghost();
+        let across = |facet: Facet| t.complex.cell(facet.cell()).neighbour(facet.index());
+        let facets = t.complex.live().flat_map(|c| (0..G::Corners::N).map(move |i| Facet::new(c, i)));
+        let interior: Vec<Facet> = facets.filter(|&f| !is_ghost(f) && !is_ghost(across(f))).collect();
+        let mut n = [0; 2];
+        for four in interior.as_chunks::<LANES>().0 {
+            // SAFETY: AVX2 and FMA are there, as the caller has found.
+            let certain = unsafe { hold(t, four) };
+            for (k, &facet) in four.iter().enumerate() {
+                let are_positive = t.is_positive(facet.cell()) && t.is_positive(across(facet).cell());
+                let holds = are_positive && t.is_locally_delaunay(facet);
+                let is_certain = certain >> k & 1 == 1;
+                assert!(holds || !is_certain, "{context}: {facet:?}");
+                n[0] += usize::from(holds);
+                n[1] += usize::from(is_certain);
+            }
+        }
+        n
+    }
+
+    /// What is said of facets is so, and next to nothing that is so is left unsaid, also where the cells are so small next to
+    /// all that a bound for all says nothing.
+    fn facets_are_certain<G: Dimension>() {
+        if !avx2::is_there() {
+            return;
+        }
+        let mut state = 11;
+        let mut n_failed = 0;
+        for round in 0..40 {
+            // Scaled so, the points of the grid are next to cocircular, or cospherical, by rounding.
+            let (kind, scale) = [(0, 1.0), (0, 1e-9), (1, 0.1), (1, 1e-9)][round % 4];
+            let mut points = points::<G>(kind, 300, &mut state);
+            points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] *= scale));
+            let mut t = Delaunay::<G>::default();
+            t.add_sites(&points).expect("room for it");
+            t.rebuild(&mut |_| true).expect("room for it");
+            t.cover(&point::<G>(|| -1e3), &point::<G>(|| 1e3));
+            let [n, n_certain] = certain_of(&t, "at rest");
+            assert!(kind == 1 || 1000 * n_certain > 995 * n, "{n_certain} of {n}, scale {scale}");
+            for size in [1e-16, 1e-9, 0.05, 1.0] {
+                move_sites(&mut t, 1.0, scale * size, &mut state);
+                n_failed += n - certain_of(&t, &format!("moved by {size}"))[0];
+            }
+        }
+        assert!(n_failed > 1000, "{n_failed}");
+    }
+
+    #[test]
+    fn edges_are_certain() {
+        facets_are_certain::<Plane>();
+    }
+
+    #[test]
+    fn faces_are_certain() {
+        facets_are_certain::<Space>();
+    }
+
     /// Nothing is passed on after a look that wants no more.
     #[test]
     fn looks_end_the_screen() {

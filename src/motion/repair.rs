@@ -14,8 +14,8 @@
 //! ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the one that moved farthest is
 //! taken back, so that a vertex that jumps across the domain goes first.
 //!
-//! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a seventh of a rebuild in
-//! the plane and a tenth in space; a vertex taken back costs a placement, two or three vertices rebuilt.
+//! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
+//! the plane and a fifteenth in space; a vertex taken back costs a placement, two or three vertices rebuilt.
 //! Where more break than is worth mending, the triangulation is rebuilt. The first repair after a build sorts
 //! the cells of a large triangulation. The sweep is done by several threads, all else by one.
 
