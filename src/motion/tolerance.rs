@@ -41,7 +41,7 @@ use crate::prefetch::{AHEAD, FAR, prefetch};
 
 /// Whether two places, without negative zeros, differ.
 #[inline(always)]
-fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
+pub(super) fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
     (0..G::D).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
 }
 
