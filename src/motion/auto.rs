@@ -11,10 +11,11 @@
 //! **Looking at everything or not.** Few flips in the last commits announce that most bi-cells have tolerance left. To
 //! compute that of all costs eight sweeps. What is computed anew after that, and watched, is counted and weighed by
 //! measured costs ([`Costs`]): when it has cost a quarter of a computation of all more than the dearer way would have, that
-//! is taken, and the cheaper one tried ever more rarely. In space the way down is repair, slack, watching; in the plane a sweep is so
-//! cheap that slack would seldom pay. Before watching a sample of the vertices is looked at. When what is watched or
-//! what is computed anew has cost more than the other by a computation of all, all tolerances are computed again, so that
-//! what is watched follows from how far the vertices go now.
+//! is taken, and the cheaper one tried ever more rarely. In space the way down is repair, slack, watching, without
+//! slack where next to nothing changes; in the plane a sweep is so cheap that slack would seldom pay. Before watching
+//! a sample of the vertices is looked at. When what is watched or what is computed anew has cost more than the other
+//! by a computation of all, all tolerances are computed again, so that what is watched follows from how far the
+//! vertices go now.
 //!
 //! **Rebuilding.** After a repair that had to rebuild, so many commits rebuild at once as have failed in a row, and
 //! twice as many the next time.
@@ -84,6 +85,9 @@ const fn costs<G: Dimension>() -> Costs {
     }
 }
 
+/// Commits of no more flips and placements than one vertex in so many announce that watching pays without a look at slack
+/// before.
+const QUIET: f64 = 4000.0;
 /// Fewer than one bi-cell in so many vertices that use up their slack announce that watching pays.
 const STILL: u64 = 60;
 
@@ -301,7 +305,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let may_try = auto.wait == 0 || 3.0 * auto.pace < auto.pace_at_stop;
         let costs = costs::<G>();
         if may_try && auto.pace * costs.calm <= self.n_present as f64 {
-            auto.look = if costs.slack.is_some() { Look::Slack } else { Look::Watched };
+            let is_still = auto.pace * QUIET <= self.n_present as f64;
+            auto.look = if costs.slack.is_none() || is_still { Look::Watched } else { Look::Slack };
         }
     }
 }
