@@ -4,7 +4,7 @@
 //! direction. All algorithms commit the same positions. Times are those of the commits, in ns per vertex,
 //! the least of [`REPEATS`] replays:
 //!
-//! - *rebuilding*, *tolerance*, *repair* and *auto*;
+//! - *rebuilding*, *tolerance*, *repair*, *watching*, *slack* and *auto*;
 //! - *removal, insertion*: the report's placement (section 3.1), without
 //!   a look at whether anything must change;
 //! - *placement* and *by flips*: with the improvements of section 3.2.
@@ -78,11 +78,12 @@ fn time_of_replacing<G: Dimension>(timestamps: &[Vec<G::Point>]) -> f64 {
 fn sweep<G: Dimension>(steps: &[f64]) {
     println!("{}D, {N} points: ns per vertex", G::D);
     println!(
-        "      step  within  rebuilding  removal, insertion  placement  by flips  tolerance  repair    auto"
+        "      step  within  rebuilding  removal, insertion  placement  by flips  tolerance  repair \
+         watching   slack    auto"
     );
     for &step in steps {
         let timestamps = walk::<G>(N, step, COMMITS);
-        let (mut best, mut share) = ([f64::INFINITY; 7], 0.0);
+        let (mut best, mut share) = ([f64::INFINITY; 9], 0.0);
         // In turn, so that what else the machine does troubles all alike.
         for _ in 0..REPEATS {
             let tolerance = time::<G>(Algorithm::Tolerance, &timestamps);
@@ -93,15 +94,17 @@ fn sweep<G: Dimension>(steps: &[f64]) {
                 time::<G>(Algorithm::PlacementFlips, &timestamps).0,
                 tolerance.0,
                 time::<G>(Algorithm::Repair, &timestamps).0,
+                time::<G>(Algorithm::Watching, &timestamps).0,
+                time::<G>(Algorithm::Slack, &timestamps).0,
                 time::<G>(Algorithm::Auto, &timestamps).0,
             ];
             best.iter_mut().zip(now).for_each(|(best, now)| *best = best.min(now));
             share = tolerance.1;
         }
-        let [rebuilding, replacing, placement, flips, tolerance, repair, auto] = best;
+        let [rebuilding, replacing, placement, flips, tolerance, repair, watching, slack, auto] = best;
         println!(
             "{step:10.1e} {:6.1}% {rebuilding:11.1} {replacing:19.1} {placement:10.1} {flips:9.1} {tolerance:10.1} \
-             {repair:7.1} {auto:7.1}",
+             {repair:7.1} {watching:9.1} {slack:7.1} {auto:7.1}",
             100.0 * share
         );
     }

@@ -20,7 +20,8 @@ use crate::threads;
 /// A sweep of so many cells takes as long as to start a thread for them.
 const SWEPT_AT_LEAST: usize = 1 << 14;
 
-/// Bytes of cells above which they are asked for in advance: as many as a cache near the processor has.
+/// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order at
+/// all ([`prefetch::FAR`](crate::prefetch)), as most neighbours are stored close by.
 #[cfg(target_arch = "x86_64")]
 const FAR: usize = 4 << 20;
 

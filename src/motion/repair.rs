@@ -69,9 +69,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
     /// may be taken back like the others.
     pub(super) fn commit_by_repair(&mut self, report: &mut CommitReport) -> Result<()> {
-        let can_move_all =
-            self.staging.is_whole() && !self.staging.others_applied && self.hidden.count() == 0;
-        if !self.kernel.has_cells() || !can_move_all {
+        let can_move_all = self.kernel.has_cells()
+            && self.staging.is_whole()
+            && !self.staging.others_applied
+            && self.hidden.count() == 0;
+        if !can_move_all {
             self.staging.list()?;
         }
         if !self.kernel.has_cells() {

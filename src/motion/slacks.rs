@@ -453,7 +453,8 @@ impl<G: Dimension> Slacks<G> {
 
     pub(super) fn memory_bytes(&self) -> usize {
         self.travelled.capacity() * size_of::<u16>()
-            + (self.expired.capacity() + self.facets.capacity()) * size_of::<u32>()
+            + (self.expired.capacity() + self.facets.capacity() + self.open.capacity()) * size_of::<u32>()
+            + self.is_open.capacity() * size_of::<u64>()
             + self.entries.capacity() * size_of::<G::Corners>()
     }
 }
