@@ -2,8 +2,9 @@
 //!
 //! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes.
 //! The compiler proves that there are no data races; no `unsafe` is involved but to take over what several
-//! threads have written side by side ([`memory`](crate::complex::memory)). Results are put together in the
-//! order of the work, so that they do not depend on which thread was faster.
+//! threads have written side by side ([`memory`](crate::complex::memory)), and to move sites of which no two threads
+//! have the same one (`motion::moving`). Results are put together in the order of the work, so that they do not depend
+//! on which thread was faster.
 //!
 //! Threads are started where they are needed, for some 20 µs each. Where the system has none to give, the
 //! calling thread does the work of all.

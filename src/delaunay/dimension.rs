@@ -109,6 +109,16 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn orientation_tolerance(points: &[&Self::Point]) -> f64;
     /// As [`predicates::squared_distance`].
     fn squared_distance(p: &Self::Point, q: &Self::Point) -> f64;
+    /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
+    ///
+    /// # Safety
+    /// The processor must have AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    unsafe fn are_within(
+        fixed: [&Self::Point; LANES],
+        tolerances: &[f64; LANES],
+        places: [&Self::Point; LANES],
+    ) -> u32;
     /// As [`predicates::distance_above`].
     fn distance_above(p: &Self::Point, q: &Self::Point) -> f64;
     /// As [`predicates::is_certainly_inside`].
@@ -254,6 +264,16 @@ impl Dimension for Plane {
     #[inline(always)]
     fn squared_distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
         predicates::squared_distance(p, q)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn are_within(
+        fixed: [&[f64; 2]; LANES],
+        tolerances: &[f64; LANES],
+        places: [&[f64; 2]; LANES],
+    ) -> u32 {
+        predicates::are_within2d(fixed, tolerances, places)
     }
 
     #[inline(always)]
@@ -437,6 +457,16 @@ impl Dimension for Space {
     #[inline(always)]
     fn squared_distance(p: &[f64; 3], q: &[f64; 3]) -> f64 {
         predicates::squared_distance(p, q)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    unsafe fn are_within(
+        fixed: [&[f64; 3]; LANES],
+        tolerances: &[f64; LANES],
+        places: [&[f64; 3]; LANES],
+    ) -> u32 {
+        predicates::are_within3d(fixed, tolerances, places)
     }
 
     #[inline(always)]

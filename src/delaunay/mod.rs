@@ -224,6 +224,11 @@ impl<G: Dimension> Delaunay<G> {
         self.sites[s as usize].point = point;
     }
 
+    /// How many threads a call may use.
+    pub(crate) fn threads(&self) -> Threads {
+        self.threads
+    }
+
     /// The static filter.
     pub(crate) fn filter(&self) -> &StaticFilter {
         &self.filter

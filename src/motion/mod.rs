@@ -14,7 +14,8 @@
 //! | `slack` | | as repair, but of bi-cells whose own tolerance is used up |
 //! | `auto` | | watching, repair or rebuilding, by what the last commits found |
 //!
-//! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4).
+//! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4);
+//! `moving` has the loops that move all vertices.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
@@ -30,6 +31,7 @@ mod bicell;
 mod cells;
 mod coincidence;
 mod commit;
+mod moving;
 mod options;
 mod placement;
 mod query;

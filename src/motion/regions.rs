@@ -66,8 +66,8 @@ impl Filter {
 /// Fixed position and tolerance of a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fixed<G: Dimension> {
-    point: G::Point,
-    tolerance: f64,
+    pub(super) point: G::Point,
+    pub(super) tolerance: f64,
 }
 
 impl<G: Dimension> Fixed<G> {

@@ -17,14 +17,14 @@
 //! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
 //! the plane and a fifteenth in space; a vertex taken back costs a placement, two or three vertices rebuilt.
 //! Where more break than is worth mending, the triangulation is rebuilt. The first repair after a build sorts
-//! the cells of a large triangulation. The sweep is done by several threads, all else by one.
+//! the cells of a large triangulation. The moves of all vertices and the sweep are done by several
+//! threads, all else by one.
 
-use super::tolerance::differ;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Dimension, Failures, Shortcut};
 use crate::error::{Error, Result};
-use crate::prefetch::{AHEAD, FAR, prefetch};
+use crate::prefetch::{AHEAD, prefetch};
 
 /// Rebuild when more than one vertex in so many would have to be placed. (A placement costs less in the plane, next to a
 /// vertex rebuilt, and flips are never stuck there.)
@@ -176,29 +176,6 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.n_new += 1;
             }
         }
-    }
-
-    /// Moves all vertices of a whole staging; returns how many positions differ. No two vertices may share a site.
-    fn move_all_staged(&mut self) -> u64 {
-        let mut moved = 0;
-        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
-        let sites = self.kernel.sites_mut();
-        let is_far = size_of_val(sites) > FAR;
-        for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
-            if is_far && let Some(&next) = self.site_of.get(v + AHEAD) {
-                prefetch(sites, next as usize);
-            }
-            for axis in 0..G::D {
-                lower[axis] = if p[axis] < lower[axis] { p[axis] } else { lower[axis] };
-                upper[axis] = if p[axis] > upper[axis] { p[axis] } else { upper[axis] };
-            }
-            let point = &mut sites[s as usize].point;
-            moved += u64::from(differ::<G>(point, p));
-            std::mem::swap(point, p);
-        }
-        self.staging.others_applied = true;
-        self.kernel.cover(&lower, &upper);
-        moved
     }
 
     /// Moves all staged vertices that have sites of their own and have not moved yet.

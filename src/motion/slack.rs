@@ -21,7 +21,6 @@ use super::regions::Filter;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::prefetch::{AHEAD, prefetch};
 
 /// More than one cell in so many past a deadline: a sweep of everything is cheaper.
 const MANY: usize = 3;
@@ -68,28 +67,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         done
     }
 
-    /// Moves all vertices of a whole staging, which holds their old positions then, and adds to their ways. Returns how
-    /// many positions differ, and the longest way. No two vertices may share a site.
+    /// Moves all vertices of a whole staging, and adds to their ways. Returns how many positions differ, and the longest
+    /// way.
     fn move_whole_on_record(&mut self) -> (u64, f64) {
-        let mut moved = 0;
-        let (mut sum, mut greatest) = (0.0, 0.0);
-        let sites = self.kernel.sites_mut();
-        for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
-            if let Some(&next) = self.site_of.get(v + AHEAD) {
-                prefetch(sites, next as usize);
-            }
-            let point = &mut sites[s as usize].point;
-            if point == p {
-                continue;
-            }
-            let distance = G::distance_above(point, p);
-            self.regions.slacks.travel(s, distance);
-            sum += distance;
-            greatest = if distance > greatest { distance } else { greatest };
-            moved += 1;
-            std::mem::swap(point, p);
-        }
-        self.staging.others_applied = true;
+        let (moved, sum, greatest) = self.move_all_on_record();
         self.regions.follow_motion(&mut self.kernel, greatest);
         if !self.regions.slacks.expect(sum / moved.max(1) as f64) {
             self.regions.invalidate();

@@ -31,19 +31,12 @@
 //! placement, and up to about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in
 //! the queue. `examples/tolerance_share` measures both.
 
+use super::moving::differ;
 use super::regions::Filter;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
-use crate::complex::memory;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
-use crate::prefetch::{AHEAD, FAR, prefetch};
-
-/// Whether two places, without negative zeros, differ.
-#[inline(always)]
-pub(super) fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
-    (0..G::D).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
-}
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a filter and a queue.
@@ -92,64 +85,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
         self.regions.compute(&mut self.kernel, n_ids, filter, elsewhere, report)
-    }
-
-    /// Of a whole staging, moves the vertices within their tolerance, or all if `MOVES_ALL`, and queues the others; the
-    /// staging holds the old positions of those that have moved. Returns how many positions differ. `None`, and no queue,
-    /// and nothing has moved, if those to be queued are more than `most`. No two vertices may share a site.
-    ///
-    /// This loop is what a timestamp costs that changes nothing.
-    pub(super) fn move_and_queue<const MOVES_ALL: bool>(&mut self, most: usize) -> Result<Option<u64>> {
-        if size_of_val(self.kernel.sites()) > FAR {
-            self.move_and_queue_from::<MOVES_ALL, true>(most)
-        } else {
-            self.move_and_queue_from::<MOVES_ALL, false>(most)
-        }
-    }
-
-    /// As [`move_and_queue`](Self::move_and_queue). `IS_FAR` asks for sites in advance: they are in another order than the
-    /// vertices.
-    fn move_and_queue_from<const MOVES_ALL: bool, const IS_FAR: bool>(
-        &mut self,
-        most: usize,
-    ) -> Result<Option<u64>> {
-        let mut n_moved = 0;
-        let sites = self.kernel.sites_mut();
-        let queue = &mut self.staging.vertices;
-        let movers = self.staging.positions.iter_mut().zip(self.regions.fixed()).zip(&self.site_of);
-        let mut ended = None;
-        for (v, ((p, fixed), &s)) in movers.enumerate() {
-            if IS_FAR && let Some(&next) = self.site_of.get(v + AHEAD) {
-                prefetch(sites, next as usize);
-            }
-            if !fixed.holds(p) {
-                let room = if queue.len() == queue.capacity() { memory::reserve(queue, 1) } else { Ok(()) };
-                if queue.len() == most || room.is_err() {
-                    ended = Some((v, room));
-                    break;
-                }
-                queue.push(v as u32);
-                if !MOVES_ALL {
-                    continue;
-                }
-            }
-            let point = &mut sites[s as usize].point;
-            n_moved += u64::from(differ::<G>(point, p));
-            std::mem::swap(point, p);
-        }
-        let Some((end, room)) = ended else {
-            self.staging.others_applied = true;
-            return Ok(Some(n_moved));
-        };
-        let queue = std::mem::take(&mut self.staging.vertices);
-        let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
-        // Those that have not moved are exchanged in vain.
-        for v in (0..end as u32).chain(not_moved.iter().copied()) {
-            self.exchange_position(v);
-        }
-        self.staging.vertices = queue;
-        self.staging.vertices.clear();
-        room.map(|()| None)
     }
 
     /// Moves those of the listed vertices that stay in their regions, and puts them before the others.

@@ -158,6 +158,18 @@ pub(crate) mod avx2 {
             unsafe { [Lanes(_mm256_unpacklo_pd(ac, bd)), Lanes(_mm256_unpackhi_pd(ac, bd))] }
         }
 
+        /// Three numbers for each lane.
+        #[inline(always)]
+        pub(crate) fn of_triples(triples: [&[f64; 3]; LANES]) -> [Lanes; 3] {
+            let ends = triples.map(|triple| {
+                let ends = (triple.first_chunk(), triple.last_chunk());
+                (ends.0.expect("two of three"), ends.1.expect("two of three"))
+            });
+            let [x, y] = Lanes::of_pairs(ends.map(|(xy, _)| xy));
+            let [_, z] = Lanes::of_pairs(ends.map(|(_, yz)| yz));
+            [x, y, z]
+        }
+
         /// Four numbers for each lane.
         #[inline(always)]
         pub(crate) fn of_fours(fours: [&[f64; 4]; LANES]) -> [Lanes; 4] {

@@ -115,6 +115,8 @@ pub use tolerance::{
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
     tolerances2d,
 };
+#[cfg(target_arch = "x86_64")]
+pub(crate) use tolerance::{are_within2d, are_within3d};
 
 /// Largest magnitude of an accepted coordinate.
 pub const MAX_MAGNITUDE: f64 = 1e57;

@@ -109,7 +109,7 @@
 
 use super::filter::{extents, largest};
 #[cfg(target_arch = "x86_64")]
-use super::lanes::avx2;
+use super::lanes::avx2::{self, Lanes};
 use super::lanes::{BiCells, LANES, Real};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
@@ -189,11 +189,43 @@ pub fn distance_above<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
 /// certainly below its tolerance; 0, which nothing is below, if that is too small to tell.
 #[inline(always)]
 pub fn displacement_limit(tolerance: f64) -> f64 {
+    limit(tolerance)
+}
+
+/// The same for any [`Real`].
+#[inline(always)]
+fn limit<T: Real>(tolerance: T) -> T {
     // Twice the least distance, so that its square is certainly above that of the least.
-    let t = if tolerance >= 2.0 * LEAST { tolerance } else { 0.0 };
+    let least = T::splat(2.0 * LEAST);
+    let t = T::select(least.is_less(tolerance), tolerance, T::splat(0.0));
     // 1e150 is no restriction, and its square is finite.
-    let t = if t < 1e150 { t } else { 1e150 };
-    t * t * SQUARE_BELOW
+    let t = t.min(T::splat(1e150));
+    t * t * T::splat(SQUARE_BELOW)
+}
+
+/// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each. The
+/// processor must have AVX2 and FMA.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn are_within2d(
+    fixed: [&[f64; 2]; LANES],
+    tolerances: &[f64; LANES],
+    places: [&[f64; 2]; LANES],
+) -> u32 {
+    let square = square_between(&Lanes::of_pairs(fixed), &Lanes::of_pairs(places));
+    square.is_less(limit(Lanes::load(tolerances))).bits()
+}
+
+/// Likewise in space.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub(crate) fn are_within3d(
+    fixed: [&[f64; 3]; LANES],
+    tolerances: &[f64; LANES],
+    places: [&[f64; 3]; LANES],
+) -> u32 {
+    let square = square_between(&Lanes::of_triples(fixed), &Lanes::of_triples(places));
+    square.is_less(limit(Lanes::load(tolerances))).bits()
 }
 
 /// Whether `p` is certainly strictly inside the sphere.
@@ -327,4 +359,55 @@ pub(super) fn dot<T: Real>(p: &[T; 3], q: &[T; 3]) -> T {
 #[inline(always)]
 pub(super) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+mod tests {
+    use super::*;
+
+    #[target_feature(enable = "avx2,fma")]
+    fn within(fixed: &[[f64; 3]; LANES], tolerances: &[f64; LANES], places: &[[f64; 3]; LANES]) -> [u32; 2] {
+        let plane = |points: &[[f64; 3]; LANES]| points.map(|[x, y, _]| [x, y]);
+        [
+            are_within2d(plane(fixed).each_ref(), tolerances, plane(places).each_ref()),
+            are_within3d(fixed.each_ref(), tolerances, places.each_ref()),
+        ]
+    }
+
+    /// Several vertices are found to be within exactly where each of them is, tolerances without a use included.
+    #[test]
+    fn several_are_within_where_each_is() {
+        if !avx2::is_there() {
+            return;
+        }
+        let mut state = 1_u64;
+        let mut random = move |n: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % n
+        };
+        let special = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-200, 2.0 * LEAST, 1e200, 0.5, 1.0, 1.5];
+        let mut n_within = [0; 2];
+        for _ in 0..10_000 {
+            let mut points = || [(); LANES].map(|()| [(); 3].map(|()| random(3) as f64));
+            let (fixed, places) = (points(), points());
+            let tolerances = [(); LANES].map(|()| special[random(special.len() as u64) as usize]);
+            // SAFETY: AVX2 and FMA are there.
+            let found = unsafe { within(&fixed, &tolerances, &places) };
+            for k in 0..LANES {
+                let ([a, b, _], [c, d, _]) = (fixed[k], places[k]);
+                let limit = displacement_limit(tolerances[k]);
+                let is_within = [squared_distance(&[a, b], &[c, d]), squared_distance(&fixed[k], &places[k])]
+                    .map(|d| d < limit);
+                for dimension in 0..2 {
+                    assert_eq!(
+                        found[dimension] >> k & 1 == 1,
+                        is_within[dimension],
+                        "{fixed:?} {places:?} {tolerances:?}"
+                    );
+                    n_within[dimension] += u32::from(is_within[dimension]);
+                }
+            }
+        }
+        assert!(n_within.iter().all(|n| (5_000..35_000).contains(n)), "{n_within:?}");
+    }
 }

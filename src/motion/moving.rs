@@ -1,0 +1,474 @@
+//! All vertices of a whole staging, moved in one loop.
+//!
+//! Applying a move exchanges the staged position with that of the vertex's site. Vertices are taken in the order of their
+//! ids, and sites are stored in another one, so of a large triangulation they are asked for in advance.
+//!
+//! Every vertex must have a site of its own: a staging is whole only if no vertex is removed, and none may be hidden.
+//!
+//! Cost, while all is in a cache near the processor: 1 ns a vertex, its test included.
+
+#![allow(unsafe_code)]
+
+use std::ops::ControlFlow;
+
+use super::MovingTriangulation;
+use super::regions::Fixed;
+use crate::complex::memory;
+use crate::delaunay::{Dimension, Site};
+use crate::error::Result;
+use crate::predicates::LANES;
+#[cfg(target_arch = "x86_64")]
+use crate::predicates::avx2;
+use crate::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
+use crate::threads;
+
+/// Moves of so many vertices take as long as to start a thread for them.
+const MOVED_AT_LEAST: usize = 1 << 14;
+
+/// Whether two places, without negative zeros, differ.
+#[inline(always)]
+pub(super) fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
+    (0..G::D).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
+}
+
+/// A bit for each lane.
+const ALL: u32 = (1 << LANES) - 1;
+
+/// Vertices that go to their new places unless they have to wait.
+struct Movers<'m, G: Dimension> {
+    sites: &'m mut [Site<G>],
+    /// Vertices beyond their tolerance, of which there may be `most`.
+    queue: &'m mut Vec<u32>,
+    most: usize,
+    n_moved: u64,
+}
+
+impl<G: Dimension> Movers<'_, G> {
+    /// Queues those of a few vertices of which a bit is set, and moves the others, or all if `MOVES_ALL`; ends, and does
+    /// nothing, where there is no room in the queue.
+    #[cold]
+    #[inline(never)]
+    fn go<const MOVES_ALL: bool>(
+        &mut self,
+        first: usize,
+        beyond: u32,
+        places: &mut [G::Point],
+        sites_of: &[u32],
+    ) -> ControlFlow<Result<()>> {
+        self.queue(first, beyond)?;
+        for (k, (p, &s)) in places.iter_mut().zip(sites_of).enumerate() {
+            if MOVES_ALL || beyond >> k & 1 == 0 {
+                self.n_moved += self.exchange(p, s);
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Exchanges a position with that of a site; returns how many differ.
+    #[inline(always)]
+    fn exchange(&mut self, p: &mut G::Point, s: u32) -> u64 {
+        let point = &mut self.sites[s as usize].point;
+        let differ = differ::<G>(point, p);
+        std::mem::swap(point, p);
+        u64::from(differ)
+    }
+
+    /// As [`exchange`](Self::exchange), of as many as there are lanes.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    #[inline]
+    fn exchange_by_avx2(&mut self, places: &mut [G::Point; LANES], sites_of: &[u32; LANES]) -> u64 {
+        use std::arch::x86_64::*;
+        let sites = sites_of.map(|s| std::ptr::from_mut(&mut self.sites[s as usize]).cast::<f64>());
+        let [s, t, u, v] = sites;
+        let at = G::coordinates_mut(places).as_mut_ptr();
+        // SAFETY: AVX2 is there. In the plane `at` has 8 numbers, in space 12. A site begins with its point, and in space
+        // is four numbers long, the last of which is written as it was. All is read before anything is written.
+        let equal = unsafe {
+            if G::D == 2 {
+                let new = [_mm256_loadu_pd(at), _mm256_loadu_pd(at.add(4))];
+                let old = [_mm256_loadu2_m128d(t, s), _mm256_loadu2_m128d(v, u)];
+                _mm256_storeu2_m128d(t, s, new[0]);
+                _mm256_storeu2_m128d(v, u, new[1]);
+                _mm256_storeu_pd(at, old[0]);
+                _mm256_storeu_pd(at.add(4), old[1]);
+                let equal = [are_equal(new[0], old[0]), are_equal(new[1], old[1])];
+                [equal[0] & 3, equal[0] >> 2, equal[1] & 3, equal[1] >> 2]
+            } else {
+                let last = _mm256_loadu_pd(at.add(8));
+                let new = [
+                    _mm256_loadu_pd(at),
+                    _mm256_loadu_pd(at.add(3)),
+                    _mm256_loadu_pd(at.add(6)),
+                    _mm256_permute4x64_pd::<0b00_11_10_01>(last),
+                ];
+                let old = sites.map(|site| _mm256_loadu_pd(site));
+                for k in 0..LANES {
+                    _mm256_storeu_pd(sites[k], _mm256_blend_pd::<0b1000>(new[k], old[k]));
+                }
+                // Each has one number too many, which the next one mends.
+                _mm256_storeu_pd(at, old[0]);
+                _mm256_storeu_pd(at.add(3), old[1]);
+                _mm256_storeu_pd(at.add(6), old[2]);
+                _mm_storeu_pd(at.add(9), _mm256_castpd256_pd128(old[3]));
+                _mm_store_sd(at.add(11), _mm256_extractf128_pd::<1>(old[3]));
+                std::array::from_fn(|k| are_equal(new[k], old[k]) & 7)
+            }
+        };
+        equal.iter().map(|&bits| u64::from(bits != (1 << G::D) - 1)).sum()
+    }
+
+    fn queue(&mut self, first: usize, beyond: u32) -> ControlFlow<Result<()>> {
+        if self.queue.len() + beyond.count_ones() as usize > self.most {
+            return ControlFlow::Break(Ok(()));
+        }
+        if self.queue.capacity() - self.queue.len() < LANES
+            && let Err(error) = memory::reserve(self.queue, LANES)
+        {
+            return ControlFlow::Break(Err(error));
+        }
+        self.queue.extend((0..LANES).filter(|k| beyond >> k & 1 == 1).map(|k| (first + k) as u32));
+        ControlFlow::Continue(())
+    }
+}
+
+/// A bit for each of four numbers that is the same in both, bit by bit.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline]
+fn are_equal(x: std::arch::x86_64::__m256d, y: std::arch::x86_64::__m256d) -> u32 {
+    use std::arch::x86_64::*;
+    let equal = _mm256_cmpeq_epi64(_mm256_castpd_si256(x), _mm256_castpd_si256(y));
+    _mm256_movemask_pd(_mm256_castsi256_pd(equal)) as u32
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Of a whole staging, moves the vertices within their tolerance, or all if `MOVES_ALL`, and queues the others; the
+    /// staging holds the old positions of those that have moved. Returns how many positions differ. `None`, and no queue,
+    /// and nothing has moved, if those to be queued are more than `most`.
+    ///
+    /// This loop is what a timestamp costs that changes nothing.
+    pub(super) fn move_and_queue<const MOVES_ALL: bool>(&mut self, most: usize) -> Result<Option<u64>> {
+        if size_of_val(self.kernel.sites()) > FAR {
+            self.move_and_queue_from::<MOVES_ALL, true>(most)
+        } else {
+            self.move_and_queue_from::<MOVES_ALL, false>(most)
+        }
+    }
+
+    /// As [`move_and_queue`](Self::move_and_queue). `IS_FAR` asks for sites in advance.
+    fn move_and_queue_from<const MOVES_ALL: bool, const IS_FAR: bool>(
+        &mut self,
+        most: usize,
+    ) -> Result<Option<u64>> {
+        #[cfg(target_arch = "x86_64")]
+        if avx2::is_there() {
+            #[target_feature(enable = "avx2,fma")]
+            fn by_avx2<G: Dimension, const MOVES_ALL: bool, const IS_FAR: bool>(
+                t: &mut MovingTriangulation<G>,
+                most: usize,
+            ) -> Result<Option<u64>> {
+                let hold = |fixed: &[Fixed<G>; LANES], places: &[G::Point; LANES]| {
+                    let tolerances = fixed.each_ref().map(|fixed| fixed.tolerance);
+                    let fixed = fixed.each_ref().map(|fixed| &fixed.point);
+                    // SAFETY: AVX2 and FMA are there.
+                    unsafe { G::are_within(fixed, &tolerances, places.each_ref()) }
+                };
+                let exchange = |movers: &mut Movers<'_, G>, places: &mut _, sites_of: &_| {
+                    movers.exchange_by_avx2(places, sites_of)
+                };
+                t.move_and_queue_by::<MOVES_ALL, IS_FAR>(most, hold, exchange)
+            }
+            // SAFETY: AVX2 and FMA are there.
+            return unsafe { by_avx2::<G, MOVES_ALL, IS_FAR>(self, most) };
+        }
+        self.move_and_queue_by::<MOVES_ALL, IS_FAR>(
+            most,
+            |fixed, places| bits_of(fixed, places),
+            |movers, places, sites_of| {
+                places.iter_mut().zip(sites_of).map(|(p, &s)| movers.exchange(p, s)).sum()
+            },
+        )
+    }
+
+    /// As [`move_and_queue`](Self::move_and_queue), by a test and an exchange of several vertices.
+    #[inline(always)]
+    fn move_and_queue_by<const MOVES_ALL: bool, const IS_FAR: bool>(
+        &mut self,
+        most: usize,
+        hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
+        exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[u32; LANES]) -> u64,
+    ) -> Result<Option<u64>> {
+        let sites = self.kernel.sites_mut();
+        let mut movers = Movers { sites, queue: &mut self.staging.vertices, most, n_moved: 0 };
+        let (places, last_places) = self.staging.positions.as_chunks_mut::<LANES>();
+        let (fixed, last_fixed) = self.regions.fixed().as_chunks::<LANES>();
+        let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
+        let mut ended = None;
+        for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(sites_of).enumerate() {
+            if IS_FAR && let Some(next) = sites_of.get(k + AHEAD / LANES) {
+                next.iter().for_each(|&s| prefetch(movers.sites, s as usize));
+            }
+            let beyond = !hold(fixed, places) & ALL;
+            if beyond == 0 {
+                movers.n_moved += exchange(&mut movers, places, at);
+            } else if let ControlFlow::Break(room) = movers.go::<MOVES_ALL>(k * LANES, beyond, places, at) {
+                ended = Some((k * LANES, room));
+                break;
+            }
+        }
+        if ended.is_none() {
+            let first = sites_of.len() * LANES;
+            let beyond = !bits_of(last_fixed, last_places) & ((1 << last_places.len()) - 1);
+            if let ControlFlow::Break(room) =
+                movers.go::<MOVES_ALL>(first, beyond, last_places, last_sites_of)
+            {
+                ended = Some((first, room));
+            }
+        }
+        let n_moved = movers.n_moved;
+        let Some((end, room)) = ended else {
+            self.staging.others_applied = true;
+            return Ok(Some(n_moved));
+        };
+        let queue = std::mem::take(&mut self.staging.vertices);
+        let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
+        // Those that have not moved are exchanged in vain.
+        for v in (0..end as u32).chain(not_moved.iter().copied()) {
+            self.exchange_position(v);
+        }
+        self.staging.vertices = queue;
+        self.staging.vertices.clear();
+        room.map(|()| None)
+    }
+
+    /// Moves all vertices of a whole staging, on several threads where that pays; returns how many positions differ.
+    pub(super) fn move_all_staged(&mut self) -> u64 {
+        let n_threads = self.kernel.threads().for_work(self.site_of.len(), MOVED_AT_LEAST, 256);
+        let sites = self.kernel.sites_mut();
+        let sites = SharedSites { start: sites.as_mut_ptr(), n: sites.len() };
+        // SAFETY: every vertex has a site of its own, and these are borrowed for as long as this takes.
+        let moved = unsafe { sites.move_all(&mut self.staging.positions, &self.site_of, n_threads) };
+        self.staging.others_applied = true;
+        self.kernel.cover(&moved.lower, &moved.upper);
+        moved.n
+    }
+
+    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Returns how many positions differ, and
+    /// the sum of the ways and the longest one.
+    pub(super) fn move_all_on_record(&mut self) -> (u64, f64, f64) {
+        let mut moved = 0;
+        let (mut sum, mut greatest) = (0.0, 0.0);
+        let sites = self.kernel.sites_mut();
+        for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
+            if let Some(&next) = self.site_of.get(v + AHEAD) {
+                prefetch(sites, next as usize);
+            }
+            let point = &mut sites[s as usize].point;
+            if point == p {
+                continue;
+            }
+            let distance = G::distance_above(point, p);
+            self.regions.slacks.travel(s, distance);
+            sum += distance;
+            greatest = if distance > greatest { distance } else { greatest };
+            moved += 1;
+            std::mem::swap(point, p);
+        }
+        self.staging.others_applied = true;
+        (moved, sum, greatest)
+    }
+}
+
+/// A bit for each of a few vertices that is certainly within its tolerance.
+#[inline(always)]
+fn bits_of<G: Dimension>(fixed: &[Fixed<G>], places: &[G::Point]) -> u32 {
+    let hold = fixed.iter().zip(places).map(|(fixed, p)| fixed.holds(p));
+    hold.enumerate().fold(0, |bits, (k, holds)| bits | u32::from(holds) << k)
+}
+
+/// How many positions differ, and a box that holds the new ones.
+struct Moved<G: Dimension> {
+    n: u64,
+    lower: G::Point,
+    upper: G::Point,
+}
+
+impl<G: Dimension> Moved<G> {
+    fn none() -> Self {
+        let (mut lower, mut upper) = (G::Point::default(), G::Point::default());
+        for axis in 0..G::D {
+            (lower[axis], upper[axis]) = (f64::INFINITY, f64::NEG_INFINITY);
+        }
+        Moved { n: 0, lower, upper }
+    }
+
+    #[inline(always)]
+    fn hold(&mut self, lower: &G::Point, upper: &G::Point) {
+        for axis in 0..G::D {
+            let (least, greatest) = (&mut self.lower[axis], &mut self.upper[axis]);
+            *least = if lower[axis] < *least { lower[axis] } else { *least };
+            *greatest = if upper[axis] > *greatest { upper[axis] } else { *greatest };
+        }
+    }
+}
+
+/// Sites that several threads move, each some of them.
+#[derive(Clone, Copy)]
+struct SharedSites<G: Dimension> {
+    start: *mut Site<G>,
+    n: usize,
+}
+
+// SAFETY: who uses them promises that no two threads use the same site (`move_all`).
+unsafe impl<G: Dimension> Send for SharedSites<G> {}
+
+impl<G: Dimension> SharedSites<G> {
+    /// Exchanges positions with those of sites.
+    ///
+    /// # Safety
+    /// `sites_of` are indices of these sites, no two the same, and nobody else uses the sites meanwhile.
+    unsafe fn move_all(self, positions: &mut [G::Point], sites_of: &[u32], n_threads: usize) -> Moved<G> {
+        if n_threads > 1 {
+            let middle = positions.len() / n_threads * (n_threads / 2);
+            let (positions, more_positions) = positions.split_at_mut(middle);
+            let (sites_of, more_sites_of) = sites_of.split_at(middle);
+            let (mut moved, more) = threads::join(
+                // SAFETY: as for the whole; the two halves have no site in common.
+                || unsafe { self.move_all(positions, sites_of, n_threads / 2) },
+                // SAFETY: likewise.
+                move || unsafe { self.move_all(more_positions, more_sites_of, n_threads - n_threads / 2) },
+            );
+            moved.n += more.n;
+            moved.hold(&more.lower, &more.upper);
+            return moved;
+        }
+        let is_far = self.n * size_of::<Site<G>>() > FAR;
+        let mut moved = Moved::none();
+        for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
+            if is_far && let Some(&next) = sites_of.get(k + AHEAD) {
+                prefetch_at(self.start.wrapping_add(next as usize));
+            }
+            moved.hold(p, p);
+            debug_assert!((s as usize) < self.n);
+            // SAFETY: `s` is the index of a site that nobody else uses.
+            let point = unsafe { &mut (*self.start.add(s as usize)).point };
+            moved.n += u64::from(differ::<G>(point, p));
+            std::mem::swap(point, p);
+        }
+        moved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::{Plane, Space};
+    use crate::motion::Options;
+    use crate::motion::regions::Filter;
+    use crate::motion::{Algorithm, CommitReport};
+
+    /// Small whole numbers, and the same ones again.
+    fn points<G: Dimension>(n: usize, state: &mut u64) -> Vec<G::Point> {
+        let mut number = || {
+            *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+            (*state >> 40) as f64
+        };
+        let mut points = vec![G::Point::default(); n];
+        points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = number()));
+        points
+    }
+
+    fn positions<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
+        t.site_of.iter().map(|&s| t.kernel.site(s).point).collect()
+    }
+
+    /// A triangulation with tolerances, and all its vertices staged: some of them where they are, some with one coordinate
+    /// that stays, some far away. Returns these places and which are beyond tolerance.
+    fn staged<G: Dimension>(n: usize, state: &mut u64) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<u32>) {
+        let mut t = MovingTriangulation::<G>::new(&points::<G>(n, state), Options::default()).expect("room");
+        let elsewhere = t.staging.positions.clone();
+        t.regions
+            .compute(&mut t.kernel, n, Filter::Tolerance, &elsewhere, &mut CommitReport::default())
+            .expect("room");
+        let mut places = positions(&t);
+        let far = points::<G>(n, state);
+        for (v, (p, far)) in places.iter_mut().zip(far).enumerate() {
+            match (*state >> 20).wrapping_add(v as u64 * 7) % 5 {
+                0 => {}
+                1 => *p = far,
+                2 => p[0] = p[0].next_up(),
+                _ => (0..G::D).for_each(|axis| p[axis] = p[axis].next_down()),
+            }
+        }
+        let fixed = t.regions.fixed();
+        let beyond = (0..n as u32).filter(|&v| !fixed[v as usize].holds(&places[v as usize])).collect();
+        t.move_all(&places).expect("good places");
+        (t, places, beyond)
+    }
+
+    fn agree<G: Dimension>() {
+        let mut state = 5;
+        let (mut n_beyond, mut n_moved) = (0, 0);
+        for n in G::D + 1..60 {
+            let (mut t, places, beyond) = staged::<G>(n, &mut state);
+            let before = positions(&t);
+            let is_beyond = |v: usize| beyond.contains(&(v as u32));
+            let differ = |v: &usize| before[*v] != places[*v];
+            let n_of =
+                |moves_all: bool| (0..n).filter(|&v| moves_all || !is_beyond(v)).filter(differ).count();
+            (n_beyond, n_moved) = (n_beyond + beyond.len(), n_moved + n_of(false));
+
+            if !beyond.is_empty() {
+                assert_eq!(t.move_and_queue::<false>(beyond.len() - 1).expect("room"), None, "{n} vertices");
+                assert_eq!(t.move_and_queue::<true>(beyond.len() - 1).expect("room"), None, "{n} vertices");
+                assert!(t.staging.vertices.is_empty() && !t.staging.others_applied);
+                assert_eq!([&positions(&t), &t.staging.positions], [&before, &places], "{n} vertices");
+            }
+
+            assert_eq!(t.move_and_queue::<false>(beyond.len()).expect("room"), Some(n_of(false) as u64));
+            assert_eq!(t.staging.vertices, beyond, "{n} vertices");
+            for v in 0..n {
+                let expected = if is_beyond(v) { [before[v], places[v]] } else { [places[v], before[v]] };
+                assert_eq!([positions(&t)[v], t.staging.positions[v]], expected, "vertex {v} of {n}");
+            }
+
+            for moved_by in 0..2 {
+                let (mut t, places, beyond) = staged::<G>(n, &mut state);
+                let before = positions(&t);
+                let n_moved = (0..n).filter(|&v| before[v] != places[v]).count() as u64;
+                if moved_by == 0 {
+                    assert_eq!(t.move_and_queue::<true>(n).expect("room"), Some(n_moved));
+                    assert_eq!(t.staging.vertices, beyond, "{n} vertices");
+                } else {
+                    assert_eq!(t.move_all_staged(), n_moved);
+                }
+                assert_eq!([&positions(&t), &t.staging.positions], [&places, &before], "{n} vertices");
+            }
+        }
+        assert!(n_beyond > 200 && n_moved > 400, "{n_beyond} beyond, {n_moved} moved");
+    }
+
+    #[test]
+    fn vertices_of_the_plane_go_where_they_are_told() {
+        agree::<Plane>();
+    }
+
+    #[test]
+    fn vertices_of_space_go_where_they_are_told() {
+        agree::<Space>();
+    }
+
+    /// Several threads move what one does.
+    #[test]
+    fn threads_share_the_moves() {
+        for threads in 1..5 {
+            let options = || Options { threads, algorithm: Algorithm::Repair, ..Options::default() };
+            let (first, second) = (points::<Space>(2_000, &mut 1), points::<Space>(2_000, &mut 2));
+            let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
+            t.move_all(&second).expect("good places");
+            assert_eq!(t.move_all_staged(), 2_000);
+            assert_eq!([&positions(&t), &t.staging.positions], [&second, &first]);
+        }
+    }
+}
