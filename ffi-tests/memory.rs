@@ -1,14 +1,15 @@
-//! The programs under memory checkers: slow, and the checkers are no part of Rust, so these tests run
+//! The programs under checkers of memory and of threads: slow, and the checkers are no part of Rust, so these tests run
 //! only where they are asked for (`cargo test --test ffi -- --include-ignored`).
 
 use std::path::PathBuf;
 
-use crate::support::{Linkage, build, command, fresh_folder, sources, succeed};
+use crate::support::{Linkage, build, command, fresh_folder, repository, sources, succeed};
 
 #[test]
 #[ignore = "needs valgrind"]
 fn programs_are_clean_under_valgrind() {
     let folder = fresh_folder("valgrind");
+    let suppressed = format!("--suppressions={}", repository("ffi-tests/valgrind.supp").display());
     for source in programs() {
         let program = build(&source, &folder, Linkage::Shared, &[]);
         let checks = [
@@ -17,8 +18,17 @@ fn programs_are_clean_under_valgrind() {
             "--leak-check=full",
             "--errors-for-leak-kinds=definite,possible",
         ];
-        succeed(command("valgrind").args(checks).arg(program));
+        succeed(command("valgrind").args(checks).arg(&suppressed).arg(program));
     }
+}
+
+#[test]
+#[ignore = "needs valgrind"]
+fn threads_of_the_library_do_not_race() {
+    let folder = fresh_folder("races");
+    let source = repository("ffi-tests/c/parallel.c");
+    let program = build(&source, &folder, Linkage::Shared, &[]);
+    succeed(command("valgrind").args(["--quiet", "--tool=drd", "--error-exitcode=99"]).arg(program));
 }
 
 #[test]
