@@ -49,7 +49,7 @@ std::vector<Lane> lanes_of(const std::vector<Entrant> &entrants) {
 
 bool Replay::begins_segment(std::size_t timestamp) const {
     return std::any_of(series_.segments.begin(), series_.segments.end(),
-                       [&](const Segment &segment) { return segment.first == timestamp; });
+                       [&](const Segment &segment) { return segment.begin == timestamp; });
 }
 
 void Replay::build(Engine &engine, std::size_t timestamp) {

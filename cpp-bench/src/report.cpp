@@ -55,13 +55,20 @@ std::vector<std::pair<std::size_t, std::size_t>> ranges_of(const Series &series)
     return ranges;
 }
 
-std::vector<std::size_t> all_timestamps(const Series &series) {
+/// All timestamps, those of the warm-up of segments only for engines that remember.
+std::vector<std::size_t> all_timestamps(const Series &series, bool warms_up) {
     std::vector<std::size_t> timestamps;
     if (series.segments.empty())
         for (std::size_t t = 1; t <= series.n_timestamps(); ++t) timestamps.push_back(t);
     for (const Segment &segment : series.segments)
-        for (std::size_t t = segment.first; t <= segment.last; ++t) timestamps.push_back(t);
+        for (std::size_t t = warms_up ? segment.begin : segment.first; t <= segment.last; ++t)
+            timestamps.push_back(t);
     return timestamps;
+}
+
+void forget_warm_up(UpdateTimes &times, const Series &series) {
+    for (const Segment &segment : series.segments)
+        times.erase(times.lower_bound(segment.begin), times.lower_bound(segment.first));
 }
 
 /// `count` evenly spread ones of a whole series, the last included; the first `count` of every segment.
@@ -220,10 +227,11 @@ private:
             entrants.push_back({kind, 1,
                                 is_sampled(*kind, series)
                                     ? sampled_timestamps(series, effort.n_slow_timestamps)
-                                    : all_timestamps(series)});
+                                    : all_timestamps(series, !kind->is_stateless)});
         Checks checks;
-        const std::vector<UpdateTimes> times = replay_report(
+        std::vector<UpdateTimes> times = replay_report(
             series, entrants, check_timestamps(series, effort), effort.n_repeats, checks, progress_);
+        for (UpdateTimes &of_engine : times) forget_warm_up(of_engine, series);
         for (std::size_t i = 0; i < kinds.size(); ++i) save_times(series, *kinds[i], times[i]);
         const UpdateTimes baseline = load_times(series, engine_kinds().front());
         for (std::size_t i = 0; i < kinds.size(); ++i) {

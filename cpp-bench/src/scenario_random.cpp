@@ -70,15 +70,15 @@ Series record_segments(const std::string &name, unsigned dimension, std::size_t 
                    displacements.size());
     for (const double displacement : displacements) {
         series.positions.insert(series.positions.end(), start.begin(), start.end());
-        const std::size_t first = series.n_frames();
-        for (std::size_t timestamp = first; timestamp < first + length; ++timestamp) {
+        const std::size_t begin = series.n_frames(), first = begin + segment_warm_up;
+        for (std::size_t timestamp = begin; timestamp < first + length; ++timestamp) {
             series.positions.resize((timestamp + 1) * series.frame_length());
             const double *from = series.frame(timestamp - 1);
             double *to = series.positions.data() + timestamp * series.frame_length();
             for (std::size_t at = 0; at < series.frame_length(); at += dimension)
                 step_inside(random, dimension, displacement, radius, from + at, to + at);
         }
-        series.segments.push_back({first, first + length - 1, displacement});
+        series.segments.push_back({begin, first, first + length - 1, displacement});
         progress.step();
     }
     return series;

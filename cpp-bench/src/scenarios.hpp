@@ -52,9 +52,12 @@ Series record_man(const Body &body, std::size_t n_points, std::size_t n_timestam
 /// its cells. False if the star has no volume.
 bool odt_place(const double *vertex, const std::vector<const double *> &star, double *place);
 
-/// Random points in a disk or ball at unit density, and segments that all begin there: at each of the
-/// `length` timestamps of a segment every point goes the segment's displacement in a random
-/// direction, drawn again where it would leave.
+/// In so many timestamps DELDRIFT_AUTO has found out how points move and computed its tolerances.
+constexpr std::size_t segment_warm_up = 3;
+
+/// Random points in a disk or ball at unit density, and segments that all begin there: at each of
+/// `segment_warm_up` timestamps and the `length` that follow every point goes the segment's displacement in a
+/// random direction, drawn again where it would leave.
 Series record_segments(const std::string &name, unsigned dimension, std::size_t n_points,
                        const std::vector<double> &displacements, std::size_t length, std::uint64_t seed,
                        Progress &progress);

@@ -150,11 +150,11 @@ void test_recordings(Tests &tests) {
     tests.expect(farthest < radius * (1 + 1e-12), "snodt: no point leaves the ball");
 
     const Series walk = record_segments("walk_2d", 2, 200, {0.01, 0.02}, 3, 5, progress);
-    tests.expect(walk.segments.size() == 2 && walk.segments[1].first == 5 && walk.segments[1].last == 7 &&
-                     std::equal(walk.frame(0), walk.frame(1), walk.frame(4)),
+    tests.expect(walk.segments.size() == 2 && walk.segments[1].begin == 8 && walk.segments[1].first == 11 &&
+                     walk.segments[1].last == 13 && std::equal(walk.frame(0), walk.frame(1), walk.frame(7)),
                  "segments: all begin at the same points");
     tests.expect(
-        std::fabs(std::hypot(walk.frame(5)[0] - walk.frame(4)[0], walk.frame(5)[1] - walk.frame(4)[1]) -
+        std::fabs(std::hypot(walk.frame(8)[0] - walk.frame(7)[0], walk.frame(8)[1] - walk.frame(7)[1]) -
                   0.02) < 1e-12,
         "segments: every step has its length");
     for (const Density &density : lloyd_densities()) {

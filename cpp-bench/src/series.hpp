@@ -8,9 +8,10 @@
 
 namespace bench {
 
-/// A part of a series that begins anew: engines are built at frame `first` - 1, and timestamps `first` to
-/// `last` follow. Frames between segments are where the next one begins.
+/// A part of a series that begins anew: engines are built at frame `begin` - 1, and timestamps `begin` to `last` follow.
+/// What they do before `first` is not on the clock. Frames between segments are where the next one begins.
 struct Segment {
+    std::size_t begin;
     std::size_t first;
     std::size_t last;
     double displacement;  // length of every point's displacement at a timestamp

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <numeric>
 
 namespace bench {
 namespace {
@@ -22,6 +23,12 @@ constexpr double swept_displacement = 1e-10;
 
 /// By so much that a little more than half of the vertices stay within their tolerance, in 2D and 3D.
 constexpr double half_displacements[] = {0.012, 0.0013};
+
+/// So much that no triangulation is worth mending, in spacings.
+constexpr double leaps[] = {1, 10};
+/// Auto may take 1.1 times as long as rebuilding, which is to be twice as fast as CGAL's.
+constexpr double wanted_of_leaps = 2;
+constexpr double wanted_of_rebuilding = 1 / 1.1;
 
 /// DELDRIFT_AUTO computes tolerances after a calm commit, or a calm
 /// round of relocations, and uses them later.
@@ -74,6 +81,7 @@ Entrant entrant(const char *name, unsigned n_threads, std::size_t n_timestamps) 
 struct Outcome {
     std::string name;
     double ns;         // of an update, per vertex: the median
+    double mean_ns;
     double n_changes;  // of an update
     double within;     // tolerance: share of the vertices, over all updates
 };
@@ -112,7 +120,9 @@ std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &en
         const auto n_updates = static_cast<double>(last - n_warm);
         const auto n_points = static_cast<double>(series.n_points);
         const auto n_within = static_cast<double>(after.within_tolerance - before[i].within_tolerance);
+        const double sum = std::accumulate(seconds.begin(), seconds.end(), 0.0);
         outcomes.push_back({lanes[i].entrant->name(), 1e9 * median(seconds) / n_points,
+                            1e9 * sum / (n_points * static_cast<double>(seconds.size())),
                             static_cast<double>(after.changes - before[i].changes) / n_updates,
                             n_within / (n_updates * n_points)});
     }
@@ -132,7 +142,8 @@ std::vector<Outcome> build(const Series &series, const std::vector<Entrant> &ent
         engine->build(series.frame(0), series.n_points);
         referee.judge(entrants[i], *engine);
         progress.step();
-        outcomes.push_back({entrants[i].name(), rows[i].ns_per_vertex_timestamp(), 0, 0});
+        const double ns = rows[i].ns_per_vertex_timestamp();
+        outcomes.push_back({entrants[i].name(), ns, ns, 0, 0});
     }
     return outcomes;
 }
@@ -149,6 +160,7 @@ public:
             relocate(dimension, dimension == 2 ? 8 : 30);
             converge(dimension, dimension == 2 ? 30 : 150);
             sweep(dimension, dimension == 2 ? 12 : 22);
+            for (const double displacement : leaps) leap(dimension, displacement);
             build_anew(dimension);
         }
         return targets_;
@@ -211,6 +223,21 @@ private:
                                  1, checks_of(series), progress_);
         add("swept", series, done[0], done[1], wanted);
         add("threads_swept", series, done[1], done[2], wanted_of_two_threads);
+    }
+
+    void leap(unsigned dimension, double displacement) {
+        const std::size_t last = n_warm + sizes_.n_rounds;
+        const std::string name = "leap_" + significant(displacement, 2);
+        const Series series = moving_points(name, dimension, sizes_.n_relocated, From::where_they_began,
+                                            displacement, last, seed_);
+        auto done = replay(series,
+                           {entrant("cgal/rebuilding", 1, last), entrant("deldrift/rebuilding", 1, last),
+                            entrant("deldrift/auto", 1, last)},
+                           1, checks_of(series), progress_);
+        // Auto looks now and then whether mending has become worth it.
+        for (Outcome &outcome : done) outcome.ns = outcome.mean_ns;
+        add(name.c_str(), series, done[0], done[2], wanted_of_leaps);
+        add(name.c_str(), series, done[1], done[2], wanted_of_rebuilding);
     }
 
     void build_anew(unsigned dimension) {
