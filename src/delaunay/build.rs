@@ -1,8 +1,8 @@
 //! All sites at once: the static triangulation.
 //!
 //! Sites along a Hilbert curve are inserted in rounds (see [`order`](super::order)), each by a walk from the site
-//! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean length of
-//! the walks tells when to sort again.
+//! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean distance of
+//! sites that are next to each other in storage tells when to sort again.
 
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
@@ -20,6 +20,9 @@ pub struct Merge {
 
 /// Insertions between two calls of a monitor.
 const MONITORED: usize = 1024;
+
+/// Distances in a sample of about so many.
+const STRIDES: usize = 1024;
 
 /// So many cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
@@ -210,6 +213,18 @@ impl<G: Dimension> Delaunay<G> {
         self.recent = index[self.recent as usize];
         self.is_sorted = true;
         Ok(())
+    }
+
+    /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve.
+    pub(crate) fn mean_stride(&self) -> f64 {
+        let sites = &self.sites[1..];
+        let step = (sites.len() / STRIDES).max(1);
+        let (mut sum, mut n) = (0.0, 0.0);
+        for pair in sites.windows(2).step_by(step).filter(|pair| pair.iter().all(Site::is_live)) {
+            sum += G::distance_above(&pair[0].point, &pair[1].point);
+            n += 1.0;
+        }
+        if n > 0.0 { sum / n } else { 0.0 }
     }
 
     /// Mean number of cells crossed by the walk of an insertion, in the latest build.

@@ -84,8 +84,8 @@ pub struct MovingTriangulation<G: Dimension> {
     auto: Auto,
     options: Options,
     statistics: CommitReport,
-    /// Mean walk of the latest build in freshly sorted storage: the measure of lost locality.
-    sorted_walk: f64,
+    /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
+    sorted_stride: f64,
     cells: OnceLock<Cells<G>>,
     baseline: Option<Baseline<G>>,
     changed: OnceLock<Vec<u32>>,
@@ -113,7 +113,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             auto: Auto::default(),
             options,
             statistics: CommitReport::default(),
-            sorted_walk: 0.0,
+            sorted_stride: 0.0,
             cells: OnceLock::new(),
             baseline: None,
             changed: OnceLock::new(),
@@ -261,9 +261,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         for s in self.kernel.live_sites() {
             self.site_of[self.kernel.site(s).id as usize] = s;
         }
-        self.rebuild()?;
-        self.sorted_walk = self.kernel.mean_walk();
-        Ok(())
+        self.sorted_stride = self.kernel.mean_stride();
+        self.rebuild()
     }
 
     /// Certificates and exact signs evaluated so far.
