@@ -16,6 +16,7 @@ constexpr std::size_t least_moves = 200'000;
 
 void keep_memory() {
     mallopt(M_MMAP_MAX, 0);
+    mallopt(M_ARENA_MAX, 1);
     mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 

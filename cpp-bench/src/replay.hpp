@@ -19,7 +19,7 @@ namespace bench {
 
 /// From here on memory that is freed stays with the process. By default glibc gives back what was allocated
 /// in large pieces, and engines that do so would pay for fresh pages at every repeat, those that do not at
-/// the first one only.
+/// the first one only. One arena serves all threads: those of others give back what they can.
 void keep_memory();
 
 class Stopwatch {
