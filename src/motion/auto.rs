@@ -14,7 +14,7 @@
 //! is taken, and the cheaper one tried ever more rarely. In space the way down is repair, slack, watching, without
 //! slack where next to nothing changes; in the plane a sweep is so cheap that slack would seldom pay. Before watching
 //! a sample of the vertices is looked at. When what is watched or what is computed anew has cost more than the other
-//! by a computation of all, all tolerances are computed again, so that what is watched follows from how far the
+//! by half a computation of all, all tolerances are computed again, so that what is watched follows from how far the
 //! vertices go now.
 //!
 //! **Rebuilding.** After a repair that had to rebuild, so many commits rebuild at once as have failed in a row, and
@@ -63,7 +63,7 @@ struct Costs {
 const fn costs<G: Dimension>() -> Costs {
     if G::D == 2 {
         Costs {
-            watched: 8.0,
+            watched: 5.0,
             beyond: 1000.0,
             sweep: 11.0,
             slack: None,
@@ -114,6 +114,8 @@ pub(super) struct Auto {
     /// vertices beyond, in nanoseconds.
     excess: f64,
     imbalance: f64,
+    /// Whether all tolerances are to be computed again, for balance.
+    is_due: bool,
     /// Flips and placements in a commit, a mean with decreasing weights, and what it was when a way was given up.
     pace: f64,
     pace_at_stop: f64,
@@ -157,7 +159,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn commit_by_look(&mut self, report: &mut CommitReport) -> Result<bool> {
         if self.auto.look == Look::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
-            if (is_kept || self.is_calm()) && self.commit_by_watching(self.n_present / BEYOND, report)? {
+            if (is_kept || std::mem::take(&mut self.auto.is_due) || self.is_calm())
+                && self.commit_by_watching(self.n_present / BEYOND, report)?
+            {
                 self.weigh_watching(report);
                 return Ok(true);
             }
@@ -184,8 +188,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let beyond = (self.n_present as f64 - report.within_tolerance as f64) * costs.beyond;
         self.auto.imbalance += watched - beyond;
         self.weigh(report, watched + beyond - n * costs.slack.unwrap_or(costs.sweep));
-        if self.auto.imbalance.abs() > n * costs.computed {
+        if 2.0 * self.auto.imbalance.abs() > n * costs.computed {
             self.auto.imbalance = 0.0;
+            self.auto.is_due = true;
             self.regions.invalidate();
         }
     }
@@ -226,7 +231,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         auto.look =
             if auto.look == Look::Watched && costs::<G>().slack.is_some() { Look::Slack } else { Look::All };
         auto.pace_at_stop = auto.pace;
-        (auto.excess, auto.imbalance) = (0.0, 0.0);
+        (auto.excess, auto.imbalance, auto.is_due) = (0.0, 0.0, false);
         auto.next_wait = (2 * auto.next_wait + WAIT).min(PATIENCE);
         auto.wait = auto.next_wait;
     }
