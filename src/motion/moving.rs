@@ -5,7 +5,7 @@
 //!
 //! Every vertex must have a site of its own: a staging is whole only if no vertex is removed, and none may be hidden.
 //!
-//! Cost, while all is in a cache near the processor: 1 ns a vertex, its test included.
+//! Cost, while all is in a cache near the processor: 1.6 ns a vertex, its test included, 2.5 in space.
 
 #![allow(unsafe_code)]
 
@@ -199,10 +199,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
         exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[u32; LANES]) -> u64,
     ) -> Result<Option<u64>> {
+        let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
         let mut movers = Movers { sites, queue: &mut self.staging.vertices, most, n_moved: 0 };
-        let (places, last_places) = self.staging.positions.as_chunks_mut::<LANES>();
-        let (fixed, last_fixed) = self.regions.fixed().as_chunks::<LANES>();
+        let (places, last_places) = self.staging.positions[..n].as_chunks_mut::<LANES>();
+        let (fixed, last_fixed) = self.regions.fixed()[..n].as_chunks::<LANES>();
         let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
         let mut ended = None;
         for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(sites_of).enumerate() {

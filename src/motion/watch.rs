@@ -35,7 +35,7 @@
 //!
 //! Where the check of a ridge is not certain all the way, a count of the hull's windings decides.
 //!
-//! Cost: 2 ns a vertex; about 8 or 20 ns for a watched bi-cell; and for a vertex beyond its star and the bi-cells
+//! Cost: 2 ns a vertex; about 5 or 20 ns for a watched bi-cell; and for a vertex beyond its star and the bi-cells
 //! there. Both counts shrink with the root of the displacement.
 
 use super::regions::Filter;
