@@ -25,7 +25,7 @@ constexpr double swept_displacement = 1e-10;
 constexpr double half_displacements[] = {0.012, 0.0013};
 
 /// So much that no triangulation is worth mending, in spacings.
-constexpr double leaps[] = {1, 10};
+constexpr unsigned leaps[] = {1, 10};
 /// Auto may take 1.1 times as long as rebuilding, which is to be twice as fast as CGAL's.
 constexpr double wanted_of_leaps = 2;
 constexpr double wanted_of_rebuilding = 1 / 1.1;
@@ -160,7 +160,7 @@ public:
             relocate(dimension, dimension == 2 ? 8 : 30);
             converge(dimension, dimension == 2 ? 30 : 150);
             sweep(dimension, dimension == 2 ? 12 : 22);
-            for (const double displacement : leaps) leap(dimension, displacement);
+            for (const unsigned displacement : leaps) leap(dimension, displacement);
             build_anew(dimension);
         }
         return targets_;
@@ -225,9 +225,9 @@ private:
         add("threads_swept", series, done[1], done[2], wanted_of_two_threads);
     }
 
-    void leap(unsigned dimension, double displacement) {
+    void leap(unsigned dimension, unsigned displacement) {
         const std::size_t last = n_warm + sizes_.n_rounds;
-        const std::string name = "leap_" + significant(displacement, 2);
+        const std::string name = "leap_" + std::to_string(displacement);
         const Series series = moving_points(name, dimension, sizes_.n_relocated, From::where_they_began,
                                             displacement, last, seed_);
         auto done = replay(series,

@@ -5,7 +5,8 @@
 //!
 //! Every vertex must have a site of its own: a staging is whole only if no vertex is removed, and none may be hidden.
 //!
-//! Cost, while all is in a cache near the processor: 1.6 ns a vertex, its test included, 2.5 in space.
+//! Cost of a hundred thousand vertices, tests included: 3.3 ns each in the plane, 4.1 in space (`make targets`,
+//! `tolerance_test`).
 
 #![allow(unsafe_code)]
 
@@ -29,6 +30,14 @@ const MOVED_AT_LEAST: usize = 1 << 14;
 #[inline(always)]
 pub(super) fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> bool {
     (0..G::D).fold(0, |bits, axis| bits | (p[axis].to_bits() ^ q[axis].to_bits())) != 0
+}
+
+/// Exchanges a position with that of a site; whether they differ.
+#[inline(always)]
+fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
+    let differ = differ::<G>(point, p);
+    std::mem::swap(point, p);
+    differ
 }
 
 /// A bit for each lane.
@@ -67,10 +76,7 @@ impl<G: Dimension> Movers<'_, G> {
     /// Exchanges a position with that of a site; returns how many differ.
     #[inline(always)]
     fn exchange(&mut self, p: &mut G::Point, s: u32) -> u64 {
-        let point = &mut self.sites[s as usize].point;
-        let differ = differ::<G>(point, p);
-        std::mem::swap(point, p);
-        u64::from(differ)
+        u64::from(exchange::<G>(&mut self.sites[s as usize].point, p))
     }
 
     /// As [`exchange`](Self::exchange), of as many as there are lanes.
@@ -256,9 +262,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Moves all vertices of a whole staging, and adds to the ways of their sites. Returns how many positions differ, and
-    /// the sum of the ways and the longest one.
-    pub(super) fn move_all_on_record(&mut self) -> (u64, f64, f64) {
-        let mut moved = 0;
+    /// the longest way.
+    pub(super) fn move_all_on_record(&mut self) -> (u64, f64) {
+        let mut moved = 0_u64;
         let (mut sum, mut greatest) = (0.0, 0.0);
         let sites = self.kernel.sites_mut();
         for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
@@ -277,7 +283,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             std::mem::swap(point, p);
         }
         self.staging.others_applied = true;
-        (moved, sum, greatest)
+        self.regions.follow_motion(&mut self.kernel, greatest);
+        if !self.regions.slacks.expect(sum / moved.max(1) as f64) {
+            self.regions.invalidate();
+        }
+        (moved, greatest)
     }
 }
 
@@ -354,8 +364,7 @@ impl<G: Dimension> SharedSites<G> {
             debug_assert!((s as usize) < self.n);
             // SAFETY: `s` is the index of a site that nobody else uses.
             let point = unsafe { &mut (*self.start.add(s as usize)).point };
-            moved.n += u64::from(differ::<G>(point, p));
-            std::mem::swap(point, p);
+            moved.n += u64::from(exchange::<G>(point, p));
         }
         moved
     }

@@ -43,7 +43,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
             self.regions.compute(&mut self.kernel, n_ids, Filter::Slack, elsewhere, report)?;
         }
-        let (moved, greatest) = self.move_whole_on_record();
+        let (moved, greatest) = self.move_all_on_record();
         let most = self.kernel.complex().n_finite() / MANY;
         let mut repair = std::mem::take(&mut self.repair);
         repair.failures.clear();
@@ -65,16 +65,5 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         self.repair = repair;
         done
-    }
-
-    /// Moves all vertices of a whole staging, and adds to their ways. Returns how many positions differ, and the longest
-    /// way.
-    fn move_whole_on_record(&mut self) -> (u64, f64) {
-        let (moved, sum, greatest) = self.move_all_on_record();
-        self.regions.follow_motion(&mut self.kernel, greatest);
-        if !self.regions.slacks.expect(sum / moved.max(1) as f64) {
-            self.regions.invalidate();
-        }
-        (moved, greatest)
     }
 }
