@@ -143,4 +143,4 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 /// The result of a call that has no effect when it fails.
-pub type Result<T> = std::result::Result<T, Error>;
+pub type Result<T, E = Error> = std::result::Result<T, E>;

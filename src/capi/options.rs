@@ -23,8 +23,8 @@ pub enum deldrift_algorithm {
     /// Takes the moved vertices one by one: finds the new place by a walk from the old one, removes and
     /// inserts. Where no certificate of the star fails, only the coordinates change.
     DELDRIFT_PLACEMENT = 2,
-    /// As placement, but a star whose cells stay positively oriented is repaired by flips (in 3D the
-    /// same as placement).
+    /// As placement, but a star whose cells stay positively oriented is repaired by flips; in 3D
+    /// they are taken back where they lead nowhere.
     DELDRIFT_PLACEMENT_FLIPS = 3,
     /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
     /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the

@@ -12,121 +12,242 @@
 //! In space a 2-3 flip replaces the facet between two cells by the edge between their opposing vertices,
 //! and a 3-2 flip the other way round.
 
-use super::{Cell, Complex, Facet};
+use super::{Cell, Complex, Corners, Facet, NONE};
+use crate::error::Result;
+use crate::threads;
+use std::sync::Mutex;
 
-impl Complex<[u32; 3]> {
-    /// Replaces the edge between two finite cells by the one between its opposing vertices; the two cells
-    /// keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`, and `q` across:
-    /// `c` becomes `p b q` and its neighbour `q a p`.
-    pub(crate) fn flip(&mut self, facet: Facet) {
+/// Why a facet was not flipped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The cells there are not such that a flip makes positive ones.
+    Shape,
+    /// A cell would change that is not of the stretch.
+    Elsewhere,
+    /// The stretch has no free cell.
+    Full,
+}
+
+/// Cells that follow each other in storage, for one thread to flip while others flip the rest. A flip changes two or three
+/// cells and the neighbours' side of their gluings; it is done only if all of these are of the stretch.
+#[derive(Debug)]
+pub struct Stretch<'c, C: Corners> {
+    /// Index of the first one.
+    first: u32,
+    cells: &'c mut [Cell<C>],
+    /// Those of them that are free.
+    free: &'c mut Vec<u32>,
+}
+
+impl<C: Corners> Complex<C> {
+    /// All cells.
+    pub(crate) fn whole(&mut self) -> Stretch<'_, C> {
+        Stretch { first: 0, cells: &mut self.cells, free: &mut self.free }
+    }
+
+    /// Works on the stretches that begin at these cells, the first of them cell 0, each on a thread of its own and with its
+    /// own one of `parts`.
+    pub(crate) fn divided<P: Send>(
+        &mut self,
+        starts: &[u32],
+        parts: &mut [P],
+        work: impl Fn(usize, &mut Stretch<C>, &mut P) + Sync,
+    ) {
+        let mut free = vec![Vec::new(); starts.len()];
+        for c in self.free.drain(..) {
+            free[starts.partition_point(|&start| start <= c) - 1].push(c);
+        }
+        let (mut rest, mut all) = (&mut self.cells[..], Vec::new());
+        for (k, (free, part)) in free.iter_mut().zip(parts).enumerate() {
+            let n = starts.get(k + 1).map_or(rest.len(), |&end| (end - starts[k]) as usize);
+            let cells;
+            (cells, rest) = rest.split_at_mut(n);
+            all.push(Mutex::new((Stretch { first: starts[k], cells, free }, part)));
+        }
+        threads::for_each(0..starts.len(), &|k| {
+            let (stretch, part) = &mut *all[k].lock().expect("each is locked once");
+            work(k, stretch, part);
+        });
+        self.free.extend(free.into_iter().flatten());
+    }
+
+    /// Makes so many cells more, all of them free; they are used after those that are free already, whose order
+    /// [`undo`](Self::undo) relies on.
+    pub(crate) fn create_free(&mut self, n: usize) -> Result<()> {
+        self.reserve(self.free.len() + n)?;
+        let first = self.cells.len();
+        self.cells.resize(first + n, Cell::free());
+        self.marks.resize(first + n, 0);
+        self.free.splice(0..0, first as u32..(first + n) as u32);
+        Ok(())
+    }
+
+    /// Indices of the free cells.
+    pub(crate) fn free_cells(&self) -> &[u32] {
+        &self.free
+    }
+}
+
+impl<C: Corners> Stretch<'_, C> {
+    /// A cell of the stretch.
+    #[inline(always)]
+    pub(crate) fn cell(&self, cell: u32) -> Result<&Cell<C>, Obstacle> {
+        self.cells.get(cell.wrapping_sub(self.first) as usize).ok_or(Obstacle::Elsewhere)
+    }
+
+    /// The corner opposite a facet of a cell of the stretch.
+    #[inline(always)]
+    pub(crate) fn apex(&self, facet: Facet) -> Result<u32, Obstacle> {
+        Ok(self.cell(facet.cell())?.corners[facet.index()])
+    }
+
+    #[inline(always)]
+    fn cell_mut(&mut self, cell: u32) -> &mut Cell<C> {
+        &mut self.cells[cell.wrapping_sub(self.first) as usize]
+    }
+
+    /// An error if one of these cells is not of the stretch.
+    #[inline(always)]
+    fn has_cells_of(&self, codes: &[u32]) -> Result<(), Obstacle> {
+        let has = |&code: &u32| (Facet(code).cell().wrapping_sub(self.first) as usize) < self.cells.len();
+        if codes.iter().all(has) { Ok(()) } else { Err(Obstacle::Elsewhere) }
+    }
+
+    /// Puts a finite cell, and both sides of all gluings.
+    #[inline(always)]
+    fn put_whole(&mut self, cell: u32, corners: C, neighbours: C) {
+        *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
+        for (i, &code) in neighbours.as_ref().iter().enumerate() {
+            let out = Facet(code);
+            self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, i).0;
+        }
+    }
+}
+
+impl Stretch<'_, [u32; 3]> {
+    /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on the
+    /// boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`,
+    /// and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
+    pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<[Facet; 4], Obstacle> {
         let (c, i) = (facet.cell(), facet.index());
-        let across = self.cell(c).neighbour(i);
+        let old = *self.cell(c)?;
+        let across = old.neighbour(i);
         let (d, j) = (across.cell(), across.index());
-        debug_assert!(!self.cell(c).is_ghost() && !self.cell(d).is_ghost());
+        let beyond = *self.cell(d)?;
+        debug_assert!(!old.is_ghost() && !beyond.is_ghost());
         let next = |k: usize| (k + 1) % 3;
-        let (p, q) = (self.cell(c).corners[i], self.cell(d).corners[j]);
-        let (beyond_bq, beyond_ap) = (self.cell(d).neighbour(next(j)), self.cell(c).neighbour(next(i)));
+        let (p, q) = (old.corners[i], beyond.corners[j]);
+        let (beyond_bq, beyond_ap) = (beyond.neighbours[next(j)], old.neighbours[next(i)]);
+        self.has_cells_of(&[beyond_bq, beyond_ap])?;
         self.cell_mut(c).corners[next(next(i))] = q;
         self.cell_mut(d).corners[next(next(j))] = p;
-        self.glue(Facet::new(c, i), beyond_bq);
-        self.glue(Facet::new(d, j), beyond_ap);
+        self.glue(Facet::new(c, i), Facet(beyond_bq));
+        self.glue(Facet::new(d, j), Facet(beyond_ap));
         self.glue(Facet::new(c, next(i)), Facet::new(d, next(j)));
+        Ok([(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k)))
+    }
+
+    /// Glues two facets.
+    #[inline(always)]
+    fn glue(&mut self, a: Facet, b: Facet) {
+        self.cell_mut(a.cell()).neighbours[a.index()] = b.0;
+        self.cell_mut(b.cell()).neighbours[b.index()] = a.0;
     }
 }
 
-/// What a flip in space replaced, for the way back.
+/// What a flip in space has changed: three cells as they were before, of which the last may have been free.
 #[derive(Clone, Copy, Debug)]
-pub struct Undo {
-    dead: [(u32, Cell<[u32; 4]>); 3],
-    /// The cell that was not there before, of a 2-3 flip.
-    made: Option<u32>,
-}
+pub struct Undo([(u32, [u32; 4], [u32; 4]); 3]);
 
 impl Undo {
-    /// The cells that the flip has changed, made or freed; some are listed more than once.
-    pub(crate) fn cells(&self) -> impl Iterator<Item = u32> + use<> {
-        self.brought_back().into_iter().chain(self.made)
-    }
-
-    /// The cells that [`undo`](Complex::undo) brings back.
-    pub(crate) fn brought_back(&self) -> [u32; 3] {
-        self.dead.map(|(c, _)| c)
+    fn of(before: [(u32, Cell<[u32; 4]>); 3]) -> Self {
+        Undo(before.map(|(c, cell)| (c, cell.corners, cell.neighbours)))
     }
 }
 
-impl Complex<[u32; 4]> {
+impl Stretch<'_, [u32; 4]> {
     /// Replaces the two finite cells of a facet by three around the edge between their opposing
-    /// vertices, and returns the facets on the boundary of both. The caller has reserved a cell and
-    /// knows that the exchange is geometrically valid.
-    pub(crate) fn flip_2_3(&mut self, facet: Facet) -> ([Facet; 6], Undo) {
+    /// vertices, and returns the facets on the boundary of both. The caller knows that the exchange is
+    /// geometrically valid.
+    pub(crate) fn flip_2_3(&mut self, facet: Facet) -> Result<([Facet; 6], Undo), Obstacle> {
         let c = facet.cell();
-        let (old, across) = (*self.cell(c), self.cell(c).neighbour(facet.index()));
-        let (d, q) = (across.cell(), self.apex(across));
-        let beyond = *self.cell(d);
+        let old = *self.cell(c)?;
+        let across = old.neighbour(facet.index());
+        let d = across.cell();
+        let beyond = *self.cell(d)?;
+        let q = beyond.corners[across.index()];
         debug_assert!(!old.is_ghost() && !beyond.is_ghost());
         let around = AROUND[facet.index()];
         let [p, x, y, z] = [facet.index(), around[0], around[1], around[2]].map(|i| old.corners[i]);
-        let e = self.create_blank();
         let [cx, cy, cz] = around.map(|i| old.neighbours[i]);
         let [dx, dy, dz] = [x, y, z].map(|s| beyond.neighbours[beyond.index_of(s)]);
+        self.has_cells_of(&[cx, cy, cz, dx, dy, dz])?;
+        let e = self.free.pop().ok_or(Obstacle::Full)?;
         let code = |cell, i| Facet::new(cell, i).0;
         self.put_whole(c, [p, q, y, z], [dx, cx, code(d, 1), code(e, 1)]);
         self.put_whole(d, [p, x, q, z], [dy, code(c, 2), cy, code(e, 2)]);
         self.put_whole(e, [p, x, y, q], [dz, code(c, 3), code(d, 3), cz]);
         let outer = [(c, 0), (c, 1), (d, 0), (d, 2), (e, 0), (e, 3)].map(|(cell, i)| Facet::new(cell, i));
-        (outer, Undo { dead: [(c, old), (d, beyond), (d, beyond)], made: Some(e) })
+        Ok((outer, Undo::of([(c, old), (d, beyond), (e, Cell::free())])))
     }
 
     /// Replaces the three finite cells around an edge by two that share the triangle around it, and returns
     /// the facets on the boundary of both. The edge is opposite the two corners `k` and that of `facet` in
-    /// the cell of `facet`; `None`, and no change, if it has not exactly three cells.
-    pub(crate) fn flip_3_2(&mut self, facet: Facet, k: usize) -> Option<([Facet; 6], Undo)> {
+    /// the cell of `facet`. No change if it has not exactly three cells.
+    pub(crate) fn flip_3_2(&mut self, facet: Facet, k: usize) -> Result<([Facet; 6], Undo), Obstacle> {
         let c = facet.cell();
-        let old = *self.cell(c);
+        let old = *self.cell(c)?;
         let (across, third) = (old.neighbour(facet.index()), old.neighbour(k));
-        let (d, e, q) = (across.cell(), third.cell(), self.apex(across));
-        if self.apex(third) != q {
-            return None;
+        let (d, e) = (across.cell(), third.cell());
+        let (beyond, behind) = (*self.cell(d)?, *self.cell(e)?);
+        let q = beyond.corners[across.index()];
+        if behind.corners[third.index()] != q {
+            return Err(Obstacle::Shape);
         }
-        let (beyond, behind) = (*self.cell(d), *self.cell(e));
         debug_assert!(!old.is_ghost() && !beyond.is_ghost() && !behind.is_ghost());
         // The corners of the facet in even order, k first.
         let around = AROUND[facet.index()];
-        let turn = around.iter().position(|&i| i == k)?;
+        let turn = (0..3).find(|&turn| around[turn] == k).expect("a corner of the facet");
         let [l, m] = [around[(turn + 1) % 3], around[(turn + 2) % 3]];
         let [cl, cm] = [l, m].map(|i| old.neighbours[i]);
         let [p, k, l, m] = [facet.index(), k, l, m].map(|i| old.corners[i]);
         let [dl, dm] = [l, m].map(|s| beyond.neighbours[beyond.index_of(s)]);
         let [el, em] = [l, m].map(|s| behind.neighbours[behind.index_of(s)]);
+        self.has_cells_of(&[cl, cm, dl, dm, el, em])?;
         self.put_whole(c, [p, k, l, q], [dm, em, Facet::new(d, 3).0, cm]);
         self.put_whole(d, [p, k, q, m], [dl, el, cl, Facet::new(c, 2).0]);
-        self.release(e);
+        self.cell_mut(e).corners = [NONE; 4];
+        self.free.push(e);
         let outer = [(c, 0), (c, 1), (c, 3), (d, 0), (d, 1), (d, 2)].map(|(cell, i)| Facet::new(cell, i));
-        Some((outer, Undo { dead: [(c, old), (d, beyond), (e, behind)], made: None }))
+        Ok((outer, Undo::of([(c, old), (d, beyond), (e, behind)])))
     }
+}
 
-    /// Takes the latest flip back that has not been.
-    pub(crate) fn undo(&mut self, undo: &Undo) {
-        match undo.made {
-            Some(cell) => self.release(cell),
-            None => {
-                let freed = self.free.pop();
-                debug_assert_eq!(freed, Some(undo.dead[2].0));
+impl Complex<[u32; 4]> {
+    /// Takes flips back, the latest first. The list of free cells comes back as well if all were flips of the whole.
+    pub(crate) fn undo(&mut self, undos: impl Iterator<Item = Undo>) {
+        let mut whole = self.whole();
+        for Undo(before) in undos {
+            let [first, second, (c, corners, neighbours)] = before;
+            for (c, corners, neighbours) in [first, second] {
+                whole.put_whole(c, corners, neighbours);
+            }
+            if corners[0] == NONE {
+                whole.cell_mut(c).corners = corners;
+                whole.free.push(c);
+            } else {
+                whole.put_whole(c, corners, neighbours);
+                whole.free.pop();
             }
         }
-        for &(c, cell) in &undo.dead {
-            self.put_whole(c, cell.corners, cell.neighbours);
-        }
     }
 
-    /// Puts a finite cell, and both sides of all gluings.
-    #[inline(always)]
-    fn put_whole(&mut self, cell: u32, corners: [u32; 4], neighbours: [u32; 4]) {
-        *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
-        for (i, &code) in neighbours.iter().enumerate() {
-            let out = Facet(code);
-            self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, i).0;
-        }
+    /// Goes back to where there were so many cells, these of them free, after the cells have been [undone](Self::undo).
+    pub(crate) fn restore_free(&mut self, n_slots: usize, free: &[u32]) {
+        self.cells.truncate(n_slots);
+        self.marks.truncate(n_slots);
+        self.free.clear();
+        self.free.extend_from_slice(free);
     }
 }
 
@@ -136,7 +257,7 @@ const AROUND: [[usize; 3]; 4] = [[1, 2, 3], [2, 0, 3], [0, 1, 3], [2, 1, 0]];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::complex::Corners;
+    use crate::complex::INFINITE;
 
     /// Corners of all cells, each rotated to a normal form that keeps its orientation.
     fn cells<C: Corners>(complex: &Complex<C>) -> Vec<C> {
@@ -198,11 +319,11 @@ mod tests {
                 .unwrap()
         };
         let f = edge(&complex);
-        complex.flip(f);
+        complex.whole().flip_2_2(f).expect("all cells are there");
         assert!(is_mutual(&complex));
         assert_ne!(cells(&complex), before);
         let i = (f.index() + 1) % 3;
-        complex.flip(Facet::new(f.cell(), i));
+        complex.whole().flip_2_2(Facet::new(f.cell(), i)).expect("all cells are there");
         assert!(is_mutual(&complex));
         assert_eq!(cells(&complex), before);
     }
@@ -226,7 +347,6 @@ mod tests {
         // Split the cell at 5 by hand: four cells around it.
         let outs: Vec<Facet> = (0..4).map(|i| complex.cell(0).neighbour(i)).collect();
         let corners = complex.cell(0).corners;
-        complex.reserve(8).unwrap();
         complex.put(0, corners.with(0, 5));
         let new = [0, 1, 2, 3].map(|i| if i == 0 { 0 } else { complex.create(corners.with(i, 5)) });
         for i in 0..4 {
@@ -243,7 +363,11 @@ mod tests {
                 continue;
             }
             let [p, q] = [facet, complex.cell(c).neighbour(i)].map(|f| complex.apex(f));
-            let (outer, undo) = complex.flip_2_3(facet);
+            let (n_slots, free) = (complex.n_slots(), complex.free_cells().to_vec());
+            assert_eq!(complex.whole().flip_2_3(facet).err(), Some(Obstacle::Full));
+            assert_eq!(cells(&complex), before);
+            complex.create_free(2).unwrap();
+            let (outer, undo) = complex.whole().flip_2_3(facet).expect("all cells are there");
             let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
             assert!(is_mutual(&complex) && complex.n_finite() == 5);
             let boundary_of_flip = boundary(&complex, outer);
@@ -255,18 +379,86 @@ mod tests {
                     let k =
                         (0..4).find(|&k| k != at && ![p, q].contains(&complex.cell(m).corners[k])).unwrap();
                     let after = cells(&complex);
-                    let (rim, back) = complex.flip_3_2(Facet::new(m, at), k).expect("three cells");
+                    let (n_slots, free) = (complex.n_slots(), complex.free_cells().to_vec());
+                    let (rim, back) = complex.whole().flip_3_2(Facet::new(m, at), k).expect("three cells");
                     assert!(is_mutual(&complex));
                     assert_eq!(boundary(&complex, rim), boundary_of_flip);
                     assert_eq!(cells(&complex), before);
-                    complex.undo(&back);
+                    complex.undo([back].into_iter());
+                    complex.restore_free(n_slots, &free);
                     assert!(is_mutual(&complex));
                     assert_eq!(cells(&complex), after);
                 }
             }
-            complex.undo(&undo);
+            complex.undo([undo].into_iter());
+            complex.restore_free(n_slots, &free);
             assert!(is_mutual(&complex));
             assert_eq!(cells(&complex), before);
+            assert_eq!((complex.n_slots(), complex.free_cells()), (n_slots, &free[..]));
         }
+    }
+
+    /// Two tetrahedra that share a facet, and the ghosts around, which come first.
+    fn two_tetrahedra() -> (Complex<[u32; 4]>, Facet) {
+        let mut complex = Complex::<[u32; 4]>::default();
+        complex.start([1, 2, 3, 4]).unwrap();
+        // A ghost becomes a finite cell with a new corner, by hand, with a ghost on each of its other facets.
+        let (ghost, mut finite) = (1, complex.cell(1).corners);
+        finite[3] = 5;
+        let ridges: Vec<Facet> = (0..3).map(|i| complex.cell(ghost).neighbour(i)).collect();
+        complex.retire(ghost);
+        complex.put(ghost, finite);
+        let new = [0, 1, 2].map(|i| {
+            let mut corners = finite.with(i, INFINITE);
+            corners.swap(i, 3);
+            complex.create(corners)
+        });
+        for (i, &g) in new.iter().enumerate() {
+            complex.glue(Facet::new(g, 3), Facet::new(ghost, i));
+            complex.glue(Facet::new(g, i), ridges[i]);
+            for (j, &h) in new.iter().enumerate().take(i) {
+                complex.glue(Facet::new(g, j), Facet::new(h, i));
+            }
+        }
+        assert!(is_mutual(&complex));
+        complex.sort(6, usize::MAX).unwrap();
+        assert!(is_mutual(&complex));
+        let shared = complex
+            .finite()
+            .flat_map(|c| (0..4).map(move |i| Facet::new(c, i)))
+            .find(|facet| {
+                !complex.cell(complex.cell(facet.cell()).neighbour(facet.index()).cell()).is_ghost()
+            })
+            .expect("a facet between finite cells");
+        (complex, shared)
+    }
+
+    #[test]
+    fn flips_need_all_their_cells() {
+        let (mut complex, facet) = two_tetrahedra();
+        complex.create_free(3).unwrap();
+        let before = cells(&complex);
+        let n = complex.n_slots() as u32;
+        // The six ghosts and two cells are all concerned.
+        for start in 1..n - 3 {
+            let mut tried = [None; 2];
+            complex.divided(&[0, start], &mut tried, |_, stretch, tried| {
+                *tried = stretch.flip_2_3(facet).err();
+            });
+            assert_eq!(tried, [Some(Obstacle::Elsewhere); 2]);
+            assert_eq!(cells(&complex), before);
+            assert_eq!(complex.free_cells().len(), 3);
+        }
+        // The first stretch has all cells, and of the free ones one or none.
+        for (start, expected) in [(n - 3, Some(Obstacle::Full)), (n - 2, None)] {
+            let mut tried = [None; 2];
+            complex.divided(&[0, start], &mut tried, |k, stretch, tried| {
+                assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
+                *tried = stretch.flip_2_3(facet).err();
+            });
+            assert_eq!(tried[0], expected);
+            assert!(is_mutual(&complex));
+        }
+        assert_eq!((complex.n_finite(), complex.free_cells().len()), (3, 2));
     }
 }

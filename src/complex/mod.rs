@@ -24,7 +24,7 @@ pub(crate) mod memory;
 use std::fmt;
 
 pub use corners::Corners;
-pub use flips::Undo;
+pub use flips::{Obstacle, Stretch, Undo};
 
 use crate::error::{Error, Result};
 #[cfg(target_arch = "x86_64")]
@@ -94,6 +94,12 @@ impl<C: Corners> Cell<C> {
     /// No cell.
     fn free() -> Self {
         Cell { alignment: [], corners: C::filled(NONE), neighbours: C::filled(NONE) }
+    }
+
+    /// Whether it is no cell.
+    #[inline(always)]
+    pub(crate) fn is_free(&self) -> bool {
+        self.corners[0] == NONE
     }
 
     /// Whether the last corner is the ghost vertex.
@@ -210,7 +216,7 @@ impl<C: Corners> Complex<C> {
     /// Whether the index has no cell at present.
     #[inline(always)]
     pub(crate) fn is_free(&self, cell: u32) -> bool {
-        self.cell(cell).corners[0] == NONE
+        self.cell(cell).is_free()
     }
 
     /// Whether there is a cell of this index.
@@ -358,15 +364,20 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`,
-    /// without gaps; returns the new index of each.
-    pub(crate) fn sort(&mut self, n_sites: usize) -> Result<Vec<u32>> {
+    /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`, and a free
+    /// one after so many of them; returns the new index of each.
+    pub(crate) fn sort(&mut self, n_sites: usize, gap_after: usize) -> Result<Vec<u32>> {
         let lowest = |cell: &Cell<C>| cell.corners.as_ref().iter().copied().fold(NONE, u32::min) as usize;
         let n_live = self.cells.len() - self.free.len();
+        let n_gaps = n_live / gap_after;
+        let n_slots = n_live + n_gaps;
+        if n_slots > MAX_CELLS {
+            return Err(Error::TooManyCells { limit: MAX_CELLS });
+        }
         let (mut starts, mut index, mut sorted) = (Vec::new(), Vec::new(), Vec::new());
         memory::reserve_exact(&mut starts, n_sites + 1)?;
         memory::reserve_exact(&mut index, self.cells.len())?;
-        memory::reserve_exact(&mut sorted, n_live + n_live / 64)?;
+        memory::reserve_exact(&mut sorted, n_slots + n_live / 64)?;
         starts.resize(n_sites + 1, 0u32);
         for cell in self.cells.iter().filter(|cell| cell.corners[0] != NONE) {
             starts[lowest(cell) + 1] += 1;
@@ -380,9 +391,10 @@ impl<C: Corners> Complex<C> {
             }
             let at = &mut starts[lowest(cell)];
             *at += 1;
-            *at - 1
+            let rank = *at - 1;
+            rank + (rank as usize / gap_after) as u32
         }));
-        sorted.resize(n_live, Cell::free());
+        sorted.resize(n_slots, Cell::free());
         for (cell, &to) in self.cells.iter().zip(&index) {
             if to == NONE {
                 continue;
@@ -394,9 +406,12 @@ impl<C: Corners> Complex<C> {
             sorted[to as usize] = cell;
         }
         self.cells = sorted;
-        self.marks.truncate(n_live);
-        memory::reserve_exact(&mut self.marks, self.cells.capacity() - n_live)?;
+        let spare = self.cells.capacity().saturating_sub(self.marks.len());
+        memory::reserve_exact(&mut self.marks, spare)?;
+        self.marks.resize(n_slots, 0);
         self.free.clear();
+        memory::reserve(&mut self.free, n_gaps)?;
+        self.free.extend((1..=n_gaps).map(|k| (k * (gap_after + 1) - 1) as u32));
         Ok(index)
     }
 

@@ -27,6 +27,9 @@ const STRIDES: usize = 1024;
 /// So many cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
 
+/// Cells between free ones where several threads will flip.
+const GAP_AFTER: usize = 63;
+
 impl<G: Dimension> Delaunay<G> {
     /// Adds a site for each of the points to a triangulation without any: along a Hilbert curve, each with the index of
     /// its point for id, and with the sign of zeros made positive. [`rebuild`](Self::rebuild) must follow.
@@ -199,12 +202,17 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Puts the cells in the order of the sites, so that what is near in space is near in memory for sweeps over all: a
-    /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and more.
+    /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and more,
+    /// and several threads need it to have cells of their own.
     pub(crate) fn sort_cells(&mut self) -> Result<()> {
-        if self.is_sorted || self.complex.n_slots() < LARGE {
+        let n_slots = self.complex.n_slots();
+        let n_threads = self.threads.for_work(n_slots, LARGE, LARGE / 64);
+        if self.is_sorted || n_slots < LARGE && n_threads == 1 {
             return Ok(());
         }
-        let index = self.complex.sort(self.sites.len())?;
+        // Each thread that flips in space needs free cells among its own.
+        let gap_after = if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX };
+        let index = self.complex.sort(self.sites.len(), gap_after)?;
         for site in &mut self.sites {
             if site.cell != NONE {
                 site.cell = index[site.cell as usize];

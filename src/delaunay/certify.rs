@@ -380,15 +380,18 @@ impl<G: Dimension> Delaunay<G> {
     /// Checks the cells of the star of a site; all its facets may fail.
     pub(crate) fn check_star(&mut self, s: u32, failures: &mut Failures) {
         self.gather_star(s);
-        for &(c, _) in self.gathered_star() {
-            if self.complex.cell(c).is_ghost() {
+        for &(c, at) in self.gathered_star() {
+            let cell = self.complex.cell(c);
+            if cell.is_ghost() {
                 failures.open_ghosts.push(c);
                 continue;
             }
             if !self.is_positive(c) {
                 failures.cells.push(c);
             }
-            failures.facets.extend((0..G::Corners::N).map(|i| Facet::new(c, i)));
+            // Those within the star once.
+            let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
+            failures.facets.extend((0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i)));
         }
         self.certificates += self.gathered_star().len() as u64;
     }

@@ -9,11 +9,12 @@ use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
 use super::cavity::Cavity;
+use super::flip::{Flipper, Flips};
 #[cfg(target_arch = "x86_64")]
 use super::screen;
 use super::site::Sites;
 use super::{Delaunay, cavity_plane, cavity_space, certify};
-use crate::complex::{Corners, Facet, INFINITE};
+use crate::complex::{Corners, Facet, INFINITE, Obstacle};
 use crate::error::Result;
 use crate::predicates::{self, Delimiter, LANES, StaticFilter};
 
@@ -150,14 +151,10 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn bicell_holds(t: &Delaunay<Self>, facet: Facet) -> bool;
     /// Whether a cell certainly stays positively oriented while its `D + 1` corners go straight from `old` to `new`.
     fn stays_positive(old: &[&Self::Point], new: &[&Self::Point]) -> bool;
-    /// Flips until no facet of a triangulation fails, where `suspects` are all that may. Appends those that fail still,
-    /// where flips are stuck, to `stuck`; never in the plane. Returns the number of flips.
-    fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64>;
-    /// Undoes the flips of the last [`flip_all`](Self::flip_all).
+    /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
+    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle>;
+    /// Undoes the flips of the last [`flip_all`](Delaunay::flip_all).
     fn unflip(t: &mut Delaunay<Self>);
-    /// Makes the triangulation Delaunay by flips, starting from the gathered star, and counts them; `None`, and no
-    /// change, in a dimension where flips can be stuck.
-    fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64>;
 }
 
 /// Two dimensions.
@@ -349,15 +346,12 @@ impl Dimension for Plane {
         predicates::stays_positive2d(triangle(old), triangle(new))
     }
 
-    fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, _: &mut Vec<Facet>) -> Result<u64> {
-        Ok(t.lawson(suspects))
+    #[inline(always)]
+    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+        flipper.flip_edge(facet, flips)
     }
 
     fn unflip(_: &mut Delaunay<Self>) {}
-
-    fn flip_to_delaunay(t: &mut Delaunay<Self>) -> Option<u64> {
-        Some(t.lawson_from_star())
-    }
 }
 
 impl Dimension for Space {
@@ -545,16 +539,13 @@ impl Dimension for Space {
         predicates::stays_positive3d(tetrahedron(old), tetrahedron(new))
     }
 
-    fn flip_all(t: &mut Delaunay<Self>, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64> {
-        t.flip_while_possible(suspects, stuck)
+    #[inline(always)]
+    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+        flipper.flip_face(facet, flips)
     }
 
     fn unflip(t: &mut Delaunay<Self>) {
         t.undo_flips();
-    }
-
-    fn flip_to_delaunay(_: &mut Delaunay<Self>) -> Option<u64> {
-        None
     }
 }
 

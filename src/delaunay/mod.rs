@@ -13,9 +13,9 @@
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
 //! | `remove` | removal: fill the star by gift wrapping |
 //! | `hub` | removal of a vertex with very many neighbours |
-//! | `relocate` | one site to a new place; flips in the plane |
+//! | `relocate` | one site to a new place |
+//! | `flip` | flips, on several threads, and the way back |
 //! | `certify`, `screen` | all certificates at once |
-//! | `flip_space` | flips in space, and the way back |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
 //!
@@ -33,7 +33,7 @@ mod cavity_space;
 mod certify;
 mod dimension;
 mod flat;
-mod flip_space;
+mod flip;
 mod hub;
 mod locate;
 pub mod order;
@@ -58,13 +58,14 @@ pub use relocate::{Relocation, Shortcut};
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, Corners, Facet, INFINITE, Undo, memory};
+use crate::complex::{Complex, Corners, Facet, INFINITE, memory};
 use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
 use crate::prefetch::prefetch;
 use crate::threads::Threads;
 use cavity::Cavity;
 use flat::Flat;
+use flip::AllFlips;
 use parts::Parts;
 use remove::Hole;
 
@@ -90,8 +91,7 @@ pub struct Delaunay<G: Dimension> {
     recent: u32,
     cavity: Cavity<G>,
     hole: Hole<G>,
-    /// The flips in space since the last repair began.
-    journal: Vec<Undo>,
+    flips: AllFlips,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
     changed: Option<Vec<u32>>,
     /// Certificates evaluated by relocations so far.
@@ -115,7 +115,7 @@ impl<G: Dimension> Default for Delaunay<G> {
             recent: 0,
             cavity: Cavity::default(),
             hole: Hole::default(),
-            journal: Vec::new(),
+            flips: AllFlips::default(),
             changed: None,
             certificates: 0,
             threads: Threads::ONE,

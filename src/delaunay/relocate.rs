@@ -4,7 +4,8 @@
 //! where it can be (section 3.2): if the finite cells of the star stay positively oriented and the hull stays convex at
 //! the ridges of the star, the cells still are a triangulation. Then
 //! - if no certificate of the star fails, only the coordinates change;
-//! - in the plane, flips make the triangulation Delaunay again (Lawson).
+//! - in the plane, flips make the triangulation Delaunay again (Lawson); in space they do unless they are stuck, and
+//!   are taken back then.
 //!
 //! Why that is enough: the facets of the link, which do not move, bound what the other cells fill. A ray from the new
 //! place crosses each of them from the side of the star, so once it has gone in among the other cells it can leave
@@ -36,7 +37,7 @@ pub enum Relocation {
 pub enum Shortcut {
     /// Only coordinates change if no certificate of the star fails.
     Certificates,
-    /// In the plane, flips as well.
+    /// Flips as well.
     Flips,
 }
 
@@ -84,7 +85,7 @@ impl<G: Dimension> Delaunay<G> {
                 return Some(Relocation::InPlace);
             }
             if shortcut == Shortcut::Flips
-                && let Some(flips) = G::flip_to_delaunay(self)
+                && let Some(flips) = self.flip_star()
             {
                 return Some(Relocation::Flipped(flips));
             }
@@ -164,49 +165,5 @@ impl<G: Dimension> Delaunay<G> {
         }
         let site = self.site(apex);
         !G::is_in_sphere(&self.filter, self.view(), &cell.corners, &site.point, site.id)
-    }
-}
-
-impl Delaunay<super::Plane> {
-    /// Lawson's flips, from the edges of the gathered star outwards.
-    pub(super) fn lawson_from_star(&mut self) -> u64 {
-        let mut edges: Vec<Facet> = std::mem::take(&mut self.hole.edges);
-        edges.clear();
-        for &(c, _) in &self.hole.star {
-            edges.extend((0..3).map(|i| Facet::new(c, i)));
-        }
-        let flips = self.lawson(&mut edges);
-        self.hole.edges = edges;
-        flips
-    }
-
-    /// Lawson's flips, from these edges outwards; empties the list.
-    pub(super) fn lawson(&mut self, edges: &mut Vec<Facet>) -> u64 {
-        let mut flips = 0;
-        while let Some(edge) = edges.pop() {
-            let (c, i) = (edge.cell(), edge.index());
-            self.certificates += 1;
-            if self.complex.cell(c).is_ghost() || self.is_locally_delaunay(edge) {
-                continue;
-            }
-            let across = self.complex.cell(c).neighbour(i);
-            let (d, j) = (across.cell(), across.index());
-            self.complex.flip(edge);
-            self.record([c, d]);
-            flips += 1;
-            for cell in [c, d] {
-                let corners = self.complex.cell(cell).corners;
-                for s in corners {
-                    self.sites[s as usize].cell = cell;
-                }
-            }
-            edges.extend([
-                Facet::new(c, i),
-                Facet::new(c, (i + 2) % 3),
-                Facet::new(d, j),
-                Facet::new(d, (j + 2) % 3),
-            ]);
-        }
-        flips
     }
 }

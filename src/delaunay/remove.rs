@@ -41,8 +41,6 @@ pub(super) struct Hole<G: Dimension> {
     /// New cells, and the gluing of their facets: a `Facet` whose cell counts from `NEW` is one of them.
     made: Vec<(G::Corners, G::Corners)>,
     made_at: Vec<u32>,
-    /// Edges that flips have yet to check.
-    pub(super) edges: Vec<Facet>,
 }
 
 impl<G: Dimension> Default for Hole<G> {
@@ -55,7 +53,6 @@ impl<G: Dimension> Default for Hole<G> {
             open_ghost: Vec::new(),
             made: Vec::new(),
             made_at: Vec::new(),
-            edges: Vec::new(),
         }
     }
 }

@@ -115,6 +115,15 @@ impl<G: Dimension> Delaunay<G> {
                 })?;
             }
         }
+        let mut are_listed = vec![false; self.complex.n_slots()];
+        for &c in self.complex.free_cells() {
+            let is_new = !std::mem::replace(&mut are_listed[c as usize], true);
+            ensure(is_new && self.complex.is_free(c), level, || {
+                format!("cell {c} is not free, or listed twice")
+            })?;
+        }
+        let n_free = (0..self.complex.n_slots() as u32).filter(|&c| self.complex.is_free(c)).count();
+        ensure(n_free == self.complex.free_cells().len(), level, || "a free cell is not listed".into())?;
         for s in self.live_sites() {
             let site = self.site(s);
             if !self.has_cells() {

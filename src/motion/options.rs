@@ -17,8 +17,8 @@ pub enum Algorithm {
     /// Relocate each vertex by a walk from its old place, a removal and an insertion (report, section 3.1).
     /// Nothing but coordinates changes where no certificate of the star fails.
     Placement,
-    /// As placement, but where the star stays positively oriented, flips repair it (report, section 3.2;
-    /// in 3D the same as placement).
+    /// As placement, but where the star stays positively oriented, flips repair it (report, section 3.2, for
+    /// the plane; in space they are taken back where they are stuck).
     PlacementFlips,
     /// Vertices that stay within their certified tolerance change nothing; the others are placed (report, Algorithm 1).
     Tolerance,
@@ -83,8 +83,8 @@ pub type Monitor = Box<dyn FnMut(f64) -> bool + Send + Sync>;
 pub struct Options {
     /// Algorithm of [`commit_timestamp`](super::MovingTriangulation::commit_timestamp).
     pub algorithm: Algorithm,
-    /// Greatest number of threads for building, and for the sweep of [`Algorithm::Repair`]; the rest of the
-    /// work is done by the calling thread alone. 0, the default, lets the library choose: as many as the
+    /// Greatest number of threads for building, and for the moves, the sweep and the flips of
+    /// [`Algorithm::Repair`]; the rest of the work is done by the calling thread alone. 0, the default, lets the library choose: as many as the
     /// system runs at the same time (asked once), but one for each 16,000 vertices in the plane or 5,000 in
     /// space, and for each 16,384 cells of a sweep. A number that is given is used from 256 vertices or cells
     /// for each thread on, whether or not that pays.

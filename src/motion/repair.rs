@@ -17,7 +17,7 @@
 //! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
 //! the plane and a fifteenth in space; a vertex taken back costs a placement, two or three vertices rebuilt.
 //! Where more break than is worth mending, the triangulation is rebuilt. The first repair after a build sorts
-//! the cells of a large triangulation. The moves of all vertices and the sweep are done by several
+//! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
 //! threads, all else by one.
 
 use super::{CommitReport, MovingTriangulation};
@@ -130,8 +130,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Ok(false);
             }
             repair.suspects.clone_from(&repair.failures.facets);
-            repair.stuck.clear();
-            let flips = G::flip_all(&mut self.kernel, &mut repair.suspects, &mut repair.stuck)?;
+            let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck)?;
             if repair.stuck.is_empty() {
                 report.flips += flips;
                 return Ok(true);

@@ -1,0 +1,405 @@
+//! Flips, while there are any, and the way back.
+//!
+//! A facet that fails the empty-sphere test is flipped. In the plane that is always possible and leads to the Delaunay
+//! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3 or a 3-2 flip there makes
+//! positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an end, but that
+//! can be short of the Delaunay triangulation. The cells that a flip in space is about to change are kept in a journal, so
+//! that all can be as it was.
+//!
+//! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each thread
+//! flips in a stretch of the cells, with as many failing facets in each, and leaves flips that need cells
+//! of others alone. As flips of different threads have no cell in common, it is as if they had been done one after the
+//! other. What is left is flipped by one thread.
+//!
+//! Invariant: a facet whose cells have changed since it was found to hold is a suspect, or listed as stuck or as one for
+//! later. Sites keep their old cells until no flip will be taken back.
+
+use super::site::Sites;
+use super::{Delaunay, Dimension, Space};
+use crate::complex::{Corners, Facet, INFINITE, Obstacle, Stretch, Undo};
+use crate::error::Result;
+use crate::predicates::StaticFilter;
+use crate::prefetch::{AHEAD, prefetch};
+
+/// Failing facets for each thread that take longer to flip than the thread to start; and as many if the number of threads
+/// is the caller's choice.
+const FLIPPED_AT_LEAST: usize = 500;
+const FLIPPED_IF_ASKED: usize = 32;
+
+/// Suspects from which it follows where each thread's cells begin.
+const SAMPLE: usize = 1 << 10;
+
+/// Free cells made at once where there are none.
+const ROOM: usize = 16;
+
+/// What has been flipped, and what is to be.
+#[derive(Debug, Default)]
+pub struct Flips {
+    /// Facets that may fail.
+    suspects: Vec<Facet>,
+    /// Facets that fail and cannot be flipped.
+    stuck: Vec<Facet>,
+    /// Facets that may fail, for when there are more cells.
+    later: Vec<Facet>,
+    /// Of each flip, two cells that have all its sites as corners.
+    changed: Vec<u32>,
+    /// The third cell of flips that have made one.
+    made: Vec<u32>,
+    /// The way back, in space.
+    journal: Vec<Undo>,
+    n_flips: u64,
+    certificates: u64,
+}
+
+impl Flips {
+    fn begin(&mut self) {
+        (self.n_flips, self.certificates) = (0, 0);
+        self.stuck.clear();
+        self.later.clear();
+        self.changed.clear();
+        self.made.clear();
+        self.journal.clear();
+    }
+}
+
+/// Those of the last call, and the memory for the next one.
+#[derive(Debug, Default)]
+pub(super) struct AllFlips {
+    /// Of the thread that calls.
+    own: Flips,
+    /// Of several threads, before these.
+    parts: Vec<Flips>,
+    /// Whether there were several.
+    were_several: bool,
+    /// The cells there were, and those of them that were free, before several threads flipped.
+    n_slots: usize,
+    free: Vec<u32>,
+}
+
+/// Flips cells of a stretch.
+pub struct Flipper<'t, 's, G: Dimension> {
+    filter: &'t StaticFilter,
+    sites: Sites<'t, G>,
+    cells: &'t mut Stretch<'s, G::Corners>,
+}
+
+impl<G: Dimension> Flipper<'_, '_, G> {
+    /// Flips until no suspect is left, or none but those that are stuck or for later.
+    fn flip_all(&mut self, flips: &mut Flips) {
+        let mut before = flips.n_flips;
+        loop {
+            while let Some(facet) = flips.suspects.pop() {
+                match self.flip_if_it_fails(facet, flips) {
+                    Ok(()) => {}
+                    Err(Obstacle::Shape) => flips.stuck.push(facet),
+                    Err(Obstacle::Elsewhere | Obstacle::Full) => flips.later.push(facet),
+                }
+            }
+            if flips.stuck.is_empty() || flips.n_flips == before {
+                return;
+            }
+            // What was stuck may not be any more.
+            std::mem::swap(&mut flips.suspects, &mut flips.stuck);
+            before = flips.n_flips;
+        }
+    }
+
+    #[inline(always)]
+    fn flip_if_it_fails(&mut self, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+        let cell = self.cells.cell(facet.cell())?;
+        // The cell of a facet may have gone; then those around it are suspects, too.
+        if cell.is_free() || cell.is_ghost() {
+            return Ok(());
+        }
+        let apex = self.cells.apex(cell.neighbour(facet.index()))?;
+        if apex == INFINITE {
+            return Ok(());
+        }
+        flips.certificates += 1;
+        let (place, id) = (self.sites.point(apex), self.sites.id(apex));
+        if !G::is_in_sphere(self.filter, self.sites, &cell.corners, place, id) {
+            return Ok(());
+        }
+        G::flip(self, facet, flips)?;
+        flips.n_flips += 1;
+        Ok(())
+    }
+}
+
+impl Flipper<'_, '_, super::Plane> {
+    pub(super) fn flip_edge(&mut self, edge: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+        let outer = self.cells.flip_2_2(edge)?;
+        flips.changed.extend([outer[0].cell(), outer[2].cell()]);
+        flips.suspects.extend(outer);
+        Ok(())
+    }
+}
+
+impl Flipper<'_, '_, Space> {
+    /// Flips if that makes positive cells.
+    pub(super) fn flip_face(&mut self, face: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+        let i = face.index();
+        let cell = self.cells.cell(face.cell())?;
+        let q = self.sites.point(self.cells.apex(cell.neighbour(i))?);
+        let others = [(i + 1) % 4, (i + 2) % 4, (i + 3) % 4];
+        // Whether the cell is positive with q in place of each corner of the facet.
+        let positive =
+            others.map(|k| Space::orientation_with(self.filter, self.sites, &cell.corners, k, q) > 0.0);
+        let (outer, undo) = match positive {
+            [true, true, true] => {
+                let flipped = self.cells.flip_2_3(face)?;
+                flips.made.push(flipped.0[4].cell());
+                flipped
+            }
+            // The segment between the opposing vertices passes the facet beyond the edge opposite one corner.
+            [false, true, true] => self.cells.flip_3_2(face, others[0])?,
+            [true, false, true] => self.cells.flip_3_2(face, others[1])?,
+            [true, true, false] => self.cells.flip_3_2(face, others[2])?,
+            _ => return Err(Obstacle::Shape),
+        };
+        flips.changed.extend([outer[0].cell(), outer[3].cell()]);
+        flips.journal.push(undo);
+        flips.suspects.extend(outer);
+        Ok(())
+    }
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that fail
+    /// still as they cannot be flipped. There are none in the plane; if there are, [`unflip`](Dimension::unflip) must
+    /// follow. Returns the number of flips.
+    pub(crate) fn flip_all(&mut self, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64> {
+        let mut flips = std::mem::take(&mut self.flips);
+        std::mem::swap(&mut flips.own.suspects, suspects);
+        std::mem::swap(&mut flips.own.stuck, stuck);
+        let n_threads = self.threads.for_work(flips.own.suspects.len(), FLIPPED_AT_LEAST, FLIPPED_IF_ASKED);
+        let done = self.flip_listed(&mut flips, n_threads);
+        std::mem::swap(&mut flips.own.suspects, suspects);
+        std::mem::swap(&mut flips.own.stuck, stuck);
+        self.flips = flips;
+        done
+    }
+
+    /// Flips from the facets of the gathered star outwards, until no facet fails; `None`, and no change, if flips are stuck.
+    pub(super) fn flip_star(&mut self) -> Option<u64> {
+        let mut flips = std::mem::take(&mut self.flips);
+        let Flips { suspects, .. } = &mut flips.own;
+        suspects.clear();
+        for &(c, at) in &self.hole.star {
+            let cell = self.complex.cell(c);
+            // Those within the star once.
+            let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
+            suspects.extend((0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i)));
+        }
+        let done = self.flip_listed(&mut flips, 1);
+        let is_done = done.is_ok() && flips.own.stuck.is_empty();
+        self.flips = flips;
+        if !is_done {
+            G::unflip(self);
+        }
+        done.ok().filter(|_| is_done)
+    }
+
+    /// Flips from the suspects, and keeps that unless flips are stuck; returns their number.
+    fn flip_listed(&mut self, flips: &mut AllFlips, n_threads: usize) -> Result<u64> {
+        self.flip_as_far_as_possible(flips, n_threads)?;
+        let is_done = flips.own.stuck.is_empty();
+        let mut n_flips = 0;
+        for part in flips.parts.iter_mut().chain([&mut flips.own]) {
+            n_flips += part.n_flips;
+            self.certificates += part.certificates;
+            if is_done {
+                self.keep(part);
+            }
+        }
+        Ok(n_flips)
+    }
+
+    fn flip_as_far_as_possible(&mut self, flips: &mut AllFlips, n_threads: usize) -> Result<()> {
+        flips.own.begin();
+        flips.parts.iter_mut().for_each(Flips::begin);
+        flips.were_several = n_threads > 1;
+        if flips.were_several {
+            flips.n_slots = self.complex.n_slots();
+            flips.free.clear();
+            flips.free.extend_from_slice(self.complex.free_cells());
+            self.flip_side_by_side(flips, n_threads);
+        }
+        let own = &mut flips.own;
+        loop {
+            let sites = Sites::new(&self.sites);
+            Flipper { filter: &self.filter, sites, cells: &mut self.complex.whole() }.flip_all(own);
+            if own.later.is_empty() {
+                return Ok(());
+            }
+            self.complex.create_free(ROOM)?;
+            std::mem::swap(&mut own.suspects, &mut own.later);
+        }
+    }
+
+    /// Flips as far as several threads can, each in a stretch of the cells.
+    fn flip_side_by_side(&mut self, flips: &mut AllFlips, n_threads: usize) {
+        let AllFlips { own: Flips { suspects, .. }, parts, .. } = flips;
+        let mut sample: Vec<u32> =
+            suspects.iter().step_by((suspects.len() / SAMPLE).max(1)).map(|facet| facet.cell()).collect();
+        sample.sort_unstable();
+        let mut starts: Vec<u32> = (0..n_threads).map(|k| sample[sample.len() * k / n_threads]).collect();
+        starts[0] = 0;
+        starts.dedup();
+        if parts.len() < starts.len() {
+            parts.resize_with(starts.len(), Flips::default);
+        }
+        let (sites, filter) = (Sites::new(&self.sites), &self.filter);
+        self.complex.divided(&starts, parts, |k, cells, part| {
+            let stretch = starts[k]..starts.get(k + 1).copied().unwrap_or(u32::MAX);
+            part.suspects.extend(suspects.iter().filter(|facet| stretch.contains(&facet.cell())));
+            Flipper { filter, sites, cells }.flip_all(part);
+        });
+        suspects.clear();
+        for part in parts {
+            suspects.append(&mut part.later);
+            suspects.append(&mut part.stuck);
+        }
+    }
+
+    /// Nothing of this will be taken back: gives the sites their new cells.
+    fn keep(&mut self, flips: &mut Flips) {
+        for (k, &c) in flips.changed.iter().enumerate() {
+            if let Some(&next) = flips.changed.get(k + AHEAD) {
+                prefetch(self.complex.cells(), next as usize);
+            }
+            let cell = *self.complex.cell(c);
+            if !cell.is_free() {
+                for &s in cell.corners.as_ref() {
+                    self.corner_mut(s).cell = c;
+                }
+                self.recent = c;
+            }
+        }
+        if let Some(changed) = &mut self.changed {
+            changed.extend_from_slice(&flips.changed);
+            changed.extend_from_slice(&flips.made);
+        }
+        // Keep the memory for a few flips, not for those of a whole large set.
+        flips.journal.clear();
+        flips.journal.shrink_to(self.sites.len() / 4);
+    }
+}
+
+impl Delaunay<Space> {
+    /// Takes the flips of the last [`flip_all`](Self::flip_all) back.
+    pub(super) fn undo_flips(&mut self) {
+        let AllFlips { own, parts, were_several, n_slots, free } = &mut self.flips;
+        for flips in parts.iter_mut().chain([own]).rev() {
+            self.complex.undo(flips.journal.drain(..).rev());
+        }
+        if *were_several {
+            self.complex.restore_free(*n_slots, free);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::{Failures, Level, Plane};
+    use crate::threads::Threads;
+
+    fn unit(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+        (*state >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// A triangulation whose sites have moved by up to `size` along each axis, and the facets that fail; no cell is
+    /// inverted.
+    fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<Facet>) {
+        let mut state = 5;
+        let mut points = vec![G::Point::default(); n];
+        points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = unit(&mut state)));
+        let mut t = Delaunay::<G>::on(Threads::at_most(threads));
+        t.add_sites(&points).expect("room for it");
+        t.rebuild(&mut |_| true).expect("room for it");
+        t.sort_cells().expect("room for it");
+        let mut failures = Failures::default();
+        for s in t.live_sites().collect::<Vec<_>>() {
+            let old = t.site(s).point;
+            let mut q = old;
+            (0..G::D).for_each(|k| q[k] += size * (2.0 * unit(&mut state) - 1.0));
+            t.cover(&q, &q);
+            t.set_point(s, q);
+            failures.clear();
+            t.check_star(s, &mut failures);
+            t.check_ridges(&mut failures, |_| None);
+            if !failures.cells.is_empty() || !failures.ridges.is_empty() {
+                t.set_point(s, old);
+            }
+        }
+        assert!(t.sweep(&mut failures, usize::MAX) && failures.cells.is_empty());
+        let facets = failures.facets;
+        (t, facets)
+    }
+
+    /// Flips on several threads lead to a Delaunay triangulation, and most of them are done side by side.
+    fn threads_flip<G: Dimension>(size: f64) {
+        for threads in [2, 3, 7] {
+            let (mut t, mut suspects) = moved::<G>(4000, threads, size);
+            assert!(suspects.len() > 300, "{}", suspects.len());
+            t.record_changes(Vec::new());
+            let mut stuck = Vec::new();
+            let n_flips = t.flip_all(&mut suspects, &mut stuck).expect("room for it");
+            assert_eq!(stuck, []);
+            t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+            let parts: Vec<u64> = t.flips.parts.iter().map(|part| part.n_flips).collect();
+            assert_eq!(parts.len(), threads as usize);
+            assert!(parts.iter().all(|&n| n > 0), "{parts:?}");
+            assert!(2 * parts.iter().sum::<u64>() > n_flips, "{parts:?} of {n_flips}");
+            // All cells that are new are in the record.
+            let changed = t.take_changes().expect("a record");
+            let (old, _) = moved::<G>(4000, threads, size);
+            for c in t.complex.live().filter(|c| !changed.contains(c)) {
+                assert_eq!(t.complex.cell(c).corners, old.complex.cell(c).corners);
+            }
+        }
+    }
+
+    #[test]
+    fn threads_flip_in_the_plane() {
+        threads_flip::<Plane>(2e-3);
+    }
+
+    #[test]
+    fn threads_flip_in_space() {
+        threads_flip::<Space>(2e-3);
+    }
+
+    /// Flips on one or several threads are taken back: corners, gluings and free cells are as they were.
+    #[test]
+    fn flips_come_back() {
+        for threads in [1, 3] {
+            let (mut t, mut suspects) = moved::<Space>(2000, threads, 3e-3);
+            let places = |t: &Delaunay<Space>| {
+                let corners = t.complex.cells().iter().map(|cell| cell.corners);
+                let neighbours =
+                    t.complex.live().map(|c| [0, 1, 2, 3].map(|i| t.complex.cell(c).neighbour(i)));
+                (corners.collect::<Vec<_>>(), neighbours.collect::<Vec<_>>())
+            };
+            let (before, free) = (places(&t), t.complex.free_cells().to_vec());
+            let mut flips = std::mem::take(&mut t.flips);
+            flips.own.suspects.append(&mut suspects);
+            t.flip_as_far_as_possible(&mut flips, threads as usize).expect("room for it");
+            let n_flips =
+                flips.own.journal.len() + flips.parts.iter().map(|part| part.journal.len()).sum::<usize>();
+            assert!(n_flips > 100, "{n_flips}");
+            t.flips = flips;
+            assert_ne!(places(&t), before);
+            // One thread has had to make room.
+            assert!(threads > 1 || t.complex.n_slots() > before.0.len());
+            t.undo_flips();
+            let after = places(&t);
+            assert_eq!(after.0[..before.0.len()], before.0);
+            assert_eq!(after.1, before.1);
+            assert!(t.complex.free_cells().ends_with(&free));
+            t.validate(Level::Structure).expect("cells as they were");
+        }
+    }
+}
