@@ -10,7 +10,8 @@
 //! ```
 //!
 //! In space a 2-3 flip replaces the facet between two cells by the edge between their opposing vertices,
-//! and a 3-2 flip the other way round.
+//! and a 3-2 flip the other way round. A 4-4 flip is both in a row, by way of a cell whose corners are in one plane: it
+//! changes the diagonal of a quadrilateral that has two cells on each side, which on one side may be ghosts.
 
 use super::{Cell, Complex, Corners, Facet, NONE};
 use crate::error::Result;
@@ -191,7 +192,7 @@ impl Stretch<'_, [u32; 4]> {
         Ok((outer, Undo::of([(c, old), (d, beyond), (e, Cell::free())])))
     }
 
-    /// Replaces the three finite cells around an edge by two that share the triangle around it, and returns
+    /// Replaces the three cells around an edge by two that share the triangle around it, and returns
     /// the facets on the boundary of both. The edge is opposite the two corners `k` and that of `facet` in
     /// the cell of `facet`. No change if it has not exactly three cells.
     pub(crate) fn flip_3_2(&mut self, facet: Facet, k: usize) -> Result<([Facet; 6], Undo), Obstacle> {
@@ -204,7 +205,7 @@ impl Stretch<'_, [u32; 4]> {
         if behind.corners[third.index()] != q {
             return Err(Obstacle::Shape);
         }
-        debug_assert!(!old.is_ghost() && !beyond.is_ghost() && !behind.is_ghost());
+        debug_assert!(!old.is_ghost() && beyond.is_ghost() == behind.is_ghost());
         // The corners of the facet in even order, k first.
         let around = AROUND[facet.index()];
         let turn = (0..3).find(|&turn| around[turn] == k).expect("a corner of the facet");
@@ -214,12 +215,46 @@ impl Stretch<'_, [u32; 4]> {
         let [dl, dm] = [l, m].map(|s| beyond.neighbours[beyond.index_of(s)]);
         let [el, em] = [l, m].map(|s| behind.neighbours[behind.index_of(s)]);
         self.has_cells_of(&[cl, cm, dl, dm, el, em])?;
-        self.put_whole(c, [p, k, l, q], [dm, em, Facet::new(d, 3).0, cm]);
-        self.put_whole(d, [p, k, q, m], [dl, el, cl, Facet::new(c, 2).0]);
+        // q is last, as it may be the ghost vertex.
+        self.put_whole(c, [p, k, l, q], [dm, em, Facet::new(d, 2).0, cm]);
+        self.put_whole(d, [k, p, m, q], [el, dl, Facet::new(c, 2).0, cl]);
         self.cell_mut(e).corners = [NONE; 4];
         self.free.push(e);
-        let outer = [(c, 0), (c, 1), (c, 3), (d, 0), (d, 1), (d, 2)].map(|(cell, i)| Facet::new(cell, i));
+        let outer = [(c, 0), (c, 1), (c, 3), (d, 0), (d, 1), (d, 3)].map(|(cell, i)| Facet::new(cell, i));
         Ok((outer, Undo::of([(c, old), (d, beyond), (e, behind)])))
+    }
+}
+
+/// What two flips in a row have put there.
+type Both = [([Facet; 6], Undo); 2];
+
+impl Stretch<'_, [u32; 4]> {
+    /// Replaces the edge opposite the corners `k` and that of `facet` in the cell of `facet`, with the four cells around
+    /// it, by the edge between the opposing vertices of `facet`, and returns what both flips do. The caller knows
+    /// that the corners of both edges are in one plane, where the edges cross. No change if the edge has not exactly four
+    /// cells; the two that are not at `facet` may be ghosts.
+    pub(crate) fn flip_4_4(&mut self, facet: Facet, k: usize) -> Result<Both, Obstacle> {
+        let old = *self.cell(facet.cell())?;
+        let across = old.neighbour(facet.index());
+        let beyond = *self.cell(across.cell())?;
+        let q = beyond.corners[across.index()];
+        let below = [old.neighbour(k), beyond.neighbour(beyond.index_of(old.corners[k]))];
+        let apexes = [self.apex(below[0])?, self.apex(below[1])?];
+        if apexes[0] != apexes[1] {
+            return Err(Obstacle::Shape);
+        }
+        // The second flip must not fail after the first.
+        for facet in below {
+            let neighbours = self.cell(facet.cell())?.neighbours;
+            self.has_cells_of(&neighbours)?;
+        }
+        let first = self.flip_2_3(facet)?;
+        // The new cell that has not the corner k; the opposing vertex of the facet's cell is its first corner.
+        let turn = (0..3).find(|&turn| AROUND[facet.index()][turn] == k).expect("a corner of the facet");
+        let flat = first.0[2 * turn].cell();
+        let at = self.cell(flat)?.index_of(q);
+        let second = self.flip_3_2(Facet::new(flat, 0), at).expect("three cells, all of them here");
+        Ok([first, second])
     }
 }
 

@@ -401,12 +401,20 @@ impl<G: Dimension> Delaunay<G> {
         G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
     }
 
-    /// Whether the hull is convex at the ridge that is this facet of a ghost cell; in a flat part of the hull, whether
-    /// the facets there are those of the Delaunay triangulation.
+    /// Whether the hull is convex or flat at the ridge that is this facet of a ghost cell, and not folded. The finite cells
+    /// there must be positive.
     pub(crate) fn is_convex(&self, ridge: Facet) -> bool {
-        let across = self.complex.cell(ridge.cell()).neighbour(ridge.index());
-        let apex = self.site(self.complex.apex(across));
-        !self.is_in_conflict_with_ghost(ridge.cell(), &apex.point, apex.id)
+        let ghost = self.complex.cell(ridge.cell());
+        let apex = self.place(self.complex.apex(ghost.neighbour(ridge.index())));
+        let beyond = G::orientation_with(&self.filter, self.view(), &ghost.corners, Self::LAST, apex);
+        if beyond != 0.0 {
+            return beyond < 0.0;
+        }
+        // In a hyperplane, the vertices next to the ridge must be on both sides of it: of one through the cell behind.
+        let behind = &self.complex.cell(ghost.neighbour(Self::LAST).cell()).corners;
+        let own = (0..G::Corners::N).find(|&i| behind[i] == ghost.corners[ridge.index()]);
+        let own = own.expect("the cell behind a ghost has its finite corners");
+        G::orientation_with(&self.filter, self.view(), behind, own, apex) < 0.0
     }
 }
 
@@ -472,4 +480,41 @@ pub(super) fn bicell_holds_in_space(t: &Delaunay<Space>, facet: Facet) -> bool {
 #[inline(always)]
 fn max(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether the hull of a pyramid is convex at the diagonal of its base after one vertex of that, not on the diagonal,
+    /// has gone to a place.
+    fn is_convex_after(place: [f64; 3]) -> bool {
+        let mut t = Delaunay::<Space>::default();
+        let base = [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [-2.0, 0.0, 0.0], [2.0, 0.1, 0.0]];
+        t.add_sites(&[&base[..], &[[0.0, 0.0, 1.0]]].concat()).expect("room for it");
+        t.rebuild(&mut |_| true).expect("room for it");
+        let site = |id| t.live_sites().find(|&s| t.site(s).id == id).expect("a site for each point");
+        let [a, b, p, q] = [0, 1, 2, 3].map(site);
+        let ghosts = t.complex.live().filter(|&c| t.complex.cell(c).is_ghost());
+        let ridges = ghosts.flat_map(|g| (0..3).map(move |i| Facet::new(g, i)));
+        let mut ridges = ridges.filter(|&ridge| {
+            let corners = t.complex.cell(ridge.cell()).corners;
+            corners[ridge.index()] == p && [a, b].iter().all(|s| corners.contains(s))
+        });
+        let ridge = ridges.next().expect("the diagonal is a ridge");
+        drop(ridges);
+        t.cover(&place, &place);
+        t.set_point(q, place);
+        t.is_convex(ridge)
+    }
+
+    #[test]
+    fn flat_ridges_are_convex_and_folded_ones_are_not() {
+        assert!(is_convex_after([2.0, 0.1, 0.0]) && is_convex_after([0.1, 0.0, 0.0]));
+        // The other diagonal would be that of the Delaunay triangulation; that is not asked.
+        assert!(is_convex_after([0.2, 0.0, 0.0]) && is_convex_after([9.0, 7.0, 0.0]));
+        assert!(is_convex_after([2.0, 0.1, 0.5]) && !is_convex_after([2.0, 0.1, -0.5]));
+        assert!(!is_convex_after([-1.0, 0.1, 0.0]) && !is_convex_after([0.0, 0.5, 0.0]));
+        assert!(!is_convex_after([-3.0, 0.0, 0.0]));
+    }
 }

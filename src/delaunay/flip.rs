@@ -1,8 +1,8 @@
 //! Flips, while there are any, and the way back.
 //!
 //! A facet that fails the empty-sphere test is flipped. In the plane that is always possible and leads to the Delaunay
-//! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3 or a 3-2 flip there makes
-//! positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an end, but that
+//! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3, 3-2 or 4-4 flip there
+//! makes positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an end, but that
 //! can be short of the Delaunay triangulation. The cells that a flip in space is about to change are kept in a journal, so
 //! that all can be as it was.
 //!
@@ -59,6 +59,13 @@ impl Flips {
         self.changed.clear();
         self.made.clear();
         self.journal.clear();
+    }
+
+    /// Enters a flip in space.
+    fn enter(&mut self, (outer, undo): ([Facet; 6], Undo)) {
+        self.changed.extend([outer[0].cell(), outer[3].cell()]);
+        self.journal.push(undo);
+        self.suspects.extend(outer);
     }
 }
 
@@ -142,24 +149,24 @@ impl Flipper<'_, '_, Space> {
         let cell = self.cells.cell(face.cell())?;
         let q = self.sites.point(self.cells.apex(cell.neighbour(i))?);
         let others = [(i + 1) % 4, (i + 2) % 4, (i + 3) % 4];
-        // Whether the cell is positive with q in place of each corner of the facet.
-        let positive =
-            others.map(|k| Space::orientation_with(self.filter, self.sites, &cell.corners, k, q) > 0.0);
-        let (outer, undo) = match positive {
-            [true, true, true] => {
+        // The orientation of the cell with q in place of each corner of the facet.
+        let signs = others.map(|k| Space::orientation_with(self.filter, self.sites, &cell.corners, k, q));
+        let mut not_positive = (0..3).filter(|&k| signs[k] <= 0.0);
+        match (not_positive.next(), not_positive.next()) {
+            (None, _) => {
                 let flipped = self.cells.flip_2_3(face)?;
                 flips.made.push(flipped.0[4].cell());
-                flipped
+                flips.enter(flipped);
             }
-            // The segment between the opposing vertices passes the facet beyond the edge opposite one corner.
-            [false, true, true] => self.cells.flip_3_2(face, others[0])?,
-            [true, false, true] => self.cells.flip_3_2(face, others[1])?,
-            [true, true, false] => self.cells.flip_3_2(face, others[2])?,
+            // The segment between the opposing vertices meets the edge opposite one corner: beyond it, or in it.
+            (Some(k), None) if signs[k] < 0.0 => flips.enter(self.cells.flip_3_2(face, others[k])?),
+            (Some(k), None) => {
+                let flipped = self.cells.flip_4_4(face, others[k])?;
+                flips.made.push(flipped[0].0[4].cell());
+                flipped.into_iter().for_each(|flipped| flips.enter(flipped));
+            }
             _ => return Err(Obstacle::Shape),
-        };
-        flips.changed.extend([outer[0].cell(), outer[3].cell()]);
-        flips.journal.push(undo);
-        flips.suspects.extend(outer);
+        }
         Ok(())
     }
 }
@@ -370,6 +377,43 @@ mod tests {
     #[test]
     fn threads_flip_in_space() {
         threads_flip::<Space>(2e-3);
+    }
+
+    /// The four cells around the shorter diagonal of a square become those around the other one when it is the shorter,
+    /// also where those on one side are ghosts.
+    #[test]
+    fn diagonals_change_in_space() {
+        let square = |a: f64| [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, a, 0.0], [0.0, -a, 0.0]];
+        let sides = [[0.1, 0.2, 2.0], [0.1, -0.1, -2.0]];
+        for sides in [&sides[..], &sides[..1], &sides[1..]] {
+            let mut t = Delaunay::<Space>::default();
+            t.add_sites(&[&square(0.9)[..], sides].concat()).expect("room for it");
+            t.rebuild(&mut |_| true).expect("room for it");
+            assert_eq!(t.complex.n_finite(), 2 * sides.len());
+            let before: Vec<_> = t.complex.cells().iter().map(|cell| cell.corners).collect();
+            for s in t.live_sites().collect::<Vec<_>>() {
+                if let Some(place) = square(1.1).get(t.site(s).id as usize) {
+                    t.cover(place, place);
+                    t.set_point(s, *place);
+                }
+            }
+            let mut failures = Failures::default();
+            assert!(t.sweep(&mut failures, usize::MAX) && failures.cells.is_empty());
+            t.check_ridges(&mut failures, |_| None);
+            assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
+            let mut flips = AllFlips::default();
+            flips.own.suspects.clone_from(&failures.facets);
+            t.flip_as_far_as_possible(&mut flips, 1).expect("room for it");
+            t.flips = flips;
+            t.undo_flips();
+            t.validate(Level::Embedding).expect("cells as they were");
+            assert!(t.complex.cells().iter().map(|cell| cell.corners).take(before.len()).eq(before));
+            let mut stuck = Vec::new();
+            assert_eq!(t.flip_all(&mut failures.facets, &mut stuck), Ok(1));
+            assert_eq!(stuck, []);
+            assert_eq!(t.complex.n_finite(), 2 * sides.len());
+            t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+        }
     }
 
     /// Flips on one or several threads are taken back: corners, gluings and free cells are as they were.
