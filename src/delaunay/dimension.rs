@@ -146,6 +146,8 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// The processor must have AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     unsafe fn facets_hold(t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32;
+    /// Takes sites that are certainly outside the sphere of a cell out of a set of them, by position.
+    fn drop_outside(t: &Delaunay<Self>, cell: &Self::Corners, sites: &[u32], set: u64) -> u64;
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
     /// test.
     fn bicell_holds(t: &Delaunay<Self>, facet: Facet) -> bool;
@@ -334,6 +336,12 @@ impl Dimension for Plane {
     #[inline(always)]
     unsafe fn facets_hold(t: &Delaunay<Self>, edges: &[Facet; LANES]) -> u32 {
         screen::edges_hold(t, edges)
+    }
+
+    #[inline(always)]
+    fn drop_outside(_: &Delaunay<Self>, _: &[u32; 3], _: &[u32], set: u64) -> u64 {
+        // They are few.
+        set
     }
 
     #[inline(always)]
@@ -527,6 +535,16 @@ impl Dimension for Space {
     #[inline(always)]
     unsafe fn facets_hold(t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32 {
         screen::faces_hold(t, facets)
+    }
+
+    #[inline(always)]
+    fn drop_outside(t: &Delaunay<Self>, cell: &[u32; 4], sites: &[u32], set: u64) -> u64 {
+        #[cfg(target_arch = "x86_64")]
+        if predicates::avx2::is_there() {
+            // SAFETY: AVX2 and FMA are there.
+            return unsafe { screen::drop_outside_sphere(t, cell, sites, set) };
+        }
+        set
     }
 
     #[inline(always)]

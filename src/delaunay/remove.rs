@@ -175,8 +175,10 @@ impl<G: Dimension> Delaunay<G> {
                 hole.open.push((key, *gap));
             }
         }
+        let is_finite = |(label, &x): (usize, &u32)| u64::from(x != INFINITE) << label;
+        let finite: u64 = hole.sites.iter().enumerate().map(is_finite).sum();
         while let Some((key, gap)) = hole.open.pop() {
-            let apex = self.wrap_apex(&hole.sites, key, &gap);
+            let apex = self.wrap_apex(&hole.sites, finite & !key, &gap);
             let k = NEW + hole.made.len() as u32;
             let mut corners = gap.corners.with(gap.at, apex);
             let mut at = gap.at;
@@ -218,14 +220,14 @@ impl<G: Dimension> Delaunay<G> {
         self.hole = hole;
     }
 
-    /// The corner of the new cell on the inner side of a finite frontier facet.
-    fn wrap_apex(&self, link: &[u32], key: u64, gap: &Gap<G::Corners>) -> u32 {
+    /// The corner of the new cell on the inner side of a finite frontier facet, which is one of those sites of the link
+    /// that are in the set `left`.
+    fn wrap_apex(&self, link: &[u32], mut left: u64, gap: &Gap<G::Corners>) -> u32 {
         let mut best = INFINITE;
         let mut cell = gap.corners;
-        for (label, &x) in link.iter().enumerate() {
-            if key >> label & 1 != 0 || x == INFINITE {
-                continue;
-            }
+        while left != 0 {
+            let x = link[left.trailing_zeros() as usize];
+            left &= left - 1;
             let site = self.site(x);
             let is_closer =
                 best == INFINITE || G::is_in_sphere(&self.filter, self.view(), &cell, &site.point, site.id);
@@ -234,6 +236,7 @@ impl<G: Dimension> Delaunay<G> {
             {
                 best = x;
                 cell[gap.at] = x;
+                left = G::drop_outside(self, &cell, link, left);
             }
         }
         best

@@ -179,6 +179,24 @@ fn places_in_space(t: &Delaunay<Space>, sites: [u32; LANES]) -> [Lanes; 3] {
     [x, y, z]
 }
 
+/// Takes sites that are certainly outside the sphere of a tetrahedron out of a set of them, by position.
+#[target_feature(enable = "avx2,fma")]
+pub(super) fn drop_outside_sphere(t: &Delaunay<Space>, cell: &[u32; 4], sites: &[u32], mut set: u64) -> u64 {
+    let [a, b, c, d] = cell.map(|s| t.view().point(s));
+    let sphere = predicates::sphere(a, b, c, d).map(Lanes::splat);
+    let a = a.map(Lanes::splat);
+    for k in (0..sites.len()).step_by(LANES) {
+        if (set >> k) as u32 & ALL == 0 {
+            continue;
+        }
+        // The last one fills the last lanes.
+        let four = std::array::from_fn(|lane| sites[(k + lane).min(sites.len() - 1)]);
+        let side = predicates::side_of_sphere(&sphere, &a, &places_in_space(t, four));
+        set &= !(u64::from(side.is_less(Lanes::splat(-t.filter.prepared)).bits()) << k);
+    }
+    set
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -385,6 +403,42 @@ mod tests {
     #[test]
     fn faces_are_certain() {
         facets_are_certain::<Space>();
+    }
+
+    /// No site inside a sphere or on it is dropped, and nearly all outside are; those not in the set stay out of it.
+    #[test]
+    fn sites_outside_are_dropped() {
+        if !avx2::is_there() {
+            return;
+        }
+        let mut state = 13;
+        let (mut n_outside, mut n_dropped) = (0, 0);
+        for round in 0..60 {
+            let mut t = Delaunay::<Space>::default();
+            let n = 5 + (unit(&mut state) * 59.0) as usize;
+            t.add_sites(&points::<Space>(round % 2, n, &mut state)).expect("room for it");
+            t.rebuild(&mut |_| true).expect("room for it");
+            let sites: Vec<u32> = t.live_sites().collect();
+            for c in t.complex.finite().take(20) {
+                let corners = t.complex.cell(c).corners;
+                let any =
+                    (unit(&mut state) * 2f64.powi(53)) as u64 * 2048 + (unit(&mut state) * 2048.0) as u64;
+                let set = any & (u64::MAX >> (64 - sites.len()));
+                // SAFETY: AVX2 and FMA are there.
+                let left = unsafe { drop_outside_sphere(&t, &corners, &sites, set) };
+                assert_eq!(left & !set, 0);
+                for (k, &s) in sites.iter().enumerate().filter(|&(k, _)| set >> k & 1 == 1) {
+                    let site = t.site(s);
+                    let [a, b, c, d] = corners.map(|s| t.place(s));
+                    let is_outside = predicates::insphere(&t.filter, a, b, c, d, &site.point) < 0.0;
+                    let is_dropped = left >> k & 1 == 0;
+                    assert!(is_outside || !is_dropped);
+                    n_outside += usize::from(is_outside);
+                    n_dropped += usize::from(is_dropped);
+                }
+            }
+        }
+        assert!(n_outside > 10_000 && 1000 * n_dropped > 999 * n_outside, "{n_dropped} of {n_outside}");
     }
 
     /// Nothing is passed on after a look that wants no more.
