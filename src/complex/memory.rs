@@ -44,6 +44,18 @@ pub(crate) fn extend<T: Sync, U: Copy + Send>(
     Ok(())
 }
 
+/// As [`extend`], over entries that there are, as many as in `from`.
+pub(crate) fn overwrite<T: Sync, U: Copy + Send>(
+    to: &mut [U],
+    from: &[T],
+    n_threads: usize,
+    make: &(impl Fn(&T) -> U + Sync),
+) {
+    // SAFETY: what can be written to can be written to as if it were not initialised, with what is; `write` does no more.
+    let to = unsafe { &mut *(std::ptr::from_mut(to) as *mut [MaybeUninit<U>]) };
+    write(from, to, n_threads, make);
+}
+
 /// Writes every entry of `to`, which is as long as `from`.
 fn write<T: Sync, U: Copy + Send>(
     from: &[T],

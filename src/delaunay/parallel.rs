@@ -4,8 +4,8 @@
 //! thread of its own, by the same insertions as on one thread; then triangulations on either side of a
 //! hyperplane are [united](super::unite), two by two.
 //!
-//! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner, and reads
-//! sites that none changes; the monitor is called by the calling thread alone. Ids break the ties in a part
+//! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner; that of the first part
+//! has the sites of all, each other one a copy of its own; the monitor is called by the calling thread alone. Ids break the ties in a part
 //! as in the whole, so the cells are those of a build on one thread.
 //!
 //! Cost: that of the largest part, and of uniting. Of a million sites in two parts 0.15 % are inserted again
@@ -13,26 +13,29 @@
 //! sphere do, all sites but those of one part are, on one thread: a build then takes a third longer.
 
 use std::ops::Range;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::order::{bounding_box, in_rounds};
 use super::parts::{self, Parts};
 use super::unite::Open;
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{Complex, INFINITE, memory};
+use crate::complex::{INFINITE, memory};
 use crate::error::{Error, Result};
 use crate::threads;
 
 /// Share of the work that is done when the parts are triangulated, roughly.
 const SHARE_OF_PARTS: f64 = 0.8;
 
-/// A triangulation, and pairs of coincident sites, the second in the cells.
-type Built<G> = (Delaunay<G>, Vec<(u32, u32)>);
+/// Pairs of coincident sites, the second in the cells.
+type Coincident = Vec<(u32, u32)>;
 
 /// What all threads read.
 struct Build<'t, G: Dimension> {
-    sites: &'t [Site<G>],
     parts: &'t Parts,
+    n_sites: usize,
+    /// The sites of each part but the first, after a placeholder, for the thread that triangulates it.
+    copies: Vec<Mutex<Vec<Site<G>>>>,
     /// Bounding box of each part.
     boxes: Vec<(G::Point, G::Point)>,
     /// Whether some thread has failed.
@@ -46,58 +49,66 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn triangulate_parts(
         &mut self,
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Option<Vec<(u32, u32)>>> {
+    ) -> Result<Option<Coincident>> {
         let n_parts = self.parts.count();
         if n_parts == 1 {
             return Ok(None);
         }
+        let n_sites = self.sites.len();
         let boxes = threads::for_each(0..n_parts, &|part| {
-            let sites = &self.sites[self.parts.sites(part..part + 1, self.sites.len())];
+            let sites = &self.sites[self.parts.sites(part..part + 1, n_sites)];
             bounding_box::<G>(sites.iter().filter(|site| site.is_live()).map(|site| &site.point))
         });
         let Some(boxes) = boxes.into_iter().collect() else { return Ok(None) };
-        let mut complex = std::mem::take(&mut self.complex);
-        complex.clear();
-        let build = Build { sites: &self.sites, parts: &self.parts, boxes, stop: AtomicBool::new(false) };
+        let Ok(copies) = (0..n_parts).map(|part| self.copy_of_part(part)).collect() else { return Ok(None) };
+        let parts = std::mem::take(&mut self.parts);
+        let build = Build { parts: &parts, n_sites, copies, boxes, stop: AtomicBool::new(false) };
         let mut is_cancelled = false;
-        let built = build.triangulate(0..n_parts, n_parts, complex, &mut |fraction| {
+        // The first part is triangulated here, where the sites of all are.
+        let built = build.triangulate(self, 0..n_parts, n_parts, &mut |fraction| {
             is_cancelled |= !monitor(fraction);
             !is_cancelled && !build.stop.load(Relaxed)
         });
+        self.parts = parts;
         match built {
-            Ok((united, coincident)) => {
-                self.adopt(united);
-                Ok(Some(coincident))
-            }
+            Ok(coincident) => Ok(Some(coincident)),
             Err(_) if is_cancelled => Err(Error::Cancelled),
-            Err(_) => Ok(None),
+            Err(_) => {
+                self.flat.clear();
+                Ok(None)
+            }
         }
     }
 
-    /// Takes over the cells of a triangulation of the same sites.
-    fn adopt(&mut self, other: Self) {
-        self.sites = other.sites;
-        self.complex = other.complex;
-        (self.lower, self.upper, self.filter) = (other.lower, other.upper, other.filter);
-        self.cavity = other.cavity;
-        self.recent = other.recent;
-        self.is_sorted = false;
+    /// The sites of a part, after a placeholder, with room for those of all parts that will be united with it; nothing
+    /// for the first part.
+    fn copy_of_part(&self, part: usize) -> Result<Mutex<Vec<Site<G>>>> {
+        let mut copy = Vec::new();
+        if part > 0 {
+            let (n_parts, n_sites) = (self.parts.count(), self.sites.len());
+            let room = self.parts.sites(part..parts::end_from(part, n_parts), n_sites).len();
+            memory::reserve_exact(&mut copy, room + 1)?;
+            copy.push(self.sites[INFINITE as usize]);
+            let own = &self.sites[self.parts.sites(part..part + 1, n_sites)];
+            memory::extend(&mut copy, own, n_parts, |site| *site)?;
+        }
+        Ok(Mutex::new(copy))
     }
 }
 
 impl<G: Dimension> Build<'_, G> {
-    /// Triangulates parts, with room for the sites up to the part `end`, in the memory of a complex.
+    /// Triangulates parts, with room for the cells of those up to the part `end`.
     fn triangulate(
         &self,
+        t: &mut Delaunay<G>,
         parts: Range<usize>,
         end: usize,
-        complex: Complex<G::Corners>,
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Built<G>> {
+    ) -> Result<Coincident> {
         let built = if parts.len() == 1 {
-            self.triangulate_one(parts.start, end, complex, monitor)
+            self.triangulate_one(t, parts.start, end, monitor)
         } else {
-            self.triangulate_halves(parts, end, complex, monitor)
+            self.triangulate_halves(t, parts, end, monitor)
         };
         // The work of the others is in vain.
         self.stop.fetch_or(built.is_err(), Relaxed);
@@ -106,59 +117,57 @@ impl<G: Dimension> Build<'_, G> {
 
     fn triangulate_halves(
         &self,
+        t: &mut Delaunay<G>,
         parts: Range<usize>,
         end: usize,
-        complex: Complex<G::Corners>,
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Built<G>> {
+    ) -> Result<Coincident> {
         let middle = parts::middle(&parts);
         let (left, right) = threads::join(
-            || self.triangulate(parts.start..middle, end, complex, monitor),
+            || self.triangulate(t, parts.start..middle, end, monitor),
             || {
                 let goes_on = &mut |_| !self.stop.load(Relaxed);
-                let (right, coincident) =
-                    self.triangulate(middle..parts.end, parts.end, Complex::default(), goes_on)?;
+                let mut right = Delaunay::default();
+                let coincident = self.triangulate(&mut right, middle..parts.end, parts.end, goes_on)?;
                 let (lower, upper) = self.box_of(parts.start..middle);
                 Ok((right.open(&lower, &upper)?, coincident))
             },
         );
-        let (mut left, mut coincident) = left?;
-        let (right, found): (Open<G>, Vec<(u32, u32)>) = right?;
-        let shift = left.sites().len() as u32 - 1;
-        coincident.extend(found.into_iter().map(|(s, t)| (s + shift, t + shift)));
+        let mut coincident = left?;
+        let (right, found): (Open<G>, Coincident) = right?;
+        let first = 1 + self.parts.sites(parts.start..middle, self.n_sites).len() as u32;
+        coincident.extend(found.into_iter().map(|(s, t)| (s + first - 1, t + first - 1)));
         let [from, to] = [middle, parts.end].map(|part| part as f64 / self.parts.count() as f64);
         let mut monitor = |fraction: f64| {
             monitor(SHARE_OF_PARTS + (1.0 - SHARE_OF_PARTS) * (from + (to - from) * fraction))
         };
-        coincident.extend(left.unite(right, parts.len(), &mut monitor)?);
-        Ok((left, coincident))
+        coincident.extend(t.unite(right, first, parts.len(), &mut monitor)?);
+        Ok(coincident)
     }
 
     /// Triangulates one part. A flat one is an error, whichever: the caller triangulates all on one thread
     /// then.
     fn triangulate_one(
         &self,
+        t: &mut Delaunay<G>,
         part: usize,
         end: usize,
-        complex: Complex<G::Corners>,
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Built<G>> {
-        let n = self.parts.sites(part..end, self.sites.len()).len();
-        let mut sites = Vec::new();
-        memory::reserve_exact(&mut sites, n + 1)?;
-        sites.push(self.sites[INFINITE as usize]);
-        sites.extend_from_slice(&self.sites[self.parts.sites(part..part + 1, self.sites.len())]);
-        let (lower, upper) = self.boxes[part];
-        let filter = G::filter(&lower, &upper);
-        let mut t = Delaunay { sites, complex, lower, upper, filter, ..Delaunay::default() };
-        let order = in_rounds::<G>(t.live_sites())?;
+    ) -> Result<Coincident> {
+        if part > 0 {
+            t.sites = std::mem::take(&mut *self.copies[part].lock().expect("each is locked once"));
+        }
+        (t.lower, t.upper) = self.boxes[part];
+        t.filter = G::filter(&t.lower, &t.upper);
+        let own = 1..1 + self.parts.sites(part..part + 1, self.n_sites).len() as u32;
+        let order = in_rounds::<G>(own.filter(|&s| t.site(s).is_live()))?;
         if !order.iter().any(|&s| t.extend_basis(s)) {
             return Err(Error::Cancelled);
         }
+        let n = self.parts.sites(part..end, self.n_sites).len();
         let mut monitor = |fraction: f64| monitor(SHARE_OF_PARTS * fraction);
         // While two triangulations are united there are more cells than before and after.
-        let coincident = t.triangulate_unmerged(&order, n + 8 * n.isqrt(), &mut monitor)?;
-        Ok((t, coincident))
+        t.triangulate_unmerged(&order, n + 8 * n.isqrt(), &mut monitor)
     }
 
     /// Bounding box of the sites of parts.

@@ -157,6 +157,20 @@ pub(super) fn middle(parts: &Range<usize>) -> usize {
     parts.start.midpoint(parts.end)
 }
 
+/// The end of the longest range of parts that begins with this one and is divided as one.
+pub(super) fn end_from(part: usize, n_parts: usize) -> usize {
+    let mut parts = 0..n_parts;
+    while parts.start != part {
+        let middle = middle(&parts);
+        if part < middle {
+            parts.end = middle;
+        } else {
+            parts.start = middle;
+        }
+    }
+    parts.end
+}
+
 impl<G: Dimension> Delaunay<G> {
     /// Items at these places in parts for as many threads as pay, each along a Hilbert curve. The parts start
     /// where the sites do if the first one is `INFINITE + 1`.

@@ -32,7 +32,7 @@ use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 use super::order::in_rounds;
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Dimension, Site};
 use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
 use crate::error::Result;
 
@@ -139,25 +139,31 @@ impl<G: Dimension> Delaunay<G> {
         !touches || clears(&self.complex.cell(c.neighbour(Self::LAST).cell()).corners)
     }
 
-    /// Unites the triangulation with one of other sites, which get the indices after those here; it has been
-    /// opened for the box of the sites here. Returns pairs of coincident sites, the second in the cells.
-    /// After an error the cells are half made.
+    /// Unites the triangulation with one of other sites, which get the indices from `first` on, where they may be already
+    /// without their cells; it has been opened for the box of the sites before. Returns pairs of coincident sites, the
+    /// second in the cells. After an error the cells are half made.
     pub(super) fn unite(
         &mut self,
         Open { t: right, border, mut rim }: Open<G>,
+        first: u32,
         n_threads: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(u32, u32)>> {
-        let (n_sites, n_cells) = (self.sites.len() as u32, self.complex.n_slots() as u32);
-        let shift = n_sites - 1;
+        let n_cells = self.complex.n_slots() as u32;
+        let shift = first - 1;
         self.complex.append(&right.complex, shift, n_threads)?;
-        memory::extend(&mut self.sites, &right.sites[1..], n_threads, |site| {
+        let shifted = |site: &Site<G>| {
             let mut site = *site;
             if site.cell != NONE {
                 site.cell += n_cells;
             }
             site
-        })?;
+        };
+        let others = &right.sites[1..];
+        match self.sites.get_mut(first as usize..first as usize + others.len()) {
+            Some(there) => memory::overwrite(there, others, n_threads, &shifted),
+            None => memory::extend(&mut self.sites, others, n_threads, shifted)?,
+        }
         self.cover(&right.lower, &right.upper);
         self.cavity.steps += right.cavity.steps;
         drop(right);
@@ -169,7 +175,7 @@ impl<G: Dimension> Delaunay<G> {
         let coincident = self.insert_all(&order, monitor)?;
         let mut made = self.take_changes().expect("a record was started");
         self.tidy_changes(&mut made);
-        self.close(&rim, &made, n_sites);
+        self.close(&rim, &made, first);
         Ok(coincident)
     }
 
