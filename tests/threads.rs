@@ -162,6 +162,34 @@ fn repair_in_space() {
     histories::<Space>(Algorithm::Repair);
 }
 
+/// Layers that tremble in their planes: four vertices of many bi-cells are in one plane, in the hull as well, and flips
+/// concern four cells.
+#[test]
+fn layers_in_space() {
+    for seed in seeds(2) {
+        let mut rng = Rng::new(seed + 90);
+        let mut now: Vec<[f64; 3]> =
+            (0..1728).map(|v| [v % 12, v / 12 % 12, v / 144].map(f64::from)).collect();
+        let is_inner = |x: f64| x > 0.0 && x < 11.0;
+        let mut tremble = |now: &mut [[f64; 3]], size: f64| {
+            for x in now.iter_mut().flat_map(|p| &mut p[..2]).filter(|x| is_inner(**x)) {
+                *x += size * (rng.unit() - 0.5);
+            }
+        };
+        tremble(&mut now, 0.5);
+        let mut all = on_threads::<Space>(&now, Algorithm::Repair, &THREADS);
+        for step in 0..6 {
+            tremble(&mut now, 0.05);
+            for t in &mut all {
+                t.move_all(&now).expect("positions in range");
+                let report = t.commit_timestamp().expect("a commit");
+                assert!(report.rebuilds == 0 && report.flips > 300, "{report:?}");
+            }
+            assert_all_same(&all, &|| format!("seed {seed}, step {step}"));
+        }
+    }
+}
+
 /// What all threads evaluate counts. Ties are most of a lattice's exact signs, so that their number hardly
 /// depends on the order of insertion.
 #[test]

@@ -409,8 +409,12 @@ mod tests {
             t.validate(Level::Embedding).expect("cells as they were");
             assert!(t.complex.cells().iter().map(|cell| cell.corners).take(before.len()).eq(before));
             let mut stuck = Vec::new();
+            t.record_changes(Vec::new());
             assert_eq!(t.flip_all(&mut failures.facets, &mut stuck), Ok(1));
             assert_eq!(stuck, []);
+            // All four cells are new, and recorded.
+            let changed = t.take_changes().expect("a record");
+            assert_eq!(t.complex.live().filter(|c| changed.contains(c)).count(), 4);
             assert_eq!(t.complex.n_finite(), 2 * sides.len());
             t.validate(Level::Delaunay).expect("a Delaunay triangulation");
         }
