@@ -99,8 +99,8 @@ pub struct deldrift_options {
     pub algorithm: AlgorithmCode,
     /// Greatest number of threads a call may use, the calling one included; 0, the default, lets the library
     /// choose: as many as the system runs at the same time, but one for each 16,000 vertices in 2D or 5,000
-    /// in 3D. They are used to build and rebuild, and to move all and check all certificates in repair, where there are
-    /// 256 vertices or more for each; they end with the call. The cells do not depend on the number, their
+    /// in 3D. They are used to build and rebuild, and to move all, check all certificates and flip in repair, where
+    /// there is enough work for each; they end with the call. The cells do not depend on the number, their
     /// order and the counts in reports may. Callbacks come from the calling thread only.
     pub threads: u32,
     /// Default DELDRIFT_COINCIDENCE_MERGE.

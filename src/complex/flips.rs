@@ -29,7 +29,7 @@ pub enum Obstacle {
     Full,
 }
 
-/// Cells that follow each other in storage, for one thread to flip while others flip the rest. A flip changes two or three
+/// Cells that follow each other in storage, for one thread to flip while others flip the rest. A flip changes two to four
 /// cells and the neighbours' side of their gluings; it is done only if all of these are of the stretch.
 #[derive(Debug)]
 pub struct Stretch<'c, C: Corners> {
@@ -114,7 +114,7 @@ impl<C: Corners> Stretch<'_, C> {
         if codes.iter().all(has) { Ok(()) } else { Err(Obstacle::Elsewhere) }
     }
 
-    /// Puts a finite cell, and both sides of all gluings.
+    /// Puts a cell, and both sides of all gluings.
     #[inline(always)]
     fn put_whole(&mut self, cell: u32, corners: C, neighbours: C) {
         *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };

@@ -7,9 +7,10 @@
 //! that all can be as it was.
 //!
 //! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each thread
-//! flips in a stretch of the cells, with as many failing facets in each, and leaves flips that need cells
-//! of others alone. As flips of different threads have no cell in common, it is as if they had been done one after the
-//! other. What is left is flipped by one thread.
+//! flips in a stretch of the cells, all with about as many failing facets, and leaves flips that need cells of others
+//! alone. As flips of different threads have no cell in common, it is as if they had been done one after the other. What
+//! is left is flipped by one thread. For 300,000 points that move by a fiftieth of a spacing two threads are 1.7 and 1.5
+//! times as fast as one, all of the repair included (`examples/thread_scaling`).
 //!
 //! Invariant: a facet whose cells have changed since it was found to hold is a suspect, or listed as stuck or as one for
 //! later. Sites keep their old cells until no flip will be taken back.

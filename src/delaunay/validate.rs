@@ -138,6 +138,9 @@ impl<G: Dimension> Delaunay<G> {
                 && self.complex.cell(site.cell).corners.as_ref().contains(&s);
             ensure(points_back, level, || format!("the cell of vertex {} does not have it", site.id))?;
         }
+        let hull = self.site(INFINITE).cell;
+        let has_hull = !self.has_cells() || self.complex.is_live(hull) && self.complex.cell(hull).is_ghost();
+        ensure(has_hull, level, || format!("cell {hull} of the ghost vertex is no ghost"))?;
         let can_walk = !self.has_cells() || self.complex.is_live(self.recent);
         ensure(can_walk, level, || format!("cell {}, where walks begin, is gone", self.recent))
     }

@@ -84,10 +84,11 @@ pub struct Options {
     /// Algorithm of [`commit_timestamp`](super::MovingTriangulation::commit_timestamp).
     pub algorithm: Algorithm,
     /// Greatest number of threads for building, and for the moves, the sweep and the flips of
-    /// [`Algorithm::Repair`]; the rest of the work is done by the calling thread alone. 0, the default, lets the library choose: as many as the
-    /// system runs at the same time (asked once), but one for each 16,000 vertices in the plane or 5,000 in
-    /// space, and for each 16,384 cells of a sweep. A number that is given is used from 256 vertices or cells
-    /// for each thread on, whether or not that pays.
+    /// [`Algorithm::Repair`]; the rest of the work is done by the calling thread alone. 0, the default, lets
+    /// the library choose: as many as the system runs at the same time (asked once), but one for each 16,000
+    /// vertices in the plane or 5,000 in space, for each 16,384 cells of a sweep, and for each 500 facets from
+    /// which to flip. A number that is given is used from 256 vertices or cells or 32 facets for each thread
+    /// on, whether or not that pays.
     ///
     /// The cells do not depend on it. Their order does, and so do the counts of flips, placements and exact
     /// signs, as those depend on the order.
