@@ -180,7 +180,9 @@ impl<G: Dimension> Delaunay<G> {
         let mut flips = std::mem::take(&mut self.flips);
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
-        let n_threads = self.threads.for_work(flips.own.suspects.len(), FLIPPED_AT_LEAST, FLIPPED_IF_ASKED);
+        // Unless the cells are sorted nearly all flips would need those of several threads.
+        let n = if self.is_sorted { flips.own.suspects.len() } else { 0 };
+        let n_threads = self.threads.for_work(n, FLIPPED_AT_LEAST, FLIPPED_IF_ASKED);
         let done = self.flip_listed(&mut flips, n_threads);
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
@@ -288,9 +290,9 @@ impl<G: Dimension> Delaunay<G> {
             changed.extend_from_slice(&flips.changed);
             changed.extend_from_slice(&flips.made);
         }
-        // Keep the memory for a few flips, not for those of a whole large set.
         flips.journal.clear();
-        flips.journal.shrink_to(self.sites.len() / 4);
+        // Keep the memory for a lively timestamp, not for one that changes everything.
+        flips.journal.shrink_to(self.sites.len());
     }
 }
 
