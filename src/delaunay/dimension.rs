@@ -155,7 +155,7 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn stays_positive(old: &[&Self::Point], new: &[&Self::Point]) -> bool;
     /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
     fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle>;
-    /// Undoes the flips of the last [`flip_all`](Delaunay::flip_all).
+    /// Takes back the flips of the last call that was stuck.
     fn unflip(t: &mut Delaunay<Self>);
 }
 
