@@ -53,7 +53,7 @@ fn main() -> Result<(), Error> {
     let mut t = MovingTriangulation::<Plane>::new(&positions, options)?;
     let mut picture = header();
     for iteration in 1..=SHOWN[SHOWN.len() - 1] {
-        let edges = edges(t.cells().corners);
+        let edges = edges(t.cells().expect("room").corners);
         let next = centroids(&positions, &edges);
         if let Some(panel) = SHOWN.iter().position(|&shown| shown == iteration) {
             let tolerances = (0..N as u32).map(|v| t.tolerance(v)).collect::<Result<Vec<f64>, Error>>()?;

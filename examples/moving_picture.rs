@@ -47,7 +47,7 @@ fn main() -> Result<(), Error> {
     let options = Options { algorithm: Algorithm::PlacementFlips, track_changes: true, ..Options::default() };
     let mut t = MovingTriangulation::<Plane>::new(&positions, options)?;
     let mut before = positions.clone();
-    let mut edges_before = edges(t.cells().corners);
+    let mut edges_before = edges(t.cells().expect("room").corners);
     let mut picture = header();
     for panel in 0..N_PANELS {
         let mut report = CommitReport::default();
@@ -57,7 +57,7 @@ fn main() -> Result<(), Error> {
             t.move_all(&positions)?;
             report = t.commit_timestamp()?;
         }
-        let cells = t.cells().corners.to_vec();
+        let cells = t.cells().expect("room").corners.to_vec();
         let changed: Vec<[u32; 3]> = t.changed_cells()?.iter().map(|&c| cells[c as usize]).collect();
         let all = edges(&cells);
         let shown = Panel {

@@ -165,7 +165,7 @@ fn measure<G: Dimension>(seed: u64, rows: &mut [[Mean; 2]; 8], ratios: &mut Vec<
     let is_interior = |v: u32| norm(&points[v as usize]) < radius - MARGIN;
 
     let mut seen = vec![Seen { least: [f64::INFINITY; 2], greatest: [0.0; 2], bicells: 0.0 }; N];
-    let (cells, standard) = (t.cells(), t.annulus_widths());
+    let (cells, standard) = (t.cells().expect("room"), t.annulus_widths().expect("room"));
     for (c, corners) in cells.corners.iter().enumerate() {
         let corners = corners.as_ref();
         for (i, &across) in cells.neighbours[c].as_ref().iter().enumerate() {

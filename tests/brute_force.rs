@@ -76,7 +76,7 @@ fn check<G: Dimension>(t: &MovingTriangulation<G>, positions: &[Option<Grid>], c
         format!("{}; {positions:?}", context())
     });
     check_adjacency(t, context);
-    for corners in t.cells().corners {
+    for corners in t.cells().expect("room").corners {
         let points: Vec<&Grid> =
             corners.as_ref().iter().map(|&v| positions[v as usize].as_ref().expect("present")).collect();
         assert!(orientation(&points) > 0, "{}: cell {corners:?} is not positive", context());

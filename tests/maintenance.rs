@@ -224,7 +224,7 @@ fn ways_agree<G: Dimension>(algorithm: Algorithm, coincidence: CoincidencePolicy
                 4 if size == 0.3 => q = *rng.pick(&now),
                 _ => nudge(&mut q, G::D, size, rng),
             }
-            let _ = long.cells();
+            let _ = long.cells().expect("room");
             let done = long.relocate_vertex(v as u32, &q);
             // Not a number is not equal to itself.
             assert_eq!(format!("{:?}", short.relocate_vertex(v as u32, &q)), format!("{done:?}"));

@@ -28,6 +28,7 @@ fn build<G: Dimension>(points: &[G::Point], name: &str) -> MovingTriangulation<G
     assert_eq!(t.statistics().coincident as usize, points.len() - distinct, "{name}");
     let facets_on_hull = t
         .cells()
+        .expect("room")
         .neighbours
         .iter()
         .map(|n| n.as_ref().iter().filter(|&&n| n == NO_CELL).count())
@@ -152,7 +153,7 @@ fn a_rotated_grid_keeps_its_squares() {
             grid.iter().map(|[x, y]| [x * cos - y * sin, x * sin + y * cos]).collect();
         let t = build::<Plane>(&points, "rotated grid");
         let mut halves = 0;
-        for corners in t.cells().corners {
+        for corners in t.cells().expect("room").corners {
             let [a, b, c] = corners.map(|v| grid[v as usize]);
             let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
             halves += usize::from(area == 0.5);

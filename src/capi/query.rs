@@ -241,7 +241,7 @@ pub unsafe extern "C" fn deldrift_cells(
     view: *mut deldrift_cells_view,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, view, t => view_of_cells(t)) }
+    unsafe { tell!(t, view, t => view_of_cells(t)?) }
 }
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
@@ -263,7 +263,7 @@ pub unsafe extern "C" fn deldrift_copy_cells(
     unsafe {
         fence::read(t, |kernel| {
             in_its_dimension!(kernel, t => {
-                let cells = t.cells();
+                let cells = t.cells()?;
                 let buffers = [("vertices", vertices.cast()), ("neighbours", neighbours.cast())];
                 copy_out(Room { capacity, count }, cells.corners.len(), &buffers, || {
                     if !vertices.is_null() {
@@ -353,7 +353,7 @@ pub unsafe extern "C" fn deldrift_annulus_widths(
             in_its_dimension!(kernel, t => {
                 let needed = t.cell_count() * (dimension_of(t) + 1);
                 copy_out(Room { capacity, count }, needed, &[("widths", widths.cast())], || {
-                    pointers::fill("widths", widths, &t.annulus_widths())
+                    pointers::fill("widths", widths, &t.annulus_widths()?)
                 })
             })
         })
@@ -392,7 +392,7 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
                     return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
                 }
                 let delimiter =
-                    t.standard_delimiter(cell, corner).ok_or(Failure::HullFacet { cell, corner })?;
+                    t.standard_delimiter(cell, corner)?.ok_or(Failure::HullFacet { cell, corner })?;
                 centre.write(delimiter.centre);
                 radius.write(delimiter.radius);
                 tolerance.write(delimiter.tolerance);
@@ -541,14 +541,14 @@ fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: u32) -> G::
     })
 }
 
-fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> deldrift_cells_view {
-    let CellsView { corners, neighbours } = t.cells();
-    deldrift_cells_view {
+fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_cells_view, Failure> {
+    let CellsView { corners, neighbours } = t.cells()?;
+    Ok(deldrift_cells_view {
         count: corners.len(),
         corners_per_cell: G::D as u32 + 1,
         vertices: start_of(corners).cast(),
         neighbours: start_of(neighbours).cast(),
-    }
+    })
 }
 
 /// Where a list begins, NULL if it is empty: an empty slice of Rust begins at an address that means

@@ -13,7 +13,7 @@
 //! and a 3-2 flip the other way round. A 4-4 flip is both in a row, by way of a cell whose corners are in one plane: it
 //! changes the diagonal of a quadrilateral that has two cells on each side, which on one side may be ghosts.
 
-use super::{Cell, Complex, Corners, Facet, NONE};
+use super::{Cell, Complex, Corners, Facet, NONE, Row, memory};
 use crate::error::Result;
 use crate::threads;
 use std::sync::Mutex;
@@ -27,6 +27,8 @@ pub enum Obstacle {
     Elsewhere,
     /// The stretch has no free cell.
     Full,
+    /// There is no memory to keep the way back.
+    Memory,
 }
 
 /// Cells that follow each other in storage, for one thread to flip while others flip the rest. A flip changes two to four
@@ -47,18 +49,22 @@ impl<C: Corners> Complex<C> {
     }
 
     /// Works on the stretches that begin at these cells, the first of them cell 0, each on a thread of its own and with its
-    /// own one of `parts`.
+    /// own one of `parts`. After an error the list of free cells [has to be restored](Self::restore_free).
     pub(crate) fn divided<P: Send>(
         &mut self,
         starts: &[u32],
         parts: &mut [P],
         work: impl Fn(usize, &mut Stretch<C>, &mut P) + Sync,
-    ) {
-        let mut free = vec![Vec::new(); starts.len()];
-        for c in self.free.drain(..) {
-            free[starts.partition_point(|&start| start <= c) - 1].push(c);
+    ) -> Result<()> {
+        let (mut free, mut all) = (Vec::<Vec<u32>>::new(), Vec::new());
+        memory::reserve_exact(&mut free, starts.len())?;
+        memory::reserve_exact(&mut all, starts.len())?;
+        free.resize_with(starts.len(), Vec::new);
+        for &c in &self.free {
+            memory::push(&mut free[starts.partition_point(|&start| start <= c) - 1], c)?;
         }
-        let (mut rest, mut all) = (&mut self.cells[..], Vec::new());
+        self.free.clear();
+        let mut rest = &mut self.cells[..];
         for (k, (free, part)) in free.iter_mut().zip(parts).enumerate() {
             let n = starts.get(k + 1).map_or(rest.len(), |&end| (end - starts[k]) as usize);
             let cells;
@@ -69,13 +75,17 @@ impl<C: Corners> Complex<C> {
             let (stretch, part) = &mut *all[k].lock().expect("each is locked once");
             work(k, stretch, part);
         });
+        drop(all);
+        self.reserve_free(free.iter().map(Vec::len).sum())?;
         self.free.extend(free.into_iter().flatten());
+        Ok(())
     }
 
     /// Makes so many cells more, all of them free; they are used after those that are free already, whose order
-    /// [`undo`](Self::undo) relies on.
+    /// [`undo_flips`](Self::undo_flips) relies on.
     pub(crate) fn create_free(&mut self, n: usize) -> Result<()> {
         self.reserve(self.free.len() + n)?;
+        self.reserve_free(n)?;
         let first = self.cells.len();
         self.cells.resize(first + n, Cell::free());
         self.marks.resize(first + n, 0);
@@ -129,7 +139,7 @@ impl Stretch<'_, [u32; 3]> {
     /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on the
     /// boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`,
     /// and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
-    pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<[Facet; 4], Obstacle> {
+    pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<([Facet; 4], [Row<[u32; 3]>; 2]), Obstacle> {
         let (c, i) = (facet.cell(), facet.index());
         let old = *self.cell(c)?;
         let across = old.neighbour(i);
@@ -145,7 +155,8 @@ impl Stretch<'_, [u32; 3]> {
         self.glue(Facet::new(c, i), Facet(beyond_bq));
         self.glue(Facet::new(d, j), Facet(beyond_ap));
         self.glue(Facet::new(c, next(i)), Facet::new(d, next(j)));
-        Ok([(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k)))
+        let outer = [(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k));
+        Ok((outer, [Row::of(c, &old), Row::of(d, &beyond)]))
     }
 
     /// Glues two facets.
@@ -156,14 +167,12 @@ impl Stretch<'_, [u32; 3]> {
     }
 }
 
-/// What a flip in space has changed: three cells as they were before, of which the last may have been free.
-#[derive(Clone, Copy, Debug)]
-pub struct Undo([(u32, [u32; 4], [u32; 4]); 3]);
+/// What a flip in space has changed: three slots as they were before, of which the last may have been free.
+pub(crate) type Undo = [Row<[u32; 4]>; 3];
 
-impl Undo {
-    fn of(before: [(u32, Cell<[u32; 4]>); 3]) -> Self {
-        Undo(before.map(|(c, cell)| (c, cell.corners, cell.neighbours)))
-    }
+/// The rows of cells.
+fn rows<C: Corners>(cells: [(u32, Cell<C>); 3]) -> [Row<C>; 3] {
+    cells.map(|(slot, cell)| Row::of(slot, &cell))
 }
 
 impl Stretch<'_, [u32; 4]> {
@@ -189,7 +198,7 @@ impl Stretch<'_, [u32; 4]> {
         self.put_whole(d, [p, x, q, z], [dy, code(c, 2), cy, code(e, 2)]);
         self.put_whole(e, [p, x, y, q], [dz, code(c, 3), code(d, 3), cz]);
         let outer = [(c, 0), (c, 1), (d, 0), (d, 2), (e, 0), (e, 3)].map(|(cell, i)| Facet::new(cell, i));
-        Ok((outer, Undo::of([(c, old), (d, beyond), (e, Cell::free())])))
+        Ok((outer, rows([(c, old), (d, beyond), (e, Cell::free())])))
     }
 
     /// Replaces the three cells around an edge by two that share the triangle around it, and returns
@@ -215,13 +224,14 @@ impl Stretch<'_, [u32; 4]> {
         let [dl, dm] = [l, m].map(|s| beyond.neighbours[beyond.index_of(s)]);
         let [el, em] = [l, m].map(|s| behind.neighbours[behind.index_of(s)]);
         self.has_cells_of(&[cl, cm, dl, dm, el, em])?;
+        memory::reserve(self.free, 1).map_err(|_| Obstacle::Memory)?;
         // q is last, as it may be the ghost vertex.
         self.put_whole(c, [p, k, l, q], [dm, em, Facet::new(d, 2).0, cm]);
         self.put_whole(d, [k, p, m, q], [el, dl, Facet::new(c, 2).0, cl]);
         self.cell_mut(e).corners = [NONE; 4];
         self.free.push(e);
         let outer = [(c, 0), (c, 1), (c, 3), (d, 0), (d, 1), (d, 3)].map(|(cell, i)| Facet::new(cell, i));
-        Ok((outer, Undo::of([(c, old), (d, beyond), (e, behind)])))
+        Ok((outer, rows([(c, old), (d, beyond), (e, behind)])))
     }
 }
 
@@ -258,26 +268,28 @@ impl Stretch<'_, [u32; 4]> {
     }
 }
 
-impl Complex<[u32; 4]> {
-    /// Takes flips back, the latest first. The list of free cells comes back as well if all were flips of the whole.
-    pub(crate) fn undo(&mut self, undos: impl Iterator<Item = Undo>) {
-        let mut whole = self.whole();
-        for Undo(before) in undos {
-            let [first, second, (c, corners, neighbours)] = before;
-            for (c, corners, neighbours) in [first, second] {
-                whole.put_whole(c, corners, neighbours);
-            }
-            if corners[0] == NONE {
-                whole.cell_mut(c).corners = corners;
-                whole.free.push(c);
-            } else {
-                whole.put_whole(c, corners, neighbours);
-                whole.free.pop();
+impl<C: Corners> Complex<C> {
+    /// Takes flips back by the rows that they changed, the latest first. The list of free cells comes back as well if
+    /// all were flips of the whole.
+    pub(crate) fn undo_flips(&mut self, rows: impl Iterator<Item = Row<C>>) {
+        for row in rows {
+            let was_free = self.is_free(row.slot);
+            self.put_back(row);
+            match (was_free, row.is_free()) {
+                (false, true) => self.free.push(row.slot),
+                (true, false) => drop(self.free.pop()),
+                _ => {}
             }
         }
     }
 
-    /// Goes back to where there were so many cells, these of them free, after the cells have been [undone](Self::undo).
+    /// Puts rows back, and leaves the list of free cells to [`restore_free`](Self::restore_free).
+    pub(crate) fn put_back_all(&mut self, rows: impl Iterator<Item = Row<C>>) {
+        rows.for_each(|row| self.put_back(row));
+    }
+
+    /// Goes back to where there were so many cells, these of them free, after the cells have been
+    /// [put back](Self::put_back_all).
     pub(crate) fn restore_free(&mut self, n_slots: usize, free: &[u32]) {
         self.cells.truncate(n_slots);
         self.marks.truncate(n_slots);
@@ -419,13 +431,13 @@ mod tests {
                     assert!(is_mutual(&complex));
                     assert_eq!(boundary(&complex, rim), boundary_of_flip);
                     assert_eq!(cells(&complex), before);
-                    complex.undo([back].into_iter());
+                    complex.undo_flips(back.into_iter().rev());
                     complex.restore_free(n_slots, &free);
                     assert!(is_mutual(&complex));
                     assert_eq!(cells(&complex), after);
                 }
             }
-            complex.undo([undo].into_iter());
+            complex.undo_flips(undo.into_iter().rev());
             complex.restore_free(n_slots, &free);
             assert!(is_mutual(&complex));
             assert_eq!(cells(&complex), before);
@@ -479,7 +491,7 @@ mod tests {
             let mut tried = [None; 2];
             complex.divided(&[0, start], &mut tried, |_, stretch, tried| {
                 *tried = stretch.flip_2_3(facet).err();
-            });
+            }).unwrap();
             assert_eq!(tried, [Some(Obstacle::Elsewhere); 2]);
             assert_eq!(cells(&complex), before);
             assert_eq!(complex.free_cells().len(), 3);
@@ -490,7 +502,7 @@ mod tests {
             complex.divided(&[0, start], &mut tried, |k, stretch, tried| {
                 assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
                 *tried = stretch.flip_2_3(facet).err();
-            });
+            }).unwrap();
             assert_eq!(tried[0], expected);
             assert!(is_mutual(&complex));
         }

@@ -27,6 +27,39 @@ pub(crate) fn reserve<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })
 }
 
+/// Appends an entry.
+#[inline(always)]
+pub(crate) fn push<T>(array: &mut Vec<T>, entry: T) -> Result<()> {
+    if array.len() == array.capacity() {
+        reserve(array, 1)?;
+    }
+    array.push(entry);
+    Ok(())
+}
+
+/// A value in memory of its own.
+pub(crate) fn boxed<T>(value: T) -> Result<Box<T>> {
+    let layout = std::alloc::Layout::new::<T>();
+    assert!(layout.size() > 0);
+    // SAFETY: the layout is not empty; the memory is written before it becomes a box, which frees it as it was allocated.
+    unsafe {
+        let place = std::alloc::alloc(layout).cast::<T>();
+        if place.is_null() {
+            return Err(Error::OutOfMemory { bytes: layout.size() });
+        }
+        place.write(value);
+        Ok(Box::from_raw(place))
+    }
+}
+
+/// A copy of an array.
+pub(crate) fn copy_of<T: Copy>(array: &[T]) -> Result<Vec<T>> {
+    let mut copy = Vec::new();
+    reserve_exact(&mut copy, array.len())?;
+    copy.extend_from_slice(array);
+    Ok(copy)
+}
+
 /// Appends what `make` makes of each entry of `from`, each of several threads a stretch of it.
 pub(crate) fn extend<T: Sync, U: Copy + Send>(
     array: &mut Vec<U>,

@@ -20,15 +20,18 @@
 mod corners;
 mod flips;
 pub(crate) mod memory;
+mod record;
 
 use std::fmt;
 
 pub use corners::Corners;
-pub use flips::{Obstacle, Stretch, Undo};
+pub use flips::{Obstacle, Stretch};
+pub use record::Row;
 
 use crate::error::{Error, Result};
 #[cfg(target_arch = "x86_64")]
 use crate::prefetch::prefetch;
+use record::Record;
 
 /// The ghost vertex: index 0 of the sites.
 pub const INFINITE: u32 = 0;
@@ -136,17 +139,19 @@ pub struct Complex<C: Corners> {
     marks: Vec<u8>,
     free: Vec<u32>,
     n_ghosts: usize,
+    record: Record<C>,
 }
 
 impl<C: Corners> Default for Complex<C> {
     fn default() -> Self {
-        Complex { cells: Vec::new(), marks: Vec::new(), free: Vec::new(), n_ghosts: 0 }
+        Complex { cells: Vec::new(), marks: Vec::new(), free: Vec::new(), n_ghosts: 0, record: Record::default() }
     }
 }
 
 impl<C: Corners> Complex<C> {
     /// Removes all cells; keeps the memory.
     pub(crate) fn clear(&mut self) {
+        debug_assert!(!self.is_recording(), "who may want the cells back keeps them");
         self.cells.clear();
         self.marks.clear();
         self.free.clear();
@@ -253,6 +258,7 @@ impl<C: Corners> Complex<C> {
     /// Makes sure that `n` more cells can be created without a failure.
     #[inline(always)]
     pub(crate) fn reserve(&mut self, n: usize) -> Result<()> {
+        self.reserve_rows(n)?;
         if self.cells.capacity() - self.cells.len() + self.free.len() >= n {
             return Ok(());
         }
@@ -269,7 +275,17 @@ impl<C: Corners> Complex<C> {
         let more = n.max(self.cells.len() / 8).min(MAX_CELLS - self.cells.len());
         memory::reserve_exact(&mut self.cells, more)?;
         let spare = self.cells.capacity() - self.marks.len();
-        memory::reserve_exact(&mut self.marks, spare)
+        memory::reserve_exact(&mut self.marks, spare)?;
+        if self.is_recording() { self.cover_slots() } else { Ok(()) }
+    }
+
+    /// Makes sure that `n` more cells can be [released](Self::release) without a failure.
+    #[inline(always)]
+    pub(crate) fn reserve_free(&mut self, n: usize) -> Result<()> {
+        if self.free.capacity() - self.free.len() >= n {
+            return Ok(());
+        }
+        memory::reserve(&mut self.free, n)
     }
 
     /// Creates a cell that has no neighbours yet.
@@ -283,12 +299,14 @@ impl<C: Corners> Complex<C> {
     /// An index for a cell that is [put](Self::put) there next.
     #[inline(always)]
     pub(crate) fn create_blank(&mut self) -> u32 {
-        self.free.pop().unwrap_or_else(|| {
+        let cell = self.free.pop().unwrap_or_else(|| {
             let cell = self.cells.len() as u32;
             self.cells.push(Cell::free());
             self.marks.push(0);
             cell
-        })
+        });
+        self.note(cell);
+        cell
     }
 
     /// Puts new corners where a cell is free or to be replaced; its mark is cleared, its neighbours are not.
@@ -323,7 +341,7 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts -= n;
     }
 
-    /// Frees the index of a retired cell.
+    /// Frees the index of a retired cell; there must be [room](Self::reserve_free) for it.
     #[inline(always)]
     pub(crate) fn release(&mut self, cell: u32) {
         self.cell_mut(cell).corners = C::filled(NONE);
@@ -342,7 +360,8 @@ impl<C: Corners> Complex<C> {
     pub(crate) fn start(&mut self, corners: C) -> Result<()> {
         self.reserve(C::N + 1)?;
         let last = C::N - 1;
-        let mut cells = vec![self.create(corners)];
+        let mut cells = [NONE; 5];
+        cells[0] = self.create(corners);
         for i in 0..C::N {
             let mut ghost = corners.with(i, INFINITE);
             if i == last {
@@ -350,9 +369,10 @@ impl<C: Corners> Complex<C> {
             } else {
                 ghost.as_mut().swap(i, last);
             }
-            cells.push(self.create(ghost));
+            cells[1 + i] = self.create(ghost);
         }
-        for (k, &a) in cells.iter().enumerate() {
+        for k in 0..=C::N {
+            let a = cells[k];
             for &b in &cells[..k] {
                 let differs = |x: u32, y: u32| {
                     (0..C::N).find(|&i| !self.cell(y).corners.as_ref().contains(&self.cell(x).corners[i]))
@@ -378,6 +398,11 @@ impl<C: Corners> Complex<C> {
         memory::reserve_exact(&mut starts, n_sites + 1)?;
         memory::reserve_exact(&mut index, self.cells.len())?;
         memory::reserve_exact(&mut sorted, n_slots + n_live / 64)?;
+        let spare = sorted.capacity().saturating_sub(self.marks.len());
+        memory::reserve_exact(&mut self.marks, spare)?;
+        let more_free = n_gaps.saturating_sub(self.free.len());
+        memory::reserve(&mut self.free, more_free)?;
+        debug_assert!(!self.is_recording() || self.rows().is_empty(), "rows are named by slot");
         starts.resize(n_sites + 1, 0u32);
         for cell in self.cells.iter().filter(|cell| cell.corners[0] != NONE) {
             starts[lowest(cell) + 1] += 1;
@@ -406,11 +431,8 @@ impl<C: Corners> Complex<C> {
             sorted[to as usize] = cell;
         }
         self.cells = sorted;
-        let spare = self.cells.capacity().saturating_sub(self.marks.len());
-        memory::reserve_exact(&mut self.marks, spare)?;
         self.marks.resize(n_slots, 0);
         self.free.clear();
-        memory::reserve(&mut self.free, n_gaps)?;
         self.free.extend((1..=n_gaps).map(|k| (k * (gap_after + 1) - 1) as u32));
         Ok(index)
     }
@@ -447,5 +469,6 @@ impl<C: Corners> Complex<C> {
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4
+            + self.record.memory_bytes()
     }
 }

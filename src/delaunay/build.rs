@@ -160,6 +160,7 @@ impl<G: Dimension> Delaunay<G> {
             match self.insert_into_cells::<true>(&mut cavity, s, self.recent)? {
                 Insertion::New => self.record(cavity.made().iter().copied()),
                 Insertion::Coincident(t) => coincident.push((s, t)),
+                Insertion::Spans => unreachable!("there are cells"),
             }
         }
         self.cavity = cavity;
@@ -169,6 +170,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Drops the sites that found others at their places, and gives those the lowest id.
     fn merge(&mut self, coincident: Vec<(u32, u32)>) -> Result<Vec<Merge>> {
         // All are dropped first: a change of id may have to look at every live site.
+        memory::reserve(&mut self.free_sites, coincident.len())?;
         let ids: Vec<u32> = coincident.iter().map(|&(s, _)| self.site(s).id).collect();
         for &(s, _) in &coincident {
             self.drop_site(s);
@@ -204,11 +206,13 @@ impl<G: Dimension> Delaunay<G> {
     /// Puts the cells in the order of the sites, so that what is near in space is near in memory for sweeps over all: a
     /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and more,
     /// and several threads need it to have cells of their own.
-    pub(crate) fn sort_cells(&mut self) -> Result<()> {
+    ///
+    /// Returns the new index of each, [`NONE`] for free ones, unless they stay as they are.
+    pub(crate) fn sort_cells(&mut self) -> Result<Option<Vec<u32>>> {
         let n_slots = self.complex.n_slots();
         let n_threads = self.threads.for_work(n_slots, LARGE, LARGE / 64);
         if self.is_sorted || n_slots < LARGE && n_threads == 1 {
-            return Ok(());
+            return Ok(None);
         }
         // Each thread that flips in space needs free cells among its own.
         let gap_after = if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX };
@@ -220,7 +224,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.recent = index[self.recent as usize];
         self.is_sorted = true;
-        Ok(())
+        Ok(Some(index))
     }
 
     /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve.

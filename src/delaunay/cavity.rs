@@ -20,6 +20,8 @@ pub enum Insertion {
     New,
     /// This site was at the place already; nothing has changed.
     Coincident(u32),
+    /// There were no cells, and with the site there would be: a kernel has to be built. Nothing has changed.
+    Spans,
 }
 
 /// Scratch memory of insertions.

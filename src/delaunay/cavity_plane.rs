@@ -61,6 +61,8 @@ pub(super) fn insert(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, start:
     // A polygon has two edges more than triangles.
     t.complex.reserve(2)?;
     let zone = dig(t, cavity, start, s);
+    t.complex.note_all(cavity.cells[..zone.n_cells].iter().copied())?;
+    t.complex.reserve_rows(2)?;
     for k in zone.n_cells..zone.n_cells + 2 {
         cavity.cells[k] = t.complex.create_blank();
     }

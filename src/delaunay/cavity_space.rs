@@ -78,7 +78,8 @@ pub(super) fn insert<const BUILD: bool>(
     let Cavity { cells, scratch, .. } = cavity;
     dig::<BUILD>(t, scratch, start, s);
     let (zone, n_rim) = (&scratch.zone[..scratch.n_zone], scratch.n_rim);
-    if let Err(error) = t.complex.reserve(n_rim) {
+    let reserved = t.complex.reserve(n_rim).and_then(|()| t.complex.note_all(zone.iter().copied()));
+    if let Err(error) = reserved.and_then(|()| t.complex.reserve_rows(n_rim)) {
         for &c in zone {
             t.complex.set_mark(c, 0);
         }

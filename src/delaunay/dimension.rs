@@ -154,9 +154,7 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Whether a cell certainly stays positively oriented while its `D + 1` corners go straight from `old` to `new`.
     fn stays_positive(old: &[&Self::Point], new: &[&Self::Point]) -> bool;
     /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
-    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle>;
-    /// Takes back the flips of the last call that was stuck.
-    fn unflip(t: &mut Delaunay<Self>);
+    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips<Self>) -> Result<(), Obstacle>;
 }
 
 /// Two dimensions.
@@ -355,11 +353,10 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips<Self>) -> Result<(), Obstacle> {
         flipper.flip_edge(facet, flips)
     }
 
-    fn unflip(_: &mut Delaunay<Self>) {}
 }
 
 impl Dimension for Space {
@@ -558,13 +555,10 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips<Self>) -> Result<(), Obstacle> {
         flipper.flip_face(facet, flips)
     }
 
-    fn unflip(t: &mut Delaunay<Self>) {
-        t.undo_flips();
-    }
 }
 
 /// Whether all signs are positive; `None` if that hangs on a zero.

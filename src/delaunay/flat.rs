@@ -6,7 +6,6 @@
 
 use std::collections::HashMap;
 
-use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion};
 use crate::complex::NONE;
 use crate::error::Result;
@@ -75,9 +74,8 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.sites[s as usize].cell = NONE;
         if self.extend_basis(s) {
-            let order = in_rounds::<G>(self.live_sites())?;
-            let merges = self.triangulate(&order, &mut |_| true)?;
-            debug_assert!(merges.is_empty());
+            self.remove_flat(s);
+            return Ok(Insertion::Spans);
         }
         Ok(Insertion::New)
     }
@@ -104,7 +102,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Gives up the cells when the last finite one is gone. `except` is a site that is on its way elsewhere.
     pub(super) fn become_flat(&mut self, except: u32) {
-        self.complex.clear();
+        self.give_up_cells();
         self.changed = None;
         self.flat.clear();
         for s in 1..self.sites.len() as u32 {

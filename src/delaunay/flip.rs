@@ -3,8 +3,8 @@
 //! A facet that fails the empty-sphere test is flipped. In the plane that is always possible and leads to the Delaunay
 //! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3, 3-2 or 4-4 flip there
 //! makes positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an end, but that
-//! can be short of the Delaunay triangulation. The cells that a flip in space is about to change are kept in a journal, so
-//! that all can be as it was.
+//! can be short of the Delaunay triangulation. The cells that a flip is about to change are kept in a journal, so that all
+//! can be as it was; flips that stay are entered into the record of the complex from there.
 //!
 //! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each thread
 //! flips in a stretch of the cells, all with about as many failing facets, and leaves flips that need cells of others
@@ -16,9 +16,9 @@
 //! later. Sites keep their old cells until no flip will be taken back.
 
 use super::site::Sites;
-use super::{Delaunay, Dimension, Space};
-use crate::complex::{Corners, Facet, INFINITE, Obstacle, Stretch, Undo};
-use crate::error::Result;
+use super::{Delaunay, Dimension, Plane, Space};
+use crate::complex::{Corners, Facet, INFINITE, Obstacle, Row, Stretch, memory};
+use crate::error::{Error, Result};
 use crate::predicates::StaticFilter;
 use crate::prefetch::{AHEAD, prefetch};
 
@@ -34,8 +34,8 @@ const SAMPLE: usize = 1 << 10;
 const ROOM: usize = 16;
 
 /// What has been flipped, and what is to be.
-#[derive(Debug, Default)]
-pub struct Flips {
+#[derive(Debug)]
+pub struct Flips<G: Dimension> {
     /// Facets that may fail.
     suspects: Vec<Facet>,
     /// Facets that fail and cannot be flipped.
@@ -46,15 +46,33 @@ pub struct Flips {
     changed: Vec<u32>,
     /// The third cell of flips that have made one.
     made: Vec<u32>,
-    /// The way back, in space.
-    journal: Vec<Undo>,
+    /// The way back: the rows that each flip has changed.
+    journal: Vec<Row<G::Corners>>,
     n_flips: u64,
     certificates: u64,
+    /// Whether there was no memory to go on.
+    has_failed: bool,
 }
 
-impl Flips {
+impl<G: Dimension> Default for Flips<G> {
+    fn default() -> Self {
+        Flips {
+            suspects: Vec::new(),
+            stuck: Vec::new(),
+            later: Vec::new(),
+            changed: Vec::new(),
+            made: Vec::new(),
+            journal: Vec::new(),
+            n_flips: 0,
+            certificates: 0,
+            has_failed: false,
+        }
+    }
+}
+
+impl<G: Dimension> Flips<G> {
     fn begin(&mut self) {
-        (self.n_flips, self.certificates) = (0, 0);
+        (self.n_flips, self.certificates, self.has_failed) = (0, 0, false);
         self.stuck.clear();
         self.later.clear();
         self.changed.clear();
@@ -62,26 +80,70 @@ impl Flips {
         self.journal.clear();
     }
 
-    /// Enters a flip in space.
-    fn enter(&mut self, (outer, undo): ([Facet; 6], Undo)) {
-        self.changed.extend([outer[0].cell(), outer[3].cell()]);
-        self.journal.push(undo);
+    /// Makes room for what a flip enters: twice that of one for a 4-4 flip.
+    #[inline(always)]
+    fn reserve(&mut self) -> Result<(), Obstacle> {
+        let has_room = self.suspects.capacity() - self.suspects.len() >= 12
+            && self.changed.capacity() - self.changed.len() >= 4
+            && self.made.capacity() - self.made.len() >= 1
+            && self.journal.capacity() - self.journal.len() >= 6;
+        if has_room { Ok(()) } else { self.grow().map_err(|_| Obstacle::Memory) }
+    }
+
+    #[cold]
+    fn grow(&mut self) -> Result<()> {
+        memory::reserve(&mut self.suspects, 12)?;
+        memory::reserve(&mut self.changed, 4)?;
+        memory::reserve(&mut self.made, 1)?;
+        memory::reserve(&mut self.journal, 6)
+    }
+
+    /// Enters a flip: facets on its boundary, of two cells that have all its sites, and the rows before.
+    #[inline(always)]
+    fn enter<const N: usize, const ROWS: usize>(
+        &mut self,
+        (outer, rows): ([Facet; N], [Row<G::Corners>; ROWS]),
+    ) {
+        self.changed.extend([outer[0].cell(), outer[N / 2].cell()]);
+        self.journal.extend(rows);
         self.suspects.extend(outer);
+    }
+
+    /// Lists a facet that was not flipped.
+    fn put_off(&mut self, facet: Facet, obstacle: Obstacle) {
+        let listed = match obstacle {
+            Obstacle::Shape => memory::push(&mut self.stuck, facet),
+            Obstacle::Elsewhere | Obstacle::Full => memory::push(&mut self.later, facet),
+            Obstacle::Memory => Err(Error::OutOfMemory { bytes: 0 }),
+        };
+        self.has_failed = listed.is_err();
     }
 }
 
 /// Those of the last call, and the memory for the next one.
-#[derive(Debug, Default)]
-pub(super) struct AllFlips {
+#[derive(Debug)]
+pub(super) struct AllFlips<G: Dimension> {
     /// Of the thread that calls.
-    own: Flips,
+    own: Flips<G>,
     /// Of several threads, before these.
-    parts: Vec<Flips>,
+    parts: Vec<Flips<G>>,
     /// Whether there were several.
     were_several: bool,
     /// The cells there were, and those of them that were free, before several threads flipped.
     n_slots: usize,
     free: Vec<u32>,
+}
+
+impl<G: Dimension> Default for AllFlips<G> {
+    fn default() -> Self {
+        AllFlips {
+            own: Flips::default(),
+            parts: Vec::new(),
+            were_several: false,
+            n_slots: 0,
+            free: Vec::new(),
+        }
+    }
 }
 
 /// Flips cells of a stretch.
@@ -93,14 +155,15 @@ pub struct Flipper<'t, 's, G: Dimension> {
 
 impl<G: Dimension> Flipper<'_, '_, G> {
     /// Flips until no suspect is left, or none but those that are stuck or for later.
-    fn flip_all(&mut self, flips: &mut Flips) {
+    fn flip_all(&mut self, flips: &mut Flips<G>) {
         let mut before = flips.n_flips;
         loop {
             while let Some(facet) = flips.suspects.pop() {
-                match self.flip_if_it_fails(facet, flips) {
-                    Ok(()) => {}
-                    Err(Obstacle::Shape) => flips.stuck.push(facet),
-                    Err(Obstacle::Elsewhere | Obstacle::Full) => flips.later.push(facet),
+                if let Err(obstacle) = self.flip_if_it_fails(facet, flips) {
+                    flips.put_off(facet, obstacle);
+                    if flips.has_failed {
+                        return;
+                    }
                 }
             }
             if flips.stuck.is_empty() || flips.n_flips == before {
@@ -113,7 +176,7 @@ impl<G: Dimension> Flipper<'_, '_, G> {
     }
 
     #[inline(always)]
-    fn flip_if_it_fails(&mut self, facet: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+    fn flip_if_it_fails(&mut self, facet: Facet, flips: &mut Flips<G>) -> Result<(), Obstacle> {
         let cell = self.cells.cell(facet.cell())?;
         // The cell of a facet may have gone; then those around it are suspects, too.
         if cell.is_free() || cell.is_ghost() {
@@ -128,24 +191,23 @@ impl<G: Dimension> Flipper<'_, '_, G> {
         if !G::is_in_sphere(self.filter, self.sites, &cell.corners, place, id) {
             return Ok(());
         }
+        flips.reserve()?;
         G::flip(self, facet, flips)?;
         flips.n_flips += 1;
         Ok(())
     }
 }
 
-impl Flipper<'_, '_, super::Plane> {
-    pub(super) fn flip_edge(&mut self, edge: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
-        let outer = self.cells.flip_2_2(edge)?;
-        flips.changed.extend([outer[0].cell(), outer[2].cell()]);
-        flips.suspects.extend(outer);
+impl Flipper<'_, '_, Plane> {
+    pub(super) fn flip_edge(&mut self, edge: Facet, flips: &mut Flips<Plane>) -> Result<(), Obstacle> {
+        flips.enter(self.cells.flip_2_2(edge)?);
         Ok(())
     }
 }
 
 impl Flipper<'_, '_, Space> {
     /// Flips if that makes positive cells.
-    pub(super) fn flip_face(&mut self, face: Facet, flips: &mut Flips) -> Result<(), Obstacle> {
+    pub(super) fn flip_face(&mut self, face: Facet, flips: &mut Flips<Space>) -> Result<(), Obstacle> {
         let i = face.index();
         let cell = self.cells.cell(face.cell())?;
         let q = self.sites.point(self.cells.apex(cell.neighbour(i))?);
@@ -174,8 +236,8 @@ impl Flipper<'_, '_, Space> {
 
 impl<G: Dimension> Delaunay<G> {
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that fail
-    /// still as they cannot be flipped. There are none in the plane; if there are, [`unflip`](Dimension::unflip) must
-    /// follow. Returns the number of flips.
+    /// still as they cannot be flipped. There are none in the plane; if there are, [`undo_flips`](Self::undo_flips) must
+    /// follow. Returns the number of flips. After an error all is as it was.
     pub(crate) fn flip_all(&mut self, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64> {
         let mut flips = std::mem::take(&mut self.flips);
         std::mem::swap(&mut flips.own.suspects, suspects);
@@ -191,29 +253,40 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Flips from the facets of the gathered star outwards, until no facet fails; `None`, and no change, if flips are stuck.
-    pub(super) fn flip_star(&mut self) -> Option<u64> {
+    pub(super) fn flip_star(&mut self) -> Result<Option<u64>> {
         let mut flips = std::mem::take(&mut self.flips);
+        let done = self.flip_star_with(&mut flips);
+        let is_stuck = done.is_ok() && !flips.own.stuck.is_empty();
+        self.flips = flips;
+        if is_stuck {
+            self.undo_flips();
+        }
+        Ok(Some(done?).filter(|_| !is_stuck))
+    }
+
+    fn flip_star_with(&mut self, flips: &mut AllFlips<G>) -> Result<u64> {
         let Flips { suspects, .. } = &mut flips.own;
         suspects.clear();
+        memory::reserve(suspects, self.hole.star.len() * G::Corners::N)?;
         for &(c, at) in &self.hole.star {
             let cell = self.complex.cell(c);
             // Those within the star once.
             let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
             suspects.extend((0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i)));
         }
-        let done = self.flip_listed(&mut flips, 1);
-        let is_done = done.is_ok() && flips.own.stuck.is_empty();
-        self.flips = flips;
-        if !is_done {
-            G::unflip(self);
-        }
-        done.ok().filter(|_| is_done)
+        self.flip_listed(flips, 1)
     }
 
-    /// Flips from the suspects, and keeps that unless flips are stuck; returns their number.
-    fn flip_listed(&mut self, flips: &mut AllFlips, n_threads: usize) -> Result<u64> {
-        self.flip_as_far_as_possible(flips, n_threads)?;
+    /// Flips from the suspects, and keeps that unless flips are stuck; returns their number. After an error all is as it
+    /// was.
+    fn flip_listed(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<u64> {
+        let done = self.flip_as_far_as_possible(flips, n_threads);
         let is_done = flips.own.stuck.is_empty();
+        let done = done.and_then(|()| if is_done { self.enter_flips(flips) } else { Ok(()) });
+        if let Err(error) = done {
+            self.take_back(flips);
+            return Err(error);
+        }
         let mut n_flips = 0;
         for part in flips.parts.iter_mut().chain([&mut flips.own]) {
             n_flips += part.n_flips;
@@ -225,20 +298,25 @@ impl<G: Dimension> Delaunay<G> {
         Ok(n_flips)
     }
 
-    fn flip_as_far_as_possible(&mut self, flips: &mut AllFlips, n_threads: usize) -> Result<()> {
+    fn flip_as_far_as_possible(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<()> {
         flips.own.begin();
         flips.parts.iter_mut().for_each(Flips::begin);
-        flips.were_several = n_threads > 1;
-        if flips.were_several {
+        flips.were_several = false;
+        if n_threads > 1 {
             flips.n_slots = self.complex.n_slots();
             flips.free.clear();
+            memory::reserve(&mut flips.free, self.complex.free_cells().len())?;
             flips.free.extend_from_slice(self.complex.free_cells());
-            self.flip_side_by_side(flips, n_threads);
+            flips.were_several = true;
+            self.flip_side_by_side(flips, n_threads)?;
         }
         let own = &mut flips.own;
         loop {
             let sites = Sites::new(&self.sites);
             Flipper { filter: &self.filter, sites, cells: &mut self.complex.whole() }.flip_all(own);
+            if own.has_failed {
+                return Err(Error::OutOfMemory { bytes: own.journal.len() * size_of::<Row<G::Corners>>() });
+            }
             if own.later.is_empty() {
                 return Ok(());
             }
@@ -248,32 +326,57 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Flips as far as several threads can, each in a stretch of the cells.
-    fn flip_side_by_side(&mut self, flips: &mut AllFlips, n_threads: usize) {
+    fn flip_side_by_side(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<()> {
         let AllFlips { own: Flips { suspects, .. }, parts, .. } = flips;
-        let mut sample: Vec<u32> =
-            suspects.iter().step_by((suspects.len() / SAMPLE).max(1)).map(|facet| facet.cell()).collect();
+        let step = (suspects.len() / SAMPLE).max(1);
+        let (mut sample, mut starts) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut sample, suspects.len().div_ceil(step))?;
+        memory::reserve_exact(&mut starts, n_threads)?;
+        sample.extend(suspects.iter().step_by(step).map(|facet| facet.cell()));
         sample.sort_unstable();
-        let mut starts: Vec<u32> = (0..n_threads).map(|k| sample[sample.len() * k / n_threads]).collect();
+        starts.extend((0..n_threads).map(|k| sample[sample.len() * k / n_threads]));
         starts[0] = 0;
         starts.dedup();
-        if parts.len() < starts.len() {
-            parts.resize_with(starts.len(), Flips::default);
+        let missing = starts.len().saturating_sub(parts.len());
+        memory::reserve_exact(parts, missing)?;
+        parts.resize_with(parts.len() + missing, Flips::default);
+        for (k, part) in parts.iter_mut().enumerate().take(starts.len()) {
+            let stretch = starts[k]..starts.get(k + 1).copied().unwrap_or(u32::MAX);
+            for &facet in suspects.iter().filter(|facet| stretch.contains(&facet.cell())) {
+                memory::push(&mut part.suspects, facet)?;
+            }
         }
         let (sites, filter) = (Sites::new(&self.sites), &self.filter);
-        self.complex.divided(&starts, parts, |k, cells, part| {
-            let stretch = starts[k]..starts.get(k + 1).copied().unwrap_or(u32::MAX);
-            part.suspects.extend(suspects.iter().filter(|facet| stretch.contains(&facet.cell())));
+        self.complex.divided(&starts, parts, |_, cells, part| {
             Flipper { filter, sites, cells }.flip_all(part);
-        });
+        })?;
         suspects.clear();
         for part in parts {
+            if part.has_failed {
+                return Err(Error::OutOfMemory { bytes: part.journal.len() * size_of::<Row<G::Corners>>() });
+            }
+            memory::reserve(suspects, part.later.len() + part.stuck.len())?;
             suspects.append(&mut part.later);
             suspects.append(&mut part.stuck);
         }
+        Ok(())
     }
 
-    /// Nothing of this will be taken back: gives the sites their new cells.
-    fn keep(&mut self, flips: &mut Flips) {
+    /// Enters flips that will stay into the records.
+    fn enter_flips(&mut self, flips: &AllFlips<G>) -> Result<()> {
+        for part in flips.parts.iter().chain([&flips.own]) {
+            self.complex.note_rows(&part.journal)?;
+            if let Some(changed) = &mut self.changed {
+                memory::reserve(changed, part.changed.len() + part.made.len())?;
+                changed.extend_from_slice(&part.changed);
+                changed.extend_from_slice(&part.made);
+            }
+        }
+        Ok(())
+    }
+
+    /// Nothing of this will be taken back by itself: gives the sites their new cells.
+    fn keep(&mut self, flips: &mut Flips<G>) {
         for (k, &c) in flips.changed.iter().enumerate() {
             if let Some(&next) = flips.changed.get(k + AHEAD) {
                 prefetch(self.complex.cells(), next as usize);
@@ -286,22 +389,30 @@ impl<G: Dimension> Delaunay<G> {
                 self.recent = c;
             }
         }
-        if let Some(changed) = &mut self.changed {
-            changed.extend_from_slice(&flips.changed);
-            changed.extend_from_slice(&flips.made);
-        }
         flips.journal.clear();
         // Keep the memory for a lively timestamp, not for one that changes everything.
-        flips.journal.shrink_to(self.sites.len());
+        if flips.journal.capacity() > 3 * self.sites.len() {
+            flips.journal = Vec::new();
+        }
     }
-}
 
-impl Delaunay<Space> {
     /// Takes the flips of the last [`flip_all`](Self::flip_all) back.
-    pub(super) fn undo_flips(&mut self) {
-        let AllFlips { own, parts, were_several, n_slots, free } = &mut self.flips;
+    pub(crate) fn undo_flips(&mut self) {
+        let mut flips = std::mem::take(&mut self.flips);
+        self.take_back(&mut flips);
+        self.flips = flips;
+    }
+
+    fn take_back(&mut self, flips: &mut AllFlips<G>) {
+        let AllFlips { own, parts, were_several, n_slots, free } = flips;
         for flips in parts.iter_mut().chain([own]).rev() {
-            self.complex.undo(flips.journal.drain(..).rev());
+            flips.suspects.clear();
+            let rows = flips.journal.drain(..).rev();
+            if *were_several {
+                self.complex.put_back_all(rows);
+            } else {
+                self.complex.undo_flips(rows);
+            }
         }
         if *were_several {
             self.complex.restore_free(*n_slots, free);
@@ -312,7 +423,7 @@ impl Delaunay<Space> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::{Failures, Level, Plane};
+    use crate::delaunay::{Failures, Level};
     use crate::threads::Threads;
 
     fn unit(state: &mut u64) -> f64 {
@@ -326,7 +437,7 @@ mod tests {
         let mut state = 5;
         let mut points = vec![G::Point::default(); n];
         points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = unit(&mut state)));
-        let mut t = Delaunay::<G>::on(Threads::at_most(threads));
+        let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
         t.add_sites(&points).expect("room for it");
         t.rebuild(&mut |_| true).expect("room for it");
         t.sort_cells().expect("room for it");

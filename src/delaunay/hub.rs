@@ -9,6 +9,7 @@ use std::collections::{HashMap, HashSet};
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
+use crate::threads::Threads;
 
 impl<G: Dimension> Delaunay<G> {
     /// Fills the hole of the gathered star by the triangulation of its link.
@@ -21,6 +22,8 @@ impl<G: Dimension> Delaunay<G> {
             open.insert(sorted_without(gap.corners, gap.at), gap.out);
         }
         self.complex.reserve(made.len())?;
+        self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
+        self.complex.reserve_rows(made.len())?;
         let star = std::mem::take(&mut self.hole.star);
         for &(c, _) in &star {
             self.complex.retire(c);
@@ -49,7 +52,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Corners of the cells that fill the hole.
     fn cells_of_link(&self) -> Result<Vec<G::Corners>> {
-        let mut local = Delaunay::<G>::default();
+        let mut local = Delaunay::<G>::on(Threads::ONE)?;
         // Site k + 1 of the link's triangulation is the k-th of these.
         let finite: Vec<u32> = self.hole.sites.iter().copied().filter(|&s| s != INFINITE).collect();
         for &s in &finite {

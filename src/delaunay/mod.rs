@@ -15,6 +15,8 @@
 //! | `hub` | removal of a vertex with very many neighbours |
 //! | `relocate` | one site to a new place |
 //! | `flip` | flips, on several threads, and the way back |
+//! | `undo` | the way back from any change |
+//! | `successor` | a kernel to be built beside another one |
 //! | `certify`, `screen` | all certificates at once |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
@@ -45,6 +47,8 @@ mod remove;
 mod screen;
 pub mod site;
 mod spheres;
+mod successor;
+mod undo;
 mod unite;
 mod validate;
 
@@ -91,7 +95,8 @@ pub struct Delaunay<G: Dimension> {
     recent: u32,
     cavity: Cavity<G>,
     hole: Hole<G>,
-    flips: AllFlips,
+    flips: AllFlips<G>,
+    log: undo::Log<G>,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
     changed: Option<Vec<u32>>,
     /// Certificates evaluated by relocations so far.
@@ -101,9 +106,19 @@ pub struct Delaunay<G: Dimension> {
 
 impl<G: Dimension> Default for Delaunay<G> {
     fn default() -> Self {
+        Delaunay::on(Threads::ONE).expect("memory for a site")
+    }
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Index of the last corner, the one that is infinite in a ghost cell.
+    const LAST: usize = G::D;
+
+    /// Nothing, not even the placeholder for the ghost vertex.
+    fn empty() -> Self {
         let origin = G::Point::default();
         Delaunay {
-            sites: vec![Site::new(origin, INFINITE)],
+            sites: Vec::new(),
             free_sites: Vec::new(),
             parts: Parts::default(),
             complex: Complex::default(),
@@ -116,20 +131,18 @@ impl<G: Dimension> Default for Delaunay<G> {
             cavity: Cavity::default(),
             hole: Hole::default(),
             flips: AllFlips::default(),
+            log: undo::Log::default(),
             changed: None,
             certificates: 0,
             threads: Threads::ONE,
         }
     }
-}
-
-impl<G: Dimension> Delaunay<G> {
-    /// Index of the last corner, the one that is infinite in a ghost cell.
-    const LAST: usize = G::D;
 
     /// A triangulation without sites that uses several threads.
-    pub(crate) fn on(threads: Threads) -> Self {
-        Delaunay { threads, ..Delaunay::default() }
+    pub(crate) fn on(threads: Threads) -> Result<Self> {
+        let mut t = Delaunay { threads, ..Delaunay::empty() };
+        memory::push(&mut t.sites, Site::new(G::Point::default(), INFINITE))?;
+        Ok(t)
     }
 
     /// The cells.
@@ -188,7 +201,9 @@ impl<G: Dimension> Delaunay<G> {
     /// insertion.
     pub fn add_site(&mut self, point: G::Point, id: u32) -> Result<u32> {
         let site = Site::new(point, id);
-        if let Some(s) = self.free_sites.pop() {
+        if let Some(&s) = self.free_sites.last() {
+            self.log_site(s)?;
+            self.free_sites.pop();
             self.sites[s as usize] = site;
             return Ok(s);
         }
@@ -199,8 +214,15 @@ impl<G: Dimension> Delaunay<G> {
         if self.sites.len() == self.sites.capacity() {
             self.reserve_sites(1.max(self.sites.len() / 8))?;
         }
-        self.sites.push(site);
-        Ok(self.sites.len() as u32 - 1)
+        // A free one, which is named like any other.
+        let s = self.sites.len() as u32;
+        self.sites.push(Site::new(point, crate::complex::NONE));
+        if let Err(error) = self.log_site(s) {
+            self.sites.pop();
+            return Err(error);
+        }
+        self.sites[s as usize] = site;
+        Ok(s)
     }
 
     /// Makes room for `n` more sites.
@@ -208,11 +230,7 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(&mut self.sites, n)
     }
 
-    /// Forgets a site that is in no cell: one whose insertion failed.
-    pub fn discard_site(&mut self, s: u32) {
-        self.drop_site(s);
-    }
-
+    /// Frees a site; there is room for it in the list, as it has been logged or [counted](Self::merge).
     fn drop_site(&mut self, s: u32) {
         self.sites[s as usize].id = crate::complex::NONE;
         self.free_sites.push(s);
@@ -390,11 +408,21 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// As [`record`](Self::record), of many.
+    pub(crate) fn record_all(&mut self, cells: &[u32]) -> Result<()> {
+        if let Some(changed) = &mut self.changed {
+            memory::reserve(changed, cells.len())?;
+            changed.extend_from_slice(cells);
+        }
+        Ok(())
+    }
+
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         self.sites.capacity() * size_of::<Site<G>>()
             + self.free_sites.capacity() * 4
             + self.complex.memory_bytes()
+            + self.log.memory_bytes()
             + self.flat.memory_bytes()
     }
 }

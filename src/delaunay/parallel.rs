@@ -22,7 +22,7 @@ use super::unite::Open;
 use super::{Delaunay, Dimension, Site};
 use crate::complex::{INFINITE, memory};
 use crate::error::{Error, Result};
-use crate::threads;
+use crate::threads::{self, Threads};
 
 /// Share of the work that is done when the parts are triangulated, roughly.
 const SHARE_OF_PARTS: f64 = 0.8;
@@ -127,7 +127,7 @@ impl<G: Dimension> Build<'_, G> {
             || self.triangulate(t, parts.start..middle, end, monitor),
             || {
                 let goes_on = &mut |_| !self.stop.load(Relaxed);
-                let mut right = Delaunay::default();
+                let mut right = Delaunay::on(Threads::ONE)?;
                 let coincident = self.triangulate(&mut right, middle..parts.end, parts.end, goes_on)?;
                 let (lower, upper) = self.box_of(parts.start..middle);
                 Ok((right.open(&lower, &upper)?, coincident))
@@ -181,7 +181,6 @@ impl<G: Dimension> Build<'_, G> {
 mod tests {
     use super::*;
     use crate::delaunay::{Level, Plane, Space};
-    use crate::threads::Threads;
 
     fn random<G: Dimension>(n: usize) -> Vec<G::Point> {
         let mut state = 1u64;
@@ -197,7 +196,7 @@ mod tests {
     /// Parts are triangulated as such, and their sizes, hulls and counters are those of one triangulation.
     fn unites<G: Dimension>() {
         for threads in [2, 3, 5] {
-            let mut t = Delaunay::<G>::on(Threads::at_most(threads));
+            let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
             t.add_sites(&random::<G>(3000)).expect("room for it");
             let coincident = t.triangulate_parts(&mut |_| true).expect("room for it");
             assert_eq!(coincident, Some(Vec::new()));
@@ -221,7 +220,7 @@ mod tests {
     fn flat_parts_are_left_to_one_thread() {
         let mut points = random::<Plane>(3000);
         points.iter_mut().filter(|p| p[0] < 0.6).for_each(|p| p[1] = 0.0);
-        let mut t = Delaunay::<Plane>::on(Threads::at_most(2));
+        let mut t = Delaunay::<Plane>::on(Threads::at_most(2)).expect("room for it");
         t.add_sites(&points).expect("room for it");
         assert_eq!(t.triangulate_parts(&mut |_| true), Ok(None));
         assert_eq!(t.rebuild(&mut |_| true), Ok(Vec::new()));

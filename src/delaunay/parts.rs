@@ -49,6 +49,11 @@ impl Parts {
         self.divide::<G>(&mut sample[rank..], middle..parts.end);
     }
 
+    /// The same parts.
+    pub(super) fn copy(&self) -> Result<Self> {
+        Ok(Parts { starts: memory::copy_of(&self.starts)?, planes: memory::copy_of(&self.planes)? })
+    }
+
     /// Number of parts.
     pub(super) fn count(&self) -> usize {
         self.planes.len() + 1
@@ -112,14 +117,8 @@ impl Parts {
         }
     }
 
-    /// Lets sites that are on the wrong side of a plane change places. Calls `moved` with each and its new
-    /// index.
-    fn restore<G: Dimension>(
-        &mut self,
-        sites: &mut [Site<G>],
-        parts: Range<usize>,
-        moved: &mut impl FnMut(&Site<G>, u32),
-    ) {
+    /// Lets sites that are on the wrong side of a plane change places.
+    fn restore<G: Dimension>(&mut self, sites: &mut [Site<G>], parts: Range<usize>) {
         if parts.len() <= 1 {
             return;
         }
@@ -133,13 +132,11 @@ impl Parts {
                 break;
             }
             sites.swap(i, j - 1);
-            moved(&sites[i], i as u32);
-            moved(&sites[j - 1], j as u32 - 1);
             (i, j) = (i + 1, j - 1);
         }
         self.starts[middle] = i as u32;
-        self.restore(sites, parts.start..middle, moved);
-        self.restore(sites, middle..parts.end, moved);
+        self.restore(sites, parts.start..middle);
+        self.restore(sites, middle..parts.end);
     }
 
     /// Whether no part is much larger than the others.
@@ -202,20 +199,15 @@ impl<G: Dimension> Delaunay<G> {
         Ok((parts, sorted))
     }
 
-    /// Brings the sites back into parts, if they were: indices change. Calls `moved` with the id and the new
-    /// index of each site concerned. [`rebuild`](Self::rebuild) must follow.
-    pub(crate) fn restore_parts(&mut self, mut moved: impl FnMut(u32, u32)) {
+    /// Brings the sites back into parts, if they were: indices change. [`rebuild`](Self::rebuild) must follow.
+    pub(crate) fn restore_parts(&mut self) {
         let n_parts = self.parts.count();
         if n_parts == 1 {
             return;
         }
-        let mut moved = |site: &Site<G>, s| {
-            if site.is_live() {
-                moved(site.id, s);
-            }
-        };
-        self.parts.restore(&mut self.sites, 0..n_parts, &mut moved);
+        self.parts.restore(&mut self.sites, 0..n_parts);
         if !self.free_sites.is_empty() {
+            // As many as before.
             self.free_sites.clear();
             let sites = (1..).zip(&self.sites[1..]);
             self.free_sites.extend(sites.filter(|(_, site)| !site.is_live()).map(|(s, _)| s));

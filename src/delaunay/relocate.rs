@@ -16,7 +16,7 @@
 //! The id of a site breaks ties, so a change of id is a relocation to the same place.
 
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
 use crate::error::Result;
 
 /// What a relocation did.
@@ -30,6 +30,8 @@ pub enum Relocation {
     Placed,
     /// The site was removed, and its new place is that of this one; its index is free.
     Coincident(u32),
+    /// The other sites span no cell, and with this one at its new place they do: a kernel has to be built.
+    Spans,
 }
 
 /// Which shortcuts a relocation may take.
@@ -42,68 +44,89 @@ pub enum Shortcut {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Moves a live site to `q`, where it represents vertex `id`.
+    /// Moves a live site to `q`, where it represents vertex `id`. There must be cells.
     pub fn relocate_site(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Result<Relocation> {
         self.cover(q, q);
-        if self.has_cells() {
-            self.gather_star(s);
-            if let Some(done) = self.relocate_in_place(s, q, id, shortcut) {
-                return Ok(done);
-            }
-            self.remove_gathered(s)?;
-            if self.complex.n_finite() == 0 {
-                self.become_flat(s);
-            }
-        } else {
-            self.remove_flat(s);
+        self.gather_star(s);
+        if let Some(done) = self.relocate_in_place(s, q, id, shortcut)? {
+            return Ok(done);
+        }
+        self.log_site(s)?;
+        self.remove_gathered(s)?;
+        if self.complex.n_finite() == 0 {
+            self.become_flat(s);
         }
         self.sites[s as usize] = Site::new(*q, id);
         match self.insert_site(s, NONE)? {
             Insertion::New => Ok(Relocation::Placed),
             Insertion::Coincident(t) => Ok(Relocation::Coincident(t)),
+            Insertion::Spans => Ok(Relocation::Spans),
         }
     }
 
     /// Gives a site the id of another vertex.
     pub fn rename_site(&mut self, s: u32, id: u32) -> Result<()> {
+        self.log_id(s)?;
+        if !self.has_cells() {
+            self.sites[s as usize].id = id;
+            return Ok(());
+        }
+        // Where the sites of the star stay, its vertices do not: who follows the cells has to know.
+        self.gather_star(s);
+        self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
         let q = self.site(s).point;
         self.relocate_site(s, &q, id, Shortcut::Certificates)?;
         Ok(())
     }
 
     /// Relocates without a removal if the star allows it; otherwise changes nothing.
-    fn relocate_in_place(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Option<Relocation> {
-        let old = (self.site(s).point, self.site(s).id);
+    fn relocate_in_place(
+        &mut self,
+        s: u32,
+        q: &G::Point,
+        id: u32,
+        shortcut: Shortcut,
+    ) -> Result<Option<Relocation>> {
+        let (old, old_id) = (self.site(s).point, self.site(s).id);
         self.sites[s as usize].point = *q;
         self.sites[s as usize].id = id;
-        if self.star_surely_holds() {
-            return Some(Relocation::InPlace);
+        let done = self.repair_star(shortcut);
+        if !matches!(done, Ok(Some(_))) {
+            self.sites[s as usize].point = old;
+            self.sites[s as usize].id = old_id;
+        }
+        done
+    }
+
+    /// Makes sure that the gathered star, whose site has moved, is as it must be; if it is not, and flips may not or cannot
+    /// mend it, nothing changes.
+    fn repair_star(&mut self, shortcut: Shortcut) -> Result<Option<Relocation>> {
+        if self.star_surely_holds()? {
+            return Ok(Some(Relocation::InPlace));
         }
         if self.star_is_positive() && self.star_is_convex() {
-            self.record_star();
+            self.record_star()?;
             if self.star_is_delaunay() {
-                return Some(Relocation::InPlace);
+                return Ok(Some(Relocation::InPlace));
             }
-            if shortcut == Shortcut::Flips
-                && let Some(flips) = self.flip_star()
-            {
-                return Some(Relocation::Flipped(flips));
+            if shortcut == Shortcut::Flips {
+                return Ok(self.flip_star()?.map(Relocation::Flipped));
             }
         }
-        self.sites[s as usize].point = old.0;
-        self.sites[s as usize].id = old.1;
-        None
+        Ok(None)
     }
 
     /// Enters the gathered star into the record of changes.
-    fn record_star(&mut self) {
+    fn record_star(&mut self) -> Result<()> {
         if let Some(changed) = &mut self.changed {
+            memory::reserve(changed, self.hole.star.len())?;
             changed.extend(self.hole.star.iter().map(|&(c, _)| c));
         }
+        Ok(())
     }
 
     /// Whether all certificates of the gathered star hold, without ghosts or doubt; then it is recorded.
-    fn star_surely_holds(&mut self) -> bool {
+    fn star_surely_holds(&mut self) -> Result<bool> {
         let mut holds = true;
         self.screen(self.hole.star.iter().map(|&(c, _)| c), |_| {
             holds = false;
@@ -111,9 +134,9 @@ impl<G: Dimension> Delaunay<G> {
         });
         self.certificates += (self.hole.star.len() * (G::D + 3) / 2) as u64;
         if holds {
-            self.record_star();
+            self.record_star()?;
         }
-        holds
+        Ok(holds)
     }
 
     /// Whether every finite cell of the gathered star is positively oriented.

@@ -123,6 +123,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Removes a live site.
     pub fn remove_site(&mut self, s: u32) -> Result<()> {
+        self.log_site(s)?;
         if !self.has_cells() {
             self.remove_flat(s);
             self.drop_site(s);
@@ -147,7 +148,7 @@ impl<G: Dimension> Delaunay<G> {
             return self.remove_hub();
         }
         self.wrap();
-        if let Err(error) = self.complex.reserve(self.hole.made.len()) {
+        if let Err(error) = self.reserve_filling() {
             self.restore_link_cells();
             return Err(error);
         }
@@ -157,6 +158,13 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.sites[s as usize].cell = NONE;
         Ok(())
+    }
+
+    /// Makes sure that the cells of the hole can be replaced.
+    fn reserve_filling(&mut self) -> Result<()> {
+        self.complex.reserve(self.hole.made.len())?;
+        self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
+        self.complex.reserve_rows(self.hole.made.len())
     }
 
     /// Finds the cells that fill the hole.

@@ -1,7 +1,7 @@
 //! Bi-cells: two cells and the facet between them (report, section 2.2).
 
 use super::MovingTriangulation;
-use crate::complex::{Corners, Facet, INFINITE};
+use crate::complex::{Corners, Facet, INFINITE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::predicates::Delimiter;
@@ -93,7 +93,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn tolerance(&self, vertex: u32) -> Result<f64> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
-        if self.hidden.any_at(s) {
+        if self.is_shared(s) {
             return Ok(0.0);
         }
         let mut tolerance = f64::INFINITY;
@@ -117,25 +117,32 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Annulus width of the bi-cell beyond each facet of each finite cell, as a certified lower bound, in the order of
     /// [`cells`](Self::cells): entry `i` of a cell is that of the facet opposite corner `i`. Every interior bi-cell is
     /// listed from both sides; facets of the hull have none and hold NaN.
-    pub fn annulus_widths(&self) -> Vec<f64> {
-        let complex = self.kernel.complex();
-        let mut widths = Vec::with_capacity(complex.n_finite() * G::Corners::N);
-        for c in complex.finite() {
-            for i in 0..G::Corners::N {
-                let delimiter = BiCell::of(&self.kernel, Facet::new(c, i)).delimiter();
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn annulus_widths(&self) -> Result<Vec<f64>> {
+        let cells = self.cell_arrays()?;
+        let mut widths = Vec::new();
+        memory::reserve_exact(&mut widths, cells.corners.len() * G::Corners::N)?;
+        for index in 0..cells.corners.len() as u32 {
+            for corner in 0..G::Corners::N {
+                let delimiter = BiCell::of(&self.kernel, cells.facet(&self.kernel, index, corner)).delimiter();
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
             }
         }
-        widths
+        Ok(widths)
     }
 
     /// Standard delimiter of the bi-cell of the facet opposite corner `corner` of the finite cell of index `cell` in
     /// [`cells`](Self::cells); `None` if there is no such facet or it is on the hull.
-    pub fn standard_delimiter(&self, cell: u32, corner: u32) -> Option<Delimiter<G::Point>> {
-        let slot = *self.cell_arrays().slots.get(cell as usize)?;
-        if corner as usize > G::D {
-            return None;
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn standard_delimiter(&self, cell: u32, corner: u32) -> Result<Option<Delimiter<G::Point>>> {
+        let cells = self.cell_arrays()?;
+        if cell as usize >= cells.corners.len() || corner as usize > G::D {
+            return Ok(None);
         }
-        BiCell::of(&self.kernel, Facet::new(slot, corner as usize)).delimiter()
+        Ok(BiCell::of(&self.kernel, cells.facet(&self.kernel, cell, corner as usize)).delimiter())
     }
 }

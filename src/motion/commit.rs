@@ -1,6 +1,5 @@
 //! The commit: one timestamp, all or nothing.
 
-use super::cells::Baseline;
 use super::regions::Filter;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
@@ -16,19 +15,21 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// reject that, [`Error::TooManyCells`](crate::Error::TooManyCells),
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
-        let baseline = self.options.track_changes.then(|| Baseline::of(self));
-        self.forget_views();
+        self.prepare_tracking()?;
         let mut report = CommitReport::default();
         let before = self.evaluations();
         self.staging.applied = 0;
         self.staging.forget_full_list(self.n_present);
-        if let Err(error) = self.advance(&mut report) {
-            self.go_back()?;
+        self.begin()?;
+        let advanced = self.advance(&mut report);
+        if let Err(error) = advanced.and_then(|()| self.views.prepare(&self.kernel)) {
+            self.undo();
             return Err(error);
         }
+        self.views.begin_commit();
+        self.publish();
         self.enter_evaluations(&mut report, before);
         self.staging.clear();
-        self.baseline = baseline;
         self.statistics.timestamp += 1;
         self.count(report);
         report.timestamp = self.statistics.timestamp;
@@ -52,26 +53,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             Algorithm::Auto => self.commit_by_auto(report)?,
         }
         self.reject_coincidence()
-    }
-
-    /// Puts the vertices whose moves were applied back where they were, and rebuilds.
-    fn go_back(&mut self) -> Result<()> {
-        self.spread_hidden()?;
-        if self.staging.others_applied {
-            for v in 0..self.site_of.len() as u32 {
-                self.exchange_position(v);
-            }
-            // Those that have not moved have been exchanged in vain.
-            for k in self.staging.applied..self.staging.vertices.len() {
-                self.exchange_position(self.staging.vertices[k]);
-            }
-        } else {
-            for k in 0..self.staging.applied {
-                self.exchange_position(self.staging.vertices[k]);
-            }
-        }
-        self.staging.end_queue();
-        self.rebuild_quietly()
     }
 
     /// Tells the monitor how far the work is; whether to go on.

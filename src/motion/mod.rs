@@ -15,13 +15,13 @@
 //! | `auto` | | watching, repair or rebuilding, by what the last commits found |
 //!
 //! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4);
-//! `moving` has the loops that move all vertices.
+//! `moving` has the loops that move all vertices; `transaction` the way back from a change; `cells` and `changes` what
+//! callers read of it.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
 //! - the vertices at one place share a site; the lowest id represents it, the others are *hidden*;
-//! - a call that fails has no effect: the positions before it are set again and rebuilt, which by the first
-//!   invariant restores the cells.
+//! - a call that fails has no effect: every change is a [transaction](transaction), which is undone from its own record.
 //!
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, and once moves are staged a position, a flag and
 //! an id.
@@ -29,6 +29,7 @@
 mod auto;
 mod bicell;
 mod cells;
+mod changes;
 mod coincidence;
 mod commit;
 mod moving;
@@ -43,13 +44,13 @@ mod slacks;
 mod staging;
 mod switching;
 mod tolerance;
+mod transaction;
 mod watch;
 mod watched;
 
-use std::sync::OnceLock;
-
 pub use crate::delaunay::{Level, Violation};
 pub use cells::{CellsView, NO_CELL};
+pub use changes::Changes;
 pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
 pub use query::Location;
 
@@ -59,12 +60,14 @@ use crate::error::{Error, Result};
 use crate::predicates::exact_calls;
 use crate::threads::Threads;
 use auto::Auto;
-use cells::{Baseline, Cells};
+use cells::Views;
+use changes::Taken;
 use coincidence::Hidden;
 use regions::Regions;
 use repair::Repair;
 use staging::{Staging, check_position};
 use switching::Switching;
+use transaction::Transaction;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
@@ -86,9 +89,11 @@ pub struct MovingTriangulation<G: Dimension> {
     statistics: CommitReport,
     /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
     sorted_stride: f64,
-    cells: OnceLock<Cells<G>>,
-    baseline: Option<Baseline<G>>,
-    changed: OnceLock<Vec<u32>>,
+    transaction: Transaction<G>,
+    views: Views<G>,
+    /// The changes taken last, and whether any ever were.
+    taken: Taken<G::Corners>,
+    takes_changes: bool,
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -102,7 +107,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
         }
         let mut t = MovingTriangulation {
-            kernel: Delaunay::on(Threads::at_most(options.threads)),
+            kernel: Delaunay::on(Threads::at_most(options.threads))?,
             site_of: Vec::new(),
             hidden: Hidden::default(),
             n_present: positions.len(),
@@ -114,9 +119,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             options,
             statistics: CommitReport::default(),
             sorted_stride: 0.0,
-            cells: OnceLock::new(),
-            baseline: None,
-            changed: OnceLock::new(),
+            transaction: Transaction::default(),
+            views: Views::default(),
+            taken: Taken::default(),
+            takes_changes: false,
         };
         for (i, p) in positions.iter().enumerate() {
             check_position::<G>("positions", i, p)?;
@@ -124,8 +130,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         t.kernel.add_sites(positions)?;
         memory::reserve_exact(&mut t.site_of, positions.len())?;
         t.site_of.resize(positions.len(), NONE);
-        t.build_sorted()?;
-        t.reject_coincidence()?;
+        t.build_first()?;
         t.statistics.coincident = t.hidden.count() as u64;
         Ok(t)
     }
@@ -155,14 +160,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         if old == q {
             return Ok(());
         }
-        self.reject_occupied(vertex, &q)?;
-        self.forget_views();
         let before = self.evaluations();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };
-        if let Err(error) = self.relocate_filtered(vertex, &q, &mut report) {
-            self.spread_hidden()?;
+        let relocated = self.transact(|t| {
+            t.reject_occupied(vertex, &q)?;
+            t.relocate_filtered(vertex, &q, &mut report)
+        });
+        if let Err(error) = relocated {
+            // The way back does not know the place of a vertex that was only moved.
             self.kernel.set_point(self.site_of[vertex as usize], old);
-            self.rebuild_quietly()?;
             return Err(error);
         }
         self.enter_evaluations(&mut report, before);
@@ -186,32 +192,36 @@ impl<G: Dimension> MovingTriangulation<G> {
         let id = self.site_of.len() as u32;
         self.reject_occupied(id, &q)?;
         self.staging.list()?;
-        self.forget_views();
-        let s = self.kernel.add_site(q, id)?;
-        self.site_of.push(s);
-        self.n_present += 1;
+        self.staging.make_room(1)?;
+        memory::push(&mut self.site_of, NONE)?;
         let before = self.evaluations();
         let mut report = CommitReport::default();
-        let inserted = self.with_regions(&mut report, |t, _| {
+        let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
+        if let Err(error) = inserted {
+            self.site_of.pop();
+            return Err(error);
+        }
+        self.n_present += 1;
+        self.staging.grow(self.site_of.len());
+        self.enter_evaluations(&mut report, before);
+        self.count(report);
+        Ok(id)
+    }
+
+    /// Gives the highest of all ids a site, or a place at one.
+    fn insert_at(&mut self, id: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+        let s = self.kernel.add_site(*q, id)?;
+        self.site_of[id as usize] = s;
+        let inserted = self.with_regions(report, |t, _| {
             let inserted = t.kernel.insert_site(s, NONE)?;
             if let Insertion::Coincident(at) = inserted {
                 // The new id is the highest of all, so it is the one to hide: nothing else changes.
                 t.hide(id, at)?;
             }
-            t.regions.note_relocated(id);
-            Ok(())
-        });
-        if let Err(error) = inserted {
-            self.site_of.pop();
-            self.n_present -= 1;
-            self.kernel.discard_site(s);
-            self.rebuild_quietly()?;
-            return Err(error);
-        }
-        self.staging.grow(self.site_of.len());
-        self.enter_evaluations(&mut report, before);
-        self.count(report);
-        Ok(id)
+            t.regions.note_relocated(id)?;
+            Ok(inserted)
+        })?;
+        if inserted == Insertion::Spans { self.rebuild_as_is(report) } else { Ok(()) }
     }
 
     /// Removes a vertex and its staged move, if any. Its id is not given again.
@@ -221,24 +231,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
         self.staging.list()?;
-        self.forget_views();
         let before = self.evaluations();
         let mut report = CommitReport::default();
-        let removed = self.with_regions(&mut report, |t, _| {
-            if !t.hidden.any_at(s) {
-                return t.kernel.remove_site(s);
-            }
-            match t.hidden.leave(s, vertex, t.kernel.site(s).id) {
-                Some(next) => t.kernel.rename_site(s, next),
-                None => Ok(()),
-            }
-        });
+        self.transact(|t| {
+            t.with_regions(&mut report, |t, _| {
+                if t.is_shared(s) { t.leave(vertex) } else { t.kernel.remove_site(s) }
+            })
+        })?;
         self.site_of[vertex as usize] = NONE;
         self.n_present -= 1;
         self.staging.unstage(vertex);
         self.enter_evaluations(&mut report, before);
         self.count(report);
-        removed
+        Ok(())
     }
 
     /// The site of a vertex that must be present.
@@ -250,19 +255,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Sorts the sites along a Hilbert curve and rebuilds.
-    fn sort_and_rebuild(&mut self) -> Result<()> {
-        self.kernel.sort_sites()?;
-        self.build_sorted()
-    }
-
-    /// Builds the cells of sites in sorted storage.
-    fn build_sorted(&mut self) -> Result<()> {
-        for s in self.kernel.live_sites() {
-            self.site_of[self.kernel.site(s).id as usize] = s;
-        }
-        self.sorted_stride = self.kernel.mean_stride();
-        self.rebuild()
+    /// Builds the cells of sites in sorted storage for the first time.
+    fn build_first(&mut self) -> Result<()> {
+        let mut kernel = Delaunay::on(Threads::ONE)?;
+        std::mem::swap(&mut kernel, &mut self.kernel);
+        let stride = kernel.mean_stride();
+        let mut quiet = |_| true;
+        let merges = match &mut self.options.monitor {
+            Some(monitor) => kernel.rebuild(monitor)?,
+            None => kernel.rebuild(&mut quiet)?,
+        };
+        let hidden = self.hide_merged(&kernel, merges)?;
+        self.adopt(kernel, hidden, stride);
+        Ok(())
     }
 
     /// Certificates and exact signs evaluated so far.

@@ -8,6 +8,15 @@ use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
 
+/// Where a vertex has been placed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Placed {
+    /// In a triangulation, or in a set of sites that spans no cell.
+    InCells,
+    /// Outside the hyperplane of all others, so that there are cells again: they have to be built.
+    BesideFlat,
+}
+
 /// Relocations between two calls of the monitor.
 const MONITORED: usize = 256;
 
@@ -28,7 +37,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn place_staged(
         &mut self,
         report: &mut CommitReport,
-        mut relocate: impl FnMut(&mut Self, u32, &G::Point, &mut CommitReport) -> Result<()>,
+        mut relocate: impl FnMut(&mut Self, u32, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
         let (first, n) = (self.staging.applied, self.staging.vertices.len());
         for k in first..n {
@@ -45,7 +54,16 @@ impl<G: Dimension> MovingTriangulation<G> {
             let new = std::mem::replace(&mut self.staging.positions[v as usize], old);
             if new != old {
                 report.moved += 1;
-                relocate(self, v, &new, report)?;
+                match relocate(self, v, &new, report) {
+                    Ok(Placed::InCells) => {}
+                    Ok(Placed::BesideFlat) => return self.commit_by_rebuilding(k + 1, report),
+                    Err(error) => {
+                        // It counts as not moved; what has become of its site is in the record.
+                        self.staging.positions[v as usize] = new;
+                        self.staging.applied = k;
+                        return Err(error);
+                    }
+                }
             }
         }
         Ok(())
@@ -58,9 +76,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         q: &G::Point,
         shortcut: Shortcut,
         report: &mut CommitReport,
-    ) -> Result<()> {
+    ) -> Result<Placed> {
         let s = self.site_of[vertex as usize];
-        if self.hidden.any_at(s) {
+        if self.is_shared(s) {
             return self.relocate_from_shared(vertex, s, q, report);
         }
         match self.kernel.relocate_site(s, q, vertex, shortcut)? {
@@ -71,8 +89,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                 report.placements += 1;
                 self.hide(vertex, t)?;
             }
+            Relocation::Spans => return Ok(Placed::BesideFlat),
         }
-        Ok(())
+        Ok(Placed::InCells)
     }
 
     /// The vertex leaves others behind at the place: it gets a site of its own.
@@ -82,22 +101,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         s: u32,
         q: &G::Point,
         report: &mut CommitReport,
-    ) -> Result<()> {
+    ) -> Result<Placed> {
         report.placements += 1;
-        self.kernel.reserve_sites(1)?;
-        // A live site must be in the triangulation while another is renamed, so the vertex's own is made after that,
-        // and whatever comes of it.
-        let renamed = match self.hidden.leave(s, vertex, self.kernel.site(s).id) {
-            Some(next) => self.kernel.rename_site(s, next),
-            None => Ok(()),
-        };
+        // A live site must be in the triangulation while another is renamed, so the vertex's own is made after that.
+        self.leave(vertex)?;
         let own = self.kernel.add_site(*q, vertex)?;
         self.site_of[vertex as usize] = own;
-        renamed?;
         match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
-            Insertion::New => Ok(()),
-            Insertion::Coincident(t) => self.hide(vertex, t),
+            Insertion::New => {}
+            Insertion::Coincident(t) => self.hide(vertex, t)?,
+            Insertion::Spans => return Ok(Placed::BesideFlat),
         }
+        Ok(Placed::InCells)
     }
 
     /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one

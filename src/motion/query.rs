@@ -70,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
         let s = self.site_of_vertex("vertex", 0, vertex)?;
-        let index_of = &self.cell_arrays().index_of;
+        let index_of = &self.cell_arrays()?.index_of;
         out.clear();
         self.kernel.for_star(s, |c, _| out.push(index_of[c as usize]));
         out.retain(|&c| c != NONE);
@@ -84,12 +84,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
     pub fn locate(&self, position: &G::Point) -> Result<Location> {
         let q = check_position::<G>("position", 0, position)?;
-        let index_of = |c: u32| self.cell_arrays().index_of[c as usize];
+        let index_of = |c: u32| Ok(self.cell_arrays()?.index_of[c as usize]);
         Ok(match self.kernel.locate(&q, NONE) {
             Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
-            Place::Cell(c) => Location::Cell(index_of(c)),
+            Place::Cell(c) => Location::Cell(index_of(c)?),
             Place::Outside(c) => {
-                Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell()))
+                Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell())?)
             }
             Place::NoCells => Location::NoCells,
         })
@@ -209,6 +209,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             + self.site_of.capacity() * 4
             + self.staging.memory_bytes()
             + self.regions.memory_bytes()
-            + self.cells.get().map_or(0, |cells| cells.memory_bytes())
+            + self.hidden.memory_bytes()
+            + self.transaction.memory_bytes()
+            + self.views.memory_bytes()
+            + self.taken.memory_bytes()
     }
 }

@@ -2,10 +2,19 @@
 //!
 //! The storage order of the sites is kept while it serves: motions are small, so what was near still is. Where sites next
 //! to each other in storage have gone apart, they are sorted first.
+//!
+//! The new triangulation is built beside the old one and takes its place when it is complete, so what fails or is
+//! cancelled on the way has changed nothing.
 
-use super::{CommitReport, MovingTriangulation};
-use crate::delaunay::Dimension;
-use crate::error::Result;
+use std::cell::Cell;
+
+use super::coincidence::Hidden;
+use super::moving::differ;
+use super::{CoincidencePolicy, CommitReport, MovingTriangulation};
+use crate::complex::{NONE, memory};
+use crate::delaunay::{Delaunay, Dimension, Merge, Site};
+use crate::error::{Error, Result};
+use crate::prefetch::prefetch;
 
 /// Sites are sorted when the mean distance of those next to each other has become so much greater. Measured with
 /// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): less sorts in vain, with more
@@ -13,28 +22,172 @@ use crate::error::Result;
 const STRAYED: f64 = 1.7;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Brings all staged vertices to their new positions and rebuilds.
+    /// Triangulates all staged vertices at their new positions, where none has moved yet.
     pub(super) fn rebuild_staged(&mut self, report: &mut CommitReport) -> Result<()> {
-        self.staging.list()?;
-        self.commit_by_rebuilding(0, report)
+        if !self.staging.is_whole() {
+            return self.commit_by_rebuilding(0, report);
+        }
+        let (positions, moved) = (&self.staging.positions, Cell::new(0));
+        let place = |site: &Site<G>| {
+            let p = positions[site.id as usize];
+            moved.set(moved.get() + u64::from(differ::<G>(&site.point, &p)));
+            p
+        };
+        let announce = |site: &Site<G>| prefetch(positions, site.id as usize);
+        let mut next = self.kernel.successor(self.hidden.count(), place, announce)?;
+        report.moved += moved.get();
+        let spread = self.spread_hidden(&mut next).map(|spread| {
+            for &(v, s) in &spread {
+                report.moved += u64::from(self.move_to_staged(&mut next, v, s));
+            }
+        });
+        self.build_and_adopt(next, spread, report)
     }
 
-    /// Brings all listed vertices from `first` on to their new positions and rebuilds.
+    /// Triangulates all vertices, the listed ones from `first` on at their new positions, all others where they are.
     pub(super) fn commit_by_rebuilding(&mut self, first: usize, report: &mut CommitReport) -> Result<()> {
-        self.spread_hidden()?;
-        for k in first..self.staging.vertices.len() {
-            let v = self.staging.vertices[k];
-            if self.exchange_position(v) {
-                report.moved += 1;
+        let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
+        let spread = self.spread_hidden(&mut next).map(|spread| {
+            for &v in &self.staging.vertices[first..] {
+                let own = spread.binary_search_by_key(&v, |&(hidden, _)| hidden).map(|k| spread[k].1);
+                let s = own.unwrap_or(self.site_of[v as usize]);
+                report.moved += u64::from(self.move_to_staged(&mut next, v, s));
             }
-            self.staging.applied = k + 1;
+        });
+        self.build_and_adopt(next, spread, report)
+    }
+
+    /// Triangulates all sites where they are, those that are in no cell included.
+    pub(super) fn rebuild_as_is(&mut self, report: &mut CommitReport) -> Result<()> {
+        let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
+        let spread = self.spread_hidden(&mut next).map(drop);
+        self.build_and_adopt(next, spread, report)
+    }
+
+    /// Triangulates all vertices, one of them at another place.
+    pub(super) fn rebuild_with(
+        &mut self,
+        vertex: u32,
+        q: &G::Point,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
+        let spread = self.spread_hidden(&mut next).map(|spread| {
+            let own = spread.iter().find(|(hidden, _)| *hidden == vertex);
+            next.set_point(own.map_or(self.site_of[vertex as usize], |&(_, s)| s), *q);
+        });
+        self.build_and_adopt(next, spread, report)
+    }
+
+    /// Puts the site of a vertex in a new kernel where it is staged; whether it was elsewhere.
+    fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: u32, s: u32) -> bool {
+        let p = self.staging.positions[vertex as usize];
+        let differ = differ::<G>(&next.site(s).point, &p);
+        next.set_point(s, p);
+        differ
+    }
+
+    /// Gives every hidden vertex a site of its own in a new kernel, at the place where it is. Returns vertices and sites, by
+    /// vertex.
+    fn spread_hidden(&self, next: &mut Delaunay<G>) -> Result<Vec<(u32, u32)>> {
+        let mut spread = Vec::new();
+        if self.hidden.count() == 0 {
+            return Ok(spread);
         }
-        report.rebuilds += 1;
-        if self.kernel.mean_stride() > STRAYED * self.sorted_stride || !self.kernel.has_even_parts() {
-            self.sort_and_rebuild()
-        } else {
-            self.rebuild()
+        memory::reserve_exact(&mut spread, self.hidden.count())?;
+        for (v, &s) in (0..).zip(&self.site_of) {
+            if s != NONE && self.kernel.site(s).id != v {
+                spread.push((v, next.add_site(self.kernel.site(s).point, v)?));
+            }
         }
+        Ok(spread)
+    }
+
+    /// Triangulates the sites of a new kernel, which takes the place of the present one.
+    fn build_and_adopt(
+        &mut self,
+        mut next: Delaunay<G>,
+        is_ready: Result<()>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let built = is_ready.and_then(|()| self.build(&mut next));
+        match built {
+            Ok((hidden, stride)) => {
+                report.rebuilds += 1;
+                self.adopt(next, hidden, stride);
+                Ok(())
+            }
+            Err(error) => {
+                next.give_scratch_to(&mut self.kernel);
+                Err(error)
+            }
+        }
+    }
+
+    /// Triangulates the sites of a new kernel. Returns the hidden vertices and the mean stride of sorted sites.
+    fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64)> {
+        let mut stride = self.sorted_stride;
+        if next.mean_stride() > STRAYED * stride || !next.has_even_parts() {
+            next.sort_sites()?;
+            stride = next.mean_stride();
+        }
+        next.restore_parts();
+        let mut quiet = |_| true;
+        let merges = match &mut self.options.monitor {
+            Some(monitor) => next.rebuild(monitor)?,
+            None => next.rebuild(&mut quiet)?,
+        };
+        let hidden = self.hide_merged(next, merges)?;
+        if self.takes_changes {
+            self.note_visibilities_of(next, &hidden)?;
+        }
+        Ok((hidden, stride))
+    }
+
+    /// The chains of hidden vertices, unless the options reject them.
+    pub(super) fn hide_merged(&self, kernel: &Delaunay<G>, merges: Vec<Merge>) -> Result<Hidden> {
+        let hidden = Hidden::of_merges(merges, self.site_of.len(), |s| kernel.site(s).id)?;
+        if self.options.coincidence == CoincidencePolicy::Reject
+            && let Some((vertex, other)) = hidden.first_pair()
+        {
+            return Err(Error::Coincident { vertex, other });
+        }
+        Ok(hidden)
+    }
+
+    /// Notes the vertices that a new kernel hides and the present one does not, or the other way round.
+    fn note_visibilities_of(&mut self, next: &Delaunay<G>, hidden: &Hidden) -> Result<()> {
+        if self.hidden.count() + hidden.count() == 0 {
+            return Ok(());
+        }
+        let mut is_representative = Vec::new();
+        memory::reserve_exact(&mut is_representative, self.site_of.len())?;
+        is_representative.resize(self.site_of.len(), false);
+        for s in next.live_sites() {
+            is_representative[next.site(s).id as usize] = true;
+        }
+        for v in 0..self.site_of.len() as u32 {
+            if self.is_present(v) && self.is_hidden(v) == is_representative[v as usize] {
+                self.note_visibility(v, self.is_hidden(v))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts a new kernel, which is complete, in the place of the present one. Cannot fail.
+    pub(super) fn adopt(&mut self, next: Delaunay<G>, hidden: Hidden, stride: f64) {
+        self.kernel = next;
+        self.hidden = hidden;
+        self.sorted_stride = stride;
+        for s in self.kernel.live_sites() {
+            let mut v = self.kernel.site(s).id;
+            while v != NONE {
+                self.site_of[v as usize] = s;
+                v = self.hidden.next(v);
+            }
+        }
+        self.regions.invalidate();
+        self.transaction.adopt();
     }
 
     /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.
@@ -45,33 +198,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         let new = std::mem::replace(staged, old);
         self.kernel.set_point(s, new);
         old != new
-    }
-
-    /// Triangulates the sites where they are; every vertex has one of its own. The monitor may cancel.
-    pub(super) fn rebuild(&mut self) -> Result<()> {
-        self.regions.invalidate();
-        self.kernel.take_changes();
-        let site_of = &mut self.site_of;
-        self.kernel.restore_parts(|id, s| site_of[id as usize] = s);
-        let mut quiet = |_| true;
-        let merges = match &mut self.options.monitor {
-            Some(monitor) => self.kernel.rebuild(monitor)?,
-            None => self.kernel.rebuild(&mut quiet)?,
-        };
-        for merge in merges {
-            self.site_of[merge.hidden as usize] = merge.site;
-            self.site_of[self.kernel.site(merge.site).id as usize] = merge.site;
-            self.hidden.add(merge.site, merge.hidden);
-        }
-        Ok(())
-    }
-
-    /// As [`rebuild`](Self::rebuild), but not to be cancelled: the way back after a failure.
-    pub(super) fn rebuild_quietly(&mut self) -> Result<()> {
-        let monitor = self.options.monitor.take();
-        let rebuilt = self.rebuild();
-        self.options.monitor = monitor;
-        rebuilt
     }
 }
 

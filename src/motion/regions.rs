@@ -27,7 +27,7 @@ use super::bicell::BiCell;
 use super::slacks::Slacks;
 use super::watched::Watched;
 use super::{CommitReport, MovingTriangulation};
-use crate::complex::{Corners, Facet};
+use crate::complex::{Corners, Facet, memory};
 use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::{Error, Result};
 use crate::predicates::{LANES, displacement_limit};
@@ -148,8 +148,8 @@ impl<G: Dimension> Regions<G> {
     }
 
     /// A vertex has been relocated: all bi-cells of its site are among the changes.
-    pub(super) fn note_relocated(&mut self, vertex: u32) {
-        self.relocated.push(vertex);
+    pub(super) fn note_relocated(&mut self, vertex: u32) -> Result<()> {
+        memory::push(&mut self.relocated, vertex)
     }
 
     /// The filter that the regions are kept for.
@@ -184,6 +184,8 @@ impl<G: Dimension> Regions<G> {
         self.fixed.resize(self.fixed.len() + more_ids, none);
         self.delimiters.resize(self.delimiters.len() + more_facets, (G::Point::default(), 0.0));
         if filter.keeps_delimiters() {
+            let missing = self.fixed.len().saturating_sub(self.reach.len());
+            memory::reserve(&mut self.reach, missing)?;
             self.reach.resize(self.fixed.len(), f64::INFINITY);
         }
         if filter == Filter::Watch {
@@ -498,9 +500,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(changed) = self.kernel.take_changes()
             && done.is_ok()
         {
-            let relocated = std::mem::take(&mut self.regions.relocated);
-            let sites =
-                relocated.iter().map(|&v| self.site_of[v as usize]).filter(|&s| !self.hidden.any_at(s));
+            let mut relocated = std::mem::take(&mut self.regions.relocated);
+            relocated.iter_mut().for_each(|v| *v = self.site_of[*v as usize]);
+            relocated.retain(|&s| !self.is_shared(s));
+            let sites = relocated.iter().copied();
             // Without the memory for it the regions stay invalid, and the next commit says so.
             self.regions.changed = changed;
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);

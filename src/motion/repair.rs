@@ -95,7 +95,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !mended? {
             return self.commit_by_rebuilding(self.staging.applied, report);
         }
-        self.kernel.sort_cells()?;
+        self.transaction.wants_order = true;
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
     }
 
@@ -136,7 +136,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Ok(true);
             }
             self.list_stuck(repair);
-            G::unflip(&mut self.kernel);
+            self.kernel.undo_flips();
             if repair.sites.is_empty() {
                 return Ok(false);
             }
@@ -190,7 +190,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 prefetch(sites, site_of[next as usize] as usize);
             }
             let s = site_of[v as usize];
-            if self.hidden.any_at(s) {
+            if self.hidden.is_followed(sites[s as usize].id) {
                 repair.at[v as usize] = At::Old;
                 repair.queue.push(v);
                 repair.n_old += 1;

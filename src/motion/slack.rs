@@ -39,7 +39,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// have no slack left. No two vertices may share a site.
     pub(super) fn commit_by_slack(&mut self, report: &mut CommitReport) -> Result<bool> {
         if self.regions.kept_for() != Some(Filter::Slack) {
-            self.kernel.sort_cells()?;
+            self.sort_cells()?;
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
             self.regions.compute(&mut self.kernel, n_ids, Filter::Slack, elsewhere, report)?;
         }

@@ -78,7 +78,7 @@ impl<G: Dimension> Staging<G> {
         Ok(())
     }
 
-    /// Empties the queue of a whole staging, after a commit or its failure.
+    /// Empties the queue of a whole staging, after a commit or its undoing.
     pub(super) fn end_queue(&mut self) {
         if self.is_whole {
             self.vertices.clear();
@@ -86,7 +86,27 @@ impl<G: Dimension> Staging<G> {
         }
     }
 
-    /// Follows the number of ids once there is something to follow. The staging must not be whole.
+    /// A flag of a vertex, free for use while whole.
+    pub(super) fn flag(&self, vertex: u32) -> bool {
+        self.is_staged[vertex as usize]
+    }
+
+    /// Sets a flag, which must be reset before the staging is whole no more.
+    pub(super) fn set_flag(&mut self, vertex: u32, flag: bool) {
+        self.is_staged[vertex as usize] = flag;
+    }
+
+    /// Makes room for more ids, if there is something to follow.
+    pub(super) fn make_room(&mut self, more: usize) -> Result<()> {
+        if !self.positions.is_empty() {
+            memory::reserve(&mut self.positions, more)?;
+            memory::reserve(&mut self.is_staged, more)?;
+        }
+        Ok(())
+    }
+
+    /// Follows the number of ids once there is something to follow, and [room](Self::make_room). The staging must not be
+    /// whole.
     pub(super) fn grow(&mut self, n_ids: usize) {
         debug_assert!(!self.is_whole);
         if !self.positions.is_empty() {

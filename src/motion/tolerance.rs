@@ -32,9 +32,11 @@
 //! the queue. `examples/tolerance_share` measures both.
 
 use super::moving::differ;
+use super::placement::Placed;
 use super::regions::Filter;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
+use crate::complex::NONE;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 
@@ -104,7 +106,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn accept(&mut self, vertex: u32, filter: Filter, report: &mut CommitReport) -> bool {
         let s = self.site_of[vertex as usize];
         let p = self.staging.positions[vertex as usize];
-        if self.hidden.any_at(s) {
+        if self.is_shared(s) {
             return false;
         }
         if filter != Filter::SafeRegion && self.regions.is_within_tolerance(vertex, &p) {
@@ -143,8 +145,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             && self.filter() == Some(Filter::Tolerance)
             && fixed.holds(&q)
             && !self.staging.is_staged(vertex)
-            && !self.hidden.any_at(s)
-            && !self.has_views()
+            && (self.hidden.count() == 0 || s != NONE && !self.is_shared(s))
             && self.kernel.is_covered(&q)
             && !(is_auto && self.is_round_ending());
         // A removed vertex has no site.
@@ -170,7 +171,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         let Some(filter) = self.filter().filter(|_| self.kernel.has_cells()) else {
             self.regions.invalidate();
-            return self.relocate(vertex, q, Shortcut::Flips, report);
+            return self.relocate_alone(vertex, q, report);
         };
         self.pre_compute(filter, report)?;
         self.staging.grow_for(self.site_of.len())?;
@@ -179,7 +180,21 @@ impl<G: Dimension> MovingTriangulation<G> {
             report.moved = 1;
             return Ok(());
         }
-        self.with_regions(report, |t, report| t.relocate_noted(vertex, q, report))
+        match self.with_regions(report, |t, report| t.relocate_noted(vertex, q, report))? {
+            Placed::InCells => Ok(()),
+            Placed::BesideFlat => self.rebuild_as_is(report),
+        }
+    }
+
+    /// Moves one vertex at once, without a filter.
+    fn relocate_alone(&mut self, vertex: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.rebuild_with(vertex, q, report);
+        }
+        match self.relocate(vertex, q, Shortcut::Flips, report)? {
+            Placed::InCells => Ok(()),
+            Placed::BesideFlat => self.rebuild_as_is(report),
+        }
     }
 
     /// Relocates a vertex; the regions are told.
@@ -188,10 +203,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         vertex: u32,
         q: &G::Point,
         report: &mut CommitReport,
-    ) -> Result<()> {
-        self.relocate(vertex, q, Shortcut::Flips, report)?;
-        self.regions.note_relocated(vertex);
-        Ok(())
+    ) -> Result<Placed> {
+        let placed = self.relocate(vertex, q, Shortcut::Flips, report)?;
+        self.regions.note_relocated(vertex)?;
+        Ok(placed)
     }
 
     /// The filter of the algorithm in force.

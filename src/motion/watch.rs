@@ -61,7 +61,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// otherwise, and nothing has moved. No two vertices may share a site.
     pub(super) fn commit_by_watching(&mut self, most: usize, report: &mut CommitReport) -> Result<bool> {
         if self.regions.kept_for() != Some(Filter::Watch) {
-            self.kernel.sort_cells()?;
+            self.sort_cells()?;
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
             self.regions.compute(&mut self.kernel, n_ids, Filter::Watch, elsewhere, report)?;
         }
@@ -118,9 +118,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn mend_checked(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<()> {
         self.with_regions(report, |t, report| {
             for &v in &t.staging.vertices {
-                t.regions.note_relocated(v);
+                t.regions.note_relocated(v)?;
             }
-            t.kernel.record(repair.touched.iter().copied());
+            t.kernel.record_all(&repair.touched)?;
             if !t.mend_moved(repair, report)? {
                 return t.commit_by_rebuilding(t.staging.applied, report);
             }

@@ -313,7 +313,7 @@ impl<G: Dimension> History<G> {
 
     fn check_changes(&self) {
         let changed = self.expect(self.t.changed_cells());
-        let corners = self.t.cells().corners;
+        let corners = self.t.cells().expect("room").corners;
         let found: CellSet = changed.iter().map(|&c| sorted(corners[c as usize].as_ref())).collect();
         let expected = match &self.baseline {
             None => CellSet::new(),
@@ -330,7 +330,7 @@ impl<G: Dimension> History<G> {
             let v = *self.rng.pick(&present);
             let representative = self.expect(self.t.coincident_representative(v));
             self.expect(self.t.star(v, &mut star));
-            let corners = self.t.cells().corners;
+            let corners = self.t.cells().expect("room").corners;
             let has = |c: &u32| corners[*c as usize].as_ref().contains(&representative);
             let expected: Vec<u32> = (0..corners.len() as u32).filter(has).collect();
             assert_eq!(star, expected, "{}: star of {v}", self.context());
@@ -366,7 +366,7 @@ impl<G: Dimension> History<G> {
     fn check_location(&self, q: &G::Point) {
         let context = || format!("{}: location of {q:?}", self.context());
         let grid = to_grid::<G>(q);
-        let cells = self.t.cells();
+        let cells = self.t.cells().expect("room");
         let holds = |c: usize| self.sides(&cells.corners[c], &grid).iter().all(|&side| side >= 0);
         let at = self.positions.iter().position(|p| p.as_ref() == Some(q));
         match self.expect(self.t.locate(q)) {

@@ -82,7 +82,7 @@ pub fn sorted(corners: &[u32]) -> Vec<u32> {
 
 /// The cells of a triangulation.
 pub fn cell_set<G: Dimension>(t: &MovingTriangulation<G>) -> CellSet {
-    t.cells().corners.iter().map(|c| sorted(c.as_ref())).collect()
+    t.cells().expect("room").corners.iter().map(|c| sorted(c.as_ref())).collect()
 }
 
 /// The cells of a fresh build of the present vertices, by their ids here: a build from scratch numbers its
@@ -115,7 +115,7 @@ pub fn assert_same_cells(found: &CellSet, expected: &CellSet, context: impl Fn()
 /// `i` is opposite corner `i`, has the other corners too and knows its way back; where
 /// there is none, the facet is in no other cell.
 pub fn check_adjacency<G: Dimension>(t: &MovingTriangulation<G>, context: &dyn Fn() -> String) {
-    let view = t.cells();
+    let view = t.cells().expect("room");
     assert_eq!(view.corners.len(), view.neighbours.len(), "{}", context());
     assert_eq!(view.corners.len(), t.cell_count(), "{}", context());
     assert_eq!(cell_set(t).len(), t.cell_count(), "{}: a cell is listed twice", context());

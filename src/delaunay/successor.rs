@@ -1,0 +1,42 @@
+//! A kernel to be built beside another one, so that this stays as it is until the new one is complete.
+
+use super::{Delaunay, Dimension, Site};
+use crate::complex::{NONE, memory};
+use crate::error::Result;
+use crate::prefetch::AHEAD;
+
+impl<G: Dimension> Delaunay<G> {
+    /// A kernel with the same sites, but without cells, and with room for `more` of them. `place` tells where a live one is;
+    /// `announce` is told of those that come later. The scratch memory goes along, until it is
+    /// [given back](Self::give_scratch_to).
+    pub(crate) fn successor(
+        &mut self,
+        more: usize,
+        place: impl Fn(&Site<G>) -> G::Point,
+        announce: impl Fn(&Site<G>),
+    ) -> Result<Self> {
+        let mut sites = Vec::new();
+        memory::reserve_exact(&mut sites, self.sites.len() + more)?;
+        let free_sites = memory::copy_of(&self.free_sites)?;
+        let parts = self.parts.copy()?;
+        sites.push(self.sites[0]);
+        for (k, site) in self.sites.iter().enumerate().skip(1) {
+            if let Some(next) = self.sites.get(k + AHEAD) {
+                announce(next);
+            }
+            let point = if site.is_live() { place(site) } else { site.point };
+            sites.push(Site { point, cell: NONE, id: site.id });
+        }
+        let mut next = Delaunay { sites, free_sites, parts, threads: self.threads, ..Delaunay::empty() };
+        self.give_scratch_to(&mut next);
+        next.certificates = self.certificates;
+        Ok(next)
+    }
+
+    /// Gives all scratch memory to another kernel.
+    pub(crate) fn give_scratch_to(&mut self, other: &mut Self) {
+        other.cavity = std::mem::take(&mut self.cavity);
+        other.hole = std::mem::take(&mut self.hole);
+        other.flips = std::mem::take(&mut self.flips);
+    }
+}

@@ -1,0 +1,136 @@
+//! The way back: a change of the kernel that fails leaves no trace.
+//!
+//! Between [`begin`](Delaunay::begin) and [`end`](Delaunay::end) the complex keeps a [record](crate::complex) of its
+//! cells, and sites that are removed, added or renamed are *logged*: what they were is kept, in the order of the changes.
+//! [`undo`](Delaunay::undo) goes back through both and needs no memory.
+//!
+//! Places are not kept: who moves a site and leaves the cells as they are, or lets flips repair them, knows where it was.
+//! Those of sites that are removed are, be it that they come back elsewhere.
+
+use super::flat::Flat;
+use super::{Delaunay, Dimension, Site};
+use crate::complex::{Complex, Corners, memory};
+use crate::error::Result;
+
+/// What a site was.
+#[derive(Clone, Copy, Debug)]
+struct Logged<G: Dimension> {
+    s: u32,
+    before: Site<G>,
+    /// Whether its place was kept as well.
+    has_place: bool,
+}
+
+/// What sites were before a change.
+#[derive(Debug)]
+pub(super) struct Log<G: Dimension> {
+    is_on: bool,
+    sites: Vec<Logged<G>>,
+    /// The cells, where the change has given up all of them.
+    cells: Option<Complex<G::Corners>>,
+}
+
+impl<G: Dimension> Default for Log<G> {
+    fn default() -> Self {
+        Log { is_on: false, sites: Vec::new(), cells: None }
+    }
+}
+
+impl<G: Dimension> Log<G> {
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.sites.capacity() * size_of::<Logged<G>>()
+    }
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Begins a change that may be undone.
+    pub(crate) fn begin(&mut self) -> Result<()> {
+        debug_assert!(!self.log.is_on);
+        self.complex.begin_record()?;
+        self.log.is_on = true;
+        Ok(())
+    }
+
+    /// Logs a site that is about to be removed, or to be added: then it is free.
+    #[inline(always)]
+    pub(crate) fn log_site(&mut self, s: u32) -> Result<()> {
+        self.log_as(s, true)
+    }
+
+    /// Logs a site whose id is about to change, and whose place is not the log's concern.
+    pub(super) fn log_id(&mut self, s: u32) -> Result<()> {
+        self.log_as(s, false)
+    }
+
+    fn log_as(&mut self, s: u32, has_place: bool) -> Result<()> {
+        // It may be dropped.
+        memory::reserve(&mut self.free_sites, 1)?;
+        if !self.log.is_on {
+            return Ok(());
+        }
+        memory::push(&mut self.log.sites, Logged { s, before: self.sites[s as usize], has_place })
+    }
+
+    /// Gives up all cells, but for the way back.
+    pub(super) fn give_up_cells(&mut self) {
+        let cells = std::mem::take(&mut self.complex);
+        if self.log.is_on && self.log.cells.is_none() {
+            self.log.cells = Some(cells);
+        }
+    }
+
+    /// Whether the change has given up all cells.
+    pub(crate) fn has_given_up_cells(&self) -> bool {
+        self.log.cells.is_some()
+    }
+
+    /// Goes back to where the change began, but for the places of sites that were only moved.
+    pub(crate) fn undo(&mut self) {
+        let all_cells = self.log.cells.take();
+        let gave_up = all_cells.is_some();
+        if let Some(cells) = all_cells {
+            self.complex = cells;
+            self.flat = Flat::default();
+        }
+        self.complex.undo_record();
+        let mut logged = std::mem::take(&mut self.log.sites);
+        while let Some(Logged { s, before, has_place }) = logged.pop() {
+            let site = &mut self.sites[s as usize];
+            match (site.is_live(), before.is_live()) {
+                (true, false) => self.free_sites.push(s),
+                // Sites are taken from the end of the list, and given back there.
+                (false, true) => drop(self.free_sites.pop()),
+                _ => {}
+            }
+            *site = if has_place { before } else { Site { id: before.id, ..*site } };
+        }
+        self.log.sites = logged;
+        self.find_cells_of_sites(gave_up);
+        self.end();
+    }
+
+    /// Gives the corners of all cells that the record has put back, or of all, a cell that there is.
+    fn find_cells_of_sites(&mut self, all: bool) {
+        let n = if all { self.complex.n_slots() } else { self.complex.rows().len() };
+        for k in 0..n {
+            let c = if all { k as u32 } else { self.complex.rows()[k].slot };
+            if !self.complex.is_live(c) {
+                continue;
+            }
+            let corners = self.complex.cell(c).corners;
+            for i in 0..G::Corners::N {
+                self.sites[corners[i] as usize].cell = c;
+            }
+            self.recent = c;
+        }
+    }
+
+    /// Ends a change.
+    pub(crate) fn end(&mut self) {
+        self.log.is_on = false;
+        self.log.sites.clear();
+        self.log.cells = None;
+        self.complex.end_record();
+    }
+}
+

@@ -1,0 +1,390 @@
+//! The change list: what a program that keeps something for each cell has to know.
+//!
+//! A tracker compares the cells of now with those of an earlier moment, its *base*, by what every refreshment of the
+//! arrays ([`cells`](super::cells)) tells it. It knows of each index under which one its cell was at the base, and of each
+//! cell of the base that is gone its index and corners. So it never holds more than there were cells, however long
+//! nobody asks.
+
+use super::MovingTriangulation;
+use crate::complex::{Corners, NONE, memory};
+use crate::delaunay::Dimension;
+use crate::error::Result;
+
+/// What has changed since a base.
+#[derive(Debug)]
+pub(super) struct Tracker<C> {
+    /// By index, the index at the base; [`NONE`] if the cell has been created since.
+    origin: Vec<u32>,
+    /// Indices whose origin may be another one; some may be listed more than once, or be beyond the end.
+    touched: Vec<u32>,
+    /// Cells of the base that have been removed: their indices and corners.
+    removed: Vec<(u32, C)>,
+}
+
+impl<C: Corners> Tracker<C> {
+    /// A tracker whose base are `n` cells of now.
+    pub(super) fn of(n: usize) -> Result<Self> {
+        let mut origin = Vec::new();
+        memory::reserve_exact(&mut origin, n)?;
+        origin.extend(0..n as u32);
+        Ok(Tracker { origin, touched: Vec::new(), removed: Vec::new() })
+    }
+
+    /// A tracker whose base has no cells.
+    pub(super) fn of_none(n: usize) -> Result<Self> {
+        let mut tracker = Self::of(n)?;
+        tracker.touched = memory::copy_of(&tracker.origin)?;
+        tracker.origin.fill(NONE);
+        Ok(tracker)
+    }
+
+    /// Makes room for so many removals, touched indices, and cells.
+    pub(super) fn reserve(&mut self, n_removed: usize, n_touched: usize, n_cells: usize) -> Result<()> {
+        if self.touched.len() > 2 * self.origin.len() {
+            self.touched.sort_unstable();
+            self.touched.dedup();
+        }
+        memory::reserve(&mut self.removed, n_removed)?;
+        memory::reserve(&mut self.touched, n_touched)?;
+        let more = n_cells.saturating_sub(self.origin.len());
+        memory::reserve(&mut self.origin, more)
+    }
+
+    pub(super) fn remove(&mut self, index: u32, corners: C) {
+        let origin = self.origin[index as usize];
+        if origin != NONE {
+            self.removed.push((origin, corners));
+        }
+    }
+
+    pub(super) fn create(&mut self, index: u32) {
+        if index as usize == self.origin.len() {
+            self.origin.push(NONE);
+        } else {
+            self.origin[index as usize] = NONE;
+        }
+        self.touched.push(index);
+    }
+
+    pub(super) fn renumber(&mut self, from: u32, to: u32) {
+        self.origin[to as usize] = self.origin[from as usize];
+        self.touched.push(to);
+    }
+
+    pub(super) fn truncate(&mut self, n: usize) {
+        self.origin.truncate(n);
+    }
+
+    /// The cells of now are the base.
+    pub(super) fn reset(&mut self) {
+        for &index in &self.touched {
+            if let Some(origin) = self.origin.get_mut(index as usize) {
+                *origin = index;
+            }
+        }
+        if self.touched.capacity() > 1024 + self.origin.len() / 2 {
+            (self.touched, self.removed) = (Vec::new(), Vec::new());
+        }
+        self.touched.clear();
+        self.removed.clear();
+    }
+
+    /// The touched indices, ascending, each once.
+    fn sorted_touched(&self) -> Result<Vec<u32>> {
+        let mut touched = memory::copy_of(&self.touched)?;
+        touched.retain(|&index| (index as usize) < self.origin.len());
+        touched.sort_unstable();
+        touched.dedup();
+        Ok(touched)
+    }
+
+    /// Lists, ascending, the cells that are not among those of the base.
+    pub(super) fn list_created(&self, corners: &[C], created: &mut Vec<u32>) -> Result<()> {
+        let removed = self.sorted_removed()?;
+        let touched = self.sorted_touched()?;
+        memory::reserve(created, touched.len())?;
+        created.extend(touched.into_iter().filter(|&index| {
+            self.origin[index as usize] == NONE && find(&removed, &sorted(corners[index as usize])).is_none()
+        }));
+        Ok(())
+    }
+
+    /// The removed cells by their sorted corners, each with its position in the list.
+    fn sorted_removed(&self) -> Result<Vec<(C, u32)>> {
+        let mut by_corners = Vec::new();
+        memory::reserve_exact(&mut by_corners, self.removed.len())?;
+        by_corners.extend(self.removed.iter().zip(0..).map(|(&(_, corners), k)| (sorted(corners), k)));
+        by_corners.sort_unstable();
+        Ok(by_corners)
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        (self.origin.capacity() + self.touched.capacity()) * 4
+            + self.removed.capacity() * size_of::<(u32, C)>()
+    }
+}
+
+fn sorted<C: Corners>(mut corners: C) -> C {
+    corners.as_mut().sort_unstable();
+    corners
+}
+
+/// The position in the list of removed cells of one with these sorted corners.
+fn find<C: Corners>(by_corners: &[(C, u32)], corners: &C) -> Option<u32> {
+    let at = by_corners.binary_search_by(|(there, _)| there.cmp(corners)).ok()?;
+    Some(by_corners[at].1)
+}
+
+/// A vertex that was hidden or shown, and whether it was hidden before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Visibility {
+    vertex: u32,
+    /// The order of the events.
+    at: u32,
+    was_hidden: bool,
+}
+
+/// What has changed since the program last took the changes. Indices are those of
+/// [`cells`](MovingTriangulation::cells), at that time or now; vertices are in ascending order.
+#[derive(Clone, Copy, Debug)]
+pub struct Changes<'t, C> {
+    /// Cells that exist now and did not: their indices.
+    pub created: &'t [u32],
+    /// Cells that existed and do not now: the index that each had.
+    pub removed: &'t [u32],
+    /// Their corners, in the order in which they were listed.
+    pub removed_corners: &'t [C],
+    /// Cells that existed and have another index now: the old ones.
+    pub renumbered_from: &'t [u32],
+    /// The new ones.
+    pub renumbered_to: &'t [u32],
+    /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed.
+    pub stars: &'t [u32],
+    /// Vertices that are hidden and were not.
+    pub hidden: &'t [u32],
+    /// Vertices that were hidden and are not.
+    pub shown: &'t [u32],
+}
+
+/// The lists behind [`Changes`].
+#[derive(Debug)]
+pub(super) struct Taken<C> {
+    created: Vec<u32>,
+    removed: Vec<u32>,
+    removed_corners: Vec<C>,
+    renumbered_from: Vec<u32>,
+    renumbered_to: Vec<u32>,
+    stars: Vec<u32>,
+    hidden: Vec<u32>,
+    shown: Vec<u32>,
+    /// By vertex id, a bit for those listed; all are 0 between calls.
+    is_listed: Vec<u64>,
+}
+
+impl<C> Default for Taken<C> {
+    fn default() -> Self {
+        Taken {
+            created: Vec::new(),
+            removed: Vec::new(),
+            removed_corners: Vec::new(),
+            renumbered_from: Vec::new(),
+            renumbered_to: Vec::new(),
+            stars: Vec::new(),
+            hidden: Vec::new(),
+            shown: Vec::new(),
+            is_listed: Vec::new(),
+        }
+    }
+}
+
+impl<C: Corners> Taken<C> {
+    fn clear(&mut self) {
+        for list in self.lists() {
+            list.clear();
+        }
+        self.removed_corners.clear();
+    }
+
+    fn lists(&mut self) -> [&mut Vec<u32>; 7] {
+        [
+            &mut self.created,
+            &mut self.removed,
+            &mut self.renumbered_from,
+            &mut self.renumbered_to,
+            &mut self.stars,
+            &mut self.hidden,
+            &mut self.shown,
+        ]
+    }
+
+    /// Lists what a tracker knows.
+    fn list_cells(&mut self, tracker: &Tracker<C>, corners: &[C]) -> Result<()> {
+        let touched = tracker.sorted_touched()?;
+        let by_corners = tracker.sorted_removed()?;
+        memory::reserve(&mut self.created, touched.len())?;
+        memory::reserve(&mut self.renumbered_from, touched.len())?;
+        memory::reserve(&mut self.renumbered_to, touched.len())?;
+        let mut has_returned = Vec::new();
+        memory::reserve_exact(&mut has_returned, by_corners.len())?;
+        has_returned.resize(by_corners.len(), false);
+        for index in touched {
+            let mut origin = tracker.origin[index as usize];
+            if origin == NONE
+                && !by_corners.is_empty()
+                && let Some(k) = find(&by_corners, &sorted(corners[index as usize]))
+            {
+                // It was removed, and is there again.
+                has_returned[k as usize] = true;
+                origin = tracker.removed[k as usize].0;
+            }
+            if origin == NONE {
+                self.created.push(index);
+            } else if origin != index {
+                self.renumbered_from.push(origin);
+                self.renumbered_to.push(index);
+            }
+        }
+        memory::reserve(&mut self.removed, by_corners.len())?;
+        memory::reserve(&mut self.removed_corners, by_corners.len())?;
+        for (&(origin, corners), _) in tracker.removed.iter().zip(&has_returned).filter(|(_, back)| !**back) {
+            self.removed.push(origin);
+            self.removed_corners.push(corners);
+        }
+        Ok(())
+    }
+
+    /// Lists the vertices of all cells that are listed.
+    fn list_stars(&mut self, corners: &[C], n_ids: usize) -> Result<()> {
+        let missing = n_ids.div_ceil(64).saturating_sub(self.is_listed.len());
+        memory::reserve(&mut self.is_listed, missing)?;
+        self.is_listed.resize(self.is_listed.len() + missing, 0);
+        let most = C::N * (self.created.len() + self.removed_corners.len());
+        memory::reserve(&mut self.stars, most.min(n_ids))?;
+        let created = self.created.iter().map(|&index| &corners[index as usize]);
+        for vertex in created.chain(&self.removed_corners).flat_map(|row| row.as_ref()) {
+            let (word, bit) = (&mut self.is_listed[*vertex as usize / 64], 1 << (vertex % 64));
+            if *word & bit == 0 {
+                *word |= bit;
+                self.stars.push(*vertex);
+            }
+        }
+        for vertex in &self.stars {
+            self.is_listed[*vertex as usize / 64] = 0;
+        }
+        self.stars.sort_unstable();
+        Ok(())
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        let lists = [
+            &self.created,
+            &self.removed,
+            &self.renumbered_from,
+            &self.renumbered_to,
+            &self.stars,
+            &self.hidden,
+            &self.shown,
+        ];
+        lists.into_iter().map(|list| list.capacity() * 4).sum::<usize>()
+            + self.removed_corners.capacity() * size_of::<C>()
+            + self.is_listed.capacity() * 8
+    }
+}
+
+impl<G: Dimension> super::cells::Views<G> {
+    /// Number of events, no more than a few for each of so many vertices.
+    pub(super) fn count_visibilities(&mut self, n_ids: usize) -> usize {
+        if self.visibilities.len() > 2 * n_ids + 1024 {
+            keep_first(&mut self.visibilities);
+        }
+        self.visibilities.len()
+    }
+
+    /// Forgets the events after so many.
+    pub(super) fn forget_visibilities(&mut self, n: usize) {
+        self.visibilities.truncate(n);
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Notes that a vertex is about to be hidden or shown, if the program takes changes.
+    pub(super) fn note_visibility(&mut self, vertex: u32, was_hidden: bool) -> Result<()> {
+        if !self.takes_changes {
+            return Ok(());
+        }
+        let visibilities = &mut self.views.visibilities;
+        let at = visibilities.len() as u32;
+        memory::push(visibilities, Visibility { vertex, at, was_hidden })
+    }
+
+    /// What has changed since this was last called: everything, as created, at the first call. Commits and immediate
+    /// calls count alike. A program that never calls this pays nothing for it.
+    ///
+    /// The cost is that of what has changed.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
+    pub fn take_changes(&mut self) -> Result<Changes<'_, G::Corners>> {
+        let n_ids = self.site_of.len();
+        let cells = self.views.cells_mut(&self.kernel)?;
+        if cells.since_taken.is_none() {
+            cells.since_taken = Some(Tracker::of_none(cells.corners.len())?);
+        }
+        self.taken.clear();
+        let tracker = cells.since_taken.as_ref().expect("it has just been made");
+        self.taken.list_cells(tracker, &cells.corners)?;
+        self.taken.list_stars(&cells.corners, n_ids)?;
+        self.list_visibilities()?;
+        self.views.visibilities.clear();
+        self.takes_changes = true;
+        let cells = self.views.cells_mut(&self.kernel).expect("they are up to date");
+        cells.since_taken.as_mut().expect("it was there").reset();
+        let taken = &self.taken;
+        Ok(Changes {
+            created: &taken.created,
+            removed: &taken.removed,
+            removed_corners: &taken.removed_corners,
+            renumbered_from: &taken.renumbered_from,
+            renumbered_to: &taken.renumbered_to,
+            stars: &taken.stars,
+            hidden: &taken.hidden,
+            shown: &taken.shown,
+        })
+    }
+
+    /// Lists the vertices that have been hidden or shown; at the first call all that are hidden.
+    fn list_visibilities(&mut self) -> Result<()> {
+        if !self.takes_changes {
+            memory::reserve(&mut self.taken.hidden, self.hidden.count())?;
+            for v in 0..self.site_of.len() as u32 {
+                if self.is_present(v) && self.is_hidden(v) {
+                    self.taken.hidden.push(v);
+                }
+            }
+            return Ok(());
+        }
+        let n = self.views.visibilities.len();
+        memory::reserve(&mut self.taken.hidden, n)?;
+        memory::reserve(&mut self.taken.shown, n)?;
+        keep_first(&mut self.views.visibilities);
+        for k in 0..self.views.visibilities.len() {
+            let Visibility { vertex, was_hidden, .. } = self.views.visibilities[k];
+            if !self.is_present(vertex) {
+                continue;
+            }
+            match (was_hidden, self.is_hidden(vertex)) {
+                (false, true) => self.taken.hidden.push(vertex),
+                (true, false) => self.taken.shown.push(vertex),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Keeps the first event of each vertex, in the order of the vertices.
+fn keep_first(visibilities: &mut Vec<Visibility>) {
+    visibilities.sort_unstable_by_key(|event| (event.vertex, event.at));
+    visibilities.dedup_by_key(|event| event.vertex);
+    visibilities.iter_mut().for_each(|event| event.at = 0);
+}
