@@ -172,7 +172,7 @@ public:
 private:
     void test(unsigned dimension, double wanted) {
         const std::size_t last = n_warm + sizes_.n_rounds;
-        const EngineKind test_alone = {"deldrift", "tolerance, staged", false, false,
+        const EngineKind test_alone = {"deldrift", "tolerance staged", false, false,
                                        deldrift_staged_by(DELDRIFT_TOLERANCE)};
         const Series series =
             trembling_points("tested", dimension, sizes_.n_tested, swept_displacement, last, seed_);
@@ -299,7 +299,7 @@ void run_targets(const Options &options) {
         lines.push_back({std::to_string(target.dimension), target.what, std::to_string(target.n),
                          target.reference, significant(target.reference_ns, 4), target.contender,
                          significant(target.contender_ns, 4), significant(target.ratio(), 3),
-                         significant(target.wanted, 2), target.verdict(), significant(target.n_changes, 3),
+                         significant(target.wanted, 3), target.verdict(), significant(target.n_changes, 3),
                          significant(target.within, 3)});
     print_checks(std::cout, checks);
     std::cout << '\n';
