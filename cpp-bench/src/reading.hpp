@@ -17,7 +17,7 @@ namespace bench {
 struct Reading {
     std::size_t n_cells = 0;
     const std::uint32_t *vertices = nullptr;    // dimension + 1 ids of each cell
-    const std::uint32_t *neighbours = nullptr;  // as many cells: the one opposite each corner, DELDRIFT_NONE on the hull
+    const std::uint32_t *neighbours = nullptr;  // as many cells, opposite each corner; DELDRIFT_NONE on the hull
     const deldrift_changes *changes = nullptr;  // since the reading before; nullptr: the engine does not tell
 };
 

@@ -96,11 +96,19 @@ void test_carried_data(Tests &tests) {
     const auto follow = [&](const std::function<void(Change &)> &spoil) {
         Change change;
         spoil(change);
-        const deldrift_changes changes = {
-            change.created.size(), change.created.data(), change.removed.size(), change.removed.data(),
-            change.removed_vertices.data(), change.from.size(), change.from.data(), change.to.data(),
-            change.stars.size(), change.stars.data(), change.hidden.size(), change.hidden.data(),
-            change.shown.size(), change.shown.data()};
+        deldrift_changes changes{};
+        const auto tell = [](const std::vector<std::uint32_t> &list, std::size_t &count, const std::uint32_t *&at) {
+            count = list.size();
+            at = list.data();
+        };
+        tell(change.created, changes.created_count, changes.created);
+        tell(change.removed, changes.removed_count, changes.removed);
+        changes.removed_vertices = change.removed_vertices.data();
+        tell(change.from, changes.renumbered_count, changes.renumbered_from);
+        changes.renumbered_to = change.to.data();
+        tell(change.stars, changes.star_count, changes.stars);
+        tell(change.hidden, changes.hidden_count, changes.hidden);
+        tell(change.shown, changes.shown_count, changes.shown);
         CarriedData data;
         data.begin(2, {3, before.data(), nullptr, nullptr});
         data.follow({3, after.data(), nullptr, &changes});

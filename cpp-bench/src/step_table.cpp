@@ -14,8 +14,10 @@ namespace {
 
 const std::vector<double> table_displacements = {0, 1e-5, 1e-3, 1e-2};
 
-/// Engines are replayed to inputs of more points once only, and their cells compared once only.
-constexpr std::size_t most_points_repeated = 10'000;
+/// Inputs of more points are replayed once only, ...
+constexpr std::size_t most_points_repeated = 1'000;
+/// ... and of those of more the cells are compared once only.
+constexpr std::size_t most_points_checked = 10'000;
 
 std::vector<Entrant> entrants_of(const Series &series, const std::vector<const EngineKind *> &kinds) {
     std::vector<Entrant> entrants;
@@ -24,7 +26,7 @@ std::vector<Entrant> entrants_of(const Series &series, const std::vector<const E
 }
 
 std::vector<std::size_t> checked_timestamps(const Series &series) {
-    if (series.n_points > most_points_repeated) return {series.segments.back().last};
+    if (series.n_points > most_points_checked) return {series.segments.back().last};
     std::vector<std::size_t> timestamps;
     for (const Segment &segment : series.segments) timestamps.push_back(segment.last);
     return timestamps;

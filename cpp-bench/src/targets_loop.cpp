@@ -127,7 +127,8 @@ Target loop(unsigned dimension, std::size_t n_points, const TargetSizes &sizes, 
             std::vector<Checks> &checks, Progress &progress) {
     Walk walk(dimension, n_points, seed);
     walk.series().name = dimension == 2 ? "loop_2d" : "loop_3d";
-    const std::vector<Entrant> entrants = {{&engine_kind("cgal/move"), 1, {1}}, {&engine_kind("deldrift/auto"), 1, {1}}};
+    const std::vector<Entrant> entrants = {{&engine_kind("cgal/move"), 1, {1}},
+                                           {&engine_kind("deldrift/auto"), 1, {1}}};
     progress.begin(walk.series().name + ": visiting vertices of " + std::to_string(n_points), n_turns + 2);
     std::vector<Looping> all(entrants.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
