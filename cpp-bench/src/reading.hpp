@@ -3,7 +3,6 @@
 // tells. And what must be true of it.
 #pragma once
 
-#include "pending_deldrift.hpp"
 
 #include <deldrift.h>
 

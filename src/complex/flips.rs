@@ -155,7 +155,8 @@ impl Stretch<'_, [u32; 3]> {
         self.glue(Facet::new(c, i), Facet(beyond_bq));
         self.glue(Facet::new(d, j), Facet(beyond_ap));
         self.glue(Facet::new(c, next(i)), Facet::new(d, next(j)));
-        let outer = [(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k));
+        let outer =
+            [(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k));
         Ok((outer, [Row::of(c, &old), Row::of(d, &beyond)]))
     }
 
@@ -489,9 +490,11 @@ mod tests {
         // The six ghosts and two cells are all concerned.
         for start in 1..n - 3 {
             let mut tried = [None; 2];
-            complex.divided(&[0, start], &mut tried, |_, stretch, tried| {
-                *tried = stretch.flip_2_3(facet).err();
-            }).unwrap();
+            complex
+                .divided(&[0, start], &mut tried, |_, stretch, tried| {
+                    *tried = stretch.flip_2_3(facet).err();
+                })
+                .unwrap();
             assert_eq!(tried, [Some(Obstacle::Elsewhere); 2]);
             assert_eq!(cells(&complex), before);
             assert_eq!(complex.free_cells().len(), 3);
@@ -499,10 +502,12 @@ mod tests {
         // The first stretch has all cells, and of the free ones one or none.
         for (start, expected) in [(n - 3, Some(Obstacle::Full)), (n - 2, None)] {
             let mut tried = [None; 2];
-            complex.divided(&[0, start], &mut tried, |k, stretch, tried| {
-                assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
-                *tried = stretch.flip_2_3(facet).err();
-            }).unwrap();
+            complex
+                .divided(&[0, start], &mut tried, |k, stretch, tried| {
+                    assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
+                    *tried = stretch.flip_2_3(facet).err();
+                })
+                .unwrap();
             assert_eq!(tried[0], expected);
             assert!(is_mutual(&complex));
         }

@@ -144,7 +144,13 @@ pub struct Complex<C: Corners> {
 
 impl<C: Corners> Default for Complex<C> {
     fn default() -> Self {
-        Complex { cells: Vec::new(), marks: Vec::new(), free: Vec::new(), n_ghosts: 0, record: Record::default() }
+        Complex {
+            cells: Vec::new(),
+            marks: Vec::new(),
+            free: Vec::new(),
+            n_ghosts: 0,
+            record: Record::default(),
+        }
     }
 }
 
@@ -468,7 +474,9 @@ impl<C: Corners> Complex<C> {
 
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
-        self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4
+        self.cells.capacity() * size_of::<Cell<C>>()
+            + self.marks.capacity()
+            + self.free.capacity() * 4
             + self.record.memory_bytes()
     }
 }

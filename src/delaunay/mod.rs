@@ -230,6 +230,13 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(&mut self.sites, n)
     }
 
+    /// Frees a site that is in no cell.
+    pub(crate) fn free_site(&mut self, s: u32) -> Result<()> {
+        memory::reserve(&mut self.free_sites, 1)?;
+        self.drop_site(s);
+        Ok(())
+    }
+
     /// Frees a site; there is room for it in the list, as it has been logged or [counted](Self::merge).
     fn drop_site(&mut self, s: u32) {
         self.sites[s as usize].id = crate::complex::NONE;

@@ -92,7 +92,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn tolerance(&self, vertex: u32) -> Result<f64> {
-        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        let s = self.present_site("vertex", 0, vertex)?;
         if self.is_shared(s) {
             return Ok(0.0);
         }
@@ -126,7 +126,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut widths, cells.corners.len() * G::Corners::N)?;
         for index in 0..cells.corners.len() as u32 {
             for corner in 0..G::Corners::N {
-                let delimiter = BiCell::of(&self.kernel, cells.facet(&self.kernel, index, corner)).delimiter();
+                let delimiter =
+                    BiCell::of(&self.kernel, cells.facet(&self.kernel, index, corner)).delimiter();
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
             }
         }

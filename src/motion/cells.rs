@@ -433,7 +433,8 @@ impl<G: Dimension> Cells<G> {
         let trackers = [&self.since_taken, &self.since_commit].into_iter().flatten();
         (self.corners.capacity() + self.neighbours.capacity()) * size_of::<G::Corners>()
             + (self.index_of.capacity() + self.slots.capacity()) * 4
-            + (self.scratch.lost.capacity() + self.scratch.table.capacity() + self.scratch.glued.capacity()) * 4
+            + (self.scratch.lost.capacity() + self.scratch.table.capacity() + self.scratch.glued.capacity())
+                * 4
             + self.scratch.found.capacity() * 8
             + trackers.map(Tracker::memory_bytes).sum::<usize>()
     }

@@ -61,7 +61,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn position(&self, vertex: u32) -> Result<G::Point> {
-        Ok(self.kernel.site(self.site_of_vertex("vertex", 0, vertex)?).point)
+        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
     /// Indices of the finite cells around the place of a vertex, in `out`, which is cleared first.
@@ -69,7 +69,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
-        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        let s = self.present_site("vertex", 0, vertex)?;
         let index_of = &self.cell_arrays()?.index_of;
         out.clear();
         self.kernel.for_star(s, |c, _| out.push(index_of[c as usize]));
@@ -159,7 +159,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn coincident_representative(&self, vertex: u32) -> Result<u32> {
-        Ok(self.kernel.site(self.site_of_vertex("vertex", 0, vertex)?).id)
+        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).id)
     }
 
     /// Checks the triangulation: see [`Level`].
@@ -209,6 +209,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             + self.site_of.capacity() * 4
             + self.staging.memory_bytes()
             + self.regions.memory_bytes()
+            + self.edits.memory_bytes()
             + self.hidden.memory_bytes()
             + self.transaction.memory_bytes()
             + self.views.memory_bytes()
