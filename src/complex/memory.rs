@@ -76,15 +76,6 @@ fn write<T: Sync, U: Copy + Send>(
     threads::join(|| write(from_a, to_a, threads, make), || write(from_b, to_b, rest, make));
 }
 
-/// Makes sure that an array of so many entries could be had: for those who take one
-/// without a way to say that there is none.
-pub(crate) fn make_sure_of<T>(count: usize) -> Result<()> {
-    let mut array = Vec::<T>::new();
-    let reserved = array.try_reserve_exact(count);
-    std::hint::black_box(&array);
-    reserved.map_err(|_| Error::OutOfMemory { bytes: count * size_of::<T>() })
-}
-
 #[cfg(target_os = "linux")]
 fn advise_large_pages(start: *mut u8, bytes: usize) {
     const PAGE: usize = 4096;
