@@ -326,7 +326,7 @@ mod tests {
         let mut state = 5;
         let mut points = vec![G::Point::default(); n];
         points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = unit(&mut state)));
-        let mut t = Delaunay::<G>::on(Threads::at_most(threads));
+        let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
         t.add_sites(&points).expect("room for it");
         t.rebuild(&mut |_| true).expect("room for it");
         t.sort_cells().expect("room for it");
@@ -338,13 +338,13 @@ mod tests {
             t.cover(&q, &q);
             t.set_point(s, q);
             failures.clear();
-            t.check_star(s, &mut failures);
-            t.check_ridges(&mut failures, |_| None);
+            t.check_star(s, &mut failures).expect("room for it");
+            t.check_ridges(&mut failures, |_| None).expect("room for it");
             if !failures.cells.is_empty() || !failures.ridges.is_empty() {
                 t.set_point(s, old);
             }
         }
-        assert!(t.sweep(&mut failures, usize::MAX) && failures.cells.is_empty());
+        assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
         let facets = failures.facets;
         (t, facets)
     }
@@ -401,8 +401,8 @@ mod tests {
                 }
             }
             let mut failures = Failures::default();
-            assert!(t.sweep(&mut failures, usize::MAX) && failures.cells.is_empty());
-            t.check_ridges(&mut failures, |_| None);
+            assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
+            t.check_ridges(&mut failures, |_| None).expect("room for it");
             assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
             let mut flips = AllFlips::default();
             flips.own.suspects.clone_from(&failures.facets);

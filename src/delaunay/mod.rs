@@ -18,6 +18,7 @@
 //! | `certify`, `screen` | all certificates at once |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
+//! | `set` | small sets of indices |
 //!
 //! **Ghost cells.** A ghost cell stands for what lies beyond a facet of the convex hull. A point is in conflict
 //! with it if it is strictly beyond the facet's hyperplane; if it is in the hyperplane, exactly if it is in
@@ -43,6 +44,7 @@ mod relocate;
 mod remove;
 #[cfg(target_arch = "x86_64")]
 mod screen;
+mod set;
 pub mod site;
 mod spheres;
 mod unite;
@@ -55,6 +57,7 @@ pub(crate) use certify::Waiting;
 pub use dimension::{Coordinates, Dimension, Plane, Space};
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
+pub(crate) use set::IndexSet;
 pub use site::Site;
 pub use validate::{Level, Violation};
 
@@ -100,10 +103,24 @@ pub struct Delaunay<G: Dimension> {
 }
 
 impl<G: Dimension> Default for Delaunay<G> {
+    /// # Panics
+    /// Where there is no memory for a single site; [`on`](Self::on) says so instead.
     fn default() -> Self {
+        Delaunay::on(Threads::ONE).expect("memory for a site")
+    }
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// Index of the last corner, the one that is infinite in a ghost cell.
+    const LAST: usize = G::D;
+
+    /// A triangulation without sites that uses several threads.
+    pub(crate) fn on(threads: Threads) -> Result<Self> {
         let origin = G::Point::default();
-        Delaunay {
-            sites: vec![Site::new(origin, INFINITE)],
+        let mut sites = Vec::new();
+        memory::push(&mut sites, Site::new(origin, INFINITE))?;
+        Ok(Delaunay {
+            sites,
             free_sites: Vec::new(),
             parts: Parts::default(),
             complex: Complex::default(),
@@ -118,18 +135,8 @@ impl<G: Dimension> Default for Delaunay<G> {
             flips: AllFlips::default(),
             changed: None,
             certificates: 0,
-            threads: Threads::ONE,
-        }
-    }
-}
-
-impl<G: Dimension> Delaunay<G> {
-    /// Index of the last corner, the one that is infinite in a ghost cell.
-    const LAST: usize = G::D;
-
-    /// A triangulation without sites that uses several threads.
-    pub(crate) fn on(threads: Threads) -> Self {
-        Delaunay { threads, ..Delaunay::default() }
+            threads,
+        })
     }
 
     /// The cells.
@@ -196,6 +203,8 @@ impl<G: Dimension> Delaunay<G> {
         if self.sites.len() >= u32::MAX as usize {
             return Err(Error::TooManyVertices { given: self.sites.len(), limit: u32::MAX as usize - 1 });
         }
+        // To discard it needs an entry in the other list, and must not fail.
+        memory::reserve(&mut self.free_sites, 1)?;
         if self.sites.len() == self.sites.capacity() {
             self.reserve_sites(1.max(self.sites.len() / 8))?;
         }
@@ -213,6 +222,7 @@ impl<G: Dimension> Delaunay<G> {
         self.drop_site(s);
     }
 
+    /// Frees the index of a site that is in no cell, for which there must be room in the list of these.
     fn drop_site(&mut self, s: u32) {
         self.sites[s as usize].id = crate::complex::NONE;
         self.free_sites.push(s);
@@ -382,7 +392,16 @@ impl<G: Dimension> Delaunay<G> {
         prefetch(self.complex.cells(), cell.neighbour(facet.index()).cell() as usize);
     }
 
-    /// Enters cells into the record, if there is one.
+    /// Makes room for so many more cells in the record, if there is one.
+    #[inline(always)]
+    pub(crate) fn reserve_record(&mut self, n: usize) -> Result<()> {
+        match &mut self.changed {
+            Some(changed) => memory::reserve(changed, n),
+            None => Ok(()),
+        }
+    }
+
+    /// Enters cells into the record, if there is one; there must be [room](Self::reserve_record) for them.
     #[inline(always)]
     pub(crate) fn record(&mut self, cells: impl IntoIterator<Item = u32>) {
         if let Some(changed) = &mut self.changed {

@@ -318,7 +318,9 @@ mod tests {
     #[test]
     fn digits_sort_as_comparisons_do() {
         let mut state = 1u64;
-        for (n, bits) in [(1, 8), (2, 32), (255, 30), (256, 32), (257, 32), (1000, 4), (5000, 24), (30_000, 30)] {
+        for (n, bits) in
+            [(1, 8), (2, 32), (255, 30), (256, 32), (257, 32), (1000, 4), (5000, 24), (30_000, 30)]
+        {
             for common in [0, 0x00ff_ff00, !0] {
                 let keys = (0..n).map(|item| {
                     state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);

@@ -16,7 +16,7 @@
 //! The id of a site breaks ties, so a change of id is a relocation to the same place.
 
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
 use crate::error::Result;
 
 /// What a relocation did.
@@ -45,17 +45,19 @@ impl<G: Dimension> Delaunay<G> {
     /// Moves a live site to `q`, where it represents vertex `id`.
     pub fn relocate_site(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Result<Relocation> {
         self.cover(q, q);
-        if self.has_cells() {
-            self.gather_star(s);
-            if let Some(done) = self.relocate_in_place(s, q, id, shortcut) {
-                return Ok(done);
-            }
-            self.remove_gathered(s)?;
-            if self.complex.n_finite() == 0 {
-                self.become_flat(s);
-            }
-        } else {
-            self.remove_flat(s);
+        // For the index, should the site be dropped.
+        memory::reserve(&mut self.free_sites, 1)?;
+        if !self.has_cells() {
+            return self.relocate_flat(s, q, id);
+        }
+        self.gather_star(s)?;
+        self.reserve_record(self.hole.star.len())?;
+        if let Some(done) = self.relocate_in_place(s, q, id, shortcut) {
+            return Ok(done);
+        }
+        self.remove_gathered(s)?;
+        if self.complex.n_finite() == 0 {
+            self.become_flat(s)?;
         }
         self.sites[s as usize] = Site::new(*q, id);
         match self.insert_site(s, NONE)? {
@@ -95,7 +97,7 @@ impl<G: Dimension> Delaunay<G> {
         None
     }
 
-    /// Enters the gathered star into the record of changes.
+    /// Enters the gathered star into the record of changes, where there is room for it.
     fn record_star(&mut self) {
         if let Some(changed) = &mut self.changed {
             changed.extend(self.hole.star.iter().map(|&(c, _)| c));

@@ -102,7 +102,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
         }
         let mut t = MovingTriangulation {
-            kernel: Delaunay::on(Threads::at_most(options.threads)),
+            kernel: Delaunay::on(Threads::at_most(options.threads))?,
             site_of: Vec::new(),
             hidden: Hidden::default(),
             n_present: positions.len(),
