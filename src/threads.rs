@@ -26,7 +26,7 @@ use std::thread;
 
 use crate::complex::memory;
 use crate::error::Result;
-use crate::predicates;
+use crate::{predicates, processors};
 
 /// Ranges for each thread.
 const RANGES: usize = 8;
@@ -45,8 +45,7 @@ impl Threads {
     /// So many at most, or with 0 as many as the system runs at the same time where that pays.
     pub(crate) fn at_most(given: u32) -> Self {
         static AVAILABLE: OnceLock<usize> = OnceLock::new();
-        let available =
-            || *AVAILABLE.get_or_init(|| thread::available_parallelism().map_or(1, |threads| threads.get()));
+        let available = || *AVAILABLE.get_or_init(processors::available);
         let most = if given == 0 { available() } else { given as usize };
         Threads { most, is_given: given != 0 }
     }

@@ -134,7 +134,7 @@ fn sort_by_key(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
     let mut is_in_spare = false;
     for (d, counts) in (0..n_digits).zip(&mut counts) {
         let mut start = 0;
-        for count in counts.iter_mut() {
+        for count in counts[..=mask as usize].iter_mut() {
             (*count, start) = (start, start + *count);
         }
         for k in from.iter() {

@@ -73,32 +73,47 @@ impl<G: Dimension> Delaunay<G> {
     /// Likewise; the cells of the star that are listed have marks.
     #[inline(always)]
     fn mark_star(&mut self, s: u32) -> Result<()> {
-        let hole = &mut self.hole;
-        hole.star.clear();
-        hole.link.clear();
-        memory::reserve(&mut hole.star, 1)?;
+        let Hole { star, link, .. } = &mut self.hole;
+        star.clear();
+        link.clear();
         let first = self.sites[s as usize].cell;
-        hole.star.push((first, self.complex.cell(first).index_of(s) as u8));
+        memory::push(star, (first, self.complex.cell(first).index_of(s) as u8))?;
         self.complex.set_mark(first, 1);
-        let mut next = 0;
-        while next < hole.star.len() {
-            memory::reserve(&mut hole.star, G::D)?;
-            memory::reserve(&mut hole.link, 1)?;
-            let (c, at) = hole.star[next];
+        // What is written is counted here first: relocations spend much of their time in this loop.
+        let (mut next, mut n_star, mut n_link) = (0, 1, 0);
+        let mut gathered = Ok(());
+        while next < n_star {
+            if star.capacity() < n_star + G::D || link.capacity() < n_link + 1 {
+                // SAFETY: so many have been written.
+                unsafe { (star.set_len(n_star), link.set_len(n_link)) };
+                gathered = memory::reserve(star, G::D).and_then(|()| memory::reserve(link, 1));
+                if gathered.is_err() {
+                    break;
+                }
+            }
+            // SAFETY: one of those that have been written.
+            let (c, at) = unsafe { *star.as_ptr().add(next) };
             let at = at as usize;
             next += 1;
             let cell = *self.complex.cell(c);
             for i in 0..G::Corners::N {
                 let out = cell.neighbour(i);
                 if i == at {
-                    hole.link.push(Gap { corners: cell.corners, at, out });
+                    // SAFETY: there is room for one, which is for this facet.
+                    unsafe { link.as_mut_ptr().add(n_link).write(Gap { corners: cell.corners, at, out }) };
+                    n_link += 1;
                 } else if self.complex.mark(out.cell()) == 0 {
                     self.complex.set_mark(out.cell(), 1);
-                    hole.star.push((out.cell(), self.complex.cell(out.cell()).index_of(s) as u8));
+                    let at = self.complex.cell(out.cell()).index_of(s) as u8;
+                    // SAFETY: there is room for one beyond each of the other `D` facets.
+                    unsafe { star.as_mut_ptr().add(n_star).write((out.cell(), at)) };
+                    n_star += 1;
                 }
             }
         }
-        Ok(())
+        // SAFETY: so many have been written.
+        unsafe { (star.set_len(n_star), link.set_len(n_link)) };
+        gathered
     }
 
     /// Cells of the star gathered last, and the index of its site in each.
