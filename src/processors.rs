@@ -25,9 +25,11 @@ fn allowed() -> usize {
         let mut set: libc::cpu_set_t = std::mem::zeroed();
         (libc::sched_getaffinity(0, size_of_val(&set), &mut set) == 0, libc::CPU_COUNT(&set))
     };
+    if is_listed {
+        return usize::try_from(n).unwrap_or(1);
+    }
     // SAFETY: a question without conditions.
-    let n =
-        if is_listed { i64::from(n) } else { unsafe { libc::sysconf(libc::_SC_NPROCESSORS_ONLN) as i64 } };
+    let n = unsafe { libc::sysconf(libc::_SC_NPROCESSORS_ONLN) };
     usize::try_from(n).unwrap_or(1)
 }
 
