@@ -104,7 +104,7 @@ pub struct Delaunay<G: Dimension> {
 
 impl<G: Dimension> Default for Delaunay<G> {
     /// # Panics
-    /// Where there is no memory for a single site; [`on`](Self::on) says so instead.
+    /// Where there is no memory for a single site.
     fn default() -> Self {
         Delaunay::on(Threads::ONE).expect("memory for a site")
     }
