@@ -135,11 +135,14 @@ impl<C: Corners> Stretch<'_, C> {
     }
 }
 
+/// What a flip in the plane has put there, and the rows before.
+type Swapped = ([Facet; 4], [Row<[u32; 3]>; 2]);
+
 impl Stretch<'_, [u32; 3]> {
     /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on the
     /// boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`,
     /// and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
-    pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<([Facet; 4], [Row<[u32; 3]>; 2]), Obstacle> {
+    pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<Swapped, Obstacle> {
         let (c, i) = (facet.cell(), facet.index());
         let old = *self.cell(c)?;
         let across = old.neighbour(i);

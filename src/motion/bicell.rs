@@ -97,13 +97,15 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(0.0);
         }
         let mut tolerance = f64::INFINITY;
-        self.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance));
+        self.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance))?;
         Ok(tolerance)
     }
 
-    /// As [`tolerance`](Self::tolerance), for a site that no two vertices share.
+    /// As [`tolerance`](Self::tolerance), for a site that no two vertices share; 0 without the memory to look.
     pub(super) fn tolerance_of_site(&mut self, s: u32) -> f64 {
-        self.kernel.gather_star(s);
+        if self.kernel.gather_star(s).is_err() {
+            return 0.0;
+        }
         let star = self.kernel.gathered_star().iter();
         star.fold(f64::INFINITY, |tolerance, &(c, _)| self.tolerance_around(c, tolerance))
     }

@@ -208,7 +208,12 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Lists what is lost and found in these slots.
-    fn compare_slots(&self, kernel: &Delaunay<G>, dirty: &[u32], scratch: &mut Scratch<G::Corners>) -> Result<()> {
+    fn compare_slots(
+        &self,
+        kernel: &Delaunay<G>,
+        dirty: &[u32],
+        scratch: &mut Scratch<G::Corners>,
+    ) -> Result<()> {
         memory::reserve(&mut scratch.lost, dirty.len())?;
         memory::reserve(&mut scratch.found, dirty.len())?;
         for (k, &slot) in dirty.iter().enumerate() {
@@ -282,10 +287,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Finds lost cells in other slots.
-    fn find_lost(
-        &self,
-        Scratch { lost, found, table, turned, .. }: &mut Scratch<G::Corners>,
-    ) -> Result<()> {
+    fn find_lost(&self, Scratch { lost, found, table, turned, .. }: &mut Scratch<G::Corners>) -> Result<()> {
         if lost.is_empty() || found.is_empty() {
             return Ok(());
         }
@@ -338,7 +340,11 @@ impl<G: Dimension> Cells<G> {
 
     /// Gives every cell its index: those found again theirs, new ones the holes and then the end. What is left of the holes
     /// is filled from the end.
-    fn renumber(&mut self, kernel: &Delaunay<G>, Scratch { lost, found, glued, turned, .. }: &mut Scratch<G::Corners>) {
+    fn renumber(
+        &mut self,
+        kernel: &Delaunay<G>,
+        Scratch { lost, found, glued, turned, .. }: &mut Scratch<G::Corners>,
+    ) {
         let n = kernel.complex().n_finite();
         self.index_of.resize(kernel.complex().n_slots(), NO_CELL);
         let Cells { corners, neighbours, index_of, slots, since_taken, since_commit, .. } = self;

@@ -254,7 +254,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             report.moved += u64::from(self.move_to_staged(next, v, own(self, v)));
         }
         for &v in &self.edits.removals {
-            next.free_site(own(self, v))?;
+            next.discard_site(own(self, v))?;
         }
         for &(id, q) in &self.edits.insertions {
             next.add_site(q, id)?;
