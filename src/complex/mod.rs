@@ -144,7 +144,13 @@ pub struct Complex<C: Corners> {
 
 impl<C: Corners> Default for Complex<C> {
     fn default() -> Self {
-        Complex { cells: Vec::new(), marks: Vec::new(), free: Vec::new(), n_ghosts: 0, record: Record::default() }
+        Complex {
+            cells: Vec::new(),
+            marks: Vec::new(),
+            free: Vec::new(),
+            n_ghosts: 0,
+            record: Record::default(),
+        }
     }
 }
 
@@ -403,6 +409,7 @@ impl<C: Corners> Complex<C> {
         let more_free = n_gaps.saturating_sub(self.free.len());
         memory::reserve(&mut self.free, more_free)?;
         debug_assert!(!self.is_recording() || self.rows().is_empty(), "rows are named by slot");
+        self.follow_sort(sorted.capacity(), n_slots)?;
         starts.resize(n_sites + 1, 0u32);
         for cell in self.cells.iter().filter(|cell| cell.corners[0] != NONE) {
             starts[lowest(cell) + 1] += 1;
@@ -468,7 +475,9 @@ impl<C: Corners> Complex<C> {
 
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
-        self.cells.capacity() * size_of::<Cell<C>>() + self.marks.capacity() + self.free.capacity() * 4
+        self.cells.capacity() * size_of::<Cell<C>>()
+            + self.marks.capacity()
+            + self.free.capacity() * 4
             + self.record.memory_bytes()
     }
 }
