@@ -409,6 +409,7 @@ impl<C: Corners> Complex<C> {
         let more_free = n_gaps.saturating_sub(self.free.len());
         memory::reserve(&mut self.free, more_free)?;
         debug_assert!(!self.is_recording() || self.rows().is_empty(), "rows are named by slot");
+        self.follow_sort(sorted.capacity(), n_slots)?;
         starts.resize(n_sites + 1, 0u32);
         for cell in self.cells.iter().filter(|cell| cell.corners[0] != NONE) {
             starts[lowest(cell) + 1] += 1;

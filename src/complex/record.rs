@@ -92,7 +92,21 @@ impl<C: Corners> Complex<C> {
 
     /// Has a bit for every slot that there is room for.
     pub(super) fn cover_slots(&mut self) -> Result<()> {
-        let missing = self.cells.capacity().div_ceil(64).saturating_sub(self.record.noted.len());
+        self.cover(self.cells.capacity())
+    }
+
+    /// The cells are about to be sorted into so many slots: a record in which no row has been noted yet begins there.
+    pub(super) fn follow_sort(&mut self, capacity: usize, n_slots: usize) -> Result<()> {
+        if self.record.is_on {
+            self.cover(capacity)?;
+            self.record.n_slots = n_slots;
+        }
+        Ok(())
+    }
+
+    /// Has a bit for each of so many slots.
+    fn cover(&mut self, n_slots: usize) -> Result<()> {
+        let missing = n_slots.div_ceil(64).saturating_sub(self.record.noted.len());
         if missing > 0 {
             memory::reserve_exact(&mut self.record.noted, missing)?;
             self.record.noted.resize(self.record.noted.len() + missing, 0);

@@ -4,9 +4,9 @@
 //! changed; the next one who asks brings the arrays up to date, at the cost of these. Who never asks pays nothing.
 //!
 //! **Identity.** A cell is its set of vertices. One that is there before and after keeps its index, and the order of its
-//! corners unless it has been turned over, whatever has become of its slot: rows of slots that have changed are compared first with what the slot
-//! holds now, and what is left on both sides is matched by corners. Only where cells have become fewer, the last ones are
-//! *renumbered* to fill the holes.
+//! corners unless it has been turned over, whatever has become of its slot: rows of slots that have changed are compared
+//! first with what the slot holds now, and what is left on both sides is matched by corners. Only where cells have become
+//! fewer, the last ones are *renumbered* to fill the holes.
 //!
 //! Invariant: `slots` and `index_of` are inverse to each other for all cells that have not changed since.
 //!
@@ -333,7 +333,7 @@ impl<G: Dimension> Cells<G> {
         let (n_lost, n_found) = (scratch.lost.len(), scratch.found.len());
         memory::reserve(&mut scratch.glued, n_lost)?;
         for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
-            tracker.reserve(n_lost, n_lost + n_found, n)?;
+            tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n)?;
         }
         Ok(())
     }
@@ -396,7 +396,9 @@ impl<G: Dimension> Cells<G> {
             index_of[slot as usize] = index;
         }
         for &slot in turned.iter() {
-            corners[index_of[slot as usize] as usize] = ids_of(kernel, slot);
+            let index = index_of[slot as usize];
+            let row = std::mem::replace(&mut corners[index as usize], ids_of(kernel, slot));
+            tell(&|tracker| tracker.turn(index, row));
         }
         for from in (n..corners.len()).rev() {
             if slots[from] == NONE {
@@ -741,7 +743,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(changed);
         }
         let mut changed = Vec::new();
-        if let Some(tracker) = &cells.since_commit {
+        // A tracker may be there from a first commit that failed.
+        if let Some(tracker) = cells.since_commit.as_ref().filter(|_| self.timestamp() > 0) {
             tracker.list_created(&cells.corners, &mut changed)?;
         }
         Ok(self.views.changed.get_or_init(|| changed))

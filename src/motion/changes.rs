@@ -24,6 +24,17 @@ pub(super) struct Tracker<C> {
     removed: Vec<(u32, C)>,
     /// How often the arrays have been refreshed since: a cell that goes in one refreshment may come back in another.
     n_refreshed: u32,
+    /// Cells of the base that have been turned over, and how their corners were listed before.
+    turned: Vec<Turned<C>>,
+}
+
+/// A cell of the base that has been turned over.
+#[derive(Clone, Copy, Debug)]
+struct Turned<C> {
+    origin: u32,
+    /// The order of the events.
+    at: u32,
+    before: C,
 }
 
 impl<C: Corners> Tracker<C> {
@@ -32,7 +43,7 @@ impl<C: Corners> Tracker<C> {
         let mut origin = Vec::new();
         memory::reserve_exact(&mut origin, n)?;
         origin.extend(0..n as u32);
-        Ok(Tracker { origin, touched: Vec::new(), removed: Vec::new(), n_refreshed: 0 })
+        Ok(Tracker { origin, touched: Vec::new(), removed: Vec::new(), n_refreshed: 0, turned: Vec::new() })
     }
 
     /// A tracker whose base has no cells.
@@ -43,8 +54,18 @@ impl<C: Corners> Tracker<C> {
         Ok(tracker)
     }
 
-    /// Makes room for so many removals, touched indices, and cells.
-    pub(super) fn reserve(&mut self, n_removed: usize, n_touched: usize, n_cells: usize) -> Result<()> {
+    /// Makes room for so many removals, cells turned over, touched indices, and cells.
+    pub(super) fn reserve(
+        &mut self,
+        n_removed: usize,
+        n_turned: usize,
+        n_touched: usize,
+        n_cells: usize,
+    ) -> Result<()> {
+        if self.turned.len() > self.origin.len() {
+            keep_first_turns(&mut self.turned);
+        }
+        memory::reserve(&mut self.turned, n_turned)?;
         if self.touched.len() > 2 * self.origin.len() {
             self.touched.sort_unstable();
             self.touched.dedup();
@@ -60,6 +81,14 @@ impl<C: Corners> Tracker<C> {
         let origin = self.origin[index as usize];
         if origin != NONE {
             self.removed.push((origin, corners));
+        }
+    }
+
+    /// A cell stays, but its corners are no longer listed in this order.
+    pub(super) fn turn(&mut self, index: u32, before: C) {
+        let origin = self.origin[index as usize];
+        if origin != NONE {
+            self.turned.push(Turned { origin, at: self.turned.len() as u32, before });
         }
     }
 
@@ -94,6 +123,7 @@ impl<C: Corners> Tracker<C> {
         self.touched.clear();
         self.removed.clear();
         self.n_refreshed = 0;
+        self.turned.clear();
     }
 
     /// The touched indices, ascending, each once.
@@ -140,7 +170,15 @@ impl<C: Corners> Tracker<C> {
     pub(super) fn memory_bytes(&self) -> usize {
         (self.origin.capacity() + self.touched.capacity()) * 4
             + self.removed.capacity() * size_of::<(u32, C)>()
+            + self.turned.capacity() * size_of::<Turned<C>>()
     }
+}
+
+/// Keeps of each cell how it was before it was turned over for the first time, in the order of the cells.
+fn keep_first_turns<C>(turned: &mut Vec<Turned<C>>) {
+    turned.sort_unstable_by_key(|event| (event.origin, event.at));
+    turned.dedup_by_key(|event| event.origin);
+    turned.iter_mut().for_each(|event| event.at = 0);
 }
 
 fn sorted<C: Corners>(mut corners: C) -> C {
@@ -171,7 +209,7 @@ pub struct Changes<'t, C> {
     pub created: &'t [u32],
     /// Cells that existed and do not now: the index that each had.
     pub removed: &'t [u32],
-    /// Their corners, in the order in which they were listed.
+    /// Their corners, in the order in which they were listed when the program last took the changes.
     pub removed_corners: &'t [C],
     /// Cells that existed and have another index now: the old ones.
     pub renumbered_from: &'t [u32],
@@ -265,9 +303,12 @@ impl<C: Corners> Taken<C> {
         }
         memory::reserve(&mut self.removed, tracker.removed.len())?;
         memory::reserve(&mut self.removed_corners, tracker.removed.len())?;
+        let mut turned = memory::copy_of(&tracker.turned)?;
+        keep_first_turns(&mut turned);
         for (&(origin, corners), _) in tracker.removed.iter().zip(&has_returned).filter(|(_, back)| !**back) {
+            let was_turned = turned.binary_search_by_key(&origin, |event| event.origin);
             self.removed.push(origin);
-            self.removed_corners.push(corners);
+            self.removed_corners.push(was_turned.map_or(corners, |k| turned[k].before));
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Shared by the test crates: seeded numbers, views of cells as sets, and an exact integer oracle.
 #![allow(dead_code)] // Each test crate uses a part.
 
+pub mod carried;
 pub mod exact;
 pub mod files;
 pub mod history;
