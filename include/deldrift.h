@@ -46,7 +46,7 @@
  * on the same triangulation), DELDRIFT_POISONED and DELDRIFT_INTERNAL_ERROR.
  *
  * Ownership. What deldrift_create made must be given to deldrift_destroy, once. Arrays that are passed in
- * are read during the call and not kept. Views (deldrift_cells_view, deldrift_indices_view) belong to
+ * are read during the call and not kept. Views (deldrift_cells_view, deldrift_indices_view, deldrift_changes) belong to
  * the triangulation and end with the next call on it that takes it as non-const, or with its destruction.
  * Strings belong to the library.
  *
@@ -351,7 +351,8 @@ typedef struct deldrift_changes {
     size_t removed_count;
     /// The index that each had.
     const uint32_t *removed;
-    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, as their rows were. Vertices may have been removed.
+    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the program
+    /// last took the changes. Vertices may have been removed since.
     const uint32_t *removed_vertices;
     /// Number of cells that existed under another index.
     size_t renumbered_count;

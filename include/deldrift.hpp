@@ -150,6 +150,22 @@ public:
         return report;
     }
 
+    // positions: those of all ids, without moves staged before.
+    deldrift_commit_report commit_positions(span<const double> positions) {
+        deldrift_commit_report report;
+        check(deldrift_commit_positions(native(), positions.data(), count_of("positions", positions), &report));
+        return report;
+    }
+    // For the next commit; returns the id of the first one, which those of the others follow.
+    std::uint32_t stage_insertions(span<const double> positions) {
+        std::uint32_t first;
+        check(deldrift_stage_insertions(native(), positions.data(), count_of("positions", positions), &first));
+        return first;
+    }
+    void stage_removals(span<const std::uint32_t> vertices) {
+        check(deldrift_stage_removals(native(), vertices.data(), vertices.size()));
+    }
+
     void relocate_vertex(std::uint32_t vertex, span<const double> position) {
         check(deldrift_relocate_vertex(native(), vertex, point(position)));
     }
@@ -181,6 +197,12 @@ public:
         return positions;
     }
     Cells cells() const { return Cells(ask<deldrift_cells_view>(deldrift_cells)); }
+    // Since the last call; all lists end with the next change.
+    deldrift_changes take_changes() {
+        deldrift_changes changes;
+        check(deldrift_take_changes(native(), &changes));
+        return changes;
+    }
     span<const std::uint32_t> changed_cells() const {
         const auto view = ask<deldrift_indices_view>(deldrift_changed_cells);
         return {view.indices, view.count};

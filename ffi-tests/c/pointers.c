@@ -31,6 +31,7 @@ static void handles(void) {
     deldrift_commit_report report;
     deldrift_cells_view cells;
     deldrift_indices_view indices;
+    deldrift_changes changes;
     deldrift_location location;
 
     REFUSES("t", deldrift_triangulation, deldrift_dimension(pointer, &number));
@@ -42,6 +43,10 @@ static void handles(void) {
     REFUSES("t", deldrift_triangulation, deldrift_discard_moves(pointer));
     REFUSES("t", deldrift_triangulation, deldrift_commit_timestamp(pointer, &report));
     REFUSES("t", deldrift_triangulation, deldrift_commit_timestamp(pointer, NULL));
+    REFUSES("t", deldrift_triangulation, deldrift_commit_positions(pointer, position, 1, NULL));
+    REFUSES("t", deldrift_triangulation, deldrift_stage_insertions(pointer, position, 1, &number));
+    REFUSES("t", deldrift_triangulation, deldrift_stage_removals(pointer, &number, 1));
+    REFUSES("t", deldrift_triangulation, deldrift_take_changes(pointer, &changes));
     REFUSES("t", deldrift_triangulation, deldrift_relocate_vertex(pointer, 0, position));
     REFUSES("t", deldrift_triangulation, deldrift_insert_vertex(pointer, position, &number));
     REFUSES("t", deldrift_triangulation, deldrift_remove_vertex(pointer, 0));
@@ -80,6 +85,9 @@ static void inputs(void) {
     REFUSES("position", double, deldrift_move_vertex(t, 0, pointer));
     REFUSES("positions", double, deldrift_move_vertices(t, NULL, pointer, SQUARE_COUNT));
     REFUSES("positions", double, deldrift_move_vertices(t, vertices, pointer, 2));
+    REFUSES("positions", double, deldrift_commit_positions(t, pointer, SQUARE_COUNT, NULL));
+    REFUSES("positions", double, deldrift_stage_insertions(t, pointer, 1, &number));
+    REFUSES("vertices", uint32_t, deldrift_stage_removals(t, pointer, 1));
     REFUSES("position", double, deldrift_relocate_vertex(t, 0, pointer));
     REFUSES("position", double, deldrift_insert_vertex(t, pointer, &number));
     REFUSES("position", double, deldrift_locate(t, pointer, &location));
@@ -105,6 +113,8 @@ static void outputs(void) {
     REFUSES("dimension", uint32_t, deldrift_dimension(t, pointer));
     REFUSES("algorithm", deldrift_algorithm, deldrift_get_algorithm(t, pointer));
     REFUSES("out_vertex", uint32_t, deldrift_insert_vertex(t, position, pointer));
+    REFUSES("first_vertex", uint32_t, deldrift_stage_insertions(t, position, 1, pointer));
+    REFUSES("changes", deldrift_changes, deldrift_take_changes(t, pointer));
     REFUSES("count", size_t, deldrift_vertex_count(t, pointer));
     REFUSES("count", size_t, deldrift_id_count(t, pointer));
     REFUSES("count", size_t, deldrift_cell_count(t, pointer));

@@ -75,6 +75,15 @@ static void motion() {
     t.remove_vertex(vertex);
     CHECK(!t.is_present(5) && std::isnan(t.positions()[10]));
     t.validate(3);
+
+    CHECK(t.take_changes().created_count == t.cell_count() && t.take_changes().created_count == 0);
+    CHECK(t.stage_insertions({3.0, 1.0, 3.5, 2.0}) == 6);
+    t.stage_removals({4});
+    const deldrift_commit_report report = t.commit_timestamp();
+    CHECK(report.inserted == 2 && report.removed == 1 && t.vertex_count() == 6);
+    const deldrift_changes changes = t.take_changes();
+    CHECK(changes.created_count > 0 && changes.removed_count > 0 && changes.stars[0] == 0);
+    CHECK(t.commit_positions(t.positions()).moved == 0);
 }
 
 static void queries() {

@@ -26,7 +26,8 @@ pub struct deldrift_changes {
     pub removed_count: usize,
     /// The index that each had.
     pub removed: *const u32,
-    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, as their rows were. Vertices may have been removed.
+    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the program
+    /// last took the changes. Vertices may have been removed since.
     pub removed_vertices: *const u32,
     /// Number of cells that existed under another index.
     pub renumbered_count: usize,
