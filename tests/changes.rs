@@ -285,6 +285,7 @@ impl<'c, G: Dimension> History<'c, G> {
         let representative = self.t.coincident_representative(v).expect("present");
         let mut star = Vec::new();
         self.t.star(v, &mut star).expect("room");
+        star.sort_unstable();
         let corners = self.t.cells().expect("room").corners;
         let has = |c: &u32| corners[*c as usize].as_ref().contains(&representative);
         assert!((0..corners.len() as u32).filter(has).eq(star), "{}: star of {v}", self.context());

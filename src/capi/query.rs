@@ -302,10 +302,14 @@ pub unsafe extern "C" fn deldrift_star(
     // SAFETY: the header's conditions on pointers.
     unsafe {
         fence::read(t, |kernel| {
-            let mut star = Vec::with_capacity(64);
-            in_its_dimension!(kernel, t => t.star(vertex, &mut star))?;
-            copy_out(Room { capacity, count }, star.len(), &[("cells", cells.cast())], || {
-                pointers::fill("cells", cells, &star)
+            let star = in_its_dimension!(kernel, t => t.star_of(vertex))?;
+            let needed = star.cells().count();
+            copy_out(Room { capacity, count }, needed, &[("cells", cells.cast())], || {
+                let places = pointers::buffer("cells", cells, needed)?;
+                for (place, cell) in places.iter_mut().zip(star.cells()) {
+                    place.write(cell);
+                }
+                Ok(())
             })
         })
     }

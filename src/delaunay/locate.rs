@@ -91,21 +91,30 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Calls `visit` for each cell around a site, ghost cells included, with the index of the site in it.
     pub fn for_star(&self, s: u32, mut visit: impl FnMut(u32, usize)) -> Result<()> {
-        if !self.has_cells() {
-            return Ok(());
+        for &cell in self.star_of(s)?.as_slice() {
+            visit(cell, self.complex.cell(cell).index_of(s));
         }
+        Ok(())
+    }
+
+    /// The cells around a site, ghost cells included.
+    pub(crate) fn star_of(&self, s: u32) -> Result<IndexSet> {
         let mut star = IndexSet::new();
+        if !self.has_cells() {
+            return Ok(star);
+        }
         star.insert(self.site(s).cell)?;
         let mut next = 0;
         while let Some(&cell) = star.as_slice().get(next) {
             next += 1;
             let c = self.complex.cell(cell);
             let at = c.index_of(s);
-            visit(cell, at);
-            for i in (0..G::Corners::N).filter(|&i| i != at) {
-                star.insert(c.neighbour(i).cell())?;
+            for i in 0..G::Corners::N {
+                if i != at {
+                    star.insert(c.neighbour(i).cell())?;
+                }
             }
         }
-        Ok(())
+        Ok(star)
     }
 }

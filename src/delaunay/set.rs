@@ -3,14 +3,18 @@
 use crate::complex::memory;
 use crate::error::Result;
 
-/// So many are searched one by one, without memory of their own.
+/// So many need no memory of their own.
 const FEW: usize = 64;
+/// Places where to look for them: a power of two, four times as many, so that hardly any two meet.
+const PLACES: usize = 4 * FEW;
 
 /// A set of indices, in the order in which they came.
 #[derive(Debug)]
 pub(crate) struct IndexSet {
     n: usize,
     few: [u32; FEW],
+    /// One above the position in `few` of each, at its hash or behind; 0 where there is none.
+    places: [u8; PLACES],
     /// All of them, once they are more.
     all: Vec<u32>,
     /// Then, where to find each: one above its position, at its hash or behind; a power of two of entries, half of them 0
@@ -18,9 +22,14 @@ pub(crate) struct IndexSet {
     table: Vec<u32>,
 }
 
+#[inline(always)]
+fn hash(index: u32) -> usize {
+    (u64::from(index).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize
+}
+
 impl IndexSet {
     pub(crate) fn new() -> Self {
-        IndexSet { n: 0, few: [0; FEW], all: Vec::new(), table: Vec::new() }
+        IndexSet { n: 0, few: [0; FEW], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
     }
 
     /// The indices.
@@ -32,6 +41,7 @@ impl IndexSet {
     /// Takes all out; keeps the memory.
     pub(crate) fn clear(&mut self) {
         self.n = 0;
+        self.places = [0; PLACES];
         self.all.clear();
     }
 
@@ -41,13 +51,18 @@ impl IndexSet {
         if self.n > FEW {
             return self.insert_into_table(index);
         }
-        if self.few[..self.n].contains(&index) {
-            return Ok(false);
+        let mut at = hash(index) % PLACES;
+        while let Some(position) = usize::from(self.places[at]).checked_sub(1) {
+            if self.few[position] == index {
+                return Ok(false);
+            }
+            at = (at + 1) % PLACES;
         }
         if self.n == FEW {
             self.spill(index)?;
         } else {
             self.few[self.n] = index;
+            self.places[at] = self.n as u8 + 1;
         }
         self.n += 1;
         Ok(true)
@@ -56,7 +71,7 @@ impl IndexSet {
     /// Where the index is, or its entry would be.
     fn find(&self, index: u32) -> usize {
         let mask = self.table.len() - 1;
-        let mut at = (u64::from(index).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & mask;
+        let mut at = hash(index) & mask;
         while self.table[at] != 0 && self.all[self.table[at] as usize - 1] != index {
             at = (at + 1) & mask;
         }

@@ -21,6 +21,20 @@ pub enum Location {
     NoCells,
 }
 
+/// The cells around a place.
+pub(crate) struct Star<'t> {
+    slots: IndexSet,
+    index_of: &'t [u32],
+}
+
+impl Star<'_> {
+    /// Indices of the finite ones.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = u32> + '_ {
+        let indices = self.slots.as_slice().iter().map(|&slot| self.index_of[slot as usize]);
+        indices.filter(|&index| index != NONE)
+    }
+}
+
 impl<G: Dimension> MovingTriangulation<G> {
     /// The algorithm of commits.
     pub fn algorithm(&self) -> Algorithm {
@@ -63,23 +77,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
-    /// Indices of the finite cells around the place of a vertex, in `out`, which is cleared first.
+    /// Indices of the finite cells around the place of a vertex, in no particular order, in `out`, which is cleared first.
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
+        let star = self.star_of(vertex)?;
+        out.clear();
+        memory::collect(out, star.cells())
+    }
+
+    /// The star of a vertex.
+    pub(crate) fn star_of(&self, vertex: u32) -> Result<Star<'_>> {
         let s = self.present_site("vertex", 0, vertex)?;
         let index_of = &self.cell_arrays()?.index_of;
-        out.clear();
-        let mut listed = Ok(());
-        self.kernel.for_star(s, |c, _| {
-            if index_of[c as usize] != NONE && listed.is_ok() {
-                listed = memory::push(out, index_of[c as usize]);
-            }
-        })?;
-        listed?;
-        out.sort_unstable();
-        Ok(())
+        Ok(Star { slots: self.kernel.star_of(s)?, index_of })
     }
 
     /// Where a point lies.

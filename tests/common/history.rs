@@ -330,6 +330,7 @@ impl<G: Dimension> History<G> {
             let v = *self.rng.pick(&present);
             let representative = self.expect(self.t.coincident_representative(v));
             self.expect(self.t.star(v, &mut star));
+            star.sort_unstable();
             let corners = self.t.cells().expect("room").corners;
             let has = |c: &u32| corners[*c as usize].as_ref().contains(&representative);
             let expected: Vec<u32> = (0..corners.len() as u32).filter(has).collect();
