@@ -7,8 +7,8 @@
 use std::collections::HashMap;
 
 use super::{Delaunay, Dimension, Insertion};
-use crate::complex::NONE;
-use crate::error::Result;
+use crate::complex::{NONE, memory};
+use crate::error::{Error, Result};
 
 /// Places and basis; empty while there are cells.
 #[derive(Debug, Default)]
@@ -46,6 +46,21 @@ impl<G: Dimension> Flat<G> {
 
     pub(super) fn clear(&mut self) {
         *self = Flat::default();
+    }
+
+    /// A copy in which the sites have other names, listed by the old ones.
+    pub(super) fn renamed(&self, names: &[u32]) -> Result<Self> {
+        let mut flat = Flat {
+            places: HashMap::new(),
+            basis: memory::copy_of(&self.basis)?,
+            points: memory::copy_of(&self.points)?,
+        };
+        let n = self.places.len();
+        let bytes = n * size_of::<([u64; 3], u32)>();
+        flat.places.try_reserve(n).map_err(|_| Error::OutOfMemory { bytes })?;
+        flat.places.extend(self.places.iter().map(|(&place, &s)| (place, names[s as usize])));
+        flat.basis.iter_mut().for_each(|s| *s = names[*s as usize]);
+        Ok(flat)
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

@@ -182,10 +182,14 @@ impl<G: Dimension> Delaunay<G> {
             let mut all = Vec::new();
             memory::reserve_exact(&mut all, n)?;
             all.extend(items.map(Keyed::new));
-            return Ok((Parts::default(), vec![hilbert_order::<G>(all, point)?]));
+            let mut sorted = Vec::new();
+            memory::push(&mut sorted, hilbert_order::<G>(all, point)?)?;
+            return Ok((Parts::default(), sorted));
         }
         let step = (n / (SAMPLE * n_parts)).max(1);
-        let mut sample: Vec<G::Point> = items.clone().step_by(step).map(|item| *point(item)).collect();
+        let mut sample = Vec::new();
+        memory::reserve_exact(&mut sample, n.div_ceil(step))?;
+        sample.extend(items.clone().step_by(step).map(|item| *point(item)));
         let mut parts = Parts::of_sample::<G>(&mut sample, n_parts);
         let sorted = threads::for_each(0..n_parts, &|part| {
             hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)
