@@ -471,3 +471,32 @@ fn without_memory_for_it_nothing_is_compacted() {
     compact_within_limits::<Space>(false);
     compact_within_limits::<Space>(true);
 }
+
+/// With several threads sites are in parts, and in space there are free cells among the others.
+fn go_on_by_threads<G: Dimension>() {
+    for algorithm in [Algorithm::Repair, Algorithm::Rebuilding, Algorithm::Auto] {
+        let options = Options { algorithm, threads: 3, ..Options::default() };
+        let mut t = worn::<G>(2000, 1, options);
+        t.compact().expect("room");
+        t.validate(Level::Delaunay).expect("valid");
+        for step in [1e-4, 1e-2] {
+            let rng = &mut Rng::new(6);
+            let places: Vec<_> = (0..2000)
+                .map(|v| t.position(v).expect("dense ids"))
+                .map(|p| point::<G>(|k| p[k] + step * rng.unit()))
+                .collect();
+            t.move_all(&places).expect("places in range");
+            t.commit_timestamp().expect("room");
+            t.take_changes().expect("room");
+            t.validate(Level::Delaunay).expect("valid");
+            let expected = fresh_cells::<G>(&places.into_iter().map(Some).collect::<Vec<_>>());
+            assert_same_cells(&cell_set(&t), &expected, || format!("{}D, {algorithm:?}, {step}", G::D));
+        }
+    }
+}
+
+#[test]
+fn compacted_triangulations_go_on_by_several_threads() {
+    go_on_by_threads::<Plane>();
+    go_on_by_threads::<Space>();
+}

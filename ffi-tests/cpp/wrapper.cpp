@@ -74,6 +74,10 @@ static void motion() {
     CHECK(vertex == 5 && t.is_present(5) && t.star(5).size() == 4);
     t.remove_vertex(vertex);
     CHECK(!t.is_present(5) && std::isnan(t.positions()[10]));
+    t.remove_vertex(1);
+    CHECK((t.compact() == std::vector<std::uint32_t>{0, DELDRIFT_NONE, 1, 2, 3, DELDRIFT_NONE}));
+    CHECK(t.id_count() == 4 && (t.position(3) == std::vector<double>{1, 2}));
+    CHECK(Triangulation(2, {}).compact().empty());
     t.validate(3);
 }
 
