@@ -3,10 +3,11 @@
  *
  * Made from the sources in src/capi by `DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi`: change it there.
  *
- * A triangulation is created once from an array of points. Vertex i is the i-th point, for ever. Then
- * points move: stage the moves, commit them as the next timestamp, read the cells. After every commit
- * the cells are exactly those of the Delaunay triangulation of the current positions; ties (cocircular
- * and cospherical points) are broken by vertex id, so that they depend on nothing but positions and ids.
+ * A triangulation is created once from an array of points. Vertex i is the i-th point, for ever (but for
+ * deldrift_compact, which gives new ids). Then points move: stage the moves, commit them as the next
+ * timestamp, read the cells. After every commit the cells are exactly those of the Delaunay triangulation
+ * of the current positions; ties (cocircular and cospherical points) are broken by vertex id, so that they
+ * depend on nothing but positions and ids.
  *
  *     #include <deldrift.h>
  *     #include <stdio.h>
@@ -352,7 +353,7 @@ typedef struct deldrift_changes {
     /// The index that each had.
     const uint32_t *removed;
     /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the program
-    /// last took the changes. Vertices may have been removed since.
+    /// last took the changes. Vertices may have been removed since; after a compaction those are DELDRIFT_NONE.
     const uint32_t *removed_vertices;
     /// Number of cells that existed under another index.
     size_t renumbered_count;
@@ -585,7 +586,7 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 /// Inserts a vertex at once. Ends all views.
 ///
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
-/// the highest ever given.
+/// the highest ever given, or left by the latest deldrift_compact.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
@@ -595,14 +596,34 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        const double *position,
                                        uint32_t *out_vertex);
 
-/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again. Ends all
-/// views.
+/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again before a
+/// deldrift_compact, nor is all of its memory. Ends all views.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
 /// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
+
+/// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
+/// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
+/// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves and the
+/// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
+///
+/// map: receives the new id of each old one, DELDRIFT_NONE for removed vertices: a buffer with room for
+/// capacity ids; NULL with capacity 0 if it is not wanted. count: receives the number of old ids
+/// (deldrift_id_count before the call), which is also written when the buffer is too small: then nothing
+/// has been compacted.
+///
+/// Takes about as long as to triangulate anew, or less, and while it lasts the memory of a second
+/// triangulation.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_compact(deldrift_triangulation *t,
+                                 uint32_t *map,
+                                 size_t capacity,
+                                 size_t *count);
 
 /// Takes what has changed since this was last called, to *changes: commits, immediate calls, insertions and removals
 /// alike. The first call lists all cells as created.
@@ -621,10 +642,12 @@ deldrift_status deldrift_take_changes(deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 deldrift_status deldrift_vertex_count(const deldrift_triangulation *t, size_t *count);
 
-/// How many ids have been given, to *count: valid ids are below it, those of removed vertices too.
+/// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
+/// ids are below it, those of removed vertices too.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
-deldrift_status deldrift_id_count(const deldrift_triangulation *t, size_t *count);
+deldrift_status deldrift_id_count(const deldrift_triangulation *t,
+                                  size_t *count);
 
 /// How many cells there are, to *count.
 ///

@@ -175,6 +175,13 @@ public:
         return vertex;
     }
     void remove_vertex(std::uint32_t vertex) { check(deldrift_remove_vertex(native(), vertex)); }
+    // The new id of each old one, DELDRIFT_NONE for removed vertices.
+    std::vector<std::uint32_t> compact() {
+        std::size_t count = id_count();
+        std::vector<std::uint32_t> map(count);
+        check(deldrift_compact(native(), map.data(), count, &count));
+        return map;
+    }
 
     std::size_t vertex_count() const { return ask<std::size_t>(deldrift_vertex_count); }
     std::size_t id_count() const { return ask<std::size_t>(deldrift_id_count); }

@@ -222,6 +222,23 @@ fn an_insertion_onto_a_vertex_is_rejected_and_stays_staged() {
 }
 
 #[test]
+fn edits_survive_a_compaction() {
+    let points: Vec<[f64; 2]> = (0..40).map(|i| [f64::from(i % 7), f64::from(i * i % 11)]).collect();
+    let mut t = MovingTriangulation::<Plane>::new(&points, Options::default()).expect("a build");
+    t.remove_vertex(3).expect("it is present");
+    assert_eq!(t.stage_insertions(&[[0.5, 0.5], [20.0, 3.5]]), Ok(40));
+    t.stage_removals(&[5, 6]).expect("they are present");
+    t.move_vertices(&[7], &[[30.0, 30.0]]).expect("it is present");
+    let ids = t.compact().expect("room");
+    assert_eq!((ids[3], ids[4], ids[40], ids[41], t.id_count()), (u32::MAX, 3, 39, 40, 41));
+    assert_eq!((t.staged_edits(), t.staged_count(), t.is_present(39)), ((2, 2), 1, false));
+    t.commit_timestamp().expect("room");
+    assert_eq!((t.position(39), t.position(6)), (Ok([0.5, 0.5]), Ok([30.0, 30.0])));
+    assert_eq!((t.is_present(4), t.is_present(5), t.vertex_count()), (false, false, 39));
+    t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+}
+
+#[test]
 fn ids_of_discarded_insertions_are_given_again() {
     let mut t =
         MovingTriangulation::<Plane>::new(&[[0.0, 0.0], [1.0, 0.0]], Options::default()).expect("a build");

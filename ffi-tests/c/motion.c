@@ -169,6 +169,51 @@ static void vertices_come_and_go(void) {
     deldrift_destroy(t);
 }
 
+static void removed_vertices_leave_nothing_after_a_compaction(void) {
+    enum { TURNS = 1000 };
+    static const double aim[2] = {3, 1}, later[2] = {2, 2};
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    uint32_t vertex = 0;
+    for (size_t turn = 0; turn < TURNS; turn++) {
+        OK(deldrift_insert_vertex(t, aim, &vertex));
+        if (turn + 1 < TURNS) OK(deldrift_remove_vertex(t, vertex));
+    }
+    OK(deldrift_remove_vertex(t, 1));
+    OK(deldrift_move_vertex(t, vertex, later));
+    enum { IDS = SQUARE_COUNT + TURNS };
+    static uint32_t map[IDS];
+    size_t count = 7, before = 0, after = 0;
+    OK(deldrift_memory_bytes(t, &before));
+
+    CHECK_STATUS(deldrift_compact(NULL, map, IDS, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_compact(t, NULL, IDS, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("map is NULL");
+    CHECK_STATUS(deldrift_compact(t, map, IDS, NULL), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_compact(t, (uint32_t *)((char *)map + 1), IDS, &count), DELDRIFT_MISALIGNED_ARGUMENT);
+    CHECK(count == 7);
+    CHECK_STATUS(deldrift_compact(t, map, IDS - 1, &count), DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK_MESSAGE("capacity is 1004");
+    CHECK(count == IDS && is_present(t, vertex) && map[0] == 0 && map[IDS - 1] == 0);
+
+    OK(deldrift_compact(t, map, IDS, &count));
+    CHECK(count == IDS && map[0] == 0 && map[1] == DELDRIFT_NONE && map[2] == 1 && map[4] == 3);
+    for (size_t id = SQUARE_COUNT; id < IDS - 1; id++) CHECK(map[id] == DELDRIFT_NONE);
+    CHECK(map[IDS - 1] == 4 && is_at(t, 4, 3, 1) && is_at(t, 3, 1, 2) && !is_present(t, 5));
+    OK(deldrift_memory_bytes(t, &after));
+    CHECK(2 * after < before);
+    OK(deldrift_validate(t, 3));
+    CHECK(staged_count(t) == 1);
+    OK(deldrift_commit_timestamp(t, NULL));
+    CHECK(is_at(t, 4, 2, 2) && timestamp(t) == 1);
+    OK(deldrift_insert_vertex(t, aim, &vertex));
+    CHECK(vertex == 5);
+    OK(deldrift_remove_vertex(t, 0));
+    OK(deldrift_compact(t, NULL, 0, &count));
+    CHECK(count == 6 && is_at(t, 4, 3, 1));
+    OK(deldrift_validate(t, 3));
+    deldrift_destroy(t);
+}
+
 static void coincident_vertices_hide_behind_the_lowest_id(void) {
     deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
     OK(deldrift_move_vertex(t, 4, SQUARE + 2));
@@ -306,6 +351,7 @@ int main(void) {
     the_first_vertices_move_without_a_list_of_ids();
     a_vertex_relocates_at_once();
     vertices_come_and_go();
+    removed_vertices_leave_nothing_after_a_compaction();
     coincident_vertices_hide_behind_the_lowest_id();
     coincident_vertices_can_be_refused();
     statistics_sum_up();

@@ -74,13 +74,18 @@ static void motion() {
     CHECK(vertex == 5 && t.is_present(5) && t.star(5).size() == 4);
     t.remove_vertex(vertex);
     CHECK(!t.is_present(5) && std::isnan(t.positions()[10]));
+    t.remove_vertex(1);
+    CHECK((t.compact() == std::vector<std::uint32_t>{0, DELDRIFT_NONE, 1, 2, 3, DELDRIFT_NONE}));
+    CHECK(t.id_count() == 4 && (t.position(3) == std::vector<double>{1, 2}));
+    CHECK(Triangulation(2, {}).compact().empty());
     t.validate(3);
 
     CHECK(t.take_changes().created_count == t.cell_count() && t.take_changes().created_count == 0);
-    CHECK(t.stage_insertions({3.0, 1.0, 3.5, 2.0}) == 6);
+    const std::size_t ids = t.id_count(), vertices = t.vertex_count();
+    CHECK(t.stage_insertions({3.0, 1.0, 3.5, 2.0}) == ids);
     t.stage_removals({4});
     const deldrift_commit_report report = t.commit_timestamp();
-    CHECK(report.inserted == 2 && report.removed == 1 && t.vertex_count() == 6);
+    CHECK(report.inserted == 2 && report.removed == 1 && t.vertex_count() == vertices + 1);
     const deldrift_changes changes = t.take_changes();
     CHECK(changes.created_count > 0 && changes.removed_count > 0 && changes.stars[0] == 0);
     CHECK(t.commit_positions(t.positions()).moved == 0);

@@ -306,7 +306,7 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
 /// Inserts a vertex at once. Ends all views.
 ///
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
-/// the highest ever given.
+/// the highest ever given, or left by the latest deldrift_compact.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
@@ -331,8 +331,8 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
     }
 }
 
-/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again. Ends all
-/// views.
+/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again before a
+/// deldrift_compact, nor is all of its memory. Ends all views.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
 /// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
@@ -346,6 +346,53 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
     unsafe {
         fence::change(t, |kernel| {
             in_its_dimension!(kernel, t => t.remove_vertex(vertex))?;
+            Ok(())
+        })
+    }
+}
+
+/// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
+/// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
+/// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves and the
+/// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
+///
+/// map: receives the new id of each old one, DELDRIFT_NONE for removed vertices: a buffer with room for
+/// capacity ids; NULL with capacity 0 if it is not wanted. count: receives the number of old ids
+/// (deldrift_id_count before the call), which is also written when the buffer is too small: then nothing
+/// has been compacted.
+///
+/// Takes about as long as to triangulate anew, or less, and while it lasts the memory of a second
+/// triangulation.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_compact(
+    t: *mut deldrift_triangulation,
+    map: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let count = pointers::output("count", count)?;
+                let needed = t.id_count();
+                if map.is_null() && capacity > 0 {
+                    return Err(Failure::Null { argument: "map" });
+                }
+                if !map.is_null() && capacity < needed {
+                    count.write(needed);
+                    return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed });
+                }
+                // Looked at before anything changes.
+                let places = if map.is_null() { &mut [] } else { pointers::buffer("map", map, needed)? };
+                for (place, id) in places.iter_mut().zip(t.compact()?) {
+                    place.write(id);
+                }
+                count.write(needed);
+            });
             Ok(())
         })
     }

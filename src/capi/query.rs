@@ -92,7 +92,8 @@ pub unsafe extern "C" fn deldrift_vertex_count(
     unsafe { tell!(t, count, t => t.vertex_count()) }
 }
 
-/// How many ids have been given, to *count: valid ids are below it, those of removed vertices too.
+/// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
+/// ids are below it, those of removed vertices too.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]

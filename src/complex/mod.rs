@@ -131,6 +131,11 @@ impl<C: Corners> Cell<C> {
     }
 }
 
+/// The free indices among those of so many sorted cells, one after so many of them.
+fn gaps(n_live: usize, gap_after: usize) -> impl Iterator<Item = u32> {
+    (1..=n_live / gap_after).map(move |k| (k * (gap_after + 1) - 1) as u32)
+}
+
 /// A set of cells, glued along facets.
 #[derive(Debug)]
 pub struct Complex<C: Corners> {
@@ -393,10 +398,50 @@ impl<C: Corners> Complex<C> {
     /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`, and a free
     /// one after so many of them; returns the new index of each.
     pub(crate) fn sort(&mut self, n_sites: usize, gap_after: usize) -> Result<Vec<u32>> {
-        let lowest = |cell: &Cell<C>| cell.corners.as_ref().iter().copied().fold(NONE, u32::min) as usize;
+        debug_assert!(!self.is_recording() || self.rows().is_empty(), "rows are named by slot");
+        let (sorted, index) = self.sorted(n_sites, gap_after, |s| s)?;
         let n_live = self.cells.len() - self.free.len();
-        let n_gaps = n_live / gap_after;
-        let n_slots = n_live + n_gaps;
+        let spare = sorted.capacity().saturating_sub(self.marks.len());
+        memory::reserve_exact(&mut self.marks, spare)?;
+        let more_free = (sorted.len() - n_live).saturating_sub(self.free.len());
+        memory::reserve(&mut self.free, more_free)?;
+        self.follow_sort(sorted.capacity(), sorted.len())?;
+        self.cells = sorted;
+        self.marks.resize(self.cells.len(), 0);
+        self.free.clear();
+        self.free.extend(gaps(n_live, gap_after));
+        Ok(index)
+    }
+
+    /// A copy in that order, without memory for cells that are gone, in which the sites have other `names`, all below
+    /// `n_sites`; and the new index of each cell, [`NONE`] for free ones.
+    pub(crate) fn compacted(
+        &self,
+        n_sites: usize,
+        gap_after: usize,
+        names: &[u32],
+    ) -> Result<(Self, Vec<u32>)> {
+        let (cells, index) = self.sorted(n_sites, gap_after, |s| names[s as usize])?;
+        let (mut marks, mut free) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut marks, cells.capacity())?;
+        marks.resize(cells.len(), 0);
+        let n_live = self.cells.len() - self.free.len();
+        memory::reserve_exact(&mut free, cells.len() - n_live)?;
+        free.extend(gaps(n_live, gap_after));
+        Ok((Complex { cells, marks, free, n_ghosts: self.n_ghosts, record: Record::default() }, index))
+    }
+
+    /// The cells in the order of [`sort`](Self::sort), by new names of the sites, and the new index of each.
+    fn sorted(
+        &self,
+        n_sites: usize,
+        gap_after: usize,
+        name: impl Fn(u32) -> u32,
+    ) -> Result<(Vec<Cell<C>>, Vec<u32>)> {
+        let lowest =
+            |cell: &Cell<C>| cell.corners.as_ref().iter().map(|&s| name(s)).fold(NONE, u32::min) as usize;
+        let n_live = self.cells.len() - self.free.len();
+        let n_slots = n_live + n_live / gap_after;
         if n_slots > MAX_CELLS {
             return Err(Error::TooManyCells { limit: MAX_CELLS });
         }
@@ -404,12 +449,6 @@ impl<C: Corners> Complex<C> {
         memory::reserve_exact(&mut starts, n_sites + 1)?;
         memory::reserve_exact(&mut index, self.cells.len())?;
         memory::reserve_exact(&mut sorted, n_slots + n_live / 64)?;
-        let spare = sorted.capacity().saturating_sub(self.marks.len());
-        memory::reserve_exact(&mut self.marks, spare)?;
-        let more_free = n_gaps.saturating_sub(self.free.len());
-        memory::reserve(&mut self.free, more_free)?;
-        debug_assert!(!self.is_recording() || self.rows().is_empty(), "rows are named by slot");
-        self.follow_sort(sorted.capacity(), n_slots)?;
         starts.resize(n_sites + 1, 0u32);
         for cell in self.cells.iter().filter(|cell| cell.corners[0] != NONE) {
             starts[lowest(cell) + 1] += 1;
@@ -432,16 +471,15 @@ impl<C: Corners> Complex<C> {
                 continue;
             }
             let mut cell = *cell;
+            for corner in cell.corners.as_mut() {
+                *corner = name(*corner);
+            }
             for code in cell.neighbours.as_mut() {
                 *code = Facet::new(index[*code as usize >> 2], (*code & 3) as usize).0;
             }
             sorted[to as usize] = cell;
         }
-        self.cells = sorted;
-        self.marks.resize(n_slots, 0);
-        self.free.clear();
-        self.free.extend((1..=n_gaps).map(|k| (k * (gap_after + 1) - 1) as u32));
-        Ok(index)
+        Ok((sorted, index))
     }
 
     /// Adds the cells of another complex, on other sites: its cell `c` becomes `c + n_slots()`, its site `s`

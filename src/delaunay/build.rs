@@ -31,6 +31,11 @@ const LARGE: usize = 1 << 15;
 /// Cells between free ones where several threads will flip.
 const GAP_AFTER: usize = 63;
 
+/// After how many cells a free one is, if so many threads flip: each that flips in space needs some among its own.
+fn gap_after<G: Dimension>(n_threads: usize) -> usize {
+    if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX }
+}
+
 impl<G: Dimension> Delaunay<G> {
     /// Adds a site for each of the points to a triangulation without any: along a Hilbert curve, each with the index of
     /// its point for id, and with the sign of zeros made positive. [`rebuild`](Self::rebuild) must follow.
@@ -230,13 +235,11 @@ impl<G: Dimension> Delaunay<G> {
     /// Returns the new index of each, [`NONE`] for free ones, unless they stay as they are.
     pub(crate) fn sort_cells(&mut self) -> Result<Option<Vec<u32>>> {
         let n_slots = self.complex.n_slots();
-        let n_threads = self.threads.for_work(n_slots, LARGE, LARGE / 64);
+        let n_threads = self.flipping_threads(n_slots);
         if self.is_sorted || n_slots < LARGE && n_threads == 1 {
             return Ok(None);
         }
-        // Each thread that flips in space needs free cells among its own.
-        let gap_after = if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX };
-        let index = self.complex.sort(self.sites.len(), gap_after)?;
+        let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_threads))?;
         for site in &mut self.sites {
             if site.cell != NONE {
                 site.cell = index[site.cell as usize];
@@ -245,6 +248,53 @@ impl<G: Dimension> Delaunay<G> {
         self.recent = index[self.recent as usize];
         self.is_sorted = true;
         Ok(Some(index))
+    }
+
+    /// How many threads flip so many cells, and so want some of their own.
+    fn flipping_threads(&self, n_cells: usize) -> usize {
+        self.threads.for_work(n_cells, LARGE, LARGE / 64)
+    }
+
+    /// A copy without memory for what is gone, in which the vertices have other ids, in the same order: those listed by
+    /// the old ones. Sites and cells are sorted. Also the new index of each cell, [`NONE`] for free ones.
+    pub(crate) fn compacted(&self, ids: &[u32]) -> Result<(Self, Vec<u32>)> {
+        let sites = &self.sites;
+        let n = sites.len() - 1 - self.free_sites.len();
+        let (parts, keyed) = self.in_parts(self.live_sites(), n, |s| &sites[s as usize].point)?;
+        let mut names = Vec::new();
+        memory::reserve_exact(&mut names, sites.len())?;
+        names.resize(sites.len(), NONE);
+        names[INFINITE as usize] = INFINITE;
+        for (name, k) in (INFINITE + 1..).zip(keyed.iter().flatten()) {
+            names[k.item() as usize] = name;
+        }
+        let n_cells = self.complex.n_finite() + self.complex.n_ghosts();
+        let gap_after = gap_after::<G>(self.flipping_threads(n_cells));
+        let (complex, index) = self.complex.compacted(n + 1, gap_after, &names)?;
+        let flat = self.flat.renamed(&names)?;
+        // Without cells the ghost vertex may still name one.
+        let cell_of = |site: &Site<G>| index.get(site.cell as usize).copied().unwrap_or(NONE);
+        let mut sorted = Vec::new();
+        memory::reserve_exact(&mut sorted, n + 1)?;
+        let ghost = &sites[INFINITE as usize];
+        sorted.push(Site { cell: cell_of(ghost), ..*ghost });
+        sorted.extend(keyed.iter().flatten().map(|k| {
+            let site = &sites[k.item() as usize];
+            Site { point: site.point, cell: cell_of(site), id: ids[site.id as usize] }
+        }));
+        let mut t = Delaunay {
+            sites: sorted,
+            parts,
+            flat,
+            is_sorted: true,
+            recent: index.get(self.recent as usize).copied().unwrap_or_default(),
+            complex,
+            certificates: self.certificates,
+            threads: self.threads,
+            ..Delaunay::empty()
+        };
+        t.tighten_filter();
+        Ok((t, index))
     }
 
     /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve.

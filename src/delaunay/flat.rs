@@ -63,6 +63,16 @@ impl<G: Dimension> Flat<G> {
         *self = Flat::default();
     }
 
+    /// A copy in which the sites have other names, listed by the old ones.
+    pub(super) fn renamed(&self, names: &[u32]) -> Result<Self> {
+        let mut flat = Flat { places: HashMap::new(), basis: self.basis };
+        memory::reserve_map(&mut flat.places, self.places.len())?;
+        flat.places.extend(self.places.iter().map(|(&place, &s)| (place, names[s as usize])));
+        let Basis { n, sites, .. } = &mut flat.basis;
+        sites[..*n].iter_mut().for_each(|s| *s = names[*s as usize]);
+        Ok(flat)
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         self.places.capacity() * size_of::<([u64; 3], u32)>()
     }

@@ -220,6 +220,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
+    /// All tolerances are going to be forgotten, though not for anything that the vertices do.
+    pub(super) fn note_oblivion(&mut self) {
+        self.auto.is_due |= self.auto.look == Look::Watched && self.regions.kept_for() == Some(Filter::Watch);
+    }
+
     /// Whether a sample of the vertices stays within tolerance, but for a few.
     fn is_calm(&mut self) -> bool {
         self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE

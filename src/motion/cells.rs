@@ -15,7 +15,7 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::MovingTriangulation;
-use super::changes::{Tracker, Visibility};
+use super::changes::{Tracker, Visibility, renumber};
 use crate::complex::{Corners, Facet, NONE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
@@ -498,6 +498,27 @@ impl<G: Dimension> Cells<G> {
         Facet::new(slot, position_of(&ids, corner, self.corners[index as usize][corner]))
     }
 
+    /// A copy of arrays that are up to date, in which vertices have other ids and cells other slots, `n_slots` in all:
+    /// those listed by the old ones. Every cell keeps its index.
+    fn renumbered(&self, ids: &[u32], slots: &[u32], n_slots: usize) -> Result<Self> {
+        let mut cells = Cells {
+            corners: memory::copy_of(&self.corners)?,
+            neighbours: memory::copy_of(&self.neighbours)?,
+            slots: memory::copy_of(&self.slots)?,
+            since_taken: self.since_taken.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
+            since_commit: self.since_commit.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
+            ..Cells::default()
+        };
+        memory::reserve_exact(&mut cells.index_of, n_slots)?;
+        cells.index_of.resize(n_slots, NO_CELL);
+        cells.corners.iter_mut().for_each(|row| renumber(row, ids));
+        for (index, slot) in cells.slots.iter_mut().enumerate() {
+            *slot = slots[*slot as usize];
+            cells.index_of[*slot as usize] = index as u32;
+        }
+        Ok(cells)
+    }
+
     fn memory_bytes(&self) -> usize {
         let trackers = [&self.since_taken, &self.since_commit].into_iter().flatten();
         (self.corners.capacity() + self.neighbours.capacity()) * size_of::<G::Corners>()
@@ -679,6 +700,26 @@ impl<G: Dimension> Views<G> {
                 *slot = index.get(*slot as usize).copied().unwrap_or(NONE);
             }
         }
+    }
+
+    /// A copy for a kernel of `n_slots` in which vertices have other ids and cells other slots: those listed by the old
+    /// ones.
+    pub(super) fn renumbered(
+        &mut self,
+        kernel: &Delaunay<G>,
+        ids: &[u32],
+        slots: &[u32],
+        n_slots: usize,
+    ) -> Result<Self> {
+        let visibilities = Visibility::renumbered(&self.visibilities, ids)?;
+        let mut views = Views { visibilities, ..Views::default() };
+        if self.exist() {
+            // What is not up to date has rows of vertices without an id.
+            let cells = self.cells(kernel)?.renumbered(ids, slots, n_slots)?;
+            views.current = OnceLock::from(memory::boxed(cells)?);
+            views.behind().are_all = false;
+        }
+        Ok(views)
     }
 
     /// From now on changes are since this commit: the arrays have been up to date when it began.

@@ -12,6 +12,8 @@ use crate::error::Result;
 
 /// More than one index in so many touched are found by a pass over all.
 const MANY: usize = 32;
+/// In place of an id: a vertex that has none any more.
+pub const NO_VERTEX: u32 = NONE;
 
 /// What has changed since a base.
 #[derive(Debug)]
@@ -126,6 +128,24 @@ impl<C: Corners> Tracker<C> {
         self.turned.clear();
     }
 
+    /// A copy in which the vertices have other ids, listed by the old ones. A removed vertex has none any more: no cell of
+    /// now or later has it, so a row with [`NONE`] is never there again.
+    pub(super) fn renumbered(&self, ids: &[u32]) -> Result<Self> {
+        let mut removed = memory::copy_of(&self.removed)?;
+        for (_, row) in &mut removed {
+            renumber(row, ids);
+        }
+        let mut turned = memory::copy_of(&self.turned)?;
+        turned.iter_mut().for_each(|event| renumber(&mut event.before, ids));
+        Ok(Tracker {
+            origin: memory::copy_of(&self.origin)?,
+            touched: self.sorted_touched()?,
+            removed,
+            n_refreshed: self.n_refreshed,
+            turned,
+        })
+    }
+
     /// The touched indices, ascending, each once.
     fn sorted_touched(&self) -> Result<Vec<u32>> {
         if MANY * self.touched.len() > self.origin.len() {
@@ -181,6 +201,13 @@ fn keep_first_turns<C>(turned: &mut Vec<Turned<C>>) {
     turned.iter_mut().for_each(|event| event.at = 0);
 }
 
+/// Gives the corners of a cell other ids, listed by the old ones; [`NONE`] stays.
+pub(super) fn renumber<C: Corners>(row: &mut C, ids: &[u32]) {
+    for v in row.as_mut() {
+        *v = ids.get(*v as usize).copied().unwrap_or(NONE);
+    }
+}
+
 fn sorted<C: Corners>(mut corners: C) -> C {
     corners.as_mut().sort_unstable();
     corners
@@ -201,6 +228,20 @@ pub(super) struct Visibility {
     was_hidden: bool,
 }
 
+impl Visibility {
+    /// Events of vertices that have other ids now, listed by the old ones; those of removed vertices matter to nobody.
+    pub(super) fn renumbered(events: &[Self], ids: &[u32]) -> Result<Vec<Self>> {
+        let mut renumbered = memory::copy_of(events)?;
+        renumbered.retain_mut(|event| {
+            event.vertex = ids[event.vertex as usize];
+            event.vertex != NONE
+        });
+        // Fewer events than before: later ones must not seem earlier.
+        keep_first(&mut renumbered);
+        Ok(renumbered)
+    }
+}
+
 /// What has changed since the program last took the changes. Indices are those of
 /// [`cells`](MovingTriangulation::cells), at that time or now; vertices are in ascending order.
 #[derive(Clone, Copy, Debug)]
@@ -209,13 +250,15 @@ pub struct Changes<'t, C> {
     pub created: &'t [u32],
     /// Cells that existed and do not now: the index that each had.
     pub removed: &'t [u32],
-    /// Their corners, in the order in which they were listed when the program last took the changes.
+    /// Their corners, in the order in which they were listed when the program last took the changes. A vertex that was
+    /// removed before a [compaction](MovingTriangulation::compact) has no id any more: it is [`NO_VERTEX`].
     pub removed_corners: &'t [C],
     /// Cells that existed and have another index now: the old ones.
     pub renumbered_from: &'t [u32],
     /// The new ones.
     pub renumbered_to: &'t [u32],
-    /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed.
+    /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed, after the latest
+    /// compaction if there was one.
     pub stars: &'t [u32],
     /// Vertices that are hidden and were not.
     pub hidden: &'t [u32],
@@ -321,7 +364,9 @@ impl<C: Corners> Taken<C> {
         let most = C::N * (self.created.len() + self.removed_corners.len());
         memory::reserve(&mut self.stars, most.min(n_ids))?;
         let created = self.created.iter().map(|&index| &corners[index as usize]);
-        for vertex in created.chain(&self.removed_corners).flat_map(|row| row.as_ref()) {
+        for vertex in
+            created.chain(&self.removed_corners).flat_map(|row| row.as_ref()).filter(|v| **v != NONE)
+        {
             let (word, bit) = (&mut self.is_listed[*vertex as usize / 64], 1 << (vertex % 64));
             if *word & bit == 0 {
                 *word |= bit;

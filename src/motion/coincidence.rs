@@ -89,6 +89,19 @@ impl Hidden {
         Ok(hidden)
     }
 
+    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones.
+    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
+        let mut hidden = Hidden { next: Vec::new(), count: self.count };
+        if self.count > 0 {
+            memory::reserve_exact(&mut hidden.next, n)?;
+            hidden.next.resize(n, NONE);
+            for (&id, &next) in ids.iter().zip(&self.next).filter(|(_, next)| **next != NONE) {
+                hidden.next[id as usize] = ids[next as usize];
+            }
+        }
+        Ok(hidden)
+    }
+
     /// The first representative with hidden vertices behind it, and the first of them.
     pub(super) fn first_pair(&self) -> Option<(u32, u32)> {
         // A vertex that another one names is no representative; those come in ascending order.

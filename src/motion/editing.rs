@@ -60,6 +60,20 @@ impl<G: Dimension> Edits<G> {
         }
     }
 
+    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones.
+    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
+        let mut insertions = memory::copy_of(&self.insertions)?;
+        insertions.iter_mut().for_each(|(id, _)| *id = ids[*id as usize]);
+        let mut removals = memory::copy_of(&self.removals)?;
+        removals.iter_mut().for_each(|v| *v = ids[*v as usize]);
+        let mut is_leaving = Vec::new();
+        if !removals.is_empty() {
+            memory::lengthen(&mut is_leaving, n, false)?;
+            removals.iter().for_each(|&v| is_leaving[v as usize] = true);
+        }
+        Ok(Edits { insertions, removals, is_leaving })
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         self.insertions.capacity() * size_of::<(u32, G::Point)>()
             + self.removals.capacity() * 4

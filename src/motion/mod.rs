@@ -1,7 +1,7 @@
 //! Triangulations of moving points: staging, timestamps, and the algorithms of the report.
 //!
-//! A vertex has an id for life and a position at each timestamp. Relocations are staged; a commit makes all of them
-//! the next timestamp, by one of the algorithms:
+//! A vertex has an id, for life or until a compaction, and a position at each timestamp. Relocations are staged; a commit
+//! makes all of them the next timestamp, by one of the algorithms:
 //!
 //! | file | report | what |
 //! |---|---|---|
@@ -16,7 +16,7 @@
 //!
 //! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4);
 //! `moving` has the loops that move all vertices; `transaction` the way back from a change; `cells` and `changes` what
-//! callers read of it.
+//! callers read of it; `compaction` forgets removed vertices.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
@@ -32,6 +32,7 @@ mod cells;
 mod changes;
 mod coincidence;
 mod commit;
+mod compaction;
 mod editing;
 mod moving;
 mod options;
@@ -51,7 +52,7 @@ mod watched;
 
 pub use crate::delaunay::{Level, Violation};
 pub use cells::{CellsView, NO_CELL};
-pub use changes::Changes;
+pub use changes::{Changes, NO_VERTEX};
 pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
 pub use query::Location;
 
@@ -183,7 +184,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Inserts a vertex; its id is one above the highest ever given.
+    /// Inserts a vertex; its id is one above the highest ever given, or left by the latest [`compact`](Self::compact).
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
@@ -228,7 +229,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if inserted == Insertion::Spans { self.rebuild_as_is(report) } else { Ok(()) }
     }
 
-    /// Removes a vertex and its staged move, if any. Its id is not given again.
+    /// Removes a vertex and its staged move, if any. Its id is not given again before a [`compact`](Self::compact).
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].

@@ -207,6 +207,23 @@ impl<G: Dimension> Staging<G> {
         }
     }
 
+    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones, [`NONE`] for those removed.
+    /// Of no moves nothing is kept.
+    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
+        let mut staging = Staging::default();
+        if self.count() == 0 {
+            return Ok(staging);
+        }
+        staging.reserve(n, self.vertices.len())?;
+        staging.is_whole = self.is_whole;
+        for (v, &id) in ids.iter().enumerate().filter(|(_, id)| **id != NONE) {
+            staging.positions[id as usize] = self.positions[v];
+            staging.is_staged[id as usize] = self.is_staged[v];
+        }
+        staging.vertices.extend(self.vertices.iter().map(|&v| ids[v as usize]));
+        Ok(staging)
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         self.positions.capacity() * size_of::<G::Point>()
             + self.is_staged.capacity()

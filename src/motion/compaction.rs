@@ -1,0 +1,70 @@
+//! Compaction: what removed vertices have left behind goes.
+//!
+//! The id of a removed vertex is not given again, nor is its place in arrays by id, and free sites and cells stay where they
+//! are. So a triangulation grows with the number of insertions. A compaction gives the present vertices the ids from 0 on,
+//! in the order of those that they have: ties are broken by the order of ids, so the cells stay the same.
+//!
+//! All that is to be kept is copied, with sites and cells in the order of a fresh build, and then takes the place of what
+//! there was: a compaction that fails has changed nothing. Scratch memory goes, and so do tolerances: the next commit that
+//! wants some computes them.
+//!
+//! Cost: half a fresh build in the plane, a fifth of one in space, and a pass over all old ids, sites and cells; while it
+//! lasts, the memory of a second triangulation.
+
+use super::MovingTriangulation;
+use super::changes::Taken;
+use super::regions::Regions;
+use super::repair::Repair;
+use super::transaction::Transaction;
+use crate::complex::{NONE, memory};
+use crate::delaunay::Dimension;
+use crate::error::Result;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones alone.
+    /// Returns the new id of each old one, [`NO_VERTEX`](super::NO_VERTEX) for vertices that have been removed.
+    ///
+    /// All else stays: positions, cells with their indices in [`cells`](Self::cells), what is staged, the timestamp.
+    /// [`changed_cells`](Self::changed_cells) and [`take_changes`](Self::take_changes) go on as they would have, with
+    /// vertices under their new ids.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory): for the time of the call there are two triangulations.
+    pub fn compact(&mut self) -> Result<Vec<u32>> {
+        let ids = self.dense_ids()?;
+        let n = self.n_present + self.staged_edits().0;
+        let mut site_of = Vec::new();
+        memory::reserve_exact(&mut site_of, n)?;
+        let (kernel, slots) = self.kernel.compacted(&ids)?;
+        let hidden = self.hidden.renumbered(&ids, n)?;
+        let staging = self.staging.renumbered(&ids, n)?;
+        let edits = self.edits.renumbered(&ids, n)?;
+        let views = self.views.renumbered(&self.kernel, &ids, &slots, kernel.complex().n_slots())?;
+        // From here on nothing fails.
+        site_of.resize(n, NONE);
+        self.note_oblivion();
+        (self.site_of, self.staging, self.edits, self.views) = (site_of, staging, edits, views);
+        let stride = kernel.mean_stride();
+        self.adopt(kernel, hidden, stride);
+        (self.regions, self.repair) = (Regions::default(), Repair::default());
+        (self.transaction, self.taken) = (Transaction::default(), Taken::default());
+        Ok(ids)
+    }
+
+    /// For each id the number of vertices with lower ones that are present or about to be inserted, [`NONE`] for those
+    /// removed.
+    fn dense_ids(&self) -> Result<Vec<u32>> {
+        let mut ids = Vec::new();
+        memory::reserve_exact(&mut ids, self.site_of.len())?;
+        ids.extend_from_slice(&self.site_of);
+        for k in 0..self.staged_edits().0 {
+            ids[self.coming(k) as usize] = 0;
+        }
+        let mut next = 0;
+        for id in ids.iter_mut().filter(|id| **id != NONE) {
+            *id = next;
+            next += 1;
+        }
+        Ok(ids)
+    }
+}
