@@ -7,7 +7,7 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 5] = ["status", "options", "triangulation", "motion", "query"];
+const SOURCES: [&str; 6] = ["status", "options", "triangulation", "motion", "changes", "query"];
 
 /// With `DELDRIFT_UPDATE_HEADER=1` the header is written instead.
 #[test]

@@ -326,9 +326,54 @@ typedef struct deldrift_commit_report {
     uint64_t certificates;
     /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them.
     uint64_t exact_calls;
+    /// Vertices inserted.
+    uint64_t inserted;
+    /// Vertices removed.
+    uint64_t removed;
     /// Zero; later versions may count more.
-    uint64_t reserved[4];
+    uint64_t reserved[2];
 } deldrift_commit_report;
+
+/// What has changed since the program last took the changes: lists that belong to the triangulation, valid until the next
+/// call that changes it. A pointer is NULL where its list is empty.
+///
+/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has happened in
+/// between. It keeps its index unless it is listed as renumbered, and its row keeps the order of the vertices unless the
+/// cell has been turned over, which only a motion can do that goes through a flat cell. So data kept by cell follows in
+/// three steps: set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
+/// indices; make those of created cells. Neighbours change only at cells that are listed, and at the neighbours of those.
+typedef struct deldrift_changes {
+    /// Number of cells that exist and did not.
+    size_t created_count;
+    /// Their indices into deldrift_cells, ascending.
+    const uint32_t *created;
+    /// Number of cells that existed and do not.
+    size_t removed_count;
+    /// The index that each had.
+    const uint32_t *removed;
+    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, as their rows were. Vertices may have been removed.
+    const uint32_t *removed_vertices;
+    /// Number of cells that existed under another index.
+    size_t renumbered_count;
+    /// The index that each had.
+    const uint32_t *renumbered_from;
+    /// The index that each has.
+    const uint32_t *renumbered_to;
+    /// Number of vertices whose star has changed: all those of created and removed cells.
+    size_t star_count;
+    /// These vertices, ascending. Some may have been removed.
+    const uint32_t *stars;
+    /// Number of vertices that are hidden and were not: others of lower ids have come to be at the same place.
+    size_t hidden_count;
+    /// These vertices, ascending.
+    const uint32_t *hidden;
+    /// Number of vertices that were hidden and are not.
+    size_t shown_count;
+    /// These vertices, ascending.
+    const uint32_t *shown;
+    /// Zero; later versions may tell more.
+    size_t reserved[4];
+} deldrift_changes;
 
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
 /// until the next call that changes the triangulation.
@@ -458,7 +503,36 @@ deldrift_status deldrift_move_vertices(deldrift_triangulation *t,
                                        const double *positions,
                                        size_t count);
 
-/// Forgets all staged moves.
+/// Stages the insertion of count vertices: all of them, or none if it fails. They are present from the
+/// next commit on, which makes them together with the staged moves and removals.
+///
+/// positions: count points, read during the call only; may be NULL if count is 0. first_vertex: receives
+/// the id of the first, which is one above the highest given so far; the others follow it in their order.
+/// The ids count in deldrift_id_count from now on. deldrift_discard_moves forgets the insertions; ids are
+/// given again then if none higher has been given since.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
+/// be called at the same time as any other call on t.
+deldrift_status deldrift_stage_insertions(deldrift_triangulation *t,
+                                          const double *positions,
+                                          size_t count,
+                                          uint32_t *first_vertex);
+
+/// Stages the removal of count vertices: all of them, or none if it fails. The next commit removes them,
+/// together with the staged moves and insertions. Moves staged for them are forgotten, and none can be
+/// staged any more; deldrift_discard_moves forgets the removals.
+///
+/// vertices: count ids, each at most once, read during the call only; may be NULL if count is 0.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (also if its removal is staged), DELDRIFT_OUT_OF_MEMORY.
+/// Not to be called at the same time as any other call on t.
+deldrift_status deldrift_stage_removals(deldrift_triangulation *t,
+                                        const uint32_t *vertices,
+                                        size_t count);
+
+/// Forgets all staged moves, insertions and removals.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
@@ -474,6 +548,23 @@ deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
 /// stays at its timestamp and the moves stay staged. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
+                                          deldrift_commit_report *report);
+
+/// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
+/// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
+///
+/// positions: count points, one for each id ever given (count is that of deldrift_id_count); entries of
+/// removed vertices are not read. Read during the call only. report: as for deldrift_commit_timestamp.
+/// Ends all views.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, and no move is
+/// staged. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
+                                          const double *positions,
+                                          size_t count,
                                           deldrift_commit_report *report);
 
 /// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
@@ -511,6 +602,18 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
 /// on t.
 deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
+
+/// Takes what has changed since this was last called, to *changes: commits, immediate calls, insertions and removals
+/// alike. The first call lists all cells as created.
+///
+/// A program that never calls this pays nothing for it; one that does pays in proportion to what has changed, and may
+/// call it as often or as rarely as it likes, without track_changes too. Ends all views; deldrift_cells takes constant
+/// time after it.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
+/// Not to be called at the same time as any other call on t.
+deldrift_status deldrift_take_changes(deldrift_triangulation *t,
+                                      deldrift_changes *changes);
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
@@ -576,10 +679,13 @@ deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
 
 /// The cells, without a copy, to *view.
 ///
-/// The first call after a change brings the view up to date, in time proportional to the number of
-/// cells; further calls take constant time. Calls on several threads are legal, the first included.
+/// The first call of all makes the arrays. They are kept: the first call after a change brings them up
+/// to date, in time proportional to what has changed, and further calls take constant time. A cell that
+/// exists before and after a change keeps its index, whatever the algorithm, unless cells have become
+/// fewer: then the last ones take the free indices (see deldrift_take_changes). Calls on several threads are
+/// legal, the first included.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_cells(const deldrift_triangulation *t,
                                deldrift_cells_view *view);
 

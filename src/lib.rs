@@ -22,6 +22,7 @@ mod error;
 pub mod motion;
 pub mod predicates;
 mod prefetch;
+mod processors;
 mod threads;
 
 pub use error::{Error, Result};

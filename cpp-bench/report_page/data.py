@@ -28,6 +28,7 @@ class Results:
         self.points = read(folder, "report_points.csv")
         self.sections = read(folder, "report_sections.csv")
         self.curves = read(folder, "report_curves.csv")
+        self.steps = read(folder, "report_steps.csv")
         self.checks = read(folder, "report_checks.csv")
         self.environment = pairs(os.path.join(folder, "environment_report.txt"))
         self.state = pairs(os.path.join(folder, "report_state.txt"))
@@ -46,6 +47,11 @@ class Results:
     def speedup(self, scenario, engine, algorithm, which):
         row = self.row(scenario, engine, algorithm, which)
         return float(row["speedup_vs_cgal_rebuild"]) if row else None
+
+    def step_speedup(self, scenario, which):
+        """Of auto's step over CGAL's; None where not measured."""
+        rows = [r for r in self.steps if r["scenario"] == scenario]
+        return float(rows[which]["speedup_vs_cgal_step"]) if len(rows) > which else None
 
     def range(self, scenario, which):
         row = self.row(scenario, "cgal", "rebuilding", which)

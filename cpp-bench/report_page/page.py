@@ -182,6 +182,9 @@ def method(results):
 <ul>
 <li>Only the update is on the clock: from the call that hands over positions to the triangulation at these
 positions. One thread. Engines take turns in blocks of consecutive timestamps.</li>
+<li>In the last group of either table the step is on the clock: the update, then both arrays of the cells (corners
+and neighbours) and, for deldrift, what has changed. CGAL's step is its rebuilding, and the writing of the two
+arrays, timed apart at ten timestamps.</li>
 <li>Cells were compared with those of CGAL's rebuilding {count(compared)} times in all, at timestamps spread
 over every input, right after the update that was timed. A difference ends the run, unless exact arithmetic
 finds the points exactly cospherical.</li>

@@ -50,6 +50,11 @@ def table(results, which):
     )
     body += group("Here: CGAL, and the report's algorithms on CGAL", TABLE_CGAL, measured("cgal"))
     body += group("Here: deldrift", TABLE_DELDRIFT, measured("deldrift"))
+    body += group(
+        "Here: deldrift's step over CGAL's (the update, both arrays of the cells read, the changes taken)",
+        ["auto"],
+        lambda _: "".join(cell(results.step_speedup(s, which)) for s in INPUTS),
+    )
     first = ("from the first to the last", "from the middle to the last")[which]
     return (
         f'<div class="scroll"><table id="table-{which + 1}"><caption>Speed-up over CGAL\'s rebuilding,'

@@ -8,13 +8,17 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -54,6 +58,21 @@ struct SpaceOf<2, CgalTriangulation> {
         for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end(); ++face)
             visit(std::array<Vertex, 3>{face->vertex(0), face->vertex(1), face->vertex(2)});
     }
+
+    static auto all_cells_begin(const Triangulation &triangulation) { return triangulation.all_faces_begin(); }
+    static auto all_cells_end(const Triangulation &triangulation) { return triangulation.all_faces_end(); }
+    static std::size_t n_all_cells(const Triangulation &triangulation) { return triangulation.tds().faces().size(); }
+
+    /// Finite ones.
+    template <typename Visit>
+    static void for_each_cell_at(const Triangulation &triangulation, Vertex vertex, std::vector<Cell> &, Visit visit) {
+        if (triangulation.dimension() < 2) return;
+        auto face = triangulation.incident_faces(vertex);
+        const auto first = face;
+        do {
+            if (!triangulation.is_infinite(face)) visit(face);
+        } while (++face != first);
+    }
 };
 
 template <typename CgalTriangulation>
@@ -76,18 +95,35 @@ struct SpaceOf<3, CgalTriangulation> {
         for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end(); ++cell)
             visit(std::array<Vertex, 4>{cell->vertex(0), cell->vertex(1), cell->vertex(2), cell->vertex(3)});
     }
+
+    static auto all_cells_begin(const Triangulation &triangulation) { return triangulation.all_cells_begin(); }
+    static auto all_cells_end(const Triangulation &triangulation) { return triangulation.all_cells_end(); }
+    static std::size_t n_all_cells(const Triangulation &triangulation) { return triangulation.tds().cells().size(); }
+
+    /// Finite ones. `room` is for them, and kept by the caller so that it need not be allocated each time.
+    template <typename Visit>
+    static void for_each_cell_at(const Triangulation &triangulation, Vertex vertex, std::vector<Cell> &room,
+                                 Visit visit) {
+        if (triangulation.dimension() < 3) return;
+        room.clear();
+        triangulation.finite_incident_cells(vertex, std::back_inserter(room));
+        for (const Cell cell : room) visit(cell);
+    }
 };
 
 using VertexBase2 = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, CgalKernel>;
 using VertexBase3 = CGAL::Triangulation_vertex_base_with_info_3<VertexInfo, CgalKernel>;
-using CellBase3 = CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>;
+/// Cells carry their row in the arrays of a reading. It takes the place of padding: cells are as large without.
+using CellBase2 = CGAL::Triangulation_face_base_with_info_2<std::uint32_t, CgalKernel>;
+using CellBase3 = CGAL::Triangulation_cell_base_with_info_3<std::uint32_t, CgalKernel,
+                                                            CGAL::Delaunay_triangulation_cell_base_3<CgalKernel>>;
 
 template <unsigned dimension>
 struct CgalSpace;
 
 template <>
 struct CgalSpace<2> : SpaceOf<2, CGAL::Delaunay_triangulation_2<
-                                     CgalKernel, CGAL::Triangulation_data_structure_2<VertexBase2>>> {};
+                                     CgalKernel, CGAL::Triangulation_data_structure_2<VertexBase2, CellBase2>>> {};
 
 template <>
 struct CgalSpace<3> : SpaceOf<3, CGAL::Delaunay_triangulation_3<

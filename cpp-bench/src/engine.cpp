@@ -5,6 +5,10 @@
 
 namespace bench {
 
+Reading Engine::read() { throw std::logic_error("this engine gives no readings"); }
+
+double Engine::visit(std::uint32_t, const double *) { throw std::logic_error("this engine relocates no vertex"); }
+
 const std::vector<EngineKind> &engine_kinds() {
     static const std::vector<EngineKind> kinds = {
         // engine, algorithm, is_stateless, is_slow_in_3d, make, is_reproduction

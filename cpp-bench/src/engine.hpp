@@ -3,6 +3,8 @@
 // of it.
 #pragma once
 
+#include "reading.hpp"
+
 #include <deldrift.h>
 
 #include <cstddef>
@@ -37,6 +39,28 @@ public:
     /// be that of the positions so far after each of them. Engines that rebuild do so once for all.
     virtual void advance_sequentially(const double *positions) { advance(positions); }
 
+    /// Before `build`: readings follow every update, and should say what has changed.
+    virtual void expect_readings() {}
+
+    /// The cells as arrays, written where the engine does not hold them so, and what has changed since the reading
+    /// before where it tells. Throws std::logic_error for the report's algorithms.
+    virtual Reading read();
+
+    /// What a program does at each timestamp: it hands positions over, and reads.
+    Reading step(const double *positions) {
+        advance(positions);
+        return read();
+    }
+
+    /// What a program does with each vertex in a sequential scheme: it reads the places of the corners of the
+    /// vertex's cells, and puts the vertex at a new place at once. The sum of the coordinates read, by which no
+    /// compiler can leave the reading out. Visits follow each other or a build. Throws std::logic_error where the
+    /// engine relocates nothing.
+    virtual double visit(std::uint32_t vertex, const double *place);
+
+    /// From now on updates are not timed, and examined by the way: `validate` tells what was found.
+    virtual void be_examined() {}
+
     /// Finite cells, dimension + 1 vertex ids each. Coincident points may appear under any of their ids.
     virtual std::vector<std::uint32_t> cells() = 0;
 
@@ -61,8 +85,10 @@ struct EngineKind {
     bool is_slow_in_3d;     // relocates every vertex by itself: timed on a sample of the timestamps in 3D
     EngineMaker make;
     bool is_reproduction = false;  // the report's algorithm on CGAL: elsewhere it runs where it is named only
+    bool is_step = false;          // an update ends with a reading: see step.hpp
 
-    std::string name() const { return engine + "/" + algorithm; }
+    std::string base_name() const { return engine + "/" + algorithm; }
+    std::string name() const { return base_name() + (is_step ? " step" : ""); }
 };
 
 /// Every engine there is; the first is the baseline, CGAL's rebuilding.

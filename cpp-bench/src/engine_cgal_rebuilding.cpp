@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL, all anew at each timestamp: a spatial sort and one insertion after another.
+#include "cgal_reading.hpp"
 #include "cgal_space.hpp"
 #include "engine.hpp"
 
@@ -19,6 +20,8 @@ public:
 
     void advance(const double *) override { rebuild(); }
 
+    Reading read() override { return reading_.write(triangulation_); }
+
     std::vector<std::uint32_t> cells() override { return cell_ids<dimension>(triangulation_); }
 
 private:
@@ -29,6 +32,7 @@ private:
 
     std::vector<typename Space::InputPoint> input_;
     typename Space::Triangulation triangulation_;
+    CgalReading<dimension> reading_;
 };
 
 }  // namespace

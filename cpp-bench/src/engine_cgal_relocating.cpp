@@ -7,6 +7,7 @@
 // vertex stays; a point that lands on an occupied place joins the vertex there, and its own vertex
 // goes when it was the last one at it. This also covers a place that is occupied only until its
 // occupant has been moved at the same timestamp.
+#include "cgal_reading.hpp"
 #include "cgal_space.hpp"
 #include "engine.hpp"
 
@@ -36,9 +37,24 @@ public:
         }
     }
 
+    Reading read() final {
+        name_vertices();
+        return reading_.write(triangulation_);
+    }
+
+    double visit(std::uint32_t id, const double *place) final {
+        double sum = 0;
+        Space::for_each_cell_at(triangulation_, vertices_[id], cells_at_, [&](const auto &cell) {
+            for (unsigned corner = 0; corner <= dimension; ++corner)
+                for (unsigned axis = 0; axis < dimension; ++axis)
+                    sum += cell->vertex(static_cast<int>(corner))->point()[static_cast<int>(axis)];
+        });
+        vertices_[id] = relocate(vertices_[id], Space::point(place));
+        return sum;
+    }
+
     std::vector<std::uint32_t> cells() final {
-        for (std::size_t id = 0; id < vertices_.size(); ++id)
-            vertices_[id]->info().id = static_cast<std::uint32_t>(id);
+        name_vertices();
         return cell_ids<dimension>(triangulation_);
     }
 
@@ -58,6 +74,12 @@ protected:
     typename Space::Triangulation triangulation_;
 
 private:
+    /// A vertex that was inserted has no id yet, and one that is shared may have that of a point that has left.
+    void name_vertices() {
+        for (std::size_t id = 0; id < vertices_.size(); ++id)
+            vertices_[id]->info().id = static_cast<std::uint32_t>(id);
+    }
+
     /// The vertex of every point: its own where it has one, that of its place where points coincide.
     void find_vertices(const std::vector<InputPoint> &input) {
         vertices_.assign(input.size(), Vertex());
@@ -72,6 +94,8 @@ private:
     }
 
     std::vector<Vertex> vertices_;
+    std::vector<typename Space::Cell> cells_at_;
+    CgalReading<dimension> reading_;
 };
 
 template <unsigned dimension>

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // deldrift through its C interface: stage all positions, commit the timestamp.
 #include "engine.hpp"
+#include "library.hpp"
 
-#include <stdexcept>
+#include <algorithm>
 
 namespace bench {
 namespace {
 
 /// Everything: indices, adjacency, orientation and hull, empty spheres.
 constexpr std::uint32_t full_validation = 3;
-
-void require(deldrift_status status, const char *call) {
-    if (status == DELDRIFT_OK) return;
-    throw std::runtime_error(std::string(call) + ": " + deldrift_last_error());
-}
 
 class Deldrift : public Engine {
 public:
@@ -30,6 +26,7 @@ public:
         deldrift_destroy(triangulation_);
         triangulation_ = nullptr;
         n_points_ = n_points;
+        positions_.clear();
         rebuilds_ =
             options_.algorithm == DELDRIFT_REBUILDING || options_.algorithm == DELDRIFT_REBUILDING_TOLERANCE;
         require(deldrift_create(dimension_, positions, n_points, &options_, &triangulation_), "deldrift_create");
@@ -54,6 +51,27 @@ public:
             require(deldrift_relocate_vertex(triangulation_, static_cast<std::uint32_t>(id),
                                              positions + id * dimension_),
                     "deldrift_relocate_vertex");
+    }
+
+    void expect_readings() override {
+        is_read_ = true;
+        options_.track_changes = 1;
+    }
+
+    /// The changes first: to take them ends all views.
+    Reading read() override {
+        if (is_read_) require(deldrift_take_changes(triangulation_, &changes_), "deldrift_take_changes");
+        deldrift_cells_view view;
+        require(deldrift_cells(triangulation_, &view), "deldrift_cells");
+        return {view.count, view.vertices, view.neighbours, is_read_ ? &changes_ : nullptr};
+    }
+
+    double visit(std::uint32_t vertex, const double *place) override {
+        if (positions_.empty()) copy_positions();
+        const double sum = sum_of_star(vertex);
+        std::copy(place, place + dimension_, &positions_[std::size_t{vertex} * dimension_]);
+        require(deldrift_relocate_vertex(triangulation_, vertex, place), "deldrift_relocate_vertex");
+        return sum;
     }
 
     std::vector<std::uint32_t> cells() override {
@@ -87,6 +105,34 @@ protected:
     void commit() { require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp"); }
 
 private:
+    /// The places that a program has of its own.
+    void copy_positions() {
+        std::size_t count = 0;
+        positions_.resize(n_points_ * dimension_);
+        require(deldrift_copy_positions(triangulation_, positions_.data(), n_points_, &count),
+                "deldrift_copy_positions");
+    }
+
+    double sum_of_star(std::uint32_t vertex) {
+        std::size_t n_cells = 0;
+        deldrift_status status = deldrift_star(triangulation_, vertex, star_.data(), star_.size(), &n_cells);
+        if (status == DELDRIFT_BUFFER_TOO_SMALL) {
+            star_.resize(2 * n_cells);
+            status = deldrift_star(triangulation_, vertex, star_.data(), star_.size(), &n_cells);
+        }
+        require(status, "deldrift_star");
+        deldrift_cells_view view;
+        require(deldrift_cells(triangulation_, &view), "deldrift_cells");
+        double sum = 0;
+        for (std::size_t i = 0; i < n_cells; ++i) {
+            const std::uint32_t *row = view.vertices + std::size_t{star_[i]} * (dimension_ + 1);
+            for (unsigned corner = 0; corner <= dimension_; ++corner)
+                for (unsigned axis = 0; axis < dimension_; ++axis)
+                    sum += positions_[std::size_t{row[corner]} * dimension_ + axis];
+        }
+        return sum;
+    }
+
     /// What the report calls pre-computations, of tolerances and delimiters, is done by the first commit.
     void pre_compute() {
         if (options_.algorithm == DELDRIFT_TOLERANCE || options_.algorithm == DELDRIFT_SAFE_REGION ||
@@ -99,6 +145,10 @@ private:
     deldrift_triangulation *triangulation_ = nullptr;
     std::size_t n_points_ = 0;
     bool rebuilds_ = false;
+    bool is_read_ = false;
+    deldrift_changes changes_{};
+    std::vector<double> positions_;
+    std::vector<std::uint32_t> star_ = std::vector<std::uint32_t>(64);
 };
 
 /// Stages before the clock starts. A build forgets what is staged.

@@ -24,7 +24,14 @@ double sum_of_medians(const Lane &lane, const std::vector<std::size_t> &timestam
     return sum;
 }
 
-/// One row per lane; speed-ups are over the first lane at the same timestamps.
+/// The first that does the same: an update, or a step.
+const Lane &baseline_of(const Lane &lane, const std::vector<Lane> &lanes) {
+    return *std::find_if(lanes.begin(), lanes.end(), [&](const Lane &other) {
+        return other.entrant->kind->is_step == lane.entrant->kind->is_step;
+    });
+}
+
+/// One row per lane; speed-ups are over the baseline at the same timestamps.
 std::vector<Row> rows_of(const Series &series, const std::vector<Lane> &lanes) {
     std::vector<Row> rows;
     for (const Lane &lane : lanes) {
@@ -38,7 +45,8 @@ std::vector<Row> rows_of(const Series &series, const std::vector<Lane> &lanes) {
         row.algorithm = lane.entrant->kind->algorithm;
         row.threads = lane.entrant->n_threads;
         row.seconds = sum_of_medians(lane, timestamps);
-        row.speedup = sum_of_medians(lanes.front(), timestamps) / row.seconds;
+        row.speedup = sum_of_medians(baseline_of(lane, lanes), timestamps) / row.seconds;
+        row.is_step = lane.entrant->kind->is_step;
         rows.push_back(row);
     }
     return rows;

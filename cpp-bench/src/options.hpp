@@ -18,6 +18,7 @@ struct Preset {
     std::size_t n_checks;           // at how many timestamps cells are compared
     unsigned n_repeats;
     std::vector<std::size_t> static_sizes;
+    std::vector<std::size_t> step_sizes;
 };
 
 struct SeriesFile {

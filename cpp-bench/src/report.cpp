@@ -7,6 +7,7 @@
 #include "report_input.hpp"
 #include "report_replay.hpp"
 #include "report_statistics.hpp"
+#include "report_steps.hpp"
 #include "table.hpp"
 
 #include <algorithm>
@@ -42,6 +43,17 @@ const CsvFile::Line curve_columns = {"scenario",
                                      "last_timestamp",
                                      "timestamps",
                                      "ns_per_vertex_timestamp"};
+const CsvFile::Line step_columns = {"scenario",
+                                    "dimension",
+                                    "n",
+                                    "timestamps",
+                                    "engine",
+                                    "algorithm",
+                                    "ns_per_vertex_step",
+                                    "cgal_ns_per_vertex_step",
+                                    "speedup_vs_cgal_step",
+                                    "first_timestamp",
+                                    "last_timestamp"};
 const CsvFile::Line check_columns = {"scenario", "engine", "algorithm", "compared_timestamps",
                                      "cells_wrongly_taken_for_delaunay"};
 
@@ -53,22 +65,6 @@ std::vector<std::pair<std::size_t, std::size_t>> ranges_of(const Series &series)
     std::vector<std::pair<std::size_t, std::size_t>> ranges = {{1, series.n_timestamps()}};
     for (const Segment &segment : series.segments) ranges.emplace_back(segment.first, segment.last);
     return ranges;
-}
-
-/// All timestamps, those of the warm-up of segments only for engines that remember.
-std::vector<std::size_t> all_timestamps(const Series &series, bool warms_up) {
-    std::vector<std::size_t> timestamps;
-    if (series.segments.empty())
-        for (std::size_t t = 1; t <= series.n_timestamps(); ++t) timestamps.push_back(t);
-    for (const Segment &segment : series.segments)
-        for (std::size_t t = warms_up ? segment.begin : segment.first; t <= segment.last; ++t)
-            timestamps.push_back(t);
-    return timestamps;
-}
-
-void forget_warm_up(UpdateTimes &times, const Series &series) {
-    for (const Segment &segment : series.segments)
-        times.erase(times.lower_bound(segment.begin), times.lower_bound(segment.first));
 }
 
 /// `count` evenly spread ones of a whole series, the last included; the first `count` of every segment.
@@ -121,6 +117,7 @@ public:
         begin_anew_if_needed();
         report_ = std::make_unique<CsvFile>(options.results + "/report.csv", report_columns);
         curves_ = std::make_unique<CsvFile>(options.results + "/report_curves.csv", curve_columns);
+        steps_ = std::make_unique<CsvFile>(options.results + "/report_steps.csv", step_columns);
         checks_ = std::make_unique<CsvFile>(options.results + "/report_checks.csv", check_columns);
     }
 
@@ -203,14 +200,21 @@ private:
         for (const EngineKind &kind : engine_kinds())
             if ((&kind == &baseline || is_wanted(kind)) && !has_rows(scenario, kind))
                 missing.push_back(&kind);
-        if (missing.empty() && has_statistics(scenario)) {
+        if (missing.empty() && has_statistics(scenario) && !lacks_steps(scenario)) {
             std::cerr << scenario << ": all there\n";
             return true;
         }
         const ReportInput input = report_input(scenario, options_, progress_);
         write_report_statistics(input, options_.results, progress_);
         if (!missing.empty()) time_engines(input.series, missing);
+        if (lacks_steps(scenario)) time_steps(input.series);
         return false;
+    }
+
+    /// Inputs of segments have none.
+    bool lacks_steps(const std::string &scenario) const {
+        const bool has_segments = scenario.rfind("share_", 0) == 0 || scenario.rfind("walk_", 0) == 0;
+        return !has_segments && is_wanted(engine_kind("deldrift/auto")) && !steps_->has({scenario});
     }
 
     bool has_statistics(const std::string &scenario) const {
@@ -244,6 +248,22 @@ private:
         checks_->save();
         curves_->save();
         report_->save();
+    }
+
+    void time_steps(const Series &series) {
+        const ReportSteps steps =
+            time_report_steps(series, report_effort(series.name, options_).n_repeats, progress_);
+        UpdateTimes cgal = load_times(series, engine_kinds().front());
+        for (auto &[timestamp, seconds] : cgal) seconds += steps.cgal_reading_seconds;
+        for (const auto &range : ranges_of(series)) {
+            const Sum sum = sum_over(steps.deldrift, cgal, range);
+            const double scale = 1e9 / static_cast<double>(sum.n * series.n_points);
+            steps_->add({series.name, std::to_string(series.dimension), std::to_string(series.n_points),
+                         std::to_string(sum.n), "deldrift", "auto", significant(scale * sum.seconds, 5),
+                         significant(scale * sum.baseline, 5), significant(sum.baseline / sum.seconds, 5),
+                         std::to_string(range.first), std::to_string(range.second)});
+        }
+        steps_->save();
     }
 
     /// Engines that cannot get cheaper with smaller displacements and are far slower than rebuilding; those
@@ -308,6 +328,7 @@ private:
     Progress progress_;
     std::unique_ptr<CsvFile> report_;
     std::unique_ptr<CsvFile> curves_;
+    std::unique_ptr<CsvFile> steps_;
     std::unique_ptr<CsvFile> checks_;
 };
 

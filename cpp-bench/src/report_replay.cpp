@@ -54,6 +54,21 @@ UpdateTimes medians_of(const Lane &lane) {
 
 }  // namespace
 
+std::vector<std::size_t> all_timestamps(const Series &series, bool warms_up) {
+    std::vector<std::size_t> timestamps;
+    if (series.segments.empty())
+        for (std::size_t t = 1; t <= series.n_timestamps(); ++t) timestamps.push_back(t);
+    for (const Segment &segment : series.segments)
+        for (std::size_t t = warms_up ? segment.begin : segment.first; t <= segment.last; ++t)
+            timestamps.push_back(t);
+    return timestamps;
+}
+
+void forget_warm_up(UpdateTimes &times, const Series &series) {
+    for (const Segment &segment : series.segments)
+        times.erase(times.lower_bound(segment.begin), times.lower_bound(segment.first));
+}
+
 std::vector<UpdateTimes> replay_report(const Series &series, const std::vector<Entrant> &entrants,
                                        const std::vector<std::size_t> &check_timestamps, unsigned n_repeats,
                                        Checks &checks, Progress &progress) {

@@ -7,6 +7,8 @@
 #include "progress.hpp"
 #include "replay.hpp"
 #include "scenarios.hpp"
+#include "step.hpp"
+#include "step_table.hpp"
 #include "table.hpp"
 #include "verify.hpp"
 
@@ -49,6 +51,10 @@ public:
     void report() {
         print_rows(std::cout, rows_);
         std::cout << '\n';
+        if (!step_lines_.empty()) {
+            print_steps(std::cout, step_lines_);
+            std::cout << '\n';
+        }
         print_checks(std::cout, checks_);
         const std::string path = options_.results + "/bench.csv";
         write_csv(path, rows_);
@@ -63,6 +69,8 @@ private:
             replay(record_lloyd_2d_uniform(lloyd_points, preset.lloyd_timestamps, options_.seed, progress_), effort);
         else if (scenario == "walk_3d")
             replay(record_walk_3d(walk_points, preset.walk_timestamps, options_.seed, progress_), effort);
+        else if (scenario == "step_2d" || scenario == "step_3d")
+            for (const std::size_t size : preset.step_sizes) step(scenario == "step_2d" ? 2 : 3, size);
         else
             for (const std::size_t size : preset.static_sizes)
                 build(uniform_points(scenario == "static_2d" ? 2 : 3, size, options_.seed));
@@ -84,9 +92,12 @@ private:
     void replay(const Series &series, const Effort &effort) {
         const std::vector<std::size_t> all = spread(series.n_timestamps(), series.n_timestamps());
         const std::vector<std::size_t> sample = spread(series.n_timestamps(), effort.n_slow_timestamps);
-        const std::vector<Entrant> entrants = entrants_with([&](const EngineKind &kind) {
+        const auto timestamps_of = [&](const EngineKind &kind) {
             return kind.is_slow_in_3d && series.dimension == 3 ? sample : all;
-        });
+        };
+        std::vector<Entrant> entrants = entrants_with(engine_kinds(), timestamps_of);
+        const std::vector<Entrant> steps = entrants_with(step_kinds(), timestamps_of);
+        entrants.insert(entrants.end(), steps.begin(), steps.end());
         const std::vector<std::size_t> checked = spread(series.n_timestamps(), effort.n_checks);
         check(series, [&] { return verify(series, entrants, checked, progress_); });
         add(measure(series, entrants, options_.preset.n_repeats, progress_));
@@ -94,7 +105,8 @@ private:
 
     void build(const Series &series) {
         check(series, [&] { return verify_build(series, progress_); });
-        std::vector<Entrant> entrants = entrants_with([](const EngineKind &) { return std::vector<std::size_t>{1}; });
+        std::vector<Entrant> entrants = 
+            entrants_with(engine_kinds(), [](const EngineKind &) { return std::vector<std::size_t>{1}; });
         const auto is_not_a_build = [](const Entrant &entrant) { return entrant.kind->algorithm != "rebuilding"; };
         entrants.erase(std::remove_if(entrants.begin(), entrants.end(), is_not_a_build), entrants.end());
         const std::size_t n_repeats =
@@ -102,11 +114,20 @@ private:
         add(measure_build(series, entrants, static_cast<unsigned>(n_repeats), progress_));
     }
 
+    void step(unsigned dimension, std::size_t n_points) {
+        checks_.emplace_back();
+        const std::vector<StepLine> lines =
+            measure_steps(dimension, n_points, options_.preset.n_repeats, options_.seed, checks_.back(), progress_);
+        for (const StepLine &line : lines) add(rows_of(line));
+        step_lines_.insert(step_lines_.end(), lines.begin(), lines.end());
+    }
+
+    /// The first of the kinds is the baseline.
     template <typename TimestampsOf>
-    std::vector<Entrant> entrants_with(TimestampsOf timestamps_of) const {
+    std::vector<Entrant> entrants_with(const std::vector<EngineKind> &kinds, TimestampsOf timestamps_of) const {
         std::vector<Entrant> entrants;
-        for (const EngineKind &kind : engine_kinds()) {
-            const bool is_baseline = &kind == &engine_kinds().front();
+        for (const EngineKind &kind : kinds) {
+            const bool is_baseline = &kind == &kinds.front();
             if (!is_baseline && !is_wanted(kind)) continue;
             for (const unsigned n_threads : options_.threads) {
                 entrants.push_back({&kind, kind.engine == "deldrift" ? n_threads : 1, timestamps_of(kind)});
@@ -119,7 +140,7 @@ private:
     bool is_wanted(const EngineKind &kind) const {
         const auto &wanted = options_.engines;
         return (wanted.empty() && !kind.is_reproduction) || std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end() ||
-               std::find(wanted.begin(), wanted.end(), kind.name()) != wanted.end();
+               std::find(wanted.begin(), wanted.end(), kind.base_name()) != wanted.end();
     }
 
     template <typename Check>
@@ -150,6 +171,7 @@ private:
     const Options &options_;
     Progress progress_;
     std::vector<Row> rows_;
+    std::vector<StepLine> step_lines_;
     std::vector<Checks> checks_;
 };
 

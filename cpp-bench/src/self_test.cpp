@@ -362,7 +362,7 @@ void test_measure(Tests &tests) {
     write_csv(folder.file("bench.csv"), rows);
     const std::string csv = contents(folder.file("bench.csv"));
     tests.expect(csv.rfind("scenario,dimension,n,timestamps,engine,algorithm,threads,seconds,"
-                           "ns_per_vertex_timestamp,speedup_vs_cgal_rebuild\nstatic_2d,2,200,10,cgal,rebuilding,1,",
+                           "ns_per_vertex_timestamp,speedup_vs_cgal_rebuild,timed\nstatic_2d,2,200,10,cgal,rebuilding,1,",
                            0) == 0,
                  "csv: header and first row");
     tests.expect_error([&] { write_csv(folder.file("none/bench.csv"), rows); }, "cannot be written",
@@ -375,15 +375,16 @@ void test_measure(Tests &tests) {
 void test_targets(Tests &tests) {
     Progress progress(Progress::Output::silent);
     std::vector<Checks> checks;
-    const std::vector<Target> targets = measure_targets({300, 5, 300, 500, 2}, 1, checks, progress);
+    const std::vector<Target> targets = 
+        measure_targets({300, 5, 300, 500, 2, {200, 300}, {200, 300, 400}, 300, 0.02}, 1, checks, progress);
     const auto is_measured = [](const Target &target) {
-        return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted > 0.9;
+        return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted >= 0.125;
     };
-    tests.expect(targets.size() == 26 && std::all_of(targets.begin(), targets.end(), is_measured),
+    tests.expect(targets.size() == 58 && std::all_of(targets.begin(), targets.end(), is_measured),
                  "targets: all are measured");
     std::size_t n_comparisons = 0;
     for (const Checks &check : checks) n_comparisons += check.n_comparisons;
-    tests.expect(n_comparisons == 42, "targets: the cells of all engines are compared");
+    tests.expect(n_comparisons == 74, "targets: the cells of all engines are compared");
     const auto is_swept_in_vain = [](const Target &target) { return target.what == "swept" && target.n_changes > 0; };
     tests.expect(std::none_of(targets.begin(), targets.end(), is_swept_in_vain),
                  "targets: every certificate that is swept holds");
@@ -406,7 +407,7 @@ void test_options(Tests &tests) {
         for (std::string &word : words) pointers.push_back(&word[0]);
         return parse_options(static_cast<int>(pointers.size()), pointers.data());
     };
-    tests.expect(parse({}).scenarios.size() == 4, "options: all scenarios by default");
+    tests.expect(parse({}).scenarios.size() == 6, "options: all scenarios by default");
     tests.expect(parse({"--series", "x.npy"}).scenarios.empty(), "options: a series alone");
     tests.expect(parse({"--repeat", "7", "--preset", "full"}).preset.n_repeats == 7,
                  "options: the order of arguments does not matter");
@@ -438,6 +439,7 @@ bool run_self_test() {
     test_targets(tests);
     test_engines_agree(tests);
     test_faults_are_found(tests);
+    test_steps(tests);
     test_report(tests);
     return tests.close();
 }

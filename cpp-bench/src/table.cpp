@@ -17,6 +17,12 @@ bool begins_like_a_number(const std::string &text) {
     return !text.empty() && (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '-');
 }
 
+std::string timed(const Row &row) { return row.is_step ? "step" : "update"; }
+
+std::string speedup(const Row &row, int digits) {
+    return row.speedup > 0 ? significant(row.speedup, digits) : std::string();
+}
+
 }  // namespace
 
 std::string significant(double value, int digits) {
@@ -56,14 +62,14 @@ void TextTable::print(std::ostream &out) const {
 }
 
 void print_rows(std::ostream &out, const std::vector<Row> &rows) {
-    TextTable table({"scenario", "n", "timestamps", "engine", "algorithm", "threads", "seconds",
+    TextTable table({"scenario", "n", "timestamps", "engine", "algorithm", "timed", "threads", "seconds",
                      "ns/vertex/timestamp", "x CGAL rebuild"});
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row &row = rows[i];
         if (i == 0 || row.scenario != rows[i - 1].scenario || row.n != rows[i - 1].n) table.add({});
         table.add({row.scenario, std::to_string(row.n), std::to_string(row.timestamps), row.engine, row.algorithm,
-                   std::to_string(row.threads), significant(row.seconds, 3),
-                   significant(row.ns_per_vertex_timestamp(), 3), significant(row.speedup, 3)});
+                   timed(row), std::to_string(row.threads), significant(row.seconds, 3),
+                   significant(row.ns_per_vertex_timestamp(), 3), speedup(row, 3)});
     }
     table.print(out);
 }
@@ -81,12 +87,12 @@ void print_checks(std::ostream &out, const std::vector<Checks> &checks) {
 void write_csv(const std::string &path, const std::vector<Row> &rows) {
     std::vector<std::vector<std::string>> lines = {{"scenario", "dimension", "n", "timestamps", "engine", "algorithm",
                                                     "threads", "seconds", "ns_per_vertex_timestamp",
-                                                    "speedup_vs_cgal_rebuild"}};
+                                                    "speedup_vs_cgal_rebuild", "timed"}};
     for (const Row &row : rows)
         lines.push_back({row.scenario, std::to_string(row.dimension), std::to_string(row.n),
                          std::to_string(row.timestamps), row.engine, row.algorithm, std::to_string(row.threads),
                          significant(row.seconds, 6), significant(row.ns_per_vertex_timestamp(), 5),
-                         significant(row.speedup, 5)});
+                         speedup(row, 5), timed(row)});
     write_csv(path, lines);
 }
 

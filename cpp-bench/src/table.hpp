@@ -20,7 +20,8 @@ struct Row {
     std::string algorithm;
     unsigned threads = 1;
     double seconds = 0;  // all timed timestamps together
-    double speedup = 0;  // over CGAL's rebuilding at the same timestamps
+    double speedup = 0;  // over CGAL's rebuilding at the same timestamps, of a step over its step; 0: not known
+    bool is_step = false;
 
     double ns_per_vertex_timestamp() const {
         return 1e9 * seconds / (static_cast<double>(n) * static_cast<double>(timestamps));

@@ -162,6 +162,9 @@ public:
             sweep(dimension, dimension == 2 ? 12 : 22);
             for (const unsigned displacement : leaps) leap(dimension, displacement);
             build_anew(dimension);
+            append(step_targets(dimension, sizes_, seed_, checks_, progress_));
+            append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
+            append(growth_targets(dimension, sizes_, seed_, progress_));
         }
         return targets_;
     }
@@ -169,7 +172,7 @@ public:
 private:
     void test(unsigned dimension, double wanted) {
         const std::size_t last = n_warm + sizes_.n_rounds;
-        const EngineKind test_alone = {"deldrift", "tolerance, staged", false, false,
+        const EngineKind test_alone = {"deldrift", "tolerance staged", false, false,
                                        deldrift_staged_by(DELDRIFT_TOLERANCE)};
         const Series series =
             trembling_points("tested", dimension, sizes_.n_tested, swept_displacement, last, seed_);
@@ -248,6 +251,10 @@ private:
         add("threads_build", series, done[0], done[1], wanted_of_two_threads);
     }
 
+    void append(const std::vector<Target> &targets) {
+        targets_.insert(targets_.end(), targets.begin(), targets.end());
+    }
+
     Checks &checks_of(const Series &series) {
         checks_.emplace_back();
         checks_.back().scenario = series.name;
@@ -276,8 +283,9 @@ std::vector<Target> measure_targets(const TargetSizes &sizes, std::uint64_t seed
 }
 
 void run_targets(const Options &options) {
-    const TargetSizes whole = {10'000, 24, 100'000, 1'000'000, 7};
-    const TargetSizes smoke = {1'000, 4, 1'000, 2'000, 3};
+    const TargetSizes whole = {10'000, 24, 100'000, 1'000'000, 7, {1'000, 10'000, 100'000, 1'000'000},
+                               {10'000, 100'000, 1'000'000}, 100'000, 1};
+    const TargetSizes smoke = {1'000, 4, 1'000, 2'000, 3, {1'000}, {1'000, 2'000}, 1'000, 0.1};
     keep_memory();
     Progress progress;
     std::vector<Checks> checks;
@@ -291,7 +299,7 @@ void run_targets(const Options &options) {
         lines.push_back({std::to_string(target.dimension), target.what, std::to_string(target.n),
                          target.reference, significant(target.reference_ns, 4), target.contender,
                          significant(target.contender_ns, 4), significant(target.ratio(), 3),
-                         significant(target.wanted, 2), target.verdict(), significant(target.n_changes, 3),
+                         significant(target.wanted, 3), target.verdict(), significant(target.n_changes, 3),
                          significant(target.within, 3)});
     print_checks(std::cout, checks);
     std::cout << '\n';

@@ -21,6 +21,10 @@ struct TargetSizes {
     std::size_t n_tested;     // points that stay within their tolerance
     std::size_t n_committed;  // points that are committed, or built, together
     std::size_t n_commits;    // and builds
+    std::vector<std::size_t> looped;  // inputs of which vertices are visited one after another
+    std::vector<std::size_t> grown;   // inputs of which single calls are timed, in ascending order
+    std::size_t n_stepped;            // points that go a step together
+    double seconds;                   // most that an engine visits an input's vertices, or makes one kind of call
 };
 
 /// A speed-up to be reached, and what was measured.
@@ -39,6 +43,18 @@ struct Target {
     double ratio() const { return reference_ns / contender_ns; }
     const char *verdict() const { return ratio() >= wanted ? "pass" : "missed"; }
 };
+
+/// The sequential loop: each vertex's star is read and the vertex put 0.001 spacings away at once.
+std::vector<Target> loop_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
+                                 std::vector<Checks> &checks, Progress &progress);
+
+/// Single calls in small and in large triangulations: a target's reference is the smallest one.
+std::vector<Target> growth_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
+                                   Progress &progress);
+
+/// Steps beside commits alone.
+std::vector<Target> step_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
+                                 std::vector<Checks> &checks, Progress &progress);
 
 /// Measures every target and compares the cells of all engines concerned at the end of each input. Throws
 /// Mismatch.

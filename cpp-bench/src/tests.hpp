@@ -47,6 +47,9 @@ private:
     unsigned n_failed_ = 0;
 };
 
+/// The part that concerns readings and steps.
+void test_steps(Tests &tests);
+
 /// The part that concerns the report RR-6750: its inputs, and its algorithms on CGAL.
 void test_report(Tests &tests);
 

@@ -53,7 +53,10 @@ Checks verify(const Series &series, const std::vector<Entrant> &entrants,
     checks.n_points = series.n_points;
 
     std::vector<Runner> runners;
-    for (const Entrant &entrant : entrants) runners.push_back({&entrant, entrant.make(series.dimension)});
+    for (const Entrant &entrant : entrants) {
+        runners.push_back({&entrant, entrant.make(series.dimension)});
+        runners.back().engine->be_examined();
+    }
 
     progress.begin(series.name + ": checking cells at " + std::to_string(check_timestamps.size()) + " of " +
                        std::to_string(series.n_timestamps()) + " timestamps",

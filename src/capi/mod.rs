@@ -35,6 +35,7 @@
 #![allow(clippy::missing_safety_doc)]
 #![allow(non_camel_case_types)]
 
+mod changes;
 mod fence;
 mod motion;
 mod options;
@@ -43,6 +44,7 @@ mod query;
 mod status;
 mod triangulation;
 
+pub use changes::*;
 pub use motion::*;
 pub use options::*;
 pub use query::*;

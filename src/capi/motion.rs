@@ -40,8 +40,12 @@ pub struct deldrift_commit_report {
     pub certificates: u64,
     /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them.
     pub exact_calls: u64,
+    /// Vertices inserted.
+    pub inserted: u64,
+    /// Vertices removed.
+    pub removed: u64,
     /// Zero; later versions may count more.
-    pub reserved: [u64; 4],
+    pub reserved: [u64; 2],
 }
 
 impl From<CommitReport> for deldrift_commit_report {
@@ -59,7 +63,9 @@ impl From<CommitReport> for deldrift_commit_report {
             tolerances: report.tolerances,
             certificates: report.certificates,
             exact_calls: report.exact_calls,
-            reserved: [0; 4],
+            inserted: report.inserted,
+            removed: report.removed,
+            reserved: [0; 2],
         }
     }
 }
@@ -128,7 +134,63 @@ pub unsafe extern "C" fn deldrift_move_vertices(
     }
 }
 
-/// Forgets all staged moves.
+/// Stages the insertion of count vertices: all of them, or none if it fails. They are present from the
+/// next commit on, which makes them together with the staged moves and removals.
+///
+/// positions: count points, read during the call only; may be NULL if count is 0. first_vertex: receives
+/// the id of the first, which is one above the highest given so far; the others follow it in their order.
+/// The ids count in deldrift_id_count from now on. deldrift_discard_moves forgets the insertions; ids are
+/// given again then if none higher has been given since.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
+/// be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_stage_insertions(
+    t: *mut deldrift_triangulation,
+    positions: *const f64,
+    count: usize,
+    first_vertex: *mut u32,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            let first_vertex = pointers::output("first_vertex", first_vertex)?;
+            first_vertex.write(in_its_dimension!(kernel, t => {
+                let positions = points_for(t, "positions", positions, count)?;
+                t.stage_insertions(positions)?
+            }));
+            Ok(())
+        })
+    }
+}
+
+/// Stages the removal of count vertices: all of them, or none if it fails. The next commit removes them,
+/// together with the staged moves and insertions. Moves staged for them are forgotten, and none can be
+/// staged any more; deldrift_discard_moves forgets the removals.
+///
+/// vertices: count ids, each at most once, read during the call only; may be NULL if count is 0.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (also if its removal is staged), DELDRIFT_OUT_OF_MEMORY.
+/// Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_stage_removals(
+    t: *mut deldrift_triangulation,
+    vertices: *const u32,
+    count: usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            let vertices = pointers::array("vertices", vertices, count)?;
+            in_its_dimension!(kernel, t => t.stage_removals(vertices))?;
+            Ok(())
+        })
+    }
+}
+
+/// Forgets all staged moves, insertions and removals.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
@@ -162,6 +224,41 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
         fence::change(t, |kernel| {
             let report = if report.is_null() { None } else { Some(pointers::output("report", report)?) };
             let done = in_its_dimension!(kernel, t => t.commit_timestamp())?;
+            if let Some(report) = report {
+                report.write(done.into());
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
+/// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
+///
+/// positions: count points, one for each id ever given (count is that of deldrift_id_count); entries of
+/// removed vertices are not read. Read during the call only. report: as for deldrift_commit_timestamp.
+/// Ends all views.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
+/// DELDRIFT_WRONG_COUNT, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, and no move is
+/// staged. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_commit_positions(
+    t: *mut deldrift_triangulation,
+    positions: *const f64,
+    count: usize,
+    report: *mut deldrift_commit_report,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            let report = if report.is_null() { None } else { Some(pointers::output("report", report)?) };
+            let done = in_its_dimension!(kernel, t => {
+                let positions = points_for(t, "positions", positions, count)?;
+                t.commit_positions(positions)?
+            });
             if let Some(report) = report {
                 report.write(done.into());
             }

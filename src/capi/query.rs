@@ -231,10 +231,13 @@ pub unsafe extern "C" fn deldrift_copy_positions(
 
 /// The cells, without a copy, to *view.
 ///
-/// The first call after a change brings the view up to date, in time proportional to the number of
-/// cells; further calls take constant time. Calls on several threads are legal, the first included.
+/// The first call of all makes the arrays. They are kept: the first call after a change brings them up
+/// to date, in time proportional to what has changed, and further calls take constant time. A cell that
+/// exists before and after a change keeps its index, whatever the algorithm, unless cells have become
+/// fewer: then the last ones take the free indices (see deldrift_take_changes). Calls on several threads are
+/// legal, the first included.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells(
     t: *const deldrift_triangulation,
@@ -553,6 +556,6 @@ fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_ce
 
 /// Where a list begins, NULL if it is empty: an empty slice of Rust begins at an address that means
 /// nothing to C.
-fn start_of<T>(list: &[T]) -> *const T {
+pub(super) fn start_of<T>(list: &[T]) -> *const T {
     if list.is_empty() { ptr::null() } else { list.as_ptr() }
 }

@@ -135,11 +135,14 @@ impl<C: Corners> Stretch<'_, C> {
     }
 }
 
+/// What a flip in the plane has put there, and the rows before.
+type Swapped = ([Facet; 4], [Row<[u32; 3]>; 2]);
+
 impl Stretch<'_, [u32; 3]> {
     /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on the
     /// boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`,
     /// and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
-    pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<([Facet; 4], [Row<[u32; 3]>; 2]), Obstacle> {
+    pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<Swapped, Obstacle> {
         let (c, i) = (facet.cell(), facet.index());
         let old = *self.cell(c)?;
         let across = old.neighbour(i);
@@ -155,7 +158,8 @@ impl Stretch<'_, [u32; 3]> {
         self.glue(Facet::new(c, i), Facet(beyond_bq));
         self.glue(Facet::new(d, j), Facet(beyond_ap));
         self.glue(Facet::new(c, next(i)), Facet::new(d, next(j)));
-        let outer = [(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k));
+        let outer =
+            [(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k));
         Ok((outer, [Row::of(c, &old), Row::of(d, &beyond)]))
     }
 
@@ -489,9 +493,11 @@ mod tests {
         // The six ghosts and two cells are all concerned.
         for start in 1..n - 3 {
             let mut tried = [None; 2];
-            complex.divided(&[0, start], &mut tried, |_, stretch, tried| {
-                *tried = stretch.flip_2_3(facet).err();
-            }).unwrap();
+            complex
+                .divided(&[0, start], &mut tried, |_, stretch, tried| {
+                    *tried = stretch.flip_2_3(facet).err();
+                })
+                .unwrap();
             assert_eq!(tried, [Some(Obstacle::Elsewhere); 2]);
             assert_eq!(cells(&complex), before);
             assert_eq!(complex.free_cells().len(), 3);
@@ -499,10 +505,12 @@ mod tests {
         // The first stretch has all cells, and of the free ones one or none.
         for (start, expected) in [(n - 3, Some(Obstacle::Full)), (n - 2, None)] {
             let mut tried = [None; 2];
-            complex.divided(&[0, start], &mut tried, |k, stretch, tried| {
-                assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
-                *tried = stretch.flip_2_3(facet).err();
-            }).unwrap();
+            complex
+                .divided(&[0, start], &mut tried, |k, stretch, tried| {
+                    assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
+                    *tried = stretch.flip_2_3(facet).err();
+                })
+                .unwrap();
             assert_eq!(tried[0], expected);
             assert!(is_mutual(&complex));
         }

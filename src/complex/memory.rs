@@ -5,6 +5,9 @@
 
 #![allow(unsafe_code)]
 
+use std::collections::HashMap;
+use std::fmt::{self, Write};
+use std::hash::{BuildHasher, Hash};
 use std::mem::MaybeUninit;
 
 use crate::error::{Error, Result};
@@ -23,16 +26,30 @@ pub(crate) fn reserve_exact<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
 }
 
 /// Makes room for `more` more entries at least; where more follow, in constant time each.
+#[inline(always)]
 pub(crate) fn reserve<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
+    if array.capacity() - array.len() >= more { Ok(()) } else { grow(array, more) }
+}
+
+#[cold]
+#[inline(never)]
+fn grow<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })
 }
 
-/// Appends an entry.
+/// Makes room for `more` more entries at least of a map from which none has been removed, so that they can be inserted
+/// without a failure.
+pub(crate) fn reserve_map<K: Eq + Hash, V, S: BuildHasher>(
+    map: &mut HashMap<K, V, S>,
+    more: usize,
+) -> Result<()> {
+    map.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<(K, V)>() })
+}
+
+/// Appends one entry.
 #[inline(always)]
 pub(crate) fn push<T>(array: &mut Vec<T>, entry: T) -> Result<()> {
-    if array.len() == array.capacity() {
-        reserve(array, 1)?;
-    }
+    reserve(array, 1)?;
     array.push(entry);
     Ok(())
 }
@@ -58,6 +75,47 @@ pub(crate) fn copy_of<T: Copy>(array: &[T]) -> Result<Vec<T>> {
     reserve_exact(&mut copy, array.len())?;
     copy.extend_from_slice(array);
     Ok(copy)
+}
+
+/// Appends copies of entries.
+pub(crate) fn append<T: Copy>(array: &mut Vec<T>, entries: &[T]) -> Result<()> {
+    reserve(array, entries.len())?;
+    array.extend_from_slice(entries);
+    Ok(())
+}
+
+/// Appends entries, one after the other, as many as come.
+pub(crate) fn collect<T>(array: &mut Vec<T>, entries: impl Iterator<Item = T>) -> Result<()> {
+    reserve(array, entries.size_hint().0)?;
+    for entry in entries {
+        push(array, entry)?;
+    }
+    Ok(())
+}
+
+/// Makes it as long as that, at least, with `entry` in what is new.
+pub(crate) fn lengthen<T: Clone>(array: &mut Vec<T>, n: usize, entry: T) -> Result<()> {
+    if n > array.len() {
+        reserve(array, n - array.len())?;
+        array.resize(n, entry);
+    }
+    Ok(())
+}
+
+/// A text; cut off where there is no memory for more of it.
+pub(crate) fn text(arguments: fmt::Arguments) -> String {
+    struct Text(String);
+    impl Write for Text {
+        fn write_str(&mut self, more: &str) -> fmt::Result {
+            self.0.try_reserve(more.len()).map_err(|_| fmt::Error)?;
+            self.0.push_str(more);
+            Ok(())
+        }
+    }
+    let mut text = Text(String::new());
+    // What has been written so far is all that there is room for.
+    let _ = text.write_fmt(arguments);
+    text.0
 }
 
 /// Appends what `make` makes of each entry of `from`, each of several threads a stretch of it.
@@ -107,15 +165,6 @@ fn write<T: Sync, U: Copy + Send>(
     let middle = (from.len() as u64 * threads as u64 / n_threads as u64) as usize;
     let ((from_a, from_b), (to_a, to_b)) = (from.split_at(middle), to.split_at_mut(middle));
     threads::join(|| write(from_a, to_a, threads, make), || write(from_b, to_b, rest, make));
-}
-
-/// Makes sure that an array of so many entries could be had: for those who take one
-/// without a way to say that there is none.
-pub(crate) fn make_sure_of<T>(count: usize) -> Result<()> {
-    let mut array = Vec::<T>::new();
-    let reserved = array.try_reserve_exact(count);
-    std::hint::black_box(&array);
-    reserved.map_err(|_| Error::OutOfMemory { bytes: count * size_of::<T>() })
 }
 
 #[cfg(target_os = "linux")]

@@ -465,8 +465,10 @@ impl<C: Corners> Complex<C> {
             }
             cell
         };
+        memory::reserve_exact(&mut self.marks, other.cells.len())?;
         memory::extend(&mut self.cells, &other.cells, n_threads, shifted)?;
-        memory::reserve_exact(&mut self.marks, self.cells.capacity() - n)?;
+        let spare = self.cells.capacity() - self.marks.len();
+        memory::reserve_exact(&mut self.marks, spare)?;
         self.marks.resize(self.cells.len(), 0);
         self.free.extend(other.free.iter().map(|c| c + n as u32));
         self.n_ghosts += other.n_ghosts;

@@ -4,6 +4,7 @@
 //! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean distance of
 //! sites that are next to each other in storage tells when to sort again.
 
+use super::cavity::Cavity;
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE, NONE, memory};
@@ -82,20 +83,26 @@ impl<G: Dimension> Delaunay<G> {
             return self.triangulate(&order, monitor);
         }
         self.complex.clear();
-        let mut merges = Vec::new();
+        let mut coincident = Vec::new();
         for s in 1..self.sites.len() as u32 {
             self.sites[s as usize].cell = NONE;
             if !self.site(s).is_live() {
                 continue;
             }
             let q = self.site(s).point;
-            if let Some(t) = self.flat.enter(s, &q) {
-                // Without cells an id decides nothing but the name of the site.
-                let low = self.site(s).id.min(self.site(t).id);
-                merges.push(Merge { hidden: self.site(s).id.max(self.site(t).id), site: t });
-                self.sites[t as usize].id = low;
-                self.drop_site(s);
+            if let Some(t) = self.flat.enter(s, &q)? {
+                memory::push(&mut coincident, (s, t))?;
             }
+        }
+        let mut merges = Vec::new();
+        memory::reserve_exact(&mut merges, coincident.len())?;
+        memory::reserve(&mut self.free_sites, coincident.len())?;
+        for (s, t) in coincident {
+            // Without cells an id decides nothing but the name of the site.
+            let low = self.site(s).id.min(self.site(t).id);
+            merges.push(Merge { hidden: self.site(s).id.max(self.site(t).id), site: t });
+            self.sites[t as usize].id = low;
+            self.drop_site(s);
         }
         self.find_flat_basis(NONE);
         Ok(merges)
@@ -127,7 +134,9 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.start()?;
         self.cavity.steps = 0;
-        self.insert_all(order, monitor)
+        let coincident = self.insert_all(order, monitor)?;
+        self.flat.clear();
+        Ok(coincident)
     }
 
     /// Inserts those sites that are in no cell yet; returns pairs of coincident sites, the second in the
@@ -148,8 +157,20 @@ impl<G: Dimension> Delaunay<G> {
         order: &[u32],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(u32, u32)>> {
-        let mut coincident = Vec::new();
         let mut cavity = std::mem::take(&mut self.cavity);
+        let inserted = self.insert_with(&mut cavity, order, monitor);
+        self.cavity = cavity;
+        inserted
+    }
+
+    #[inline(always)]
+    fn insert_with(
+        &mut self,
+        cavity: &mut Cavity<G>,
+        order: &[u32],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<Vec<(u32, u32)>> {
+        let mut coincident = Vec::new();
         for (done, &s) in order.iter().enumerate() {
             if done % MONITORED == 0 && !monitor(done as f64 / order.len() as f64) {
                 return Err(Error::Cancelled);
@@ -157,25 +178,25 @@ impl<G: Dimension> Delaunay<G> {
             if self.site(s).cell != NONE {
                 continue;
             }
-            match self.insert_into_cells::<true>(&mut cavity, s, self.recent)? {
+            match self.insert_into_cells::<true>(cavity, s, self.recent)? {
                 Insertion::New => self.record(cavity.made().iter().copied()),
-                Insertion::Coincident(t) => coincident.push((s, t)),
+                Insertion::Coincident(t) => memory::push(&mut coincident, (s, t))?,
                 Insertion::Spans => unreachable!("there are cells"),
             }
         }
-        self.cavity = cavity;
         Ok(coincident)
     }
 
     /// Drops the sites that found others at their places, and gives those the lowest id.
     fn merge(&mut self, coincident: Vec<(u32, u32)>) -> Result<Vec<Merge>> {
         // All are dropped first: a change of id may have to look at every live site.
+        let (mut ids, mut merges) = (Vec::new(), Vec::new());
+        memory::collect(&mut ids, coincident.iter().map(|&(s, _)| self.site(s).id))?;
+        memory::reserve_exact(&mut merges, coincident.len())?;
         memory::reserve(&mut self.free_sites, coincident.len())?;
-        let ids: Vec<u32> = coincident.iter().map(|&(s, _)| self.site(s).id).collect();
         for &(s, _) in &coincident {
             self.drop_site(s);
         }
-        let mut merges = Vec::with_capacity(coincident.len());
         for (id, (_, t)) in ids.into_iter().zip(coincident) {
             let at = self.site(t).id;
             merges.push(Merge { hidden: id.max(at), site: t });
@@ -189,11 +210,10 @@ impl<G: Dimension> Delaunay<G> {
     /// The first cell, of the basis, and the ghost cells around it.
     fn start(&mut self) -> Result<()> {
         let mut corners = G::Corners::filled(0);
-        corners.as_mut().copy_from_slice(&self.flat.basis);
+        corners.as_mut().copy_from_slice(self.flat.basis.sites());
         if G::orientation(&self.filter, self.view(), &corners) < 0.0 {
             corners.as_mut().swap(0, 1);
         }
-        self.flat.clear();
         self.complex.start(corners)?;
         self.recent = 0;
         for i in 0..G::Corners::N {

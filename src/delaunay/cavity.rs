@@ -10,7 +10,7 @@
 //! for each deleted cell and each rim facet.
 
 use super::{Delaunay, Dimension};
-use crate::complex::NONE;
+use crate::complex::{NONE, memory};
 use crate::error::Result;
 
 /// What an insertion found.
@@ -52,6 +52,8 @@ impl<G: Dimension> Delaunay<G> {
     /// Inserts a site that has been added; `near` is a cell to walk from, [`NONE`] for any. A coincident site is
     /// dropped; after an error the site is live and in no cell.
     pub fn insert_site(&mut self, s: u32, near: u32) -> Result<Insertion> {
+        // For the index, should the site be dropped.
+        memory::reserve(&mut self.free_sites, 1)?;
         let q = self.site(s).point;
         self.cover(&q, &q);
         let inserted = if self.has_cells() {

@@ -12,7 +12,7 @@
 
 use super::cavity::Cavity;
 use super::{Delaunay, Dimension, Plane};
-use crate::complex::{Facet, INFINITE};
+use crate::complex::{Facet, INFINITE, memory};
 use crate::error::Result;
 use crate::predicates::{Lifted, side_of_seen_circle};
 
@@ -60,7 +60,8 @@ impl Edge {
 pub(super) fn insert(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Result<()> {
     // A polygon has two edges more than triangles.
     t.complex.reserve(2)?;
-    let zone = dig(t, cavity, start, s);
+    let zone = dig(t, cavity, start, s)?;
+    t.reserve_record(zone.n_cells + 2)?;
     t.complex.note_all(cavity.cells[..zone.n_cells].iter().copied())?;
     t.complex.reserve_rows(2)?;
     for k in zone.n_cells..zone.n_cells + 2 {
@@ -77,11 +78,11 @@ pub(super) fn insert(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, start:
 
 /// Finds the zone of `s` from one cell of it, and its rim.
 #[inline(always)]
-fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Zone {
+fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Result<Zone> {
     let (q, id) = (&t.site(s).point, t.site(s).id);
     let mut n_ghosts = t.complex.cell(start).is_ghost() as usize;
     let (mut n_cells, mut n_turns, mut n_rim) = (1, 2, 0);
-    make_room(cavity, n_cells);
+    make_room(cavity, n_cells)?;
     cavity.cells[0] = start;
     cavity.scratch.turns[0] = Edge::of(t, start, 1, q);
     cavity.scratch.turns[1] = Edge::of(t, start, 0, q);
@@ -110,7 +111,7 @@ fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Z
             })
         };
         if let Some([next, turn]) = behind {
-            make_room(cavity, n_cells + 1);
+            make_room(cavity, n_cells + 1)?;
             // SAFETY: there is room for one more cell, and for as many turns as cells and one more.
             unsafe {
                 *cavity.cells.get_unchecked_mut(n_cells) = beyond;
@@ -124,7 +125,7 @@ fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Z
             *unsafe { cavity.scratch.rim.get_unchecked_mut(n_rim) } = (edge.start, edge.out);
             n_rim += 1;
             if n_turns == 0 {
-                return Zone { n_cells, n_ghosts };
+                return Ok(Zone { n_cells, n_ghosts });
             }
             n_turns -= 1;
             // SAFETY: below the turns written.
@@ -135,21 +136,23 @@ fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Z
 
 /// Makes room for a zone of so many cells: two more edges in the rim, and no more turns than that.
 #[inline(always)]
-fn make_room(cavity: &mut Cavity<Plane>, n_cells: usize) {
-    if cavity.cells.len() < n_cells + 2 {
-        grow(cavity, n_cells);
-    }
+fn make_room(cavity: &mut Cavity<Plane>, n_cells: usize) -> Result<()> {
+    if cavity.cells.len() < n_cells + 2 { grow(cavity, n_cells) } else { Ok(()) }
 }
 
 #[cold]
 #[inline(never)]
-fn grow(Cavity { cells, scratch: Scratch { turns, rim }, .. }: &mut Cavity<Plane>, n_cells: usize) {
+fn grow(
+    Cavity { cells, scratch: Scratch { turns, rim }, .. }: &mut Cavity<Plane>,
+    n_cells: usize,
+) -> Result<()> {
     let room = 2 * n_cells + 64;
     let facet = Facet::new(0, 0);
     let seen = Lifted::new(&[0.0; 2], &[0.0; 2]);
-    rim.resize(room, (0, facet));
-    turns.resize(room, Edge { out: facet, start: 0, right: seen, left: seen, cross: 0.0 });
-    cells.resize(room, 0);
+    memory::lengthen(rim, room, (0, facet))?;
+    memory::lengthen(turns, room, Edge { out: facet, start: 0, right: seen, left: seen, cross: 0.0 })?;
+    // Last, as its length stands for all.
+    memory::lengthen(cells, room, 0)
 }
 
 /// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.

@@ -11,7 +11,7 @@
 use super::cavity::Cavity;
 use super::spheres::Spheres;
 use super::{Delaunay, Space};
-use crate::complex::Facet;
+use crate::complex::{Facet, memory};
 use crate::error::Result;
 
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
@@ -76,43 +76,64 @@ pub(super) fn insert<const BUILD: bool>(
     s: u32,
 ) -> Result<()> {
     let Cavity { cells, scratch, .. } = cavity;
-    dig::<BUILD>(t, scratch, start, s);
-    let (zone, n_rim) = (&scratch.zone[..scratch.n_zone], scratch.n_rim);
-    let reserved = t.complex.reserve(n_rim).and_then(|()| t.complex.note_all(zone.iter().copied()));
-    if let Err(error) = reserved.and_then(|()| t.complex.reserve_rows(n_rim)) {
-        for &c in zone {
+    let mut ridges = Vec::new();
+    let dug = dig::<BUILD>(t, scratch, start, s);
+    if let Err(error) = dug.and_then(|()| reserve(t, cells, &mut ridges, scratch)) {
+        for &c in &scratch.zone[..scratch.n_zone] {
             t.complex.set_mark(c, 0);
         }
         return Err(error);
     }
+    let (zone, n_rim) = (&scratch.zone[..scratch.n_zone], scratch.n_rim);
     t.complex.retire_ghosts(scratch.n_ghosts);
     // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
     let reused = zone.len().min(n_rim);
     for &c in &zone[reused..] {
         t.complex.release(c);
     }
-    cells.clear();
     cells.extend_from_slice(&zone[..reused]);
     for _ in reused..n_rim {
         cells.push(t.complex.create_blank());
     }
-    glue::<BUILD>(t, cells, scratch);
+    glue::<BUILD>(t, cells, scratch, ridges);
     cavity.n_cells = n_rim;
     Ok(())
 }
 
-/// Finds the zone of `s` from one cell of it, and its rim.
+/// Makes room for all that so many new cells need.
 #[inline(always)]
-fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: u32, s: u32) {
-    let Scratch { zone, rim, spheres, .. } = scratch;
+fn reserve(
+    t: &mut Delaunay<Space>,
+    cells: &mut Vec<u32>,
+    ridges: &mut Vec<Ridge>,
+    scratch: &Scratch,
+) -> Result<()> {
+    let n_rim = scratch.n_rim;
+    t.complex.reserve(n_rim)?;
+    t.complex.note_all(scratch.zone[..scratch.n_zone].iter().copied())?;
+    t.complex.reserve_rows(n_rim)?;
+    t.reserve_record(n_rim)?;
+    cells.clear();
+    memory::reserve(cells, n_rim)?;
+    if n_rim > SMALL_RIM { memory::reserve_exact(ridges, 3 * n_rim) } else { Ok(()) }
+}
+
+/// Finds the zone of `s` from one cell of it, and its rim. After an error the zone is what has been marked.
+#[inline(always)]
+fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: u32, s: u32) -> Result<()> {
+    scratch.n_zone = 0;
+    let Scratch { zone, rim, spheres, meetings, .. } = scratch;
     let mut spheres = spheres.table();
     let (q, id) = (&{ t.site(s).point }, t.site(s).id);
     let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
-    make_room(zone, rim, n_zone, n_rim);
+    make_room(zone, rim, meetings, [n_zone, n_rim])?;
     zone[0] = start;
     t.complex.set_mark(start, IN_ZONE);
     while next < n_zone {
-        make_room(zone, rim, n_zone, n_rim);
+        if let Err(error) = make_room(zone, rim, meetings, [n_zone, n_rim]) {
+            scratch.n_zone = n_zone;
+            return Err(error);
+        }
         let cell = *t.complex.cell(zone[next]);
         n_ghosts += cell.is_ghost() as usize;
         next += 1;
@@ -133,26 +154,48 @@ fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start:
         }
     }
     (scratch.n_zone, scratch.n_rim, scratch.n_ghosts) = (n_zone, n_rim, n_ghosts);
+    Ok(())
 }
 
 /// Makes room for the four neighbours of a cell.
 #[inline(always)]
-fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim>, n_zone: usize, n_rim: usize) {
-    if zone.len() < n_zone + 4 {
-        zone.resize(2 * n_zone + 64, 0);
-    }
+fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim>, meetings: &mut Meetings, n: [usize; 2]) -> Result<()> {
+    if zone.len() < n[0] + 4 || rim.len() < n[1] + 4 { grow(zone, rim, meetings, n) } else { Ok(()) }
+}
+
+#[cold]
+#[inline(never)]
+fn grow(
+    zone: &mut Vec<u32>,
+    rim: &mut Vec<Rim>,
+    meetings: &mut Meetings,
+    [n_zone, n_rim]: [usize; 2],
+) -> Result<()> {
+    // First, as whoever has room for a zone has room for the meetings.
+    memory::lengthen(&mut meetings.table, TABLE, 0)?;
+    memory::lengthen(&mut meetings.labels, MAX_LABELS, 0)?;
+    memory::lengthen(&mut meetings.local, SMALL_RIM, [0; 4])?;
     if rim.len() < n_rim + 4 {
-        rim.resize(2 * n_rim + 64, Rim { corners: [0; 4], out: Facet::new(0, 0) });
+        memory::lengthen(rim, 2 * n_rim + 64, Rim { corners: [0; 4], out: Facet::new(0, 0) })?;
     }
+    if zone.len() < n_zone + 4 {
+        memory::lengthen(zone, 2 * n_zone + 64, 0)?;
+    }
+    Ok(())
 }
 
 /// Makes the new cells and glues them.
 #[inline(always)]
-fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cells: &[u32], scratch: &mut Scratch) {
+fn glue<const BUILD: bool>(
+    t: &mut Delaunay<Space>,
+    cells: &[u32],
+    scratch: &mut Scratch,
+    ridges: Vec<Ridge>,
+) {
     let Scratch { rim, n_rim, spheres, meetings, .. } = scratch;
     let rim = &rim[..*n_rim];
     if rim.len() > SMALL_RIM {
-        glue_sorted(t, rim, cells);
+        glue_sorted(t, rim, cells, ridges);
     } else {
         glue_by_table(t, rim, cells, meetings);
     }
@@ -168,11 +211,8 @@ fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, cells: &[u32], scratch: &mut
 fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32], meetings: &mut Meetings) {
     let Meetings { table, labels, local } = meetings;
     // Of fixed lengths, so that the compiler sees masked indices in bounds.
-    table.resize(TABLE, 0);
-    labels.resize(MAX_LABELS, 0);
-    local.resize(SMALL_RIM, [0; 4]);
-    let table: &mut [u32; TABLE] = table.as_mut_slice().try_into().expect("just resized");
-    let labels: &mut [u32; MAX_LABELS] = labels.as_mut_slice().try_into().expect("just resized");
+    let table: &mut [u32; TABLE] = table.as_mut_slice().try_into().expect("made with the zone");
+    let labels: &mut [u32; MAX_LABELS] = labels.as_mut_slice().try_into().expect("made with the zone");
     let mut n_labels = 0;
     for ((facet, &cell), local) in rim.iter().zip(cells).zip(&mut *local) {
         let mut label = |v: u32| {
@@ -202,10 +242,13 @@ fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32], meetings: 
     }
 }
 
-/// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order.
+/// An edge of the rim, and a facet there.
+type Ridge = ([u32; 2], Facet);
+
+/// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room for
+/// all `ridges`.
 #[cold]
-fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32]) {
-    let mut ridges: Vec<([u32; 2], Facet)> = Vec::with_capacity(3 * rim.len());
+fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32], mut ridges: Vec<Ridge>) {
     for (facet, &cell) in rim.iter().zip(cells) {
         let v = facet.corners;
         t.complex.put(cell, v);

@@ -11,7 +11,8 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use super::{Delaunay, Dimension, Plane, Space};
 #[cfg(target_arch = "x86_64")]
 use crate::complex::Cell;
-use crate::complex::{Corners, Facet, INFINITE};
+use crate::complex::{Corners, Facet, INFINITE, memory};
+use crate::error::Result;
 #[cfg(target_arch = "x86_64")]
 use crate::predicates::avx2;
 use crate::predicates::{self, LANES};
@@ -82,46 +83,59 @@ impl Failures {
     }
 
     /// Adds those of a later range.
-    fn append(&mut self, mut later: Failures) {
-        self.cells.append(&mut later.cells);
-        self.facets.append(&mut later.facets);
-        self.ridges.append(&mut later.ridges);
-        self.ghosts.append(&mut later.ghosts);
+    fn append(&mut self, later: &Failures) -> Result<()> {
+        memory::append(&mut self.cells, &later.cells)?;
+        memory::append(&mut self.facets, &later.facets)?;
+        memory::append(&mut self.ridges, &later.ridges)?;
+        memory::append(&mut self.ghosts, &later.ghosts)
     }
 }
 
 impl<G: Dimension> Delaunay<G> {
     /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end,
-    /// when more than `most` cells have failed.
-    pub(crate) fn sweep(&mut self, failures: &mut Failures, most: usize) -> bool {
+    /// when more than `most` cells have failed. What has been listed before an error is of no use.
+    pub(crate) fn sweep(&mut self, failures: &mut Failures, most: usize) -> Result<bool> {
         failures.clear();
         let n = self.complex.n_slots();
         let n_threads = self.threads.for_work(n, SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
         let n_failed = AtomicUsize::new(0);
         if n_threads == 1 {
-            self.sweep_range(0..n, failures, most, &n_failed);
+            self.sweep_range(0..n, failures, most, &n_failed)?;
         } else {
             let parts = threads::for_ranges(n, n_threads, |range| {
                 let mut failures = Failures::default();
-                self.sweep_range(range, &mut failures, most, &n_failed);
-                failures
-            });
-            parts.into_iter().for_each(|part| failures.append(part));
+                self.sweep_range(range, &mut failures, most, &n_failed).map(|()| failures)
+            })?;
+            for part in parts {
+                failures.append(&part?)?;
+            }
         }
         if n_failed.into_inner() > most {
-            return false;
+            return Ok(false);
         }
-        failures.open_ghosts.clone_from(&failures.ghosts);
+        memory::append(&mut failures.open_ghosts, &failures.ghosts)?;
         failures.may_wind = true;
         self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
-        true
+        Ok(true)
     }
 
     /// Sweeps the cells of a range; stops when more than `most` cells of all ranges have failed.
-    fn sweep_range(&self, range: Range<usize>, failures: &mut Failures, most: usize, n_failed: &AtomicUsize) {
-        self.screen(range.start as u32..range.end as u32, |c| {
-            self.sweep_cell(c, failures) || n_failed.fetch_add(1, Relaxed) < most
+    fn sweep_range(
+        &self,
+        range: Range<usize>,
+        failures: &mut Failures,
+        most: usize,
+        n_failed: &AtomicUsize,
+    ) -> Result<()> {
+        let mut swept = Ok(());
+        self.screen(range.start as u32..range.end as u32, |c| match self.sweep_cell(c, failures) {
+            Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
+            Err(error) => {
+                swept = Err(error);
+                false
+            }
         });
+        swept
     }
 
     /// Calls `look` with each of these cells that is a ghost or does not surely hold, until it returns `false`.
@@ -159,20 +173,20 @@ impl<G: Dimension> Delaunay<G> {
     /// to cells of higher indices are left to those.
     #[cold]
     #[inline(never)]
-    pub(super) fn sweep_cell(&self, c: u32, failures: &mut Failures) -> bool {
+    pub(super) fn sweep_cell(&self, c: u32, failures: &mut Failures) -> Result<bool> {
         let cell = self.complex.cell(c);
         if cell.is_ghost() {
-            failures.ghosts.push(c);
-            return true;
+            memory::push(&mut failures.ghosts, c)?;
+            return Ok(true);
         }
         if !self.is_positive(c) {
-            failures.cells.push(c);
-            return false;
+            memory::push(&mut failures.cells, c)?;
+            return Ok(false);
         }
         let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
         let lower = facets.filter(|&facet| cell.neighbour(facet.index()).cell() < c);
-        failures.facets.extend(lower.filter(|&facet| !self.is_locally_delaunay(facet)));
-        true
+        memory::collect(&mut failures.facets, lower.filter(|&facet| !self.is_locally_delaunay(facet)))?;
+        Ok(true)
     }
 
     /// Checks the ridges of the ghost cells that are open. Finite cells must be positive. `before` tells, by id, from where a
@@ -181,34 +195,43 @@ impl<G: Dimension> Delaunay<G> {
         &self,
         failures: &mut Failures,
         before: impl Fn(u32) -> Option<&'p G::Point>,
-    ) {
+    ) -> Result<()> {
         for g in failures.open_ghosts.drain(..) {
             for ridge in (0..Self::LAST).map(|i| Facet::new(g, i)) {
                 if !self.is_convex(ridge) {
-                    failures.ridges.push(ridge);
+                    memory::push(&mut failures.ridges, ridge)?;
                 } else {
                     failures.may_wind =
                         failures.may_wind || !self.stayed_positive(&self.simplex_at_hull(ridge), &before);
                 }
             }
         }
+        Ok(())
     }
 
     /// Lists the ghost cells.
-    pub(crate) fn list_ghosts(&self, ghosts: &mut Vec<u32>) {
+    pub(crate) fn list_ghosts(&self, ghosts: &mut Vec<u32>) -> Result<()> {
         ghosts.clear();
-        ghosts.extend(self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()));
+        memory::collect(ghosts, self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()))
     }
 
     /// Checks the certificates of a bi-cell after the vertices have moved from where they were `before`, by id. Of
     /// finite cells: both are positive, and the facet passes the empty-sphere test. At the hull: the finite cell is
     /// positive, or the ridge is convex, and has been so all the way. Whether all is as it must be now.
     #[inline(always)]
-    pub(crate) fn check_bicell(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
+    pub(crate) fn check_bicell(
+        &self,
+        facet: Facet,
+        before: &[G::Point],
+        failures: &mut Failures,
+    ) -> Result<bool> {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         match [facet, across].map(|side| self.complex.cell(side.cell()).is_ghost()) {
             [false, false] => {
-                G::bicell_holds(self, facet) || self.check_bicell_exactly(facet, before, failures)
+                if G::bicell_holds(self, facet) {
+                    return Ok(true);
+                }
+                self.check_bicell_exactly(facet, before, failures)
             }
             [true, true] => self.check_ridge(facet, before, failures),
             [true, false] => self.check_orientation_of(across.cell(), failures),
@@ -225,21 +248,24 @@ impl<G: Dimension> Delaunay<G> {
         waiting: &mut Waiting,
         before: &[G::Point],
         failures: &mut Failures,
-    ) {
+    ) -> Result<()> {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         if [facet, across].iter().any(|side| self.complex.cell(side.cell()).is_ghost()) {
-            self.check_bicell(facet, before, failures);
-            return;
+            self.check_bicell(facet, before, failures)?;
+            return Ok(());
         }
         waiting.facets[waiting.n] = facet;
         waiting.n += 1;
-        if waiting.n == LANES {
-            self.check_waiting(waiting, before, failures);
-        }
+        if waiting.n == LANES { self.check_waiting(waiting, before, failures) } else { Ok(()) }
     }
 
     /// Checks the bi-cells that wait.
-    pub(crate) fn check_waiting(&self, waiting: &mut Waiting, before: &[G::Point], failures: &mut Failures) {
+    pub(crate) fn check_waiting(
+        &self,
+        waiting: &mut Waiting,
+        before: &[G::Point],
+        failures: &mut Failures,
+    ) -> Result<()> {
         let Waiting { facets, n } = waiting;
         let n = std::mem::take(n);
         #[cfg(target_arch = "x86_64")]
@@ -256,86 +282,100 @@ impl<G: Dimension> Delaunay<G> {
             let hold = unsafe { hold(self, facets) };
             for (k, &facet) in facets[..n].iter().enumerate() {
                 if hold >> k & 1 == 0 {
-                    self.check_bicell_exactly(facet, before, failures);
+                    self.check_bicell_exactly(facet, before, failures)?;
                 }
             }
-            return;
+            return Ok(());
         }
         for &facet in &facets[..n] {
-            self.check_bicell(facet, before, failures);
+            self.check_bicell(facet, before, failures)?;
         }
+        Ok(())
     }
 
     #[cold]
     #[inline(never)]
-    fn check_bicell_exactly(&self, facet: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
+    fn check_bicell_exactly(
+        &self,
+        facet: Facet,
+        before: &[G::Point],
+        failures: &mut Failures,
+    ) -> Result<bool> {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         let cells = [facet.cell(), across.cell()];
         // Ties are dear, and as they were.
         if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, before)) {
-            return true;
+            return Ok(true);
         }
-        let are_positive = cells.map(|c| self.check_orientation_of(c, failures)) == [true; 2];
+        let mut are_positive = true;
+        for c in cells {
+            are_positive &= self.check_orientation_of(c, failures)?;
+        }
         let holds = are_positive && self.is_locally_delaunay(facet);
         if are_positive && !holds {
-            failures.facets.push(facet);
+            memory::push(&mut failures.facets, facet)?;
         }
-        holds
+        Ok(holds)
     }
 
     /// Checks that a finite cell is positive.
-    fn check_orientation_of(&self, c: u32, failures: &mut Failures) -> bool {
+    fn check_orientation_of(&self, c: u32, failures: &mut Failures) -> Result<bool> {
         let is_positive = self.is_positive(c);
         if !is_positive {
-            failures.cells.push(c);
+            memory::push(&mut failures.cells, c)?;
         }
-        is_positive
+        Ok(is_positive)
     }
 
     /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way. Whether it is now.
-    fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) -> bool {
+    fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) -> Result<bool> {
         let simplex = self.simplex_at_hull(ridge);
         if self.stayed_positive(&simplex, |id| Some(&before[id as usize])) {
-            return true;
+            return Ok(true);
         }
         // In a flat part of the hull the cell behind decides, so it must be positive.
         let behind = self.complex.cell(ridge.cell()).neighbour(Self::LAST).cell();
-        if !self.check_orientation_of(behind, failures) {
-            failures.open_ghosts.push(ridge.cell());
-            return false;
+        if !self.check_orientation_of(behind, failures)? {
+            memory::push(&mut failures.open_ghosts, ridge.cell())?;
+            return Ok(false);
         }
         if !self.is_convex(ridge) {
-            failures.ridges.push(ridge);
-            return false;
+            memory::push(&mut failures.ridges, ridge)?;
+            return Ok(false);
         }
         failures.may_wind = true;
-        true
+        Ok(true)
     }
 
     /// Checks all certificates of these cells after a motion, like [`check_bicell`](Self::check_bicell).
-    pub(crate) fn check_cells(&mut self, cells: &[u32], before: &[G::Point], failures: &mut Failures) {
+    pub(crate) fn check_cells(
+        &mut self,
+        cells: &[u32],
+        before: &[G::Point],
+        failures: &mut Failures,
+    ) -> Result<()> {
+        let mut checked = Ok(());
         self.screen(cells.iter().copied(), |c| {
-            if self.complex.cell(c).is_ghost() {
-                for i in 0..Self::LAST {
-                    self.check_ridge(Facet::new(c, i), before, failures);
-                }
+            checked = if self.complex.cell(c).is_ghost() {
+                let mut ridges = (0..Self::LAST).map(|i| Facet::new(c, i));
+                ridges.try_for_each(|ridge| self.check_ridge(ridge, before, failures).map(|_| ()))
             } else {
-                self.check_cell_exactly(c, failures);
-            }
-            true
+                self.check_cell_exactly(c, failures)
+            };
+            checked.is_ok()
         });
         self.certificates += (cells.len() * (G::D + 2)) as u64;
+        checked
     }
 
     #[cold]
     #[inline(never)]
-    fn check_cell_exactly(&self, c: u32, failures: &mut Failures) {
+    fn check_cell_exactly(&self, c: u32, failures: &mut Failures) -> Result<()> {
         if !self.is_positive(c) {
-            failures.cells.push(c);
-            return;
+            return memory::push(&mut failures.cells, c);
         }
         let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
-        failures.facets.extend(facets.filter(|&facet| !self.is_locally_delaunay(facet)));
+        memory::collect(&mut failures.facets, facets.filter(|&facet| !self.is_locally_delaunay(facet)))
     }
 
     /// The corners of the simplex whose orientation is the certificate of a facet with a ghost cell, at the hull or
@@ -378,22 +418,24 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Checks the cells of the star of a site; all its facets may fail.
-    pub(crate) fn check_star(&mut self, s: u32, failures: &mut Failures) {
-        self.gather_star(s);
+    pub(crate) fn check_star(&mut self, s: u32, failures: &mut Failures) -> Result<()> {
+        self.gather_star(s)?;
         for &(c, at) in self.gathered_star() {
             let cell = self.complex.cell(c);
             if cell.is_ghost() {
-                failures.open_ghosts.push(c);
+                memory::push(&mut failures.open_ghosts, c)?;
                 continue;
             }
             if !self.is_positive(c) {
-                failures.cells.push(c);
+                memory::push(&mut failures.cells, c)?;
             }
             // Those within the star once.
             let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
-            failures.facets.extend((0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i)));
+            let own = (0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i));
+            memory::collect(&mut failures.facets, own)?;
         }
         self.certificates += self.gathered_star().len() as u64;
+        Ok(())
     }
 
     /// Whether a finite cell is positively oriented.

@@ -356,7 +356,6 @@ impl Dimension for Plane {
     fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips<Self>) -> Result<(), Obstacle> {
         flipper.flip_edge(facet, flips)
     }
-
 }
 
 impl Dimension for Space {
@@ -558,7 +557,6 @@ impl Dimension for Space {
     fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips<Self>) -> Result<(), Obstacle> {
         flipper.flip_face(facet, flips)
     }
-
 }
 
 /// Whether all signs are positive; `None` if that hangs on a zero.

@@ -5,17 +5,31 @@
 //! basis of `D` completes it to a cell, and the triangulation is built.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use super::{Delaunay, Dimension, Insertion};
-use crate::complex::NONE;
+use crate::complex::{NONE, memory};
 use crate::error::Result;
 
 /// Places and basis; empty while there are cells.
 #[derive(Debug, Default)]
 pub(super) struct Flat<G: Dimension> {
     places: HashMap<[u64; 3], u32>,
-    pub(super) basis: Vec<u32>,
-    points: Vec<G::Point>,
+    pub(super) basis: Basis<G>,
+}
+
+/// Affinely independent sites, `D + 1` at most.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Basis<G: Dimension> {
+    n: usize,
+    sites: [u32; 4],
+    points: [G::Point; 4],
+}
+
+impl<G: Dimension> Basis<G> {
+    pub(super) fn sites(&self) -> &[u32] {
+        &self.sites[..self.n]
+    }
 }
 
 fn key<G: Dimension>(point: &G::Point) -> [u64; 3] {
@@ -34,14 +48,15 @@ impl<G: Dimension> Flat<G> {
     }
 
     /// Enters a site; the one that is there already, if any, stays and is returned.
-    pub(super) fn enter(&mut self, s: u32, q: &G::Point) -> Option<u32> {
-        match self.places.entry(key::<G>(q)) {
-            std::collections::hash_map::Entry::Occupied(there) => Some(*there.get()),
-            std::collections::hash_map::Entry::Vacant(place) => {
+    pub(super) fn enter(&mut self, s: u32, q: &G::Point) -> Result<Option<u32>> {
+        memory::reserve_map(&mut self.places, 1)?;
+        Ok(match self.places.entry(key::<G>(q)) {
+            Entry::Occupied(there) => Some(*there.get()),
+            Entry::Vacant(place) => {
                 place.insert(s);
                 None
             }
-        }
+        })
     }
 
     pub(super) fn clear(&mut self) {
@@ -57,19 +72,18 @@ impl<G: Dimension> Delaunay<G> {
     /// Adds a site to the basis if it is independent of it; whether the basis is that of a cell now.
     pub(super) fn extend_basis(&mut self, s: u32) -> bool {
         let point = self.site(s).point;
-        self.flat.points.push(point);
-        if G::is_dependent(&self.filter, &self.flat.points) {
-            self.flat.points.pop();
-        } else {
-            self.flat.basis.push(s);
+        let Basis { n, sites, points } = &mut self.flat.basis;
+        (sites[*n], points[*n]) = (s, point);
+        if !G::is_dependent(&self.filter, &points[..*n + 1]) {
+            *n += 1;
         }
-        self.flat.basis.len() == G::D + 1
+        *n == G::D + 1
     }
 
-    /// Inserts a site while there are no cells.
+    /// Inserts a site while there are no cells. After an error nothing has changed.
     pub(super) fn insert_flat(&mut self, s: u32) -> Result<Insertion> {
         let q = self.site(s).point;
-        if let Some(t) = self.flat.enter(s, &q) {
+        if let Some(t) = self.flat.enter(s, &q)? {
             return Ok(Insertion::Coincident(t));
         }
         self.sites[s as usize].cell = NONE;
@@ -84,15 +98,14 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn remove_flat(&mut self, s: u32) {
         let q = self.site(s).point;
         self.flat.places.remove(&key::<G>(&q));
-        if self.flat.basis.contains(&s) {
+        if self.flat.basis.sites().contains(&s) {
             self.find_flat_basis(s);
         }
     }
 
     /// Finds a basis of the live sites but one.
     pub(super) fn find_flat_basis(&mut self, except: u32) {
-        self.flat.basis.clear();
-        self.flat.points.clear();
+        self.flat.basis = Basis::default();
         for s in 1..self.sites.len() as u32 {
             if s != except && self.site(s).is_live() && self.extend_basis(s) {
                 break;
@@ -100,18 +113,18 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Gives up the cells when the last finite one is gone. `except` is a site that is on its way elsewhere.
-    pub(super) fn become_flat(&mut self, except: u32) {
+    /// Gives up the cells when the last finite one is gone. `except` is a site that is on its way elsewhere. After an
+    /// error they are still there.
+    pub(super) fn become_flat(&mut self, except: u32) -> Result<()> {
+        let mut flat = Flat::default();
+        for s in self.live_sites().filter(|&s| s != except) {
+            flat.enter(s, &self.site(s).point)?;
+        }
+        self.flat = flat;
         self.give_up_cells();
         self.changed = None;
-        self.flat.clear();
-        for s in 1..self.sites.len() as u32 {
-            self.sites[s as usize].cell = NONE;
-            if s != except && self.site(s).is_live() {
-                let q = self.site(s).point;
-                self.flat.enter(s, &q);
-            }
-        }
+        self.sites[1..].iter_mut().for_each(|site| site.cell = NONE);
         self.find_flat_basis(except);
+        Ok(())
     }
 }

@@ -449,13 +449,13 @@ mod tests {
             t.cover(&q, &q);
             t.set_point(s, q);
             failures.clear();
-            t.check_star(s, &mut failures);
-            t.check_ridges(&mut failures, |_| None);
+            t.check_star(s, &mut failures).expect("room for it");
+            t.check_ridges(&mut failures, |_| None).expect("room for it");
             if !failures.cells.is_empty() || !failures.ridges.is_empty() {
                 t.set_point(s, old);
             }
         }
-        assert!(t.sweep(&mut failures, usize::MAX) && failures.cells.is_empty());
+        assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
         let facets = failures.facets;
         (t, facets)
     }
@@ -512,8 +512,8 @@ mod tests {
                 }
             }
             let mut failures = Failures::default();
-            assert!(t.sweep(&mut failures, usize::MAX) && failures.cells.is_empty());
-            t.check_ridges(&mut failures, |_| None);
+            assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
+            t.check_ridges(&mut failures, |_| None).expect("room for it");
             assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
             let mut flips = AllFlips::default();
             flips.own.suspects.clone_from(&failures.facets);

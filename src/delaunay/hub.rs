@@ -4,23 +4,23 @@
 //! of all sites but the removed one, so of those of the link. Triangulate the link, start behind each facet of the
 //! hole, and take every cell that is reached without crossing the hole's frontier.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE};
+use crate::complex::{Corners, Facet, INFINITE, memory};
 use crate::error::Result;
 use crate::threads::Threads;
 
 impl<G: Dimension> Delaunay<G> {
-    /// Fills the hole of the gathered star by the triangulation of its link.
+    /// Fills the hole of the gathered star by the triangulation of its link. After an error nothing has changed.
     #[cold]
     pub(super) fn remove_hub(&mut self) -> Result<()> {
         let made = self.cells_of_link()?;
-        // Orientation is part of a facet seen from one side: the rim is looked up by its sorted corners.
-        let mut open: HashMap<G::Corners, Facet> = HashMap::with_capacity(2 * self.hole.link.len());
-        for gap in &self.hole.link {
-            open.insert(sorted_without(gap.corners, gap.at), gap.out);
-        }
+        // Orientation is part of a facet seen from one side: the two sides have their sorted corners in common.
+        let mut sides: Vec<(G::Corners, Facet)> = Vec::new();
+        memory::reserve_exact(&mut sides, self.hole.link.len() + made.len() * G::Corners::N)?;
+        sides.extend(self.hole.link.iter().map(|gap| (sorted_without(gap.corners, gap.at), gap.out)));
+        self.reserve_record(made.len())?;
         self.complex.reserve(made.len())?;
         self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
         self.complex.reserve_rows(made.len())?;
@@ -33,72 +33,89 @@ impl<G: Dimension> Delaunay<G> {
         for corners in made {
             let cell = self.complex.create(corners);
             for i in 0..G::Corners::N {
-                let facet = Facet::new(cell, i);
-                let key = sorted_without(corners, i);
-                match open.remove(&key) {
-                    Some(across) => self.complex.glue(facet, across),
-                    None => {
-                        open.insert(key, facet);
-                    }
-                }
+                sides.push((sorted_without(corners, i), Facet::new(cell, i)));
                 self.sites[corners[i] as usize].cell = cell;
             }
             self.recent = cell;
             self.record([cell]);
         }
-        debug_assert!(open.is_empty());
+        sides.sort_unstable();
+        for pair in sides.chunks_exact(2) {
+            debug_assert_eq!(pair[0].0, pair[1].0);
+            self.complex.glue(pair[0].1, pair[1].1);
+        }
+        debug_assert!(sides.len().is_multiple_of(2));
         Ok(())
     }
 
     /// Corners of the cells that fill the hole.
     fn cells_of_link(&self) -> Result<Vec<G::Corners>> {
         let mut local = Delaunay::<G>::on(Threads::ONE)?;
-        // Site k + 1 of the link's triangulation is the k-th of these.
-        let finite: Vec<u32> = self.hole.sites.iter().copied().filter(|&s| s != INFINITE).collect();
-        for &s in &finite {
+        local.reserve_sites(self.hole.sites.len())?;
+        let mut by_id = Vec::new();
+        memory::reserve_exact(&mut by_id, self.hole.sites.len())?;
+        for &s in self.hole.sites.iter().filter(|&&s| s != INFINITE) {
             local.add_site(self.site(s).point, self.site(s).id)?;
+            by_id.push((self.site(s).id, s));
         }
+        by_id.sort_unstable();
         local.sort_sites()?;
         local.rebuild(&mut |_| true)?;
-        let mut at_id = HashMap::with_capacity(finite.len());
-        for &s in &finite {
-            at_id.insert(self.site(s).id, s);
-        }
-        let global = |s: u32| if s == INFINITE { INFINITE } else { at_id[&local.site(s).id] };
-        let rim: HashMap<G::Corners, (G::Corners, usize)> = self
-            .hole
-            .link
-            .iter()
-            .map(|gap| (sorted_without(gap.corners, gap.at), (gap.corners, gap.at)))
-            .collect();
+        let mut made = Vec::new();
         if !local.has_cells() {
             // The link is in one hyperplane: each finite facet of it is on the new hull.
             let finite_facets =
                 self.hole.link.iter().filter(|g| g.at == Self::LAST || g.corners[Self::LAST] != INFINITE);
-            return Ok(finite_facets.map(|g| g.corners.with(g.at, INFINITE).rotated_to_last(g.at)).collect());
+            let ghosts = finite_facets.map(|g| g.corners.with(g.at, INFINITE).rotated_to_last(g.at));
+            memory::collect(&mut made, ghosts)?;
+            return Ok(made);
         }
-        let mut inside: HashSet<u32> = HashSet::new();
-        let mut stack = Vec::new();
-        for c in local.complex.live() {
+        // The site of each local one.
+        let mut globals = Vec::new();
+        memory::reserve_exact(&mut globals, local.sites.len())?;
+        globals.push(INFINITE);
+        globals.extend(local.sites[1..].iter().map(|site| {
+            let at = by_id.binary_search_by_key(&site.id, |&(id, _)| id).expect("a site of the link");
+            by_id[at].1
+        }));
+        let global = |s: u32| globals[s as usize];
+        let mut rim: HashMap<G::Corners, (G::Corners, usize)> = HashMap::new();
+        memory::reserve_map(&mut rim, self.hole.link.len())?;
+        rim.extend(
+            self.hole.link.iter().map(|gap| (sorted_without(gap.corners, gap.at), (gap.corners, gap.at))),
+        );
+        // The local cells inside, which are marked.
+        let mut inside = Vec::new();
+        for c in (0..local.complex.n_slots() as u32).filter(|&c| local.complex.is_live(c)) {
+            let corners = map_corners(local.complex.cell(c).corners, global);
+            let is_behind = |i: usize| {
+                rim.get(&sorted_without(corners, i)).is_some_and(|&(facing, at)| {
+                    // On the inner side the apex takes the removed site's place without a reflection.
+                    is_even(facing.with(at, corners[i]), corners)
+                })
+            };
+            if (0..G::Corners::N).any(is_behind) {
+                memory::push(&mut inside, c)?;
+            }
+        }
+        for &c in &inside {
+            local.complex.set_mark(c, 1);
+        }
+        let mut next = 0;
+        while let Some(&c) = inside.get(next) {
+            next += 1;
             let corners = map_corners(local.complex.cell(c).corners, global);
             for i in 0..G::Corners::N {
-                let Some(&(facing, at)) = rim.get(&sorted_without(corners, i)) else { continue };
-                // On the inner side the apex takes the removed site's place without a reflection.
-                if is_even(facing.with(at, corners[i]), corners) && inside.insert(c) {
-                    stack.push(c);
+                let beyond = local.complex.cell(c).neighbour(i).cell();
+                if local.complex.mark(beyond) == 0 && !rim.contains_key(&sorted_without(corners, i)) {
+                    local.complex.set_mark(beyond, 1);
+                    memory::push(&mut inside, beyond)?;
                 }
             }
         }
-        while let Some(c) = stack.pop() {
-            let corners = map_corners(local.complex.cell(c).corners, global);
-            for i in 0..G::Corners::N {
-                let next = local.complex.cell(c).neighbour(i).cell();
-                if !rim.contains_key(&sorted_without(corners, i)) && inside.insert(next) {
-                    stack.push(next);
-                }
-            }
-        }
-        Ok(inside.into_iter().map(|c| map_corners(local.complex.cell(c).corners, global)).collect())
+        let corners_of = |&c: &u32| map_corners(local.complex.cell(c).corners, global);
+        memory::collect(&mut made, inside.iter().map(corners_of))?;
+        Ok(made)
     }
 }
 

@@ -5,8 +5,9 @@
 //! 10.1007/BF02122779), so it needs no randomness. It ends in a cell whose closure holds the point, or in a
 //! ghost cell whose facet has the point strictly beyond it.
 
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Dimension, IndexSet};
 use crate::complex::{Corners, NONE};
+use crate::error::Result;
 use crate::predicates::StaticFilter;
 
 /// Where a point lies.
@@ -89,22 +90,22 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Calls `visit` for each cell around a site, ghost cells included, with the index of the site in it.
-    pub fn for_star(&self, s: u32, mut visit: impl FnMut(u32, usize)) {
+    pub fn for_star(&self, s: u32, mut visit: impl FnMut(u32, usize)) -> Result<()> {
         if !self.has_cells() {
-            return;
+            return Ok(());
         }
-        let mut star = vec![self.site(s).cell];
-        let mut seen = std::collections::HashSet::from([self.site(s).cell]);
-        while let Some(cell) = star.pop() {
+        let mut star = IndexSet::new();
+        star.insert(self.site(s).cell)?;
+        let mut next = 0;
+        while let Some(&cell) = star.as_slice().get(next) {
+            next += 1;
             let c = self.complex.cell(cell);
             let at = c.index_of(s);
             visit(cell, at);
             for i in (0..G::Corners::N).filter(|&i| i != at) {
-                let next = c.neighbour(i).cell();
-                if seen.insert(next) {
-                    star.push(next);
-                }
+                star.insert(c.neighbour(i).cell())?;
             }
         }
+        Ok(())
     }
 }

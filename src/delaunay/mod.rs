@@ -20,6 +20,7 @@
 //! | `certify`, `screen` | all certificates at once |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
+//! | `set` | small sets of indices |
 //!
 //! **Ghost cells.** A ghost cell stands for what lies beyond a facet of the convex hull. A point is in conflict
 //! with it if it is strictly beyond the facet's hyperplane; if it is in the hyperplane, exactly if it is in
@@ -45,6 +46,7 @@ mod relocate;
 mod remove;
 #[cfg(target_arch = "x86_64")]
 mod screen;
+mod set;
 pub mod site;
 mod spheres;
 mod successor;
@@ -59,6 +61,7 @@ pub(crate) use certify::Waiting;
 pub use dimension::{Coordinates, Dimension, Plane, Space};
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
+pub(crate) use set::IndexSet;
 pub use site::Site;
 pub use validate::{Level, Violation};
 
@@ -105,6 +108,8 @@ pub struct Delaunay<G: Dimension> {
 }
 
 impl<G: Dimension> Default for Delaunay<G> {
+    /// # Panics
+    /// Where there is no memory for a single site.
     fn default() -> Self {
         Delaunay::on(Threads::ONE).expect("memory for a site")
     }
@@ -211,6 +216,8 @@ impl<G: Dimension> Delaunay<G> {
         if self.sites.len() >= u32::MAX as usize {
             return Err(Error::TooManyVertices { given: self.sites.len(), limit: u32::MAX as usize - 1 });
         }
+        // To discard it needs an entry in the other list, and must not fail.
+        memory::reserve(&mut self.free_sites, 1)?;
         if self.sites.len() == self.sites.capacity() {
             self.reserve_sites(1.max(self.sites.len() / 8))?;
         }
@@ -228,6 +235,13 @@ impl<G: Dimension> Delaunay<G> {
     /// Makes room for `n` more sites.
     pub fn reserve_sites(&mut self, n: usize) -> Result<()> {
         memory::reserve_exact(&mut self.sites, n)
+    }
+
+    /// Frees a site that is in no cell.
+    pub fn discard_site(&mut self, s: u32) -> Result<()> {
+        memory::reserve(&mut self.free_sites, 1)?;
+        self.drop_site(s);
+        Ok(())
     }
 
     /// Frees a site; there is room for it in the list, as it has been logged or [counted](Self::merge).
@@ -400,7 +414,16 @@ impl<G: Dimension> Delaunay<G> {
         prefetch(self.complex.cells(), cell.neighbour(facet.index()).cell() as usize);
     }
 
-    /// Enters cells into the record, if there is one.
+    /// Makes room for so many more cells in the record, if there is one.
+    #[inline(always)]
+    pub(crate) fn reserve_record(&mut self, n: usize) -> Result<()> {
+        match &mut self.changed {
+            Some(changed) => memory::reserve(changed, n),
+            None => Ok(()),
+        }
+    }
+
+    /// Enters cells into the record, if there is one; there must be [room](Self::reserve_record) for them.
     #[inline(always)]
     pub(crate) fn record(&mut self, cells: impl IntoIterator<Item = u32>) {
         if let Some(changed) = &mut self.changed {

@@ -51,21 +51,29 @@ impl Keyed {
     }
 }
 
-/// Sorts items along the Hilbert curve of their points.
+/// Sorts items, ascending as given, along the Hilbert curve of their points.
 pub fn hilbert_order<'p, G: Dimension>(
     mut items: Vec<Keyed>,
     point: impl Fn(u32) -> &'p G::Point + Copy,
 ) -> Result<Vec<Keyed>> {
-    // For the sort.
-    memory::make_sure_of::<Keyed>(items.len())?;
-    sort_in_box::<G>(point, &mut items);
+    let mut spare = Vec::new();
+    if items.len() > FEW {
+        memory::reserve_exact(&mut spare, items.len())?;
+        spare.resize(items.len(), Keyed::default());
+    }
+    sort_in_box::<G>(point, &mut items, &mut spare);
     Ok(items)
 }
 
 /// Runs of one key up to this length stay unsorted: a walk through them is short anyway.
 const SHORT_RUN: usize = 8;
 
-fn sort_in_box<'p, G: Dimension>(point: impl Fn(u32) -> &'p G::Point + Copy, keyed: &mut [Keyed]) {
+/// The items have the same key and are ascending; `spare` is as long, or there are [`FEW`] of them.
+fn sort_in_box<'p, G: Dimension>(
+    point: impl Fn(u32) -> &'p G::Point + Copy,
+    keyed: &mut [Keyed],
+    spare: &mut [Keyed],
+) {
     let Some((lower, upper)) = bounding_box::<G>(keyed.iter().map(|k| point(k.item()))) else {
         return;
     };
@@ -86,11 +94,59 @@ fn sort_in_box<'p, G: Dimension>(point: impl Fn(u32) -> &'p G::Point + Copy, key
         let key = if G::D == 2 { hilbert_key_2(cell[0], cell[1], bits) } else { hilbert_key_3(cell, bits) };
         k.0 = u64::from(key) << 32 | u64::from(k.item());
     }
-    radsort::sort_by_key(keyed, |k| k.key());
+    sort_by_key(keyed, spare, bits * G::D as u32);
     for run in keyed.chunk_by_mut(|a, b| a.key() == b.key()) {
         if run.len() > SHORT_RUN {
-            sort_in_box::<G>(point, run);
+            let n = run.len().min(spare.len());
+            sort_in_box::<G>(point, run, &mut spare[..n]);
         }
+    }
+}
+
+/// So many items, which need no spare memory, are sorted by comparisons: about as fast as by digits.
+const FEW: usize = 256;
+
+/// Bits of a digit at most: more would be more places to write to than the processor keeps at hand.
+const DIGIT: u32 = 11;
+
+/// Sorts items by their keys, which have so many bits, and those of one key as they were: ascending.
+///
+/// By digits from the lowest on, with `spare` to write to, as a sort that makes its own room could not tell that there is
+/// none.
+fn sort_by_key(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
+    if keyed.len() <= FEW {
+        keyed.sort_unstable_by_key(|k| k.0);
+        return;
+    }
+    let n_digits = bits.div_ceil(DIGIT);
+    // Digits of like lengths.
+    let digit = bits.div_ceil(n_digits);
+    let mask = (1 << digit) - 1;
+    let at = |k: &Keyed, d: u32| (k.key() >> (d * digit) & mask) as usize % (1 << DIGIT);
+    let mut counts = [[0u32; 1 << DIGIT]; 32u32.div_ceil(DIGIT) as usize];
+    for k in keyed.iter() {
+        for (d, counts) in (0..n_digits).zip(&mut counts) {
+            counts[at(k, d)] += 1;
+        }
+    }
+    let n = keyed.len();
+    let (mut from, mut to) = (&mut *keyed, &mut spare[..n]);
+    let mut is_in_spare = false;
+    for (d, counts) in (0..n_digits).zip(&mut counts) {
+        let mut start = 0;
+        for count in counts[..=mask as usize].iter_mut() {
+            (*count, start) = (start, start + *count);
+        }
+        for k in from.iter() {
+            let next = &mut counts[at(k, d)];
+            to[*next as usize] = *k;
+            *next += 1;
+        }
+        (from, to) = (to, from);
+        is_in_spare = !is_in_spare;
+    }
+    if is_in_spare {
+        to.copy_from_slice(from);
     }
 }
 
@@ -256,6 +312,28 @@ mod tests {
             (a[0] - b[0]).abs().min(20.0) + (a[1] - b[1]).abs()
         };
         assert!(order.windows(2).map(step).sum::<f64>() < 4.0 * 400.0 * 4.0);
+    }
+
+    /// Few items, and many with keys of one to three digits, some of which all have in common.
+    #[test]
+    fn digits_sort_as_comparisons_do() {
+        let mut state = 1u64;
+        for (n, bits) in
+            [(1, 8), (2, 32), (255, 30), (256, 32), (257, 32), (1000, 4), (5000, 24), (30_000, 30)]
+        {
+            for common in [0, 0x00ff_ff00, !0] {
+                let keys = (0..n).map(|item| {
+                    state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+                    let key = (state >> 32) as u32 & !common & (u32::MAX >> (32 - bits));
+                    Keyed(u64::from(key) << 32 | item)
+                });
+                let mut keyed: Vec<Keyed> = keys.collect();
+                let mut expected = keyed.clone();
+                expected.sort_by_key(|k| k.key());
+                sort_by_key(&mut keyed, &mut vec![Keyed::default(); n as usize], bits);
+                assert_eq!(keyed, expected, "{n} keys of {bits} bits");
+            }
+        }
     }
 
     #[test]

@@ -36,8 +36,8 @@ struct Build<'t, G: Dimension> {
     n_sites: usize,
     /// The sites of each part but the first, after a placeholder, for the thread that triangulates it.
     copies: Vec<Mutex<Vec<Site<G>>>>,
-    /// Bounding box of each part.
-    boxes: Vec<(G::Point, G::Point)>,
+    /// Bounding box of each part, none of which is without.
+    boxes: Vec<Option<(G::Point, G::Point)>>,
     /// Whether some thread has failed.
     stop: AtomicBool,
 }
@@ -55,12 +55,16 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(None);
         }
         let n_sites = self.sites.len();
-        let boxes = threads::for_each(0..n_parts, &|part| {
+        let mut boxes = Vec::new();
+        memory::lengthen(&mut boxes, n_parts, None)?;
+        threads::fill(&mut boxes, &|part| {
             let sites = &self.sites[self.parts.sites(part..part + 1, n_sites)];
             bounding_box::<G>(sites.iter().filter(|site| site.is_live()).map(|site| &site.point))
         });
-        let Some(boxes) = boxes.into_iter().collect() else { return Ok(None) };
-        let Ok(copies) = (0..n_parts).map(|part| self.copy_of_part(part)).collect() else { return Ok(None) };
+        if boxes.contains(&None) {
+            return Ok(None);
+        }
+        let Ok(copies) = self.copies() else { return Ok(None) };
         let parts = std::mem::take(&mut self.parts);
         let build = Build { parts: &parts, n_sites, copies, boxes, stop: AtomicBool::new(false) };
         let mut is_cancelled = false;
@@ -78,6 +82,16 @@ impl<G: Dimension> Delaunay<G> {
                 Ok(None)
             }
         }
+    }
+
+    /// The [copies](Self::copy_of_part) of all parts.
+    fn copies(&self) -> Result<Vec<Mutex<Vec<Site<G>>>>> {
+        let mut copies = Vec::new();
+        memory::reserve_exact(&mut copies, self.parts.count())?;
+        for part in 0..self.parts.count() {
+            copies.push(self.copy_of_part(part)?);
+        }
+        Ok(copies)
     }
 
     /// The sites of a part, after a placeholder, with room for those of all parts that will be united with it; nothing
@@ -136,12 +150,12 @@ impl<G: Dimension> Build<'_, G> {
         let mut coincident = left?;
         let (right, found): (Open<G>, Coincident) = right?;
         let first = 1 + self.parts.sites(parts.start..middle, self.n_sites).len() as u32;
-        coincident.extend(found.into_iter().map(|(s, t)| (s + first - 1, t + first - 1)));
+        memory::collect(&mut coincident, found.into_iter().map(|(s, t)| (s + first - 1, t + first - 1)))?;
         let [from, to] = [middle, parts.end].map(|part| part as f64 / self.parts.count() as f64);
         let mut monitor = |fraction: f64| {
             monitor(SHARE_OF_PARTS + (1.0 - SHARE_OF_PARTS) * (from + (to - from) * fraction))
         };
-        coincident.extend(t.unite(right, first, parts.len(), &mut monitor)?);
+        memory::append(&mut coincident, &t.unite(right, first, parts.len(), &mut monitor)?)?;
         Ok(coincident)
     }
 
@@ -157,7 +171,7 @@ impl<G: Dimension> Build<'_, G> {
         if part > 0 {
             t.sites = std::mem::take(&mut *self.copies[part].lock().expect("each is locked once"));
         }
-        (t.lower, t.upper) = self.boxes[part];
+        (t.lower, t.upper) = self.boxes[part].expect("the box of a part");
         t.filter = G::filter(&t.lower, &t.upper);
         let own = 1..1 + self.parts.sites(part..part + 1, self.n_sites).len() as u32;
         let order = in_rounds::<G>(own.filter(|&s| t.site(s).is_live()))?;
@@ -172,7 +186,7 @@ impl<G: Dimension> Build<'_, G> {
 
     /// Bounding box of the sites of parts.
     fn box_of(&self, parts: Range<usize>) -> (G::Point, G::Point) {
-        let corners = self.boxes[parts].iter().flat_map(|(lower, upper)| [lower, upper]);
+        let corners = self.boxes[parts].iter().flatten().flat_map(|(lower, upper)| [lower, upper]);
         bounding_box::<G>(corners).expect("the box of a part")
     }
 }

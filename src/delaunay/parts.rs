@@ -28,10 +28,12 @@ pub(super) struct Parts {
 
 impl Parts {
     /// Planes for `n_parts` parts with like shares of a sample.
-    fn of_sample<G: Dimension>(sample: &mut [G::Point], n_parts: usize) -> Self {
-        let mut parts = Parts { starts: vec![1; n_parts], planes: vec![(0, 0.0); n_parts - 1] };
+    fn of_sample<G: Dimension>(sample: &mut [G::Point], n_parts: usize) -> Result<Self> {
+        let mut parts = Parts::default();
+        memory::lengthen(&mut parts.starts, n_parts, 1)?;
+        memory::lengthen(&mut parts.planes, n_parts - 1, (0, 0.0))?;
         parts.divide::<G>(sample, 0..n_parts);
-        parts
+        Ok(parts)
     }
 
     fn divide<G: Dimension>(&mut self, sample: &mut [G::Point], parts: Range<usize>) {
@@ -178,19 +180,29 @@ impl<G: Dimension> Delaunay<G> {
         point: impl Fn(u32) -> &'p G::Point + Copy + Sync,
     ) -> Result<(Parts, Vec<Vec<Keyed>>)> {
         let n_parts = self.threads.for_work(n, G::BUILT_AT_LEAST, BUILT_IF_ASKED);
+        let mut sorted = Vec::new();
+        memory::reserve_exact(&mut sorted, n_parts)?;
         if n_parts == 1 {
             let mut all = Vec::new();
             memory::reserve_exact(&mut all, n)?;
             all.extend(items.map(Keyed::new));
-            return Ok((Parts::default(), vec![hilbert_order::<G>(all, point)?]));
+            sorted.push(hilbert_order::<G>(all, point)?);
+            return Ok((Parts::default(), sorted));
         }
         let step = (n / (SAMPLE * n_parts)).max(1);
-        let mut sample: Vec<G::Point> = items.clone().step_by(step).map(|item| *point(item)).collect();
-        let mut parts = Parts::of_sample::<G>(&mut sample, n_parts);
-        let sorted = threads::for_each(0..n_parts, &|part| {
+        let mut sample = Vec::new();
+        memory::reserve_exact(&mut sample, n.div_ceil(step))?;
+        memory::collect(&mut sample, items.clone().step_by(step).map(|item| *point(item)))?;
+        let mut parts = Parts::of_sample::<G>(&mut sample, n_parts)?;
+        sorted.resize_with(n_parts, Vec::new);
+        let mut done = Vec::new();
+        memory::lengthen(&mut done, n_parts, Ok(Vec::new()))?;
+        threads::fill(&mut done, &|part| {
             hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)
         });
-        let sorted = sorted.into_iter().collect::<Result<Vec<_>>>()?;
+        for (sorted, done) in sorted.iter_mut().zip(done) {
+            *sorted = done?;
+        }
         let mut start = INFINITE + 1;
         for (part, sorted) in sorted.iter().enumerate() {
             parts.starts[part] = start;

@@ -16,7 +16,7 @@
 //! The id of a site breaks ties, so a change of id is a relocation to the same place.
 
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
+use crate::complex::{Corners, Facet, INFINITE, NONE};
 use crate::error::Result;
 
 /// What a relocation did.
@@ -47,14 +47,15 @@ impl<G: Dimension> Delaunay<G> {
     /// Moves a live site to `q`, where it represents vertex `id`. There must be cells.
     pub fn relocate_site(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Result<Relocation> {
         self.cover(q, q);
-        self.gather_star(s);
+        self.gather_star(s)?;
+        self.reserve_record(self.hole.star.len())?;
         if let Some(done) = self.relocate_in_place(s, q, id, shortcut)? {
             return Ok(done);
         }
         self.log_site(s)?;
         self.remove_gathered(s)?;
         if self.complex.n_finite() == 0 {
-            self.become_flat(s);
+            self.become_flat(s)?;
         }
         self.sites[s as usize] = Site::new(*q, id);
         match self.insert_site(s, NONE)? {
@@ -72,7 +73,7 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(());
         }
         // Where the sites of the star stay, its vertices do not: who follows the cells has to know.
-        self.gather_star(s);
+        self.gather_star(s)?;
         self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
         let q = self.site(s).point;
         self.relocate_site(s, &q, id, Shortcut::Certificates)?;
@@ -101,11 +102,11 @@ impl<G: Dimension> Delaunay<G> {
     /// Makes sure that the gathered star, whose site has moved, is as it must be; if it is not, and flips may not or cannot
     /// mend it, nothing changes.
     fn repair_star(&mut self, shortcut: Shortcut) -> Result<Option<Relocation>> {
-        if self.star_surely_holds()? {
+        if self.star_surely_holds() {
             return Ok(Some(Relocation::InPlace));
         }
         if self.star_is_positive() && self.star_is_convex() {
-            self.record_star()?;
+            self.record_star();
             if self.star_is_delaunay() {
                 return Ok(Some(Relocation::InPlace));
             }
@@ -116,17 +117,15 @@ impl<G: Dimension> Delaunay<G> {
         Ok(None)
     }
 
-    /// Enters the gathered star into the record of changes.
-    fn record_star(&mut self) -> Result<()> {
+    /// Enters the gathered star into the record of changes, where there is room for it.
+    fn record_star(&mut self) {
         if let Some(changed) = &mut self.changed {
-            memory::reserve(changed, self.hole.star.len())?;
             changed.extend(self.hole.star.iter().map(|&(c, _)| c));
         }
-        Ok(())
     }
 
     /// Whether all certificates of the gathered star hold, without ghosts or doubt; then it is recorded.
-    fn star_surely_holds(&mut self) -> Result<bool> {
+    fn star_surely_holds(&mut self) -> bool {
         let mut holds = true;
         self.screen(self.hole.star.iter().map(|&(c, _)| c), |_| {
             holds = false;
@@ -134,9 +133,9 @@ impl<G: Dimension> Delaunay<G> {
         });
         self.certificates += (self.hole.star.len() * (G::D + 3) / 2) as u64;
         if holds {
-            self.record_star()?;
+            self.record_star();
         }
-        Ok(holds)
+        holds
     }
 
     /// Whether every finite cell of the gathered star is positively oriented.

@@ -12,7 +12,7 @@
 //! Invariant: the complex is not touched before the whole filling is known.
 
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE};
+use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE, memory};
 use crate::error::Result;
 
 /// Link sites that the bit masks of facets can tell apart, the ghost vertex included.
@@ -62,32 +62,58 @@ const NEW: u32 = MAX_CELLS as u32;
 
 impl<G: Dimension> Delaunay<G> {
     /// Collects the star of a site and its link.
-    pub(crate) fn gather_star(&mut self, s: u32) {
-        let hole = &mut self.hole;
-        hole.star.clear();
-        hole.link.clear();
+    pub(crate) fn gather_star(&mut self, s: u32) -> Result<()> {
+        let gathered = self.mark_star(s);
+        for &(c, _) in &self.hole.star {
+            self.complex.set_mark(c, 0);
+        }
+        gathered
+    }
+
+    /// Likewise; the cells of the star that are listed have marks.
+    #[inline(always)]
+    fn mark_star(&mut self, s: u32) -> Result<()> {
+        let Hole { star, link, .. } = &mut self.hole;
+        star.clear();
+        link.clear();
         let first = self.sites[s as usize].cell;
-        hole.star.push((first, self.complex.cell(first).index_of(s) as u8));
+        memory::push(star, (first, self.complex.cell(first).index_of(s) as u8))?;
         self.complex.set_mark(first, 1);
-        let mut next = 0;
-        while next < hole.star.len() {
-            let (c, at) = hole.star[next];
+        // What is written is counted here first: relocations spend much of their time in this loop.
+        let (mut next, mut n_star, mut n_link) = (0, 1, 0);
+        let mut gathered = Ok(());
+        while next < n_star {
+            if star.capacity() < n_star + G::D || link.capacity() < n_link + 1 {
+                // SAFETY: so many have been written.
+                unsafe { (star.set_len(n_star), link.set_len(n_link)) };
+                gathered = memory::reserve(star, G::D).and_then(|()| memory::reserve(link, 1));
+                if gathered.is_err() {
+                    break;
+                }
+            }
+            // SAFETY: one of those that have been written.
+            let (c, at) = unsafe { *star.as_ptr().add(next) };
             let at = at as usize;
             next += 1;
             let cell = *self.complex.cell(c);
             for i in 0..G::Corners::N {
                 let out = cell.neighbour(i);
                 if i == at {
-                    hole.link.push(Gap { corners: cell.corners, at, out });
+                    // SAFETY: there is room for one, which is for this facet.
+                    unsafe { link.as_mut_ptr().add(n_link).write(Gap { corners: cell.corners, at, out }) };
+                    n_link += 1;
                 } else if self.complex.mark(out.cell()) == 0 {
                     self.complex.set_mark(out.cell(), 1);
-                    hole.star.push((out.cell(), self.complex.cell(out.cell()).index_of(s) as u8));
+                    let at = self.complex.cell(out.cell()).index_of(s) as u8;
+                    // SAFETY: there is room for one beyond each of the other `D` facets.
+                    unsafe { star.as_mut_ptr().add(n_star).write((out.cell(), at)) };
+                    n_star += 1;
                 }
             }
         }
-        for &(c, _) in &hole.star {
-            self.complex.set_mark(c, 0);
-        }
+        // SAFETY: so many have been written.
+        unsafe { (star.set_len(n_star), link.set_len(n_link)) };
+        gathered
     }
 
     /// Cells of the star gathered last, and the index of its site in each.
@@ -96,9 +122,11 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Lists the link's sites. Each gets its position in the list as a label, kept in its `cell` field.
-    fn label_link(&mut self) {
+    fn label_link(&mut self) -> Result<()> {
         let hole = &mut self.hole;
         hole.sites.clear();
+        // The link is a sphere: in the plane it has as many sites as facets, in space two more than half as many.
+        memory::reserve(&mut hole.sites, hole.link.len())?;
         for gap in &hole.link {
             for i in (0..G::Corners::N).filter(|&i| i != gap.at) {
                 let site = &mut self.sites[gap.corners[i] as usize];
@@ -109,6 +137,7 @@ impl<G: Dimension> Delaunay<G> {
                 }
             }
         }
+        Ok(())
     }
 
     /// Gives the link's sites, whose `cell` fields hold labels, a cell of the star again.
@@ -129,26 +158,23 @@ impl<G: Dimension> Delaunay<G> {
             self.drop_site(s);
             return Ok(());
         }
-        self.gather_star(s);
-        let removed = self.remove_gathered(s);
-        if removed.is_ok() {
-            self.drop_site(s);
-            if self.complex.n_finite() == 0 {
-                self.become_flat(s);
-            }
+        self.gather_star(s)?;
+        self.remove_gathered(s)?;
+        if self.complex.n_finite() == 0 {
+            self.become_flat(s)?;
         }
-        removed
+        self.drop_site(s);
+        Ok(())
     }
 
     /// Removes the site whose star has been gathered from the cells; the site stays live.
     pub(super) fn remove_gathered(&mut self, s: u32) -> Result<()> {
-        self.label_link();
+        self.label_link()?;
         if self.hole.sites.len() > MAX_LINK {
             self.restore_link_cells();
             return self.remove_hub();
         }
-        self.wrap();
-        if let Err(error) = self.reserve_filling() {
+        if let Err(error) = self.wrap().and_then(|()| self.reserve_filling()) {
             self.restore_link_cells();
             return Err(error);
         }
@@ -162,17 +188,30 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Makes sure that the cells of the hole can be replaced.
     fn reserve_filling(&mut self) -> Result<()> {
-        self.complex.reserve(self.hole.made.len())?;
+        let n = self.hole.made.len();
+        self.hole.made_at.clear();
+        memory::reserve(&mut self.hole.made_at, n)?;
+        self.reserve_record(n)?;
+        self.complex.reserve(n)?;
         self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
-        self.complex.reserve_rows(self.hole.made.len())
+        self.complex.reserve_rows(n)
     }
 
     /// Finds the cells that fill the hole.
-    fn wrap(&mut self) {
+    fn wrap(&mut self) -> Result<()> {
         let mut hole = std::mem::take(&mut self.hole);
+        let wrapped = self.wrap_hole(&mut hole);
+        self.hole = hole;
+        wrapped
+    }
+
+    #[inline(always)]
+    fn wrap_hole(&self, hole: &mut Hole<G>) -> Result<()> {
         hole.open.clear();
         hole.open_ghost.clear();
         hole.made.clear();
+        memory::reserve(&mut hole.open, hole.link.len())?;
+        memory::reserve(&mut hole.open_ghost, hole.link.len())?;
         let bit = |sites: &[super::Site<G>], v: u32| 1u64 << sites[v as usize].cell;
         for gap in &hole.link {
             let key =
@@ -186,6 +225,9 @@ impl<G: Dimension> Delaunay<G> {
         let is_finite = |(label, &x): (usize, &u32)| u64::from(x != INFINITE) << label;
         let finite: u64 = hole.sites.iter().enumerate().map(is_finite).sum();
         while let Some((key, gap)) = hole.open.pop() {
+            memory::reserve(&mut hole.open, G::D)?;
+            memory::reserve(&mut hole.open_ghost, G::D)?;
+            memory::reserve(&mut hole.made, 1)?;
             let apex = self.wrap_apex(&hole.sites, finite & !key, &gap);
             let k = NEW + hole.made.len() as u32;
             let mut corners = gap.corners.with(gap.at, apex);
@@ -225,7 +267,7 @@ impl<G: Dimension> Delaunay<G> {
             }
         }
         debug_assert!(hole.open_ghost.is_empty());
-        self.hole = hole;
+        Ok(())
     }
 
     /// The corner of the new cell on the inner side of a finite frontier facet, which is one of those sites of the link
@@ -250,7 +292,7 @@ impl<G: Dimension> Delaunay<G> {
         best
     }
 
-    /// Puts the cells of `made` in the place of the star.
+    /// Puts the cells of `made`, for which there is room, in the place of the star.
     fn replace_star(&mut self) {
         let mut hole = std::mem::take(&mut self.hole);
         hole.made_at.clear();

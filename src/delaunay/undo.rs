@@ -133,4 +133,3 @@ impl<G: Dimension> Delaunay<G> {
         self.complex.end_record();
     }
 }
-

@@ -53,7 +53,12 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn open(mut self, lower: &G::Point, upper: &G::Point) -> Result<Open<G>> {
         let is_apart = (0..G::D).any(|k| upper[k] < self.lower[k] || self.upper[k] < lower[k]);
         self.cover(lower, upper);
-        let zone = if is_apart { self.zone_of_box(lower, upper) } else { self.complex.live().collect() };
+        let mut zone = Vec::new();
+        if is_apart {
+            self.list_zone_of_box(&mut zone, lower, upper)?;
+        } else {
+            memory::collect(&mut zone, self.complex.live())?;
+        }
         for &c in &zone {
             self.complex.set_mark(c, IN_ZONE);
         }
@@ -63,15 +68,16 @@ impl<G: Dimension> Delaunay<G> {
             for i in 0..G::Corners::N {
                 let across = cell.neighbour(i);
                 if self.complex.mark(across.cell()) != IN_ZONE {
-                    rim.push(across);
+                    memory::push(&mut rim, across)?;
                 }
                 let site = self.corner_mut(cell.corners[i]);
                 if site.cell != NONE && cell.corners[i] != INFINITE {
                     site.cell = NONE;
-                    border.push(cell.corners[i]);
+                    memory::push(&mut border, cell.corners[i])?;
                 }
             }
         }
+        self.complex.reserve_free(zone.len())?;
         for &c in &zone {
             self.complex.retire(c);
             self.complex.release(c);
@@ -80,27 +86,27 @@ impl<G: Dimension> Delaunay<G> {
         Ok(Open { t: self, border, rim })
     }
 
-    /// The cells that are not clear of a box that a hyperplane separates from all sites.
-    fn zone_of_box(&mut self, lower: &G::Point, upper: &G::Point) -> Vec<u32> {
-        let mut ghosts = vec![self.site(INFINITE).cell];
-        self.complex.set_mark(ghosts[0], SEEN);
+    /// Lists the cells that are not clear of a box that a hyperplane separates from all sites, and marks them.
+    fn list_zone_of_box(&mut self, zone: &mut Vec<u32>, lower: &G::Point, upper: &G::Point) -> Result<()> {
+        // All ghosts at first.
+        memory::push(zone, self.site(INFINITE).cell)?;
+        self.complex.set_mark(zone[0], SEEN);
         let mut next = 0;
-        while let Some(&g) = ghosts.get(next) {
+        while let Some(&g) = zone.get(next) {
             next += 1;
             for i in 0..Self::LAST {
                 let beside = self.complex.cell(g).neighbour(i).cell();
                 if self.complex.mark(beside) == 0 {
                     self.complex.set_mark(beside, SEEN);
-                    ghosts.push(beside);
+                    memory::push(zone, beside)?;
                 }
             }
         }
-        for &g in &ghosts {
+        for &g in zone.iter() {
             self.complex.set_mark(g, 0);
         }
-        let mut zone = ghosts;
         zone.retain(|&g| !self.is_clear(g, lower, upper));
-        for &g in &zone {
+        for &g in zone.iter() {
             self.complex.set_mark(g, IN_ZONE);
         }
         let mut next = 0;
@@ -110,11 +116,11 @@ impl<G: Dimension> Delaunay<G> {
                 let across = self.complex.cell(c).neighbour(i).cell();
                 if self.complex.mark(across) == 0 && !self.is_clear(across, lower, upper) {
                     self.complex.set_mark(across, IN_ZONE);
-                    zone.push(across);
+                    memory::push(zone, across)?;
                 }
             }
         }
-        zone
+        Ok(())
     }
 
     /// Whether a cell is certainly in conflict with no point of a box.
@@ -172,18 +178,19 @@ impl<G: Dimension> Delaunay<G> {
         }
         let order = in_rounds::<G>(border.iter().map(|s| s + shift))?;
         self.record_changes(Vec::new());
-        let coincident = self.insert_all(&order, monitor)?;
+        let inserted = self.insert_all(&order, monitor);
         let mut made = self.take_changes().expect("a record was started");
+        let coincident = inserted?;
         self.tidy_changes(&mut made);
-        self.close(&rim, &made, first);
+        self.close(&rim, &made, first)?;
         Ok(coincident)
     }
 
     /// Glues the facets of the rim to their new neighbours, which are among the cells that were `made`, and
     /// takes out what fills the place of the cells behind the rim. All sites of the rim are from `first` on.
-    fn close(&mut self, rim: &[Facet], made: &[u32], first: u32) {
+    fn close(&mut self, rim: &[Facet], made: &[u32], first: u32) -> Result<()> {
         let mut by_corners = HashMap::<G::Corners, (Facet, bool), BuildHasherDefault<Mix>>::default();
-        by_corners.reserve(rim.len());
+        memory::reserve_map(&mut by_corners, rim.len())?;
         for &facet in rim {
             let (corners, is_odd) = facet_of(&self.complex.cell(facet.cell()).corners, facet.index());
             by_corners.insert(corners, (facet, is_odd));
@@ -207,14 +214,14 @@ impl<G: Dimension> Delaunay<G> {
                     }
                     Some(_) if self.complex.mark(c) == 0 => {
                         self.complex.set_mark(c, SEEN);
-                        filling.push(c);
+                        memory::push(&mut filling, c)?;
                     }
                     _ => {}
                 }
             }
         }
         assert_eq!(n_glued, rim.len(), "every facet of the rim is one of the united triangulation");
-        self.take_out(filling);
+        self.take_out(filling)?;
         for facet in rim {
             let corners = self.complex.cell(facet.cell()).corners;
             for i in (0..G::Corners::N).filter(|&i| i != facet.index()) {
@@ -222,10 +229,11 @@ impl<G: Dimension> Delaunay<G> {
             }
             self.recent = facet.cell();
         }
+        Ok(())
     }
 
     /// Takes out cells, which are marked, and all that they are glued to both ways.
-    fn take_out(&mut self, mut cells: Vec<u32>) {
+    fn take_out(&mut self, mut cells: Vec<u32>) -> Result<()> {
         let mut next = 0;
         while let Some(&c) = cells.get(next) {
             next += 1;
@@ -234,14 +242,16 @@ impl<G: Dimension> Delaunay<G> {
                 let back = self.complex.cell(across.cell()).neighbour(across.index());
                 if back == Facet::new(c, i) && self.complex.mark(across.cell()) == 0 {
                     self.complex.set_mark(across.cell(), SEEN);
-                    cells.push(across.cell());
+                    memory::push(&mut cells, across.cell())?;
                 }
             }
         }
+        self.complex.reserve_free(cells.len())?;
         for c in cells {
             self.complex.retire(c);
             self.complex.release(c);
         }
+        Ok(())
     }
 }
 

@@ -9,12 +9,13 @@
 //! are a triangulation of the convex hull. (3) Empty spheres across every facet, ties broken by id, then make it
 //! *the* Delaunay triangulation. (4) Every live site is a corner, so nothing is left out.
 //!
-//! Cost: one orientation per cell, one in-sphere test per facet.
+//! Cost: one orientation per cell, one in-sphere test per facet. Nothing of this needs memory but the message, which is
+//! cut off where there is none.
 
 use std::fmt;
 
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
 
 /// How much is checked; each level includes the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -46,6 +47,50 @@ impl std::error::Error for Violation {}
 
 type Check = Result<(), Violation>;
 
+/// As `format!`, where there may be no memory for all of it.
+macro_rules! text {
+    ($($argument:tt)*) => { memory::text(format_args!($($argument)*)) };
+}
+
+/// Vertex ids of a cell, to be written.
+struct Description<'t, G: Dimension> {
+    t: &'t Delaunay<G>,
+    cell: u32,
+}
+
+impl<G: Dimension> fmt::Display for Description<'_, G> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, &s) in self.t.complex.cell(self.cell).corners.as_ref().iter().enumerate() {
+            f.write_str(if k == 0 { "(" } else { ", " })?;
+            match self.t.sites.get(s as usize) {
+                _ if s == INFINITE => f.write_str("infinite")?,
+                Some(site) => write!(f, "{}", site.id)?,
+                None => f.write_str("?")?,
+            }
+        }
+        f.write_str(")")
+    }
+}
+
+/// Indices looked for at a time.
+const WINDOW: usize = 1 << 18;
+
+/// An index below `n` that is listed twice: a bit for each says so, of as many at a time as the stack has room for.
+fn listed_twice(list: &[u32], n: usize) -> Option<u32> {
+    let mut are_listed = [0u64; WINDOW / 64];
+    (0..n).step_by(WINDOW).find_map(|start| {
+        are_listed.fill(0);
+        list.iter().copied().find(|&c| {
+            let at = (c as usize).wrapping_sub(start);
+            let Some(bits) = are_listed.get_mut(at / 64) else { return false };
+            let bit = 1 << (at % 64);
+            let is_listed = *bits & bit != 0;
+            *bits |= bit;
+            is_listed
+        })
+    })
+}
+
 fn ensure(holds: bool, level: Level, message: impl FnOnce() -> String) -> Check {
     if holds { Ok(()) } else { Err(Violation { level, message: message() }) }
 }
@@ -65,49 +110,42 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Vertex ids of a cell, for messages.
-    fn describe(&self, cell: u32) -> String {
-        let name = |s: &u32| match *s {
-            INFINITE => "infinite".to_string(),
-            s => self.sites.get(s as usize).map_or("?".to_string(), |site| site.id.to_string()),
-        };
-        let names: Vec<String> = self.complex.cell(cell).corners.as_ref().iter().map(name).collect();
-        format!("({})", names.join(", "))
+    fn describe(&self, cell: u32) -> Description<'_, G> {
+        Description { t: self, cell }
     }
 
     fn check_structure(&self) -> Check {
         let level = Level::Structure;
         let n = G::Corners::N;
-        let mut is_corner = vec![false; self.sites.len()];
         for c in self.complex.live() {
             let cell = self.complex.cell(c);
             for i in 0..n {
                 let s = cell.corners[i];
                 ensure((s as usize) < self.sites.len(), level, || {
-                    format!("cell {} has no such site {s}", self.describe(c))
+                    text!("cell {} has no such site {s}", self.describe(c))
                 })?;
                 ensure(s == INFINITE || self.site(s).is_live(), level, || {
-                    format!("cell {} has a removed corner", self.describe(c))
+                    text!("cell {} has a removed corner", self.describe(c))
                 })?;
                 ensure(s != INFINITE || i == n - 1, level, || {
-                    format!("the ghost corner of {} is not last", self.describe(c))
+                    text!("the ghost corner of {} is not last", self.describe(c))
                 })?;
                 ensure((0..i).all(|j| cell.corners[j] != s), level, || {
-                    format!("cell {} has a corner twice", self.describe(c))
+                    text!("cell {} has a corner twice", self.describe(c))
                 })?;
-                is_corner[s as usize] = true;
                 let across = cell.neighbour(i);
                 let exists = (across.cell() as usize) < self.complex.n_slots()
                     && across.index() < n
                     && !self.complex.is_free(across.cell());
                 ensure(exists, level, || {
-                    format!("cell {} has no neighbour opposite corner {i}", self.describe(c))
+                    text!("cell {} has no neighbour opposite corner {i}", self.describe(c))
                 })?;
                 let other = self.complex.cell(across.cell());
                 let agree = (0..n).all(|j| {
                     j == i || (0..n).any(|k| k != across.index() && other.corners[k] == cell.corners[j])
                 });
                 ensure(agree && other.neighbour(across.index()) == Facet::new(c, i), level, || {
-                    format!(
+                    text!(
                         "cells {} and {} do not meet in a facet",
                         self.describe(c),
                         self.describe(across.cell())
@@ -115,55 +153,59 @@ impl<G: Dimension> Delaunay<G> {
                 })?;
             }
         }
-        let mut are_listed = vec![false; self.complex.n_slots()];
-        for &c in self.complex.free_cells() {
-            let is_new = !std::mem::replace(&mut are_listed[c as usize], true);
-            ensure(is_new && self.complex.is_free(c), level, || {
-                format!("cell {c} is not free, or listed twice")
-            })?;
+        let n_slots = self.complex.n_slots();
+        let listed = self.complex.free_cells();
+        for &c in listed {
+            let is_free = (c as usize) < n_slots && self.complex.is_free(c);
+            ensure(is_free, level, || text!("cell {c} is listed as free, and is not"))?;
         }
-        let n_free = (0..self.complex.n_slots() as u32).filter(|&c| self.complex.is_free(c)).count();
-        ensure(n_free == self.complex.free_cells().len(), level, || "a free cell is not listed".into())?;
+        let twice = listed_twice(listed, n_slots);
+        ensure(twice.is_none(), level, || text!("cell {} is listed as free twice", twice.unwrap_or(NONE)))?;
+        let n_free = (0..n_slots as u32).filter(|&c| self.complex.is_free(c)).count();
+        ensure(n_free == listed.len(), level, || text!("a free cell is not listed"))?;
         for s in self.live_sites() {
             let site = self.site(s);
             if !self.has_cells() {
                 ensure(self.flat.site_at(&site.point) == Some(s), level, || {
-                    format!("vertex {} is not at its place", site.id)
+                    text!("vertex {} is not at its place", site.id)
                 })?;
                 continue;
             }
-            ensure(is_corner[s as usize], level, || format!("vertex {} is a corner of no cell", site.id))?;
-            let points_back = site.cell != NONE
-                && (site.cell as usize) < self.complex.n_slots()
-                && self.complex.cell(site.cell).corners.as_ref().contains(&s);
-            ensure(points_back, level, || format!("the cell of vertex {} does not have it", site.id))?;
+            // So it is a corner of some cell.
+            let points_back =
+                self.complex.is_live(site.cell) && self.complex.cell(site.cell).corners.as_ref().contains(&s);
+            ensure(points_back, level, || text!("the cell of vertex {} does not have it", site.id))?;
         }
         let hull = self.site(INFINITE).cell;
         let has_hull = !self.has_cells() || self.complex.is_live(hull) && self.complex.cell(hull).is_ghost();
-        ensure(has_hull, level, || format!("cell {hull} of the ghost vertex is no ghost"))?;
+        ensure(has_hull, level, || text!("cell {hull} of the ghost vertex is no ghost"))?;
         let can_walk = !self.has_cells() || self.complex.is_live(self.recent);
-        ensure(can_walk, level, || format!("cell {}, where walks begin, is gone", self.recent))
+        ensure(can_walk, level, || text!("cell {}, where walks begin, is gone", self.recent))
     }
 
     fn check_orientation(&self) -> Check {
         for c in self.complex.finite() {
             let positive = G::orientation(&self.filter, self.view(), &self.complex.cell(c).corners) > 0.0;
             ensure(positive, Level::Embedding, || {
-                format!("cell {} is not positively oriented", self.describe(c))
+                text!("cell {} is not positively oriented", self.describe(c))
             })?;
         }
         if self.has_cells() {
             return ensure(self.complex.n_finite() > 0, Level::Embedding, || {
-                "there are only ghost cells".to_string()
+                text!("there are only ghost cells")
             });
         }
-        let points: Vec<G::Point> = self.flat.basis.iter().map(|&s| self.site(s).point).collect();
+        let basis = self.flat.basis.sites();
+        let mut points = [G::Point::default(); 5];
+        for (point, &s) in points.iter_mut().zip(basis) {
+            *point = self.site(s).point;
+        }
         for s in self.live_sites() {
-            let mut more = points.clone();
-            more.push(self.site(s).point);
-            let dependent = points.contains(&self.site(s).point) || G::is_dependent(&self.filter, &more);
-            ensure(dependent && points.len() <= G::D, Level::Embedding, || {
-                format!(
+            points[basis.len()] = self.site(s).point;
+            let (more, points) = (&points[..=basis.len()], &points[..basis.len()]);
+            let dependent = points.contains(&self.site(s).point) || G::is_dependent(&self.filter, more);
+            ensure(dependent && basis.len() <= G::D, Level::Embedding, || {
+                text!(
                     "there are no cells, but vertex {} is out of the hyperplane of the others",
                     self.site(s).id
                 )
@@ -205,7 +247,7 @@ impl<G: Dimension> Delaunay<G> {
                 let beyond =
                     G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, &apex.point);
                 ensure(beyond <= 0.0, level, || {
-                    format!(
+                    text!(
                         "the hull is not convex between {} and {}",
                         self.describe(c),
                         self.describe(across.cell())
@@ -216,12 +258,12 @@ impl<G: Dimension> Delaunay<G> {
                 let inside =
                     G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, o) < 0.0;
                 ensure(inside, level, || {
-                    format!("the hull facet {} turns its outer side inwards", self.describe(c))
+                    text!("the hull facet {} turns its outer side inwards", self.describe(c))
                 })?;
             }
         }
         ensure(ghosts == self.complex.n_ghosts(), level, || {
-            format!("{ghosts} hull facets, {} counted", self.complex.n_ghosts())
+            text!("{ghosts} hull facets, {} counted", self.complex.n_ghosts())
         })?;
         match &inner {
             Some(o) => self.check_winding(o),
@@ -237,26 +279,32 @@ impl<G: Dimension> Delaunay<G> {
                 let corners = &self.complex.cell(g).corners;
                 G::orientation_with(&self.filter, self.view(), corners, Self::LAST, &o) < 0.0
             };
-            ghosts.iter().all(is_inside) && self.crossings_of(ghosts, &o).0 == 1
+            ghosts.iter().all(is_inside) && self.crossings_of(ghosts.iter().copied(), &o).0 == 1
         })
     }
 
     /// A ray from `o` crosses exactly one hull facet.
     fn check_winding(&self, o: &G::Point) -> Check {
-        let ghosts: Vec<u32> = self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()).collect();
-        let (crossings, aim) = self.crossings_of(&ghosts, o);
+        let slots = 0..self.complex.n_slots() as u32;
+        let ghosts = slots.filter(|&c| self.complex.is_live(c) && self.complex.cell(c).is_ghost());
+        let (crossings, aim) = self.crossings_of(ghosts, o);
         ensure(crossings == 1, Level::Embedding, || {
-            format!("the ray from {o:?} towards {aim:?} crosses {crossings} hull facets, not one")
+            text!("the ray from {o:?} towards {aim:?} crosses {crossings} hull facets, not one")
         })
     }
 
     /// How many of the ghosts' facets a ray from `o` that meets no ridge crosses, and a point on it.
-    fn crossings_of(&self, ghosts: &[u32], o: &G::Point) -> (usize, G::Point) {
-        (0..1024).find_map(|attempt| self.crossings(ghosts, o, attempt)).unwrap_or((0, *o))
+    fn crossings_of(&self, ghosts: impl Iterator<Item = u32> + Clone, o: &G::Point) -> (usize, G::Point) {
+        (0..1024).find_map(|attempt| self.crossings(ghosts.clone(), o, attempt)).unwrap_or((0, *o))
     }
 
     /// How many facets the ray from `o` through a far point crosses, and that point; `None` if it meets a ridge.
-    fn crossings(&self, ghosts: &[u32], o: &G::Point, attempt: u32) -> Option<(usize, G::Point)> {
+    fn crossings(
+        &self,
+        ghosts: impl Iterator<Item = u32>,
+        o: &G::Point,
+        attempt: u32,
+    ) -> Option<(usize, G::Point)> {
         // The aim is a point near the box's surface, drawn by a fixed rule: any direction serves as well.
         let mut aim = G::Point::default();
         for k in 0..G::D {
@@ -268,7 +316,7 @@ impl<G: Dimension> Delaunay<G> {
             return None;
         }
         let mut crossings = 0;
-        for &c in ghosts {
+        for c in ghosts {
             match G::is_crossed(&self.filter, self.view(), &self.complex.cell(c).corners, o, &aim) {
                 Some(true) => crossings += 1,
                 Some(false) => {}
@@ -285,7 +333,7 @@ impl<G: Dimension> Delaunay<G> {
                 ensure(self.is_locally_delaunay(facet), Level::Delaunay, || {
                     let across = self.complex.cell(c).neighbour(i);
                     let apex = self.complex.cell(across.cell()).corners[across.index()];
-                    format!("vertex {} is inside the sphere of cell {}", self.site(apex).id, self.describe(c))
+                    text!("vertex {} is inside the sphere of cell {}", self.site(apex).id, self.describe(c))
                 })?;
             }
         }
@@ -295,7 +343,7 @@ impl<G: Dimension> Delaunay<G> {
                 let across = self.complex.cell(c).neighbour(i);
                 let apex = self.site(self.complex.cell(across.cell()).corners[across.index()]);
                 ensure(!self.is_in_conflict_with_ghost(c, &apex.point, apex.id), Level::Delaunay, || {
-                    format!("vertex {} is in conflict with the hull facet {}", apex.id, self.describe(c))
+                    text!("vertex {} is in conflict with the hull facet {}", apex.id, self.describe(c))
                 })?;
             }
         }

@@ -92,18 +92,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn tolerance(&self, vertex: u32) -> Result<f64> {
-        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        let s = self.present_site("vertex", 0, vertex)?;
         if self.is_shared(s) {
             return Ok(0.0);
         }
         let mut tolerance = f64::INFINITY;
-        self.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance));
+        self.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance))?;
         Ok(tolerance)
     }
 
-    /// As [`tolerance`](Self::tolerance), for a site that no two vertices share.
+    /// As [`tolerance`](Self::tolerance), for a site that no two vertices share; 0 without the memory to look.
     pub(super) fn tolerance_of_site(&mut self, s: u32) -> f64 {
-        self.kernel.gather_star(s);
+        if self.kernel.gather_star(s).is_err() {
+            return 0.0;
+        }
         let star = self.kernel.gathered_star().iter();
         star.fold(f64::INFINITY, |tolerance, &(c, _)| self.tolerance_around(c, tolerance))
     }
@@ -126,7 +128,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut widths, cells.corners.len() * G::Corners::N)?;
         for index in 0..cells.corners.len() as u32 {
             for corner in 0..G::Corners::N {
-                let delimiter = BiCell::of(&self.kernel, cells.facet(&self.kernel, index, corner)).delimiter();
+                let delimiter =
+                    BiCell::of(&self.kernel, cells.facet(&self.kernel, index, corner)).delimiter();
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
             }
         }

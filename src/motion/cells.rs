@@ -19,6 +19,7 @@ use super::changes::{Tracker, Visibility};
 use crate::complex::{Corners, Facet, NONE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
+use crate::prefetch::{AHEAD, prefetch};
 
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;
@@ -48,22 +49,56 @@ pub(super) struct Cells<G: Dimension> {
     pub(super) since_taken: Option<Tracker<G::Corners>>,
     /// What has changed since the latest commit began, if that is tracked.
     pub(super) since_commit: Option<Tracker<G::Corners>>,
-    scratch: Scratch,
+    scratch: Scratch<G::Corners>,
+}
+
+/// Slots that have changed.
+#[derive(Debug, Default)]
+struct Dirty {
+    /// Each once.
+    slots: Vec<u32>,
+    /// A bit for each; there may be fewer bits than slots.
+    bits: Vec<u64>,
+}
+
+impl Dirty {
+    #[inline(always)]
+    fn has(&self, slot: u32) -> bool {
+        self.bits.get(slot as usize / 64).is_some_and(|word| word >> (slot % 64) & 1 == 1)
+    }
+
+    fn clear(&mut self) {
+        for slot in self.slots.drain(..) {
+            self.bits[slot as usize / 64] = 0;
+        }
+    }
 }
 
 /// Lists of a refreshment.
-#[derive(Debug, Default)]
-struct Scratch {
+#[derive(Debug)]
+struct Scratch<C> {
     /// Indices whose slot no longer holds their cell; [`NO_CELL`] where it was found in another one.
     lost: Vec<u32>,
-    /// Slots that hold another finite cell than before, and its index if it was found.
-    found: Vec<(u32, u32)>,
+    /// Slots that hold another finite cell than before, its index if it was found, and its vertices.
+    found: Vec<(u32, u32, C)>,
     /// Positions in `lost`, by a hash of the corners.
     table: Vec<u32>,
     /// Slots whose gluings are to be written.
     glued: Vec<u32>,
     /// Slots of cells that have been turned over.
     turned: Vec<u32>,
+}
+
+impl<C> Default for Scratch<C> {
+    fn default() -> Self {
+        Scratch {
+            lost: Vec::new(),
+            found: Vec::new(),
+            table: Vec::new(),
+            glued: Vec::new(),
+            turned: Vec::new(),
+        }
+    }
 }
 
 impl<G: Dimension> Default for Cells<G> {
@@ -137,7 +172,7 @@ fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> bool {
 impl<G: Dimension> Cells<G> {
     /// Brings the arrays up to date: only the `dirty` slots have changed, or any, if there is no list of them. After an
     /// error they can be brought up to date later.
-    fn refresh(&mut self, kernel: &Delaunay<G>, dirty: Option<&[u32]>) -> Result<()> {
+    fn refresh(&mut self, kernel: &Delaunay<G>, dirty: Option<&Dirty>) -> Result<()> {
         let mut scratch = std::mem::take(&mut self.scratch);
         let done = self.refresh_with(kernel, dirty, &mut scratch);
         self.scratch = scratch;
@@ -147,18 +182,18 @@ impl<G: Dimension> Cells<G> {
     fn refresh_with(
         &mut self,
         kernel: &Delaunay<G>,
-        dirty: Option<&[u32]>,
-        scratch: &mut Scratch,
+        dirty: Option<&Dirty>,
+        scratch: &mut Scratch<G::Corners>,
     ) -> Result<()> {
         scratch.lost.clear();
         scratch.found.clear();
         scratch.glued.clear();
         scratch.turned.clear();
         match dirty {
-            Some(dirty) => self.compare_slots(kernel, dirty, scratch)?,
+            Some(dirty) => self.compare_slots(kernel, &dirty.slots, scratch)?,
             None => self.compare_all(kernel, scratch)?,
         }
-        self.find_lost(kernel, scratch)?;
+        self.find_lost(scratch)?;
         self.reserve(kernel, scratch)?;
         self.renumber(kernel, scratch);
         match dirty {
@@ -173,43 +208,56 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Lists what is lost and found in these slots.
-    fn compare_slots(&self, kernel: &Delaunay<G>, dirty: &[u32], scratch: &mut Scratch) -> Result<()> {
+    fn compare_slots(
+        &self,
+        kernel: &Delaunay<G>,
+        dirty: &[u32],
+        scratch: &mut Scratch<G::Corners>,
+    ) -> Result<()> {
         memory::reserve(&mut scratch.lost, dirty.len())?;
         memory::reserve(&mut scratch.found, dirty.len())?;
-        for &slot in dirty {
+        for (k, &slot) in dirty.iter().enumerate() {
+            if let Some(&next) = dirty.get(k + AHEAD) {
+                prefetch(kernel.complex().cells(), next as usize);
+                prefetch(&self.index_of, next as usize);
+            }
             let index = self.index_of.get(slot as usize).copied().unwrap_or(NO_CELL);
-            let is_finite = is_finite(kernel, slot);
-            if index != NO_CELL && is_finite && self.is_still(kernel, index, slot, &mut scratch.turned)? {
+            if !is_finite(kernel, slot) {
+                if index != NO_CELL {
+                    scratch.lost.push(index);
+                }
                 continue;
             }
+            let ids = ids_of(kernel, slot);
             if index != NO_CELL {
+                if self.is_still(index, slot, &ids, &mut scratch.turned)? {
+                    continue;
+                }
                 scratch.lost.push(index);
             }
-            if is_finite {
-                scratch.found.push((slot, NO_CELL));
-            }
+            scratch.found.push((slot, NO_CELL, ids));
         }
         Ok(())
     }
 
     /// Whether a slot still holds the finite cell of an index; lists it if it has been turned over.
     #[inline(always)]
-    fn is_still(&self, kernel: &Delaunay<G>, index: u32, slot: u32, turned: &mut Vec<u32>) -> Result<bool> {
-        let (corners, ids) = (&self.corners[index as usize], ids_of(kernel, slot));
-        if *corners == ids {
+    fn is_still(&self, index: u32, slot: u32, ids: &G::Corners, turned: &mut Vec<u32>) -> Result<bool> {
+        let corners = &self.corners[index as usize];
+        if corners == ids {
             return Ok(true);
         }
-        if !are_same(corners, &ids) {
+        if !are_same(corners, ids) {
             return Ok(false);
         }
-        if are_opposite(corners, &ids) {
+        if are_opposite(corners, ids) {
             memory::push(turned, slot)?;
         }
         Ok(true)
     }
 
     /// Lists what is lost and found in all slots; makes `index_of` from `slots`.
-    fn compare_all(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch) -> Result<()> {
+    fn compare_all(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Corners>) -> Result<()> {
         let n_slots = kernel.complex().n_slots();
         self.index_of.clear();
         memory::reserve(&mut self.index_of, n_slots)?;
@@ -232,18 +280,14 @@ impl<G: Dimension> Cells<G> {
         }
         for slot in kernel.complex().finite() {
             if self.index_of[slot as usize] == NO_CELL {
-                memory::push(&mut scratch.found, (slot, NO_CELL))?;
+                memory::push(&mut scratch.found, (slot, NO_CELL, ids_of(kernel, slot)))?;
             }
         }
         Ok(())
     }
 
     /// Finds lost cells in other slots.
-    fn find_lost(
-        &self,
-        kernel: &Delaunay<G>,
-        Scratch { lost, found, table, turned, .. }: &mut Scratch,
-    ) -> Result<()> {
+    fn find_lost(&self, Scratch { lost, found, table, turned, .. }: &mut Scratch<G::Corners>) -> Result<()> {
         if lost.is_empty() || found.is_empty() {
             return Ok(());
         }
@@ -259,14 +303,13 @@ impl<G: Dimension> Cells<G> {
             }
             table[at] = k as u32;
         }
-        for (slot, index) in found {
-            let ids = ids_of(kernel, *slot);
-            let mut at = hash(&ids) as usize >> 7 & mask;
+        for (slot, index, ids) in found {
+            let mut at = hash(ids) as usize >> 7 & mask;
             while table[at] != NONE {
                 let old = lost[table[at] as usize];
-                if old != NO_CELL && are_same(&self.corners[old as usize], &ids) {
+                if old != NO_CELL && are_same(&self.corners[old as usize], ids) {
                     *index = old;
-                    if are_opposite(&self.corners[old as usize], &ids) {
+                    if are_opposite(&self.corners[old as usize], ids) {
                         memory::push(turned, *slot)?;
                     }
                     lost[table[at] as usize] = NO_CELL;
@@ -279,7 +322,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Makes room for all that [`renumber`](Self::renumber) writes.
-    fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch) -> Result<()> {
+    fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Corners>) -> Result<()> {
         let n = kernel.complex().n_finite();
         let more = n.saturating_sub(self.corners.len());
         memory::reserve(&mut self.corners, more)?;
@@ -297,7 +340,11 @@ impl<G: Dimension> Cells<G> {
 
     /// Gives every cell its index: those found again theirs, new ones the holes and then the end. What is left of the holes
     /// is filled from the end.
-    fn renumber(&mut self, kernel: &Delaunay<G>, Scratch { lost, found, glued, turned, .. }: &mut Scratch) {
+    fn renumber(
+        &mut self,
+        kernel: &Delaunay<G>,
+        Scratch { lost, found, glued, turned, .. }: &mut Scratch<G::Corners>,
+    ) {
         let n = kernel.complex().n_finite();
         self.index_of.resize(kernel.complex().n_slots(), NO_CELL);
         let Cells { corners, neighbours, index_of, slots, since_taken, since_commit, .. } = self;
@@ -309,7 +356,7 @@ impl<G: Dimension> Cells<G> {
         };
         // Slots give up what they have lost before others take it.
         let holes = &mut *lost;
-        for &(_, index) in found.iter().filter(|(_, index)| *index != NO_CELL) {
+        for &(_, index, _) in found.iter().filter(|(_, index, _)| *index != NO_CELL) {
             let slot = slots[index as usize] as usize;
             if index_of.get(slot) == Some(&index) {
                 index_of[slot] = NO_CELL;
@@ -330,9 +377,8 @@ impl<G: Dimension> Cells<G> {
             holes.sort_unstable();
         }
         let mut next_hole = holes.iter().copied();
-        for &(slot, index) in found.iter() {
+        for &(slot, index, ids) in found.iter() {
             let index = if index == NO_CELL {
-                let ids = ids_of(kernel, slot);
                 let index = next_hole.next().unwrap_or(corners.len() as u32);
                 if index as usize == corners.len() {
                     corners.push(ids);
@@ -372,55 +418,76 @@ impl<G: Dimension> Cells<G> {
         tell(&|tracker| tracker.truncate(n));
     }
 
-    /// Writes the neighbours of the cells in these slots, and their neighbours' sides.
-    fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &[u32], moved: &[u32]) {
-        for &slot in dirty.iter().chain(moved) {
-            if !kernel.complex().is_live(slot) {
+    /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours' sides.
+    fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Dirty, moved: &[u32]) {
+        let complex = kernel.complex();
+        for (k, &slot) in dirty.slots.iter().chain(moved).enumerate() {
+            if let Some(&next) = dirty.slots.get(k + AHEAD) {
+                complex.prefetch_neighbours(next.min(complex.n_slots() as u32 - 1));
+            }
+            if !complex.is_live(slot) {
                 continue;
             }
-            let cell = *kernel.complex().cell(slot);
+            let cell = complex.cell(slot);
             if cell.is_ghost() {
-                self.set_neighbour(kernel, cell.neighbour(G::D), NO_CELL);
+                let behind = cell.neighbour(G::D);
+                if !dirty.has(behind.cell()) {
+                    let mut facet = ids_of(kernel, slot);
+                    facet[G::D] = NONE;
+                    self.set_neighbour(behind, &facet, NO_CELL);
+                }
                 continue;
             }
             let index = self.index_of[slot as usize];
+            let (ids, mut across) = (ids_of(kernel, slot), cell.corners);
             for i in 0..G::Corners::N {
-                let across = cell.neighbour(i);
-                let beyond = self.index_of[across.cell() as usize];
-                self.set_neighbour(kernel, Facet::new(slot, i), beyond);
-                if beyond != NO_CELL {
-                    self.set_neighbour(kernel, across, index);
+                let out = cell.neighbour(i);
+                across[i] = self.index_of[out.cell() as usize];
+                if across[i] != NO_CELL && !dirty.has(out.cell()) {
+                    self.set_neighbour(out, &ids, index);
                 }
             }
+            self.set_row(index as usize, &ids, across);
         }
     }
 
-    /// Enters what is beyond a facet of a finite cell.
+    /// Enters what is beyond the facet of a finite cell that it shares with one of these vertices.
     #[inline(always)]
-    fn set_neighbour(&mut self, kernel: &Delaunay<G>, facet: Facet, beyond: u32) {
+    fn set_neighbour(&mut self, facet: Facet, beyond: &G::Corners, neighbour: u32) {
         let index = self.index_of[facet.cell() as usize] as usize;
-        let id = kernel.site(kernel.complex().apex(facet)).id;
-        let at = position_of(&self.corners[index], facet.index(), id);
-        self.neighbours[index][at] = beyond;
+        let row = &self.corners[index];
+        let is_apex = |i: usize| !beyond.as_ref().contains(&row[i]);
+        let at = if is_apex(facet.index()) {
+            facet.index()
+        } else {
+            (0..G::Corners::N).find(|&i| is_apex(i)).expect("one corner is not of the facet")
+        };
+        self.neighbours[index][at] = neighbour;
+    }
+
+    /// Enters what is opposite the vertices of a cell.
+    #[inline(always)]
+    fn set_row(&mut self, index: usize, ids: &G::Corners, across: G::Corners) {
+        let (corners, row) = (&self.corners[index], &mut self.neighbours[index]);
+        if corners == ids {
+            *row = across;
+            return;
+        }
+        for i in 0..G::Corners::N {
+            row[position_of(corners, i, ids[i])] = across[i];
+        }
     }
 
     /// Writes the neighbours of all cells.
     fn glue_all(&mut self, kernel: &Delaunay<G>) {
-        let index_of = &self.index_of;
-        for ((row, corners), &slot) in self.neighbours.iter_mut().zip(&self.corners).zip(&self.slots) {
+        for index in 0..self.slots.len() {
+            let slot = self.slots[index];
             let cell = kernel.complex().cell(slot);
             let mut across = cell.corners;
             for i in 0..G::Corners::N {
-                across[i] = index_of[cell.neighbour(i).cell() as usize];
+                across[i] = self.index_of[cell.neighbour(i).cell() as usize];
             }
-            let ids = ids_of(kernel, slot);
-            if ids == *corners {
-                *row = across;
-                continue;
-            }
-            for i in 0..G::Corners::N {
-                row[position_of(corners, i, ids[i])] = across[i];
-            }
+            self.set_row(index, &ids_of(kernel, slot), across);
         }
     }
 
@@ -437,7 +504,7 @@ impl<G: Dimension> Cells<G> {
             + (self.index_of.capacity() + self.slots.capacity()) * 4
             + (self.scratch.lost.capacity() + self.scratch.table.capacity() + self.scratch.glued.capacity())
                 * 4
-            + self.scratch.found.capacity() * 8
+            + self.scratch.found.capacity() * size_of::<(u32, u32, G::Corners)>()
             + trackers.map(Tracker::memory_bytes).sum::<usize>()
     }
 }
@@ -446,24 +513,14 @@ impl<G: Dimension> Cells<G> {
 #[derive(Debug)]
 struct Behind<G: Dimension> {
     cells: Option<Box<Cells<G>>>,
-    /// Each once.
-    dirty: Vec<u32>,
-    is_dirty: Vec<u64>,
+    dirty: Dirty,
     /// Whether any slot may have changed.
     are_all: bool,
 }
 
 impl<G: Dimension> Default for Behind<G> {
     fn default() -> Self {
-        Behind { cells: None, dirty: Vec::new(), is_dirty: Vec::new(), are_all: true }
-    }
-}
-
-impl<G: Dimension> Behind<G> {
-    fn forget_dirty(&mut self) {
-        for slot in self.dirty.drain(..) {
-            self.is_dirty[slot as usize / 64] = 0;
-        }
+        Behind { cells: None, dirty: Dirty::default(), are_all: true }
     }
 }
 
@@ -511,14 +568,14 @@ impl<G: Dimension> Views<G> {
             None => boxed()?,
         };
         let were_all = std::mem::replace(&mut behind.are_all, true);
-        let dirty = if were_all { None } else { Some(&behind.dirty[..]) };
+        let dirty = if were_all { None } else { Some(&behind.dirty) };
         let done = cells.refresh(kernel, dirty);
         if let Err(error) = done {
             behind.cells = Some(cells);
             behind.are_all = were_all;
             return Err(error);
         }
-        behind.forget_dirty();
+        behind.dirty.clear();
         behind.are_all = false;
         Ok(self.current.get_or_init(|| cells))
     }
@@ -544,13 +601,14 @@ impl<G: Dimension> Views<G> {
             return Ok(());
         }
         // When most have changed, that follows, and needs no list.
-        if MOST * (behind.dirty.len() + n_rows) > n_slots {
+        if MOST * (behind.dirty.slots.len() + n_rows) > n_slots {
             return Ok(());
         }
-        memory::reserve(&mut behind.dirty, n_rows)?;
-        let missing = n_slots.div_ceil(64).saturating_sub(behind.is_dirty.len());
-        memory::reserve(&mut behind.is_dirty, missing)?;
-        behind.is_dirty.resize(behind.is_dirty.len() + missing, 0);
+        let Dirty { slots, bits } = &mut behind.dirty;
+        memory::reserve(slots, n_rows)?;
+        let missing = n_slots.div_ceil(64).saturating_sub(bits.len());
+        memory::reserve(bits, missing)?;
+        bits.resize(bits.len() + missing, 0);
         Ok(())
     }
 
@@ -577,16 +635,16 @@ impl<G: Dimension> Views<G> {
         if behind.are_all {
             return;
         }
-        if MOST * (behind.dirty.len() + rows.len()) > n_slots {
-            behind.forget_dirty();
+        if MOST * (behind.dirty.slots.len() + rows.len()) > n_slots {
+            behind.dirty.clear();
             behind.are_all = true;
             return;
         }
         for row in rows {
-            let (word, bit) = (&mut behind.is_dirty[row.slot as usize / 64], 1 << (row.slot % 64));
+            let (word, bit) = (&mut behind.dirty.bits[row.slot as usize / 64], 1 << (row.slot % 64));
             if *word & bit == 0 {
                 *word |= bit;
-                behind.dirty.push(row.slot);
+                behind.dirty.slots.push(row.slot);
             }
         }
     }
@@ -595,7 +653,7 @@ impl<G: Dimension> Views<G> {
     pub(super) fn follow_all(&mut self) {
         self.fall_behind();
         let behind = self.behind();
-        behind.forget_dirty();
+        behind.dirty.clear();
         behind.are_all = true;
     }
 
@@ -614,7 +672,7 @@ impl<G: Dimension> Views<G> {
         }
         self.fall_behind();
         let behind = self.behind();
-        behind.forget_dirty();
+        behind.dirty.clear();
         behind.are_all = true;
         if let Some(cells) = &mut behind.cells {
             for slot in &mut cells.slots {
@@ -638,8 +696,8 @@ impl<G: Dimension> Views<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         let behind = self.lock();
         let kept = self.current.get().or(behind.cells.as_ref());
-        behind.dirty.capacity() * 4
-            + behind.is_dirty.capacity() * 8
+        behind.dirty.slots.capacity() * 4
+            + behind.dirty.bits.capacity() * 8
             + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
             + self.changed.get().map_or(0, |changed| changed.capacity() * 4)
             + self.visibilities.capacity() * size_of::<Visibility>()

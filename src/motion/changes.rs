@@ -10,6 +10,9 @@ use crate::complex::{Corners, NONE, memory};
 use crate::delaunay::Dimension;
 use crate::error::Result;
 
+/// More than one index in so many touched are found by a pass over all.
+const MANY: usize = 32;
+
 /// What has changed since a base.
 #[derive(Debug)]
 pub(super) struct Tracker<C> {
@@ -19,6 +22,8 @@ pub(super) struct Tracker<C> {
     touched: Vec<u32>,
     /// Cells of the base that have been removed: their indices and corners.
     removed: Vec<(u32, C)>,
+    /// How often the arrays have been refreshed since: a cell that goes in one refreshment may come back in another.
+    n_refreshed: u32,
     /// Cells of the base that have been turned over, and how their corners were listed before.
     turned: Vec<Turned<C>>,
 }
@@ -38,7 +43,7 @@ impl<C: Corners> Tracker<C> {
         let mut origin = Vec::new();
         memory::reserve_exact(&mut origin, n)?;
         origin.extend(0..n as u32);
-        Ok(Tracker { origin, touched: Vec::new(), removed: Vec::new(), turned: Vec::new() })
+        Ok(Tracker { origin, touched: Vec::new(), removed: Vec::new(), n_refreshed: 0, turned: Vec::new() })
     }
 
     /// A tracker whose base has no cells.
@@ -65,6 +70,7 @@ impl<C: Corners> Tracker<C> {
             self.touched.sort_unstable();
             self.touched.dedup();
         }
+        self.n_refreshed = self.n_refreshed.saturating_add(1);
         memory::reserve(&mut self.removed, n_removed)?;
         memory::reserve(&mut self.touched, n_touched)?;
         let more = n_cells.saturating_sub(self.origin.len());
@@ -116,11 +122,21 @@ impl<C: Corners> Tracker<C> {
         }
         self.touched.clear();
         self.removed.clear();
+        self.n_refreshed = 0;
         self.turned.clear();
     }
 
     /// The touched indices, ascending, each once.
     fn sorted_touched(&self) -> Result<Vec<u32>> {
+        if MANY * self.touched.len() > self.origin.len() {
+            // All are gone through in less time than these take to sort.
+            let is_touched = |&(index, &origin): &(u32, &u32)| origin != index;
+            let touched = (0..).zip(&self.origin).filter(is_touched);
+            let mut list = Vec::new();
+            memory::reserve_exact(&mut list, touched.clone().count())?;
+            list.extend(touched.map(|(index, _)| index));
+            return Ok(list);
+        }
         let mut touched = memory::copy_of(&self.touched)?;
         touched.retain(|&index| (index as usize) < self.origin.len());
         touched.sort_unstable();
@@ -139,9 +155,12 @@ impl<C: Corners> Tracker<C> {
         Ok(())
     }
 
-    /// The removed cells by their sorted corners, each with its position in the list.
+    /// The removed cells that may have come back, by their sorted corners, each with its position in the list.
     fn sorted_removed(&self) -> Result<Vec<(C, u32)>> {
         let mut by_corners = Vec::new();
+        if self.n_refreshed < 2 {
+            return Ok(by_corners);
+        }
         memory::reserve_exact(&mut by_corners, self.removed.len())?;
         by_corners.extend(self.removed.iter().zip(0..).map(|(&(_, corners), k)| (sorted(corners), k)));
         by_corners.sort_unstable();
@@ -263,8 +282,8 @@ impl<C: Corners> Taken<C> {
         memory::reserve(&mut self.renumbered_from, touched.len())?;
         memory::reserve(&mut self.renumbered_to, touched.len())?;
         let mut has_returned = Vec::new();
-        memory::reserve_exact(&mut has_returned, by_corners.len())?;
-        has_returned.resize(by_corners.len(), false);
+        memory::reserve_exact(&mut has_returned, tracker.removed.len())?;
+        has_returned.resize(tracker.removed.len(), false);
         for index in touched {
             let mut origin = tracker.origin[index as usize];
             if origin == NONE
@@ -282,8 +301,8 @@ impl<C: Corners> Taken<C> {
                 self.renumbered_to.push(index);
             }
         }
-        memory::reserve(&mut self.removed, by_corners.len())?;
-        memory::reserve(&mut self.removed_corners, by_corners.len())?;
+        memory::reserve(&mut self.removed, tracker.removed.len())?;
+        memory::reserve(&mut self.removed_corners, tracker.removed.len())?;
         let mut turned = memory::copy_of(&tracker.turned)?;
         keep_first_turns(&mut turned);
         for (&(origin, corners), _) in tracker.removed.iter().zip(&has_returned).filter(|(_, back)| !**back) {
@@ -309,10 +328,19 @@ impl<C: Corners> Taken<C> {
                 self.stars.push(*vertex);
             }
         }
-        for vertex in &self.stars {
-            self.is_listed[*vertex as usize / 64] = 0;
+        if 64 * self.stars.len() < n_ids {
+            self.stars.iter().for_each(|vertex| self.is_listed[*vertex as usize / 64] = 0);
+            self.stars.sort_unstable();
+            return Ok(());
         }
-        self.stars.sort_unstable();
+        // Many are in order when their bits are gone through.
+        self.stars.clear();
+        for (k, word) in self.is_listed.iter_mut().enumerate() {
+            while *word != 0 {
+                self.stars.push(64 * k as u32 + word.trailing_zeros());
+                *word &= *word - 1;
+            }
+        }
         Ok(())
     }
 

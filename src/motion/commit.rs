@@ -3,7 +3,7 @@
 use super::regions::Filter;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Makes the staged positions the next timestamp.
@@ -11,17 +11,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// On an error the triangulation is at the timestamp before, and the moves stay staged.
     ///
     /// # Errors
-    /// [`Error::Cancelled`](crate::Error::Cancelled), [`Error::Coincident`](crate::Error::Coincident) if the options
-    /// reject that, [`Error::TooManyCells`](crate::Error::TooManyCells),
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    /// [`Error::Cancelled`], [`Error::Coincident`] if the options reject that, [`Error::TooManyCells`],
+    /// [`Error::OutOfMemory`].
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
         self.prepare_tracking()?;
         let mut report = CommitReport::default();
         let before = self.evaluations();
         self.staging.applied = 0;
-        self.staging.forget_full_list(self.n_present);
+        if self.edits.are_none() {
+            self.staging.forget_full_list(self.n_present);
+        } else {
+            self.staging.list()?;
+        }
         self.begin()?;
-        let advanced = self.advance(&mut report);
+        let advanced = self.edit_and_advance(&mut report);
         if let Err(error) = advanced.and_then(|()| self.views.prepare(&self.kernel)) {
             self.undo();
             return Err(error);
@@ -30,11 +33,34 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.publish();
         self.enter_evaluations(&mut report, before);
         self.staging.clear();
+        self.end_edits();
         self.statistics.timestamp += 1;
         self.count(report);
         report.timestamp = self.statistics.timestamp;
         report.coincident = self.statistics.coincident;
         Ok(report)
+    }
+
+    /// Makes the positions given the next timestamp: as [`move_all`](Self::move_all) and
+    /// [`commit_timestamp`](Self::commit_timestamp). On an error no move is staged.
+    ///
+    /// # Errors
+    /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.
+    pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
+        if let Some(vertex) = self.staging.first_staged() {
+            return Err(Error::DuplicateMove { argument: "positions", index: vertex as usize, vertex });
+        }
+        self.move_all(positions)?;
+        let done = self.commit_timestamp();
+        if done.is_err() {
+            self.staging.clear();
+        }
+        done
+    }
+
+    /// Makes the edits, and brings the staged vertices to their new positions.
+    fn edit_and_advance(&mut self, report: &mut CommitReport) -> Result<()> {
+        if self.make_edits(report)? { Ok(()) } else { self.advance(report) }
     }
 
     /// Brings the staged vertices to their new positions.

@@ -32,6 +32,7 @@ mod cells;
 mod changes;
 mod coincidence;
 mod commit;
+mod editing;
 mod moving;
 mod options;
 mod placement;
@@ -63,6 +64,7 @@ use auto::Auto;
 use cells::Views;
 use changes::Taken;
 use coincidence::Hidden;
+use editing::Edits;
 use regions::Regions;
 use repair::Repair;
 use staging::{Staging, check_position};
@@ -81,6 +83,7 @@ pub struct MovingTriangulation<G: Dimension> {
     hidden: Hidden,
     n_present: usize,
     staging: Staging<G>,
+    edits: Edits<G>,
     regions: Regions<G>,
     switching: Switching,
     repair: Repair,
@@ -112,6 +115,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             hidden: Hidden::default(),
             n_present: positions.len(),
             staging: Staging::default(),
+            edits: Edits::default(),
             regions: Regions::default(),
             switching: Switching::default(),
             repair: Repair::default(),
@@ -151,7 +155,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The long way of [`relocate_vertex`](Self::relocate_vertex), kept out of the short one's registers.
     #[inline(never)]
     fn relocate_checked(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
-        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        let s = self.present_site("vertex", 0, vertex)?;
         let q = check_position::<G>("position", 0, position)?;
         if self.staging.is_staged(vertex) {
             return Err(Error::DuplicateMove { argument: "vertex", index: 0, vertex });
@@ -195,7 +199,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staging.make_room(1)?;
         memory::push(&mut self.site_of, NONE)?;
         let before = self.evaluations();
-        let mut report = CommitReport::default();
+        let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
         let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
         if let Err(error) = inserted {
             self.site_of.pop();
@@ -229,25 +233,30 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
     pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
-        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        self.present_site("vertex", 0, vertex)?;
         self.staging.list()?;
         let before = self.evaluations();
-        let mut report = CommitReport::default();
-        self.transact(|t| {
-            t.with_regions(&mut report, |t, _| {
-                if t.is_shared(s) { t.leave(vertex) } else { t.kernel.remove_site(s) }
-            })
-        })?;
-        self.site_of[vertex as usize] = NONE;
-        self.n_present -= 1;
+        let mut report = CommitReport { removed: 1, ..CommitReport::default() };
+        self.transact(|t| t.with_regions(&mut report, |t, _| t.remove_present(vertex)))?;
         self.staging.unstage(vertex);
+        self.edits.forget_removal(vertex);
         self.enter_evaluations(&mut report, before);
         self.count(report);
         Ok(())
     }
 
-    /// The site of a vertex that must be present.
+    /// The site of a vertex that must be present and not about to be removed.
+    #[inline(always)]
     fn site_of_vertex(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
+        let s = self.present_site(argument, index, vertex)?;
+        if self.edits.is_leaving(vertex) {
+            return Err(Error::RemovedVertex { argument, index, vertex });
+        }
+        Ok(s)
+    }
+
+    /// The site of a vertex that must be present.
+    fn present_site(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
         match self.site_of.get(vertex as usize) {
             None => Err(Error::NoSuchVertex { argument, index, vertex, ids: self.site_of.len() }),
             Some(&NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
@@ -289,6 +298,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.placements += report.placements;
         sum.flips += report.flips;
         sum.rebuilds += report.rebuilds;
+        sum.inserted += report.inserted;
+        sum.removed += report.removed;
         sum.within_tolerance += report.within_tolerance;
         sum.within_safe_region += report.within_safe_region;
         sum.tolerances += report.tolerances;

@@ -147,4 +147,8 @@ pub struct CommitReport {
     pub exact_calls: u64,
     /// Hidden vertices at the end: those that are at the place of a vertex with a lower id.
     pub coincident: u64,
+    /// Vertices inserted.
+    pub inserted: u64,
+    /// Vertices removed.
+    pub removed: u64,
 }

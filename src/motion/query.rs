@@ -1,12 +1,11 @@
 //! Questions that change nothing. They may be asked from several threads at once.
 
 use std::cmp::Ordering;
-use std::collections::BTreeSet;
 
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, Level, MovingTriangulation, Violation};
-use crate::complex::{INFINITE, NONE};
-use crate::delaunay::{Dimension, Place};
+use crate::complex::{INFINITE, NONE, memory};
+use crate::delaunay::{Dimension, IndexSet, Place};
 use crate::error::Result;
 
 /// Where a point lies.
@@ -61,7 +60,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn position(&self, vertex: u32) -> Result<G::Point> {
-        Ok(self.kernel.site(self.site_of_vertex("vertex", 0, vertex)?).point)
+        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
     /// Indices of the finite cells around the place of a vertex, in `out`, which is cleared first.
@@ -69,11 +68,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
-        let s = self.site_of_vertex("vertex", 0, vertex)?;
+        let s = self.present_site("vertex", 0, vertex)?;
         let index_of = &self.cell_arrays()?.index_of;
         out.clear();
-        self.kernel.for_star(s, |c, _| out.push(index_of[c as usize]));
-        out.retain(|&c| c != NONE);
+        let mut listed = Ok(());
+        self.kernel.for_star(s, |c, _| {
+            if index_of[c as usize] != NONE && listed.is_ok() {
+                listed = memory::push(out, index_of[c as usize]);
+            }
+        })?;
+        listed?;
         out.sort_unstable();
         Ok(())
     }
@@ -110,31 +114,38 @@ impl<G: Dimension> MovingTriangulation<G> {
         // Some neighbour of a vertex that is not the nearest is nearer; the nearest ones are on an empty sphere
         // around the point, so they are connected by edges.
         let mut best = start;
-        let mut nearest = BTreeSet::from([start]);
-        let mut queue = vec![start];
-        while let Some(s) = queue.pop() {
-            if self.compare(&q, s, best) == Ordering::Greater {
-                continue;
-            }
-            let mut link = BTreeSet::new();
-            self.kernel.for_star(s, |c, _| link.extend(self.kernel.complex().cell(c).corners.as_ref()));
-            for &x in link.iter().filter(|&&x| x != INFINITE) {
+        let (mut nearest, mut link) = (IndexSet::new(), IndexSet::new());
+        nearest.insert(start)?;
+        // Those before this one have been looked around.
+        let mut next = 0;
+        while let Some(&s) = nearest.as_slice().get(next) {
+            next += 1;
+            link.clear();
+            let mut listed = Ok(true);
+            self.kernel.for_star(s, |c, _| {
+                for &x in self.kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE) {
+                    if listed.is_ok() {
+                        listed = link.insert(x);
+                    }
+                }
+            })?;
+            listed?;
+            for &x in link.as_slice() {
                 match self.compare(&q, x, best) {
                     Ordering::Less => {
                         best = x;
-                        nearest = BTreeSet::from([x]);
-                        queue = vec![x];
+                        nearest.clear();
+                        nearest.insert(x)?;
+                        next = 0;
                     }
                     Ordering::Equal => {
-                        if nearest.insert(x) {
-                            queue.push(x);
-                        }
+                        nearest.insert(x)?;
                     }
                     Ordering::Greater => {}
                 }
             }
         }
-        Ok(nearest.iter().map(|&s| self.kernel.site(s).id).min())
+        Ok(nearest.as_slice().iter().map(|&s| self.kernel.site(s).id).min())
     }
 
     fn compare(&self, q: &G::Point, a: u32, b: u32) -> Ordering {
@@ -159,7 +170,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn coincident_representative(&self, vertex: u32) -> Result<u32> {
-        Ok(self.kernel.site(self.site_of_vertex("vertex", 0, vertex)?).id)
+        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).id)
     }
 
     /// Checks the triangulation: see [`Level`].
@@ -178,17 +189,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (v, &s) in self.site_of.iter().enumerate().filter(|(_, s)| **s != NONE) {
             let site = self.kernel.site(s);
             if !site.is_live() || site.id > v as u32 {
-                return violation(format!("vertex {v} is at a site of vertex {}", site.id));
+                let message = format_args!("vertex {v} is at a site of vertex {}", site.id);
+                return violation(memory::text(message));
             }
             hidden += usize::from(site.id != v as u32);
         }
         let sites = self.kernel.live_sites().count();
         if hidden != self.hidden.count() || sites + hidden != self.n_present {
-            return violation(format!(
+            return violation(memory::text(format_args!(
                 "{} vertices, but {sites} places with {hidden} hidden vertices ({} listed)",
                 self.n_present,
                 self.hidden.count()
-            ));
+            )));
         }
         Ok(())
     }
@@ -209,6 +221,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             + self.site_of.capacity() * 4
             + self.staging.memory_bytes()
             + self.regions.memory_bytes()
+            + self.edits.memory_bytes()
             + self.hidden.memory_bytes()
             + self.transaction.memory_bytes()
             + self.views.memory_bytes()

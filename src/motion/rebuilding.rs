@@ -57,14 +57,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.build_and_adopt(next, spread, report)
     }
 
-    /// Triangulates all sites where they are, those that are in no cell included.
+    /// Triangulates all sites where they are, those that are in no cell included; not to be cancelled.
     pub(super) fn rebuild_as_is(&mut self, report: &mut CommitReport) -> Result<()> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(drop);
-        self.build_and_adopt(next, spread, report)
+        self.build_and_adopt_quietly(next, spread, report)
     }
 
-    /// Triangulates all vertices, one of them at another place.
+    /// Triangulates all vertices, one of them at another place; not to be cancelled.
     pub(super) fn rebuild_with(
         &mut self,
         vertex: u32,
@@ -76,11 +76,24 @@ impl<G: Dimension> MovingTriangulation<G> {
             let own = spread.iter().find(|(hidden, _)| *hidden == vertex);
             next.set_point(own.map_or(self.site_of[vertex as usize], |&(_, s)| s), *q);
         });
-        self.build_and_adopt(next, spread, report)
+        self.build_and_adopt_quietly(next, spread, report)
+    }
+
+    /// As [`build_and_adopt`](Self::build_and_adopt), for immediate calls.
+    fn build_and_adopt_quietly(
+        &mut self,
+        next: Delaunay<G>,
+        is_ready: Result<()>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let monitor = self.options.monitor.take();
+        let done = self.build_and_adopt(next, is_ready, report);
+        self.options.monitor = monitor;
+        done
     }
 
     /// Puts the site of a vertex in a new kernel where it is staged; whether it was elsewhere.
-    fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: u32, s: u32) -> bool {
+    pub(super) fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: u32, s: u32) -> bool {
         let p = self.staging.positions[vertex as usize];
         let differ = differ::<G>(&next.site(s).point, &p);
         next.set_point(s, p);
@@ -89,7 +102,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Gives every hidden vertex a site of its own in a new kernel, at the place where it is. Returns vertices and sites, by
     /// vertex.
-    fn spread_hidden(&self, next: &mut Delaunay<G>) -> Result<Vec<(u32, u32)>> {
+    pub(super) fn spread_hidden(&self, next: &mut Delaunay<G>) -> Result<Vec<(u32, u32)>> {
         let mut spread = Vec::new();
         if self.hidden.count() == 0 {
             return Ok(spread);
@@ -104,7 +117,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Triangulates the sites of a new kernel, which takes the place of the present one.
-    fn build_and_adopt(
+    pub(super) fn build_and_adopt(
         &mut self,
         mut next: Delaunay<G>,
         is_ready: Result<()>,
@@ -169,6 +182,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         for v in 0..self.site_of.len() as u32 {
             if self.is_present(v) && self.is_hidden(v) == is_representative[v as usize] {
                 self.note_visibility(v, self.is_hidden(v))?;
+            }
+        }
+        for k in 0..self.staged_edits().0 {
+            let v = self.coming(k);
+            if !is_representative[v as usize] {
+                self.note_visibility(v, false)?;
             }
         }
         Ok(())

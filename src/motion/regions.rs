@@ -272,7 +272,9 @@ impl<G: Dimension> Regions<G> {
             return false;
         }
         // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
-        kernel.gather_star(s);
+        if kernel.gather_star(s).is_err() {
+            return false;
+        }
         let complex = kernel.complex();
         kernel.gathered_star().iter().filter(|(c, _)| !complex.cell(*c).is_ghost()).all(|&(c, at)| {
             (0..G::Corners::N).all(|i| {

@@ -118,7 +118,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
         let most = self.n_present / placed::<G>();
         // A vertex taken back mends about three cells.
-        if repair.failures.are_open && !self.kernel.sweep(&mut repair.failures, 3 * most) {
+        if repair.failures.are_open && !self.kernel.sweep(&mut repair.failures, 3 * most)? {
             return Ok(false);
         }
         let mut is_triangulation = repair.failures.is_triangulation();
@@ -126,7 +126,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Err(Error::Cancelled);
         }
         for _ in 0..ROUNDS {
-            if !(is_triangulation || self.take_back_failed(repair, most) && self.winds_once(repair)) {
+            if !(is_triangulation || self.take_back_failed(repair, most)? && self.winds_once(repair)?) {
                 return Ok(false);
             }
             repair.suspects.clone_from(&repair.failures.facets);
@@ -141,21 +141,21 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Ok(false);
             }
             is_triangulation = false;
-            self.take_back_listed(repair);
+            self.take_back_listed(repair)?;
         }
         Ok(false)
     }
 
     /// Whether a convex hull winds once.
-    fn winds_once(&self, repair: &mut Repair) -> bool {
+    fn winds_once(&self, repair: &mut Repair) -> Result<bool> {
         let failures = &mut repair.failures;
         if !failures.may_wind {
-            return true;
+            return Ok(true);
         }
         if failures.ghosts.is_empty() {
-            self.kernel.list_ghosts(&mut failures.ghosts);
+            self.kernel.list_ghosts(&mut failures.ghosts)?;
         }
-        self.kernel.winds_once(&failures.ghosts)
+        Ok(self.kernel.winds_once(&failures.ghosts))
     }
 
     /// Notes the vertices that have been moved: of a whole staging all, `moved` of which have gone to another place.
@@ -212,7 +212,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Takes vertices back until every cell is positive and the hull convex; `false` if more than `most` are back.
-    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> bool {
+    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> Result<bool> {
         loop {
             while let Some(c) = repair.failures.cells.pop() {
                 if self.kernel.is_positive(c) {
@@ -221,16 +221,16 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let corners = self.kernel.complex().cell(c).corners;
                 let s = self.farthest(repair, corners.as_ref()).expect("old places have positive cells");
                 repair.failures.cells.push(c);
-                self.take_back(repair, s);
+                self.take_back(repair, s)?;
                 if repair.n_old > most {
-                    return false;
+                    return Ok(false);
                 }
             }
             let (at, before) = (&repair.at, &self.staging.positions);
             let before = |id: u32| (at[id as usize] != At::Old).then(|| &before[id as usize]);
-            self.kernel.check_ridges(&mut repair.failures, before);
+            self.kernel.check_ridges(&mut repair.failures, before)?;
             if repair.failures.ridges.is_empty() {
-                return true;
+                return Ok(true);
             }
             while let Some(ridge) = repair.failures.ridges.pop() {
                 if self.kernel.is_convex(ridge) {
@@ -245,9 +245,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                 corners[4] = complex.apex(across);
                 let s = self.farthest(repair, &corners).expect("old places have a convex hull");
                 repair.failures.ridges.push(ridge);
-                self.take_back(repair, s);
+                self.take_back(repair, s)?;
                 if repair.n_old > most {
-                    return false;
+                    return Ok(false);
                 }
                 if !repair.failures.cells.is_empty() {
                     break;
@@ -270,14 +270,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Takes a vertex back to its old place, and looks at its star.
-    fn take_back(&mut self, repair: &mut Repair, s: u32) {
+    fn take_back(&mut self, repair: &mut Repair, s: u32) -> Result<()> {
         let v = self.kernel.site(s).id;
         self.exchange_position(v);
         repair.at[v as usize] = At::Old;
         repair.queue.push(v);
         repair.n_new -= 1;
         repair.n_old += 1;
-        self.kernel.check_star(s, &mut repair.failures);
+        self.kernel.check_star(s, &mut repair.failures)
     }
 
     /// Lists a vertex of each facet where flips are stuck.
@@ -303,12 +303,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Takes the listed vertices back.
-    fn take_back_listed(&mut self, repair: &mut Repair) {
+    fn take_back_listed(&mut self, repair: &mut Repair) -> Result<()> {
         let sites = std::mem::take(&mut repair.sites);
-        for &s in &sites {
-            self.take_back(repair, s);
-        }
+        let taken = sites.iter().try_for_each(|&s| self.take_back(repair, s));
         repair.sites = sites;
+        taken
     }
 
     /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed.

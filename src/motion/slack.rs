@@ -51,8 +51,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (before, failures) = (&self.staging.positions, &mut repair.failures);
         let checked = self.regions.slacks.check_expired(&self.kernel, before, greatest, most, failures);
         let done = match checked {
-            None => Ok(false),
-            Some(n) => {
+            Err(error) => Err(error),
+            Ok(None) => Ok(false),
+            Ok(Some(n)) => {
                 report.moved += moved;
                 report.tolerances += n;
                 self.kernel.count_certificates(3 * n as usize);

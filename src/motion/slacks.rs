@@ -94,8 +94,9 @@ impl<G: Dimension> Default for Slacks<G> {
 enum Check<'c, G: Dimension> {
     /// They are known to hold.
     Not,
-    /// After a motion from where the vertices were before, by id, none of which has gone farther than so.
-    Moved(&'c [G::Point], f64, &'c mut Failures),
+    /// After a motion from where the vertices were before, by id, none of which has gone farther than so. Last, why they
+    /// could not be.
+    Moved(&'c [G::Point], f64, &'c mut Failures, &'c mut Result<()>),
 }
 
 impl<G: Dimension> Check<'_, G> {
@@ -104,7 +105,13 @@ impl<G: Dimension> Check<'_, G> {
     fn holds(&mut self, kernel: &Delaunay<G>, facet: Facet) -> bool {
         match self {
             Check::Not => true,
-            Check::Moved(before, _, failures) => kernel.check_bicell(facet, before, failures),
+            Check::Moved(before, _, failures, checked) => {
+                let holds = kernel.check_bicell(facet, before, failures);
+                holds.unwrap_or_else(|error| {
+                    **checked = Err(error);
+                    false
+                })
+            }
         }
     }
 }
@@ -261,21 +268,22 @@ impl<G: Dimension> Slacks<G> {
         greatest: f64,
         most: usize,
         failures: &mut Failures,
-    ) -> Option<u64> {
+    ) -> Result<Option<u64>> {
         let complex = kernel.complex();
         let mut expired = std::mem::take(&mut self.expired);
         let mut facets = std::mem::take(&mut self.facets);
         let are_few = self.list_expired(kernel, most, &mut expired);
-        let mut n = 0;
+        let (mut n, mut checked) = (0, Ok(()));
         let can = are_few && self.reserve(expired.len(), &mut facets).is_ok();
         if can {
             self.list_facets(complex, &expired, &mut facets);
-            n = self.check_facets(kernel, &facets, &mut Check::Moved(before, greatest, failures));
+            let check = &mut Check::Moved(before, greatest, failures, &mut checked);
+            n = self.check_facets(kernel, &facets, check);
             self.close(complex);
         }
         self.expired = expired;
         self.facets = facets;
-        can.then_some(n)
+        checked.map(|()| can.then_some(n))
     }
 
     /// Makes room for the facets of so many cells, and for these and their neighbours to be open.
@@ -369,7 +377,7 @@ impl<G: Dimension> Slacks<G> {
         check: &mut Check<'_, G>,
     ) {
         // What tolerates the way back was positive all the way.
-        let tolerates = matches!(check, Check::Moved(_, greatest, _) if tolerance > *greatest);
+        let tolerates = matches!(check, Check::Moved(_, greatest, ..) if tolerance > *greatest);
         let holds = tolerates || check.holds(kernel, sides[0]);
         self.enter(sides, if holds { self.slack_of(tolerance) } else { NONE_LEFT });
     }

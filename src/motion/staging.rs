@@ -43,6 +43,11 @@ impl<G: Dimension> Staging<G> {
         self.is_whole || self.is_staged.get(vertex as usize).copied().unwrap_or(false)
     }
 
+    /// A vertex of which a move is staged.
+    pub(super) fn first_staged(&self) -> Option<u32> {
+        if self.is_whole { Some(0) } else { self.vertices.first().copied() }
+    }
+
     /// Whether all vertices are staged, and not listed.
     pub(super) fn is_whole(&self) -> bool {
         self.is_whole
@@ -177,6 +182,23 @@ impl<G: Dimension> Staging<G> {
         n
     }
 
+    /// Follows the number of ids when the highest have been given back.
+    pub(super) fn shrink(&mut self, n_ids: usize) {
+        self.positions.truncate(n_ids);
+        self.is_staged.truncate(n_ids);
+    }
+
+    /// Forgets the moves of some vertices. The staging must not be whole.
+    pub(super) fn unstage_all(&mut self, is_one: impl Fn(u32) -> bool) {
+        debug_assert!(!self.is_whole);
+        let is_staged = &mut self.is_staged;
+        self.vertices.retain(|&v| {
+            let goes = is_one(v);
+            is_staged[v as usize] &= !goes;
+            !goes
+        });
+    }
+
     /// Forgets the move of one vertex. The staging must not be whole.
     pub(super) fn unstage(&mut self, vertex: u32) {
         if self.is_staged(vertex) {
@@ -271,7 +293,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             });
         }
         let n_ids = self.site_of.len();
-        if self.staging.count() == 0 && positions.len() == n_ids && self.n_present == n_ids {
+        let are_all = positions.len() == n_ids && self.n_present == n_ids && self.edits.are_none();
+        if self.staging.count() == 0 && are_all {
             self.staging.reserve(n_ids, 0)?;
             if self.staging.stage_all(positions) {
                 return Ok(());
@@ -280,7 +303,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staging.reserve(n_ids, positions.len())?;
         let before = self.staging.vertices.len();
         for (index, position) in positions.iter().enumerate() {
-            if self.site_of[index] == NONE {
+            if self.site_of[index] == NONE || self.edits.is_leaving(index as u32) {
                 continue;
             }
             if let Err(error) = self.stage("vertices", index, index as u32, position) {
@@ -308,9 +331,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Forgets the staged moves; returns how many.
+    /// Forgets the staged moves, insertions and removals; returns how many moves there were.
     pub fn discard_moves(&mut self) -> usize {
-        self.staging.clear()
+        let n = self.staging.clear();
+        self.discard_edits();
+        n
     }
 
     /// Number of staged moves.

@@ -35,6 +35,7 @@ pub(super) struct Transaction<G: Dimension> {
     /// Room for the old positions of vertices that are at shared places when the way back begins.
     displaced: Vec<(u32, G::Point)>,
     n_hidden: usize,
+    n_present: usize,
     n_visibilities: usize,
     /// Whether the kernel is a new one.
     pub(super) has_rebuilt: bool,
@@ -49,6 +50,7 @@ impl<G: Dimension> Default for Transaction<G> {
             vertices: Vec::new(),
             displaced: Vec::new(),
             n_hidden: 0,
+            n_present: 0,
             n_visibilities: 0,
             has_rebuilt: false,
             wants_order: false,
@@ -103,6 +105,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         debug_assert!(!transaction.is_on && transaction.vertices.is_empty());
         (transaction.is_on, transaction.has_rebuilt, transaction.wants_order) = (true, false, false);
         transaction.n_hidden = self.hidden.count();
+        transaction.n_present = self.n_present;
         transaction.n_visibilities = self.views.count_visibilities(self.site_of.len());
         Ok(())
     }
@@ -138,6 +141,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.hidden.set_next(vertex, next);
         }
         self.hidden.set_count(self.transaction.n_hidden);
+        self.n_present = self.transaction.n_present;
         self.views.forget_visibilities(self.transaction.n_visibilities);
         self.kernel.undo();
         while let Some((vertex, position)) = self.transaction.displaced.pop() {

@@ -41,6 +41,7 @@
 use super::regions::Filter;
 use super::repair::Repair;
 use super::{CommitReport, MovingTriangulation};
+use crate::complex::memory;
 use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 
@@ -77,8 +78,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
 
         let mut repair = std::mem::take(&mut self.repair);
-        self.check_moved(&mut repair);
-        let done = if repair.failures.are_none() {
+        let checked = self.check_moved(&mut repair);
+        let done = if checked.is_err() {
+            checked
+        } else if repair.failures.are_none() {
             report.unchanged += n_beyond as u64;
             let sites = self.staging.vertices.iter().map(|&v| self.site_of[v as usize]);
             let (kernel, elsewhere) = (&mut self.kernel, &self.staging.positions);
@@ -91,7 +94,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Checks the bi-cells that are not held; lists the cells of the stars of the vertices beyond, each once.
-    fn check_moved(&mut self, repair: &mut Repair) {
+    fn check_moved(&mut self, repair: &mut Repair) -> Result<()> {
         let Repair { failures, touched, .. } = repair;
         failures.clear();
         touched.clear();
@@ -99,18 +102,23 @@ impl<G: Dimension> MovingTriangulation<G> {
             let s = self.site_of[v as usize];
             let point = self.kernel.site(s).point;
             self.kernel.cover(&point, &point);
-            self.kernel.gather_star(s);
-            touched.extend(self.kernel.gathered_star().iter().map(|&(c, _)| c));
+            self.kernel.gather_star(s)?;
+            memory::collect(touched, self.kernel.gathered_star().iter().map(|&(c, _)| c))?;
         }
         self.kernel.tidy_changes(touched);
         let (kernel, before) = (&self.kernel, &self.staging.positions);
         let mut waiting = Waiting::default();
+        let mut checked = Ok(());
         self.regions.for_watched(kernel, |facet| {
-            kernel.check_bicell_of_many(facet, &mut waiting, before, failures);
+            if checked.is_ok() {
+                checked = kernel.check_bicell_of_many(facet, &mut waiting, before, failures);
+            }
         });
-        kernel.check_waiting(&mut waiting, before, failures);
-        self.kernel.check_cells(touched, before, failures);
+        checked?;
+        kernel.check_waiting(&mut waiting, before, failures)?;
+        self.kernel.check_cells(touched, before, failures)?;
         self.kernel.count_certificates(3 * self.regions.n_watched());
+        Ok(())
     }
 
     /// Mends what a look at some certificates of a whole staging has found. The listed vertices and those placed have their

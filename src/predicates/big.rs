@@ -1,11 +1,22 @@
-//! The last stage: determinants in integers of any length.
+//! The last stage: determinants in integers that are long enough for any.
 //!
 //! Where a coordinate is so small that expansions would underflow, the coordinates of a call are written as
-//! integers in units of the smallest last bit among them. They have at most 1,264 bits. This costs
-//! microseconds, but it takes a near tie between points of which one is at a place like 10⁻⁶⁴.
+//! integers in units of the smallest last bit among them. This costs microseconds, but it takes a near tie between
+//! points of which one is at a place like 10⁻⁶⁴.
+//!
+//! The integers are of fixed size and on the stack, as there is no way to report from here that memory has run out. A
+//! coordinate is of magnitude at most 10⁵⁷ < 2¹⁹⁰ and a multiple of 2⁻¹⁰⁷⁴, so at most 2¹²⁶⁴ units; a difference is below
+//! 2¹²⁶⁵. In space the greatest determinant is `insphere`. Each of its four terms is the product of a square, three
+//! products of two differences, and a volume, six of three: below 4 · 3 · 6 · 2⁵·¹²⁶⁵ < 2⁶³³², and so are all sums on the way.
+//! That fits 99 limbs of 64 bits, the sign apart. Integers of very different lengths are made on the way, so their limbs
+//! follow each other in one [`Room`] for all of a determinant.
 
-use num_bigint::{BigInt, Sign};
+#![allow(unsafe_code)]
+
+use std::cell::{Cell, UnsafeCell};
 use std::cmp::Ordering;
+use std::mem::MaybeUninit;
+use std::ops::{Add, Mul, Sub};
 
 /// Whether expansions can evaluate a polynomial of the given degree in coordinates: whether coordinates other
 /// than zero are large enough for products of so many to be multiples of 2⁻⁹⁶⁰.
@@ -20,7 +31,8 @@ pub(super) fn has_room<const D: usize, const N: usize>(points: [&[f64; D]; N], d
 #[cold]
 #[inline(never)]
 pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
-    let [u, v] = differences(a, [b, c]);
+    let room = Room::new();
+    let [u, v] = differences(&room, a, [b, c]);
     with_sign(rounded, &minor(&u, &v))
 }
 
@@ -28,7 +40,8 @@ pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
-    let [u, v, w] = differences(a, [b, c, d]);
+    let room = Room::new();
+    let [u, v, w] = differences(&room, a, [b, c, d]);
     let det = square(&v) * minor(&u, &w) - square(&u) * minor(&v, &w) - square(&w) * minor(&u, &v);
     with_sign(rounded, &det)
 }
@@ -37,7 +50,8 @@ pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn orient3d(rounded: f64, [a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
-    let [u, v, w] = differences(a, [b, c, d]);
+    let room = Room::new();
+    let [u, v, w] = differences(&room, a, [b, c, d]);
     with_sign(rounded, &volume(&u, &v, &w))
 }
 
@@ -45,7 +59,8 @@ pub(super) fn orient3d(rounded: f64, [a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn insphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
-    let [u, v, w, s] = differences(a, [b, c, d, e]);
+    let room = Room::new();
+    let [u, v, w, s] = differences(&room, a, [b, c, d, e]);
     let det = square(&u) * volume(&v, &w, &s) - square(&v) * volume(&u, &w, &s)
         + square(&w) * volume(&u, &v, &s)
         - square(&s) * volume(&u, &v, &w);
@@ -55,30 +70,33 @@ pub(super) fn insphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
 #[cold]
 #[inline(never)]
 pub(super) fn compare_distance<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
-    let [to_a, to_b] = differences(q, [a, b]);
-    square(&to_a).cmp(&square(&to_b))
+    let room = Room::new();
+    let [to_a, to_b] = differences(&room, q, [a, b]);
+    (square(&to_a) - square(&to_b)).sign()
 }
 
 #[cold]
 #[inline(never)]
 pub(super) fn is_collinear3([a, b, c]: [&[f64; 3]; 3]) -> bool {
-    let [[x, y, z], [p, q, r]] = differences(a, [b, c]);
-    &x * &q == &y * &p && y * &r == &z * q && z * p == x * r
+    let room = Room::new();
+    let [[x, y, z], [p, q, r]] = differences(&room, a, [b, c]);
+    x * q == y * p && y * r == z * q && z * p == x * r
 }
 
 /// The differences from `origin` to `points` in a unit of their own.
-fn differences<const D: usize, const N: usize>(
+fn differences<'r, const D: usize, const N: usize>(
+    room: &'r Room,
     origin: &[f64; D],
     points: [&[f64; D]; N],
-) -> [[BigInt; D]; N] {
+) -> [[Integer<'r>; D]; N] {
     let coordinates = || points.into_iter().flatten().chain(origin).filter(|&&x| x != 0.0);
     let unit = coordinates().map(|&x| decode(x).1).min().unwrap_or(0);
     let integer = |x: f64| {
         let (mantissa, exponent) = decode(x);
-        if mantissa == 0 { BigInt::ZERO } else { BigInt::from(mantissa) << (exponent - unit) }
+        Integer::shifted(room, mantissa, if mantissa == 0 { 0 } else { (exponent - unit) as u32 })
     };
-    let origin: [BigInt; D] = std::array::from_fn(|axis| integer(origin[axis]));
-    points.map(|p| std::array::from_fn(|axis| integer(p[axis]) - &origin[axis]))
+    let origin: [Integer; D] = std::array::from_fn(|axis| integer(origin[axis]));
+    points.map(|p| std::array::from_fn(|axis| integer(p[axis]) - origin[axis]))
 }
 
 /// `x` as mantissa · 2^exponent.
@@ -97,27 +115,185 @@ fn decode(x: f64) -> (i64, i32) {
 }
 
 /// The rounded value, which is near the exact one, with the sign of that.
-fn with_sign(rounded: f64, exact: &BigInt) -> f64 {
+fn with_sign(rounded: f64, exact: &Integer) -> f64 {
     let magnitude = rounded.abs().max(f64::MIN_POSITIVE);
     match exact.sign() {
-        Sign::Minus => -magnitude,
-        Sign::NoSign => 0.0,
-        Sign::Plus => magnitude,
+        Ordering::Less => -magnitude,
+        Ordering::Equal => 0.0,
+        Ordering::Greater => magnitude,
     }
 }
 
-fn square<const D: usize>(p: &[BigInt; D]) -> BigInt {
-    p.iter().map(|x| x * x).sum()
+fn square<'r, const D: usize>(p: &[Integer<'r>; D]) -> Integer<'r> {
+    p[1..].iter().fold(p[0] * p[0], |sum, &x| sum + x * x)
 }
 
 /// Minor of the first two columns.
-fn minor<const D: usize>(p: &[BigInt; D], q: &[BigInt; D]) -> BigInt {
-    &p[0] * &q[1] - &p[1] * &q[0]
+fn minor<'r, const D: usize>(p: &[Integer<'r>; D], q: &[Integer<'r>; D]) -> Integer<'r> {
+    p[0] * q[1] - p[1] * q[0]
 }
 
 /// Determinant of three differences.
-fn volume(u: &[BigInt; 3], v: &[BigInt; 3], w: &[BigInt; 3]) -> BigInt {
-    minor(v, w) * &u[2] - minor(u, w) * &v[2] + minor(u, v) * &w[2]
+fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Integer<'r>; 3]) -> Integer<'r> {
+    minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
+}
+
+/// Limbs of all integers that a determinant takes.
+///
+/// Those of `insphere` are the most. A difference has 20 limbs, and a product as many as both factors; a sum takes one more
+/// than the longer term, which stays zero (see the module's documentation), and so do numbers to be shifted. 15 coordinates
+/// and 12 differences are 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of these and
+/// 3 · 60 + 2 · 61. Four squares, four volumes, four products of 100 and three sums of 101 make 4,738 in all.
+const LIMBS: usize = 4738;
+
+/// Room for integers, which are given up together.
+struct Room {
+    limbs: UnsafeCell<[MaybeUninit<u64>; LIMBS]>,
+    /// How many are in use: the first ones.
+    n: Cell<usize>,
+}
+
+impl Room {
+    #[inline(always)]
+    fn new() -> Self {
+        Room { limbs: UnsafeCell::new([MaybeUninit::uninit(); LIMBS]), n: Cell::new(0) }
+    }
+
+    /// So many limbs that are zero.
+    #[allow(clippy::mut_from_ref)] // They are other ones each time.
+    fn zeros(&self, n: usize) -> &mut [u64] {
+        let first = self.n.get();
+        assert!(n <= LIMBS - first, "room for a determinant");
+        self.n.set(first + n);
+        // SAFETY: there are so many, nobody else has them as the number of those in use never falls, and they are written
+        // before they are handed out.
+        unsafe {
+            let first = self.limbs.get().cast::<u64>().add(first);
+            first.write_bytes(0, n);
+            std::slice::from_raw_parts_mut(first, n)
+        }
+    }
+}
+
+/// An integer: sign and magnitude.
+#[derive(Clone, Copy)]
+struct Integer<'r> {
+    room: &'r Room,
+    /// False for zero.
+    is_negative: bool,
+    /// The lowest limb first; the highest is not zero.
+    magnitude: &'r [u64],
+}
+
+impl<'r> Integer<'r> {
+    fn new(room: &'r Room, is_negative: bool, limbs: &'r [u64]) -> Self {
+        let n = limbs.iter().rposition(|&limb| limb != 0).map_or(0, |highest| highest + 1);
+        Integer { room, is_negative: is_negative & (n > 0), magnitude: &limbs[..n] }
+    }
+
+    /// `x` · 2^`shift`.
+    fn shifted(room: &'r Room, x: i64, shift: u32) -> Self {
+        let at = (shift / 64) as usize;
+        let limbs = room.zeros(at + 2);
+        let magnitude = u128::from(x.unsigned_abs()) << (shift % 64);
+        (limbs[at], limbs[at + 1]) = (magnitude as u64, (magnitude >> 64) as u64);
+        Self::new(room, x < 0, limbs)
+    }
+
+    /// How it compares with zero.
+    fn sign(&self) -> Ordering {
+        if self.is_negative { Ordering::Less } else { self.magnitude.len().cmp(&0) }
+    }
+
+    fn compare_magnitude(&self, other: &Self) -> Ordering {
+        let lengths = self.magnitude.len().cmp(&other.magnitude.len());
+        lengths.then_with(|| self.magnitude.iter().rev().cmp(other.magnitude.iter().rev()))
+    }
+
+    /// Sum of magnitudes, the other one not longer, with the sign of this one.
+    fn plus_magnitude(self, other: Self) -> Self {
+        let n = self.magnitude.len();
+        let sum = self.room.zeros(n + 1);
+        let others = other.magnitude.iter().chain(std::iter::repeat(&0));
+        let mut carry = false;
+        for ((sum, &x), &y) in sum.iter_mut().zip(self.magnitude).zip(others) {
+            let (partial, first) = x.overflowing_add(y);
+            let (whole, second) = partial.overflowing_add(u64::from(carry));
+            (*sum, carry) = (whole, first | second);
+        }
+        sum[n] = u64::from(carry);
+        Self::new(self.room, self.is_negative, sum)
+    }
+
+    /// Difference of magnitudes, the other one not greater, with the sign of this one.
+    fn minus_magnitude(self, other: Self) -> Self {
+        let difference = self.room.zeros(self.magnitude.len());
+        let others = other.magnitude.iter().chain(std::iter::repeat(&0));
+        let mut borrow = false;
+        for ((difference, &x), &y) in difference.iter_mut().zip(self.magnitude).zip(others) {
+            let (partial, first) = x.overflowing_sub(y);
+            let (whole, second) = partial.overflowing_sub(u64::from(borrow));
+            (*difference, borrow) = (whole, first | second);
+        }
+        debug_assert!(!borrow);
+        Self::new(self.room, self.is_negative, difference)
+    }
+}
+
+impl PartialEq for Integer<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_negative == other.is_negative && self.magnitude == other.magnitude
+    }
+}
+
+impl Add for Integer<'_> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let (greater, less) = match self.compare_magnitude(&other) {
+            Ordering::Less => (other, self),
+            _ => (self, other),
+        };
+        if less.magnitude.is_empty() {
+            greater
+        } else if greater.is_negative == less.is_negative {
+            greater.plus_magnitude(less)
+        } else {
+            greater.minus_magnitude(less)
+        }
+    }
+}
+
+impl Sub for Integer<'_> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + Integer { is_negative: !other.is_negative & !other.magnitude.is_empty(), ..other }
+    }
+}
+
+impl Mul for Integer<'_> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let product = self.room.zeros(self.magnitude.len() + other.magnitude.len());
+        // Coordinates have few limbs that are not zero.
+        let skipped = other.magnitude.iter().take_while(|&&y| y == 0).count();
+        let others = &other.magnitude[skipped..];
+        for (k, &x) in self.magnitude.iter().enumerate().filter(|&(_, &x)| x != 0) {
+            let mut carry = 0;
+            let (row, rest) = product[k + skipped..].split_at_mut(others.len());
+            for (sum, &y) in row.iter_mut().zip(others) {
+                // (2⁶⁴ - 1)² + 2 (2⁶⁴ - 1) is 2¹²⁸ - 1.
+                let whole = u128::from(x) * u128::from(y) + u128::from(*sum) + u128::from(carry);
+                (*sum, carry) = (whole as u64, (whole >> 64) as u64);
+            }
+            if let Some(next) = rest.first_mut() {
+                *next = carry;
+            }
+        }
+        Self::new(self.room, self.is_negative != other.is_negative, product)
+    }
 }
 
 #[cfg(test)]
@@ -131,6 +307,103 @@ mod tests {
             // In two steps, as the power of two alone may underflow.
             let (first, second) = (exponent / 2, exponent - exponent / 2);
             assert_eq!(mantissa as f64 * 2f64.powi(first) * 2f64.powi(second), x);
+        }
+    }
+
+    #[test]
+    fn integers_are_those_of_num_bigint() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = state;
+            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ z >> 31
+        };
+        // Differences: random, or with long runs of equal bits, so that carries go far.
+        fn difference<'r>(room: &'r Room, random: &mut impl FnMut() -> u64) -> Integer<'r> {
+            let n_bits = random() as usize % 1266;
+            let limbs = room.zeros(n_bits.div_ceil(64));
+            let is_run = random().is_multiple_of(3);
+            let fill = random();
+            for (k, limb) in limbs.iter_mut().enumerate() {
+                let any = if !is_run { random() } else { 0u64.wrapping_sub(fill >> k & 1) };
+                *limb = any & u64::MAX >> (64 * (k + 1)).saturating_sub(n_bits);
+            }
+            Integer::new(room, random().is_multiple_of(2), limbs)
+        }
+        let big = |x: &Integer| {
+            let bytes: Vec<u8> = x.magnitude.iter().flat_map(|limb| limb.to_le_bytes()).collect();
+            let sign = if x.is_negative { num_bigint::Sign::Minus } else { num_bigint::Sign::Plus };
+            assert!(x.magnitude.last().is_none_or(|&limb| limb != 0));
+            num_bigint::BigInt::from_bytes_le(sign, &bytes)
+        };
+        let check = |x: &Integer, expected: &num_bigint::BigInt| {
+            assert_eq!(big(x), *expected);
+            let sign = match x.sign() {
+                Ordering::Less => num_bigint::Sign::Minus,
+                Ordering::Equal => num_bigint::Sign::NoSign,
+                Ordering::Greater => num_bigint::Sign::Plus,
+            };
+            assert_eq!(sign, expected.sign());
+        };
+        for _ in 0..40_000 {
+            let room = Room::new();
+            let [a, b, c, d, e] = std::array::from_fn(|_| difference(&room, &mut random));
+            let [p, q, r, s, t] = [&a, &b, &c, &d, &e].map(big);
+            let (ab, cde, pq, rst) = (a * b, c * d * e, &p * &q, &r * &s * &t);
+            check(&ab, &pq);
+            check(&(a + b), &(&p + &q));
+            check(&(a - b), &(&p - &q));
+            check(&(ab - c), &(&pq - &r));
+            check(&(cde + ab), &(&rst + &pq));
+            let (whole, expected) = (ab * cde, pq * rst);
+            check(&whole, &expected);
+            check(&(whole - ab), &(&expected - &p * &q));
+            check(&(whole - whole), &num_bigint::BigInt::ZERO);
+            assert!(whole == cde * b * a);
+        }
+    }
+
+    /// There is room for the determinant of the longest numbers, and its terms are not longer than they may be.
+    #[test]
+    fn there_is_room_for_the_greatest_determinant() {
+        let room = Room::new();
+        let most = room.zeros(20);
+        most.fill(u64::MAX);
+        most[19] >>= 64 * 20 - 1265;
+        let greatest = Integer::new(&room, false, most);
+        let degree_5 = greatest * greatest * greatest * greatest * greatest;
+        let doubled = |times: usize| (0..times).fold(degree_5, |x, _| x + x);
+        let sum = doubled(6) + doubled(3);
+        assert_eq!(sum.magnitude.len(), 99);
+        let corner = [crate::predicates::MAX_MAGNITUDE, -crate::predicates::MAX_MAGNITUDE];
+        let p = |k: usize| [corner[k & 1], corner[k >> 1 & 1], corner[k >> 2 & 1]];
+        // A last bit that makes the unit as small as can be, and all limbs below the highest other than zero.
+        let near = [corner[0], corner[0], f64::from_bits(1)];
+        for k in 0..8 {
+            let points = [p(k), p(k ^ 1), p(k ^ 2), p(k ^ 4), near];
+            assert_ne!(insphere(1.0, points.each_ref()), 0.0);
+            assert_eq!(insphere(1.0, [p(k), p(k ^ 1), p(k ^ 2), p(k ^ 4), p(k ^ 7)].each_ref()), 0.0);
+        }
+        let mut state = 1u64;
+        for _ in 0..10_000 {
+            // Any coordinates, very large and very small ones in turn.
+            let points: [[f64; 3]; 5] = std::array::from_fn(|_| {
+                std::array::from_fn(|_| {
+                    state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+                    let large =
+                        (state >> 11) as f64 / (1u64 << 53) as f64 * corner[(state >> 8 & 1) as usize];
+                    if state >> 63 == 0 { large } else { f64::from_bits(state >> 60 & 7) }
+                })
+            });
+            let [a, b, c, d, e] = points.each_ref();
+            let room = Room::new();
+            let [u, v, w, s] = differences(&room, a, [b, c, d, e]);
+            let det = square(&u) * volume(&v, &w, &s) - square(&v) * volume(&u, &w, &s)
+                + square(&w) * volume(&u, &v, &s)
+                - square(&s) * volume(&u, &v, &w);
+            assert!(det.magnitude.len() <= 99 && room.n.get() <= LIMBS);
         }
     }
 

@@ -14,7 +14,7 @@
 //! 3. *Integer*: where scaled differences are integers that fit, as those of neighbours on a grid are, the
 //!    determinant in 256 bits (`integer.rs`; not for `orient2d`, whose expansions are short).
 //! 4. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
-//! 5. *Big integers*: where expansions would underflow, the determinant in integers of any length (`big.rs`).
+//! 5. *Big integers*: where expansions would underflow, the determinant in long integers (`big.rs`).
 //!
 //! The error constants are not quoted but computed by the compiler, from the operation order of each
 //! determinant (`filter.rs`, which holds the analysis).

@@ -1,0 +1,97 @@
+//! The change list: what a program has to know that keeps something for each cell.
+
+use super::fence;
+use super::pointers;
+use super::query::start_of;
+use super::status::deldrift_status;
+use super::triangulation::{deldrift_triangulation, in_its_dimension};
+use crate::motion::Changes;
+
+/// What has changed since the program last took the changes: lists that belong to the triangulation, valid until the next
+/// call that changes it. A pointer is NULL where its list is empty.
+///
+/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has happened in
+/// between. It keeps its index unless it is listed as renumbered, and its row keeps the order of the vertices unless the
+/// cell has been turned over, which only a motion can do that goes through a flat cell. So data kept by cell follows in
+/// three steps: set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
+/// indices; make those of created cells. Neighbours change only at cells that are listed, and at the neighbours of those.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct deldrift_changes {
+    /// Number of cells that exist and did not.
+    pub created_count: usize,
+    /// Their indices into deldrift_cells, ascending.
+    pub created: *const u32,
+    /// Number of cells that existed and do not.
+    pub removed_count: usize,
+    /// The index that each had.
+    pub removed: *const u32,
+    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, as their rows were. Vertices may have been removed.
+    pub removed_vertices: *const u32,
+    /// Number of cells that existed under another index.
+    pub renumbered_count: usize,
+    /// The index that each had.
+    pub renumbered_from: *const u32,
+    /// The index that each has.
+    pub renumbered_to: *const u32,
+    /// Number of vertices whose star has changed: all those of created and removed cells.
+    pub star_count: usize,
+    /// These vertices, ascending. Some may have been removed.
+    pub stars: *const u32,
+    /// Number of vertices that are hidden and were not: others of lower ids have come to be at the same place.
+    pub hidden_count: usize,
+    /// These vertices, ascending.
+    pub hidden: *const u32,
+    /// Number of vertices that were hidden and are not.
+    pub shown_count: usize,
+    /// These vertices, ascending.
+    pub shown: *const u32,
+    /// Zero; later versions may tell more.
+    pub reserved: [usize; 4],
+}
+
+impl<C> From<Changes<'_, C>> for deldrift_changes {
+    fn from(changes: Changes<'_, C>) -> Self {
+        Self {
+            created_count: changes.created.len(),
+            created: start_of(changes.created),
+            removed_count: changes.removed.len(),
+            removed: start_of(changes.removed),
+            removed_vertices: start_of(changes.removed_corners).cast(),
+            renumbered_count: changes.renumbered_from.len(),
+            renumbered_from: start_of(changes.renumbered_from),
+            renumbered_to: start_of(changes.renumbered_to),
+            star_count: changes.stars.len(),
+            stars: start_of(changes.stars),
+            hidden_count: changes.hidden.len(),
+            hidden: start_of(changes.hidden),
+            shown_count: changes.shown.len(),
+            shown: start_of(changes.shown),
+            reserved: [0; 4],
+        }
+    }
+}
+
+/// Takes what has changed since this was last called, to *changes: commits, immediate calls, insertions and removals
+/// alike. The first call lists all cells as created.
+///
+/// A program that never calls this pays nothing for it; one that does pays in proportion to what has changed, and may
+/// call it as often or as rarely as it likes, without track_changes too. Ends all views; deldrift_cells takes constant
+/// time after it.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
+/// Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_take_changes(
+    t: *mut deldrift_triangulation,
+    changes: *mut deldrift_changes,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::change(t, |kernel| {
+            let changes = pointers::output("changes", changes)?;
+            changes.write(in_its_dimension!(kernel, t => t.take_changes()?.into()));
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,264 @@
+//! Insertions and removals that wait for the next commit, with the moves.
+//!
+//! A staged insertion gets its id at once; the vertex is present from the commit on. The commit removes and inserts first,
+//! at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or go it
+//! triangulates all of them anew. Either way all of it is one transaction.
+
+use super::staging::check_position;
+use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
+use crate::complex::{NONE, memory};
+use crate::delaunay::order::{Keyed, hilbert_order};
+use crate::delaunay::{Dimension, Insertion};
+use crate::error::{Error, Result};
+
+/// Rebuild when more than one vertex in so many comes or goes: a removal and an insertion cost about as much as so many
+/// vertices rebuilt.
+const EDITED: usize = 8;
+
+/// What waits.
+#[derive(Debug)]
+pub(super) struct Edits<G: Dimension> {
+    insertions: Vec<(u32, G::Point)>,
+    removals: Vec<u32>,
+    /// By vertex id, whether a removal is staged; ids beyond the end have none.
+    is_leaving: Vec<bool>,
+}
+
+impl<G: Dimension> Default for Edits<G> {
+    fn default() -> Self {
+        Edits { insertions: Vec::new(), removals: Vec::new(), is_leaving: Vec::new() }
+    }
+}
+
+impl<G: Dimension> Edits<G> {
+    /// Whether nothing waits.
+    #[inline(always)]
+    pub(super) fn are_none(&self) -> bool {
+        self.insertions.is_empty() && self.removals.is_empty()
+    }
+
+    /// Whether the removal of a vertex is staged.
+    #[inline(always)]
+    pub(super) fn is_leaving(&self, vertex: u32) -> bool {
+        !self.removals.is_empty() && self.is_leaving.get(vertex as usize).copied().unwrap_or(false)
+    }
+
+    /// Forgets all that waits.
+    fn clear(&mut self) {
+        self.insertions.clear();
+        for &v in &self.removals {
+            self.is_leaving[v as usize] = false;
+        }
+        self.removals.clear();
+    }
+
+    /// Forgets the removal of a vertex.
+    pub(super) fn forget_removal(&mut self, vertex: u32) {
+        if self.is_leaving(vertex) {
+            self.is_leaving[vertex as usize] = false;
+            self.removals.retain(|&v| v != vertex);
+        }
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.insertions.capacity() * size_of::<(u32, G::Point)>()
+            + self.removals.capacity() * 4
+            + self.is_leaving.capacity()
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those of the
+    /// others follow. They are present from the next commit on.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
+    pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<u32> {
+        let (n, first) = (positions.len(), self.site_of.len());
+        if n > MAX_VERTICES - first {
+            return Err(Error::TooManyVertices { given: first.saturating_add(n), limit: MAX_VERTICES });
+        }
+        self.staging.list()?;
+        self.staging.make_room(n)?;
+        memory::reserve(&mut self.site_of, n)?;
+        memory::reserve(&mut self.edits.insertions, n)?;
+        for (index, position) in positions.iter().enumerate() {
+            check_position::<G>("positions", index, position)?;
+        }
+        for (id, position) in (first as u32..).zip(positions) {
+            let checked = check_position::<G>("positions", 0, position)?;
+            self.edits.insertions.push((id, checked));
+        }
+        self.site_of.resize(first + n, NONE);
+        self.staging.grow(self.site_of.len());
+        Ok(first as u32)
+    }
+
+    /// Stages the removal of vertices, all of them or, on an error, none. Moves staged for them are forgotten, and no more
+    /// can be staged.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`]; [`Error::RemovedVertex`] also if the removal is staged already; [`Error::OutOfMemory`].
+    pub fn stage_removals(&mut self, vertices: &[u32]) -> Result<()> {
+        self.staging.list()?;
+        memory::reserve(&mut self.edits.removals, vertices.len())?;
+        let missing = self.site_of.len().saturating_sub(self.edits.is_leaving.len());
+        memory::reserve(&mut self.edits.is_leaving, missing)?;
+        self.edits.is_leaving.resize(self.edits.is_leaving.len() + missing, false);
+        let before = self.edits.removals.len();
+        for (index, &vertex) in vertices.iter().enumerate() {
+            if let Err(error) = self.site_of_vertex("vertices", index, vertex) {
+                for v in self.edits.removals.drain(before..) {
+                    self.edits.is_leaving[v as usize] = false;
+                }
+                return Err(error);
+            }
+            self.edits.is_leaving[vertex as usize] = true;
+            self.edits.removals.push(vertex);
+        }
+        let edits = &self.edits;
+        self.staging.unstage_all(|v| edits.is_leaving[v as usize]);
+        Ok(())
+    }
+
+    /// The id of a staged insertion.
+    pub(super) fn coming(&self, k: usize) -> u32 {
+        self.edits.insertions[k].0
+    }
+
+    /// Number of staged insertions and removals.
+    pub fn staged_edits(&self) -> (usize, usize) {
+        (self.edits.insertions.len(), self.edits.removals.len())
+    }
+
+    /// Forgets what waits. Ids that were given last are given back.
+    pub(super) fn discard_edits(&mut self) {
+        // A commit that failed has put them in another order.
+        self.edits.insertions.sort_unstable_by_key(|&(id, _)| id);
+        while let Some((id, _)) = self.edits.insertions.pop() {
+            if id as usize + 1 == self.site_of.len() {
+                self.site_of.pop();
+            }
+        }
+        self.staging.shrink(self.site_of.len());
+        self.edits.clear();
+    }
+
+    /// The edits have been made.
+    pub(super) fn end_edits(&mut self) {
+        self.edits.clear();
+    }
+
+    /// Makes all edits, and all moves as well if that returns `true`.
+    pub(super) fn make_edits(&mut self, report: &mut CommitReport) -> Result<bool> {
+        if self.edits.are_none() {
+            return Ok(false);
+        }
+        let n_edits = self.edits.insertions.len().max(self.edits.removals.len());
+        if self.kernel.has_cells() && EDITED * n_edits <= self.n_present {
+            if self.edit_cells(report)? {
+                return Ok(false);
+            }
+            // Vertices have gone out of a hyperplane where all others are: once more from the beginning.
+            self.undo();
+            self.begin()?;
+            (report.inserted, report.removed) = (0, 0);
+        }
+        self.rebuild_edited(report)?;
+        Ok(true)
+    }
+
+    /// Removes and inserts one vertex after the other; `false` if a kernel has to be built instead.
+    fn edit_cells(&mut self, report: &mut CommitReport) -> Result<bool> {
+        self.order_insertions()?;
+        self.with_regions(report, |t, report| {
+            for k in 0..t.edits.removals.len() {
+                t.remove_present(t.edits.removals[k])?;
+                report.removed += 1;
+            }
+            let mut near = NONE;
+            for k in 0..t.edits.insertions.len() {
+                let (id, q) = t.edits.insertions[k];
+                let s = t.kernel.add_site(q, id)?;
+                t.log_vertex(id)?;
+                t.site_of[id as usize] = s;
+                match t.kernel.insert_site(s, near)? {
+                    Insertion::New => near = t.kernel.site(s).cell,
+                    Insertion::Coincident(at) => t.hide(id, at)?,
+                    Insertion::Spans => return Ok(false),
+                }
+                t.n_present += 1;
+                t.regions.note_relocated(id)?;
+                report.inserted += 1;
+            }
+            Ok(true)
+        })
+    }
+
+    /// Takes a vertex out.
+    pub(super) fn remove_present(&mut self, vertex: u32) -> Result<()> {
+        let s = self.site_of[vertex as usize];
+        self.log_vertex(vertex)?;
+        if self.is_shared(s) {
+            self.leave(vertex)?;
+        } else {
+            self.kernel.remove_site(s)?;
+        }
+        self.site_of[vertex as usize] = NONE;
+        self.n_present -= 1;
+        Ok(())
+    }
+
+    /// Puts the insertions along a Hilbert curve, so that each walk begins near its end.
+    fn order_insertions(&mut self) -> Result<()> {
+        let insertions = &self.edits.insertions;
+        let mut keyed = Vec::new();
+        memory::reserve_exact(&mut keyed, insertions.len())?;
+        keyed.extend((0..insertions.len() as u32).map(Keyed::new));
+        let keyed = hilbert_order::<G>(keyed, |k| &insertions[k as usize].1)?;
+        let mut ordered = Vec::new();
+        memory::reserve_exact(&mut ordered, insertions.len())?;
+        ordered.extend(keyed.iter().map(|k| insertions[k.item() as usize]));
+        self.edits.insertions = ordered;
+        Ok(())
+    }
+
+    /// Triangulates the vertices that stay, at their new positions, and those that come.
+    fn rebuild_edited(&mut self, report: &mut CommitReport) -> Result<()> {
+        let room = self.hidden.count() + self.edits.insertions.len();
+        let mut next = self.kernel.successor(room, |site| site.point, |_| {})?;
+        let ready = self.edit_sites(&mut next, report);
+        let (n_in, n_out) = self.staged_edits();
+        self.build_and_adopt(next, ready, report)?;
+        for &v in &self.edits.removals {
+            self.site_of[v as usize] = NONE;
+        }
+        self.n_present = self.n_present + n_in - n_out;
+        report.inserted += n_in as u64;
+        report.removed += n_out as u64;
+        Ok(())
+    }
+
+    /// Gives a new kernel the sites of all vertices that are to be there, where they are to be.
+    fn edit_sites(
+        &mut self,
+        next: &mut crate::delaunay::Delaunay<G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let spread = self.spread_hidden(next)?;
+        let own = |t: &Self, v: u32| {
+            let at = spread.binary_search_by_key(&v, |&(hidden, _)| hidden);
+            at.map_or(t.site_of[v as usize], |k| spread[k].1)
+        };
+        for &v in &self.staging.vertices {
+            report.moved += u64::from(self.move_to_staged(next, v, own(self, v)));
+        }
+        for &v in &self.edits.removals {
+            next.discard_site(own(self, v))?;
+        }
+        for &(id, q) in &self.edits.insertions {
+            next.add_site(q, id)?;
+        }
+        Ok(())
+    }
+}

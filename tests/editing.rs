@@ -1,0 +1,243 @@
+//! Insertions and removals staged into commits, with moves and immediate calls in between: the cells are those of a fresh
+//! build after every commit, and a commit that is cancelled leaves everything as it was, staged.
+
+mod common;
+
+use common::exact::representatives;
+use common::history::{ALGORITHMS, Snapshot};
+use common::inputs::{Kind, draw, draw_one};
+use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
+use deldrift::Error;
+use deldrift::delaunay::{Dimension, Level, Plane, Space};
+use deldrift::motion::{Algorithm, CoincidencePolicy, MovingTriangulation, Options};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
+
+const KINDS: [Kind; 4] = [Kind::Random, Kind::Lattice, Kind::Sphere, Kind::Hyperplane];
+
+/// What a triangulation should hold.
+struct Model<G: Dimension> {
+    t: MovingTriangulation<G>,
+    positions: Vec<Option<G::Point>>,
+    moves: BTreeMap<u32, G::Point>,
+    coming: BTreeMap<u32, G::Point>,
+    leaving: Vec<u32>,
+    /// Calls of the monitor until it cancels; negative if it never does.
+    patience: Arc<AtomicI64>,
+    rng: Rng,
+    kind: Kind,
+    name: String,
+}
+
+impl<G: Dimension> Model<G> {
+    fn new(kind: Kind, n: usize, seed: u64, threads: u32) -> Self {
+        let mut rng = Rng::new(seed);
+        let points = draw::<G>(kind, n, &mut rng);
+        let patience = Arc::new(AtomicI64::new(-1));
+        let left = Arc::clone(&patience);
+        let monitor = move |_: f64| left.fetch_sub(1, Relaxed) != 0;
+        let options = Options { threads, monitor: Some(Box::new(monitor)), ..Options::default() };
+        let t = MovingTriangulation::new(&points, options).expect("a build");
+        let name = format!("{}D, {kind:?}, {n} points, seed {seed}, {threads} threads", G::D);
+        let positions = points.into_iter().map(Some).collect();
+        let (moves, coming, leaving) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
+        Model { t, positions, moves, coming, leaving, patience, rng, kind, name }
+    }
+
+    fn place(&mut self) -> G::Point {
+        let present: Vec<G::Point> = self.positions.iter().flatten().copied().collect();
+        if !present.is_empty() && self.rng.one_in(4) {
+            return *self.rng.pick(&present);
+        }
+        draw_one::<G>(self.kind, self.positions.len(), &mut self.rng)
+    }
+
+    fn stage(&mut self) {
+        let n_present = self.positions.iter().flatten().count();
+        let share = *self.rng.pick(&[2, 5, 50]);
+        let coming: Vec<G::Point> =
+            (0..self.rng.below(1 + n_present / share + 3)).map(|_| self.place()).collect();
+        let first = self.t.stage_insertions(&coming).expect("room");
+        assert_eq!(first as usize, self.positions.len(), "{}", self.name);
+        for (k, q) in coming.into_iter().enumerate() {
+            self.positions.push(None);
+            self.coming.insert(first + k as u32, q);
+        }
+        let mut movable: Vec<u32> = (0..self.positions.len() as u32)
+            .filter(|v| self.positions[*v as usize].is_some() && !self.leaving.contains(v))
+            .collect();
+        self.rng.shuffle(&mut movable);
+        let n_moves = self.rng.below(movable.len() + 1);
+        for &v in &movable[..n_moves] {
+            if self.moves.contains_key(&v) {
+                continue;
+            }
+            let far = self.rng.one_in(8);
+            let p = self.positions[v as usize].expect("present");
+            let q = if far { self.place() } else { point::<G>(|k| p[k] + self.rng.within(-1, 1) as f64) };
+            self.t.move_vertices(&[v], &[q]).expect("room");
+            self.moves.insert(v, q);
+        }
+        self.rng.shuffle(&mut movable);
+        let n_leaving = self.rng.below(movable.len() / share + 2).min(movable.len());
+        let leaving = movable[..n_leaving].to_vec();
+        self.t.stage_removals(&leaving).expect("room");
+        for v in leaving {
+            self.moves.remove(&v);
+            self.leaving.push(v);
+        }
+        assert_eq!(self.t.staged_count(), self.moves.len(), "{}", self.name);
+        assert_eq!(self.t.staged_edits(), (self.coming.len(), self.leaving.len()), "{}", self.name);
+    }
+
+    fn commit(&mut self, algorithm: Algorithm) {
+        self.t.set_algorithm(algorithm);
+        for cancelled in 0..3 {
+            let before = Snapshot::of(&self.t);
+            let changes = cell_set(&self.t);
+            self.patience.store(if cancelled < 2 { 0 } else { -1 }, Relaxed);
+            if cancelled == 1 {
+                self.patience.store(1 + self.rng.below(3) as i64, Relaxed);
+            }
+            match self.t.commit_timestamp() {
+                Ok(report) => {
+                    assert_eq!(report.inserted, self.coming.len() as u64, "{} {algorithm:?}", self.name);
+                    assert_eq!(report.removed, self.leaving.len() as u64, "{} {algorithm:?}", self.name);
+                    break;
+                }
+                Err(error) => {
+                    assert_eq!(error, Error::Cancelled, "{} {algorithm:?}", self.name);
+                    assert_eq!(Snapshot::of(&self.t), before, "{} {algorithm:?}", self.name);
+                    assert_eq!(cell_set(&self.t), changes);
+                    assert_eq!(self.t.staged_edits(), (self.coming.len(), self.leaving.len()));
+                }
+            }
+        }
+        for (v, q) in std::mem::take(&mut self.moves).into_iter().chain(std::mem::take(&mut self.coming)) {
+            self.positions[v as usize] = Some(q);
+        }
+        for v in std::mem::take(&mut self.leaving) {
+            self.positions[v as usize] = None;
+        }
+        self.check(algorithm);
+    }
+
+    fn check(&self, algorithm: Algorithm) {
+        let context = || format!("{} after {algorithm:?}", self.name);
+        if let Err(violation) = self.t.validate(Level::Delaunay) {
+            panic!("{}: {violation}", context());
+        }
+        assert_same_cells(&cell_set(&self.t), &fresh_cells::<G>(&self.positions), context);
+        for (v, (p, r)) in (0u32..).zip(self.positions.iter().zip(representatives(&self.positions))) {
+            assert_eq!(self.t.position(v).ok(), *p, "{}: vertex {v}", context());
+            assert_eq!(self.t.coincident_representative(v).ok(), r, "{}: vertex {v}", context());
+        }
+        assert_eq!(self.t.vertex_count(), self.positions.iter().flatten().count(), "{}", context());
+        assert_eq!(self.t.id_count(), self.positions.len(), "{}", context());
+    }
+
+    /// A few immediate calls, on vertices about to go as well.
+    fn call(&mut self) {
+        let present: Vec<u32> =
+            (0..self.positions.len() as u32).filter(|v| self.positions[*v as usize].is_some()).collect();
+        match self.rng.below(4) {
+            0 => {
+                let q = self.place();
+                let v = self.t.insert_vertex(&q).expect("room");
+                assert_eq!(v as usize, self.positions.len());
+                self.positions.push(Some(q));
+            }
+            1 if !present.is_empty() => {
+                let v = *self.rng.pick(&present);
+                self.t.remove_vertex(v).expect("it is present");
+                self.positions[v as usize] = None;
+                self.moves.remove(&v);
+                self.leaving.retain(|&w| w != v);
+            }
+            2 if !present.is_empty() => {
+                let v = *self.rng.pick(&present);
+                if !self.moves.contains_key(&v) {
+                    let q = self.place();
+                    self.t.relocate_vertex(v, &q).expect("it is present");
+                    self.positions[v as usize] = Some(q);
+                }
+            }
+            _ => {
+                self.t.discard_moves();
+                self.moves.clear();
+                self.leaving.clear();
+                while let Some((id, _)) = self.coming.pop_last() {
+                    if id as usize + 1 == self.positions.len() {
+                        self.positions.pop();
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn histories<G: Dimension>(sizes: &[usize]) {
+    for seed in seeds(12) {
+        for kind in KINDS {
+            for (k, &n) in sizes.iter().enumerate() {
+                let mut model = Model::<G>::new(kind, n, seed, 1 + (seed % 3) as u32 * 2);
+                for step in 0..6 {
+                    model.stage();
+                    if model.rng.one_in(3) {
+                        model.call();
+                    }
+                    let algorithm = ALGORITHMS[(seed as usize + step + k) % ALGORITHMS.len()];
+                    model.commit(algorithm);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn edits_in_the_plane_match_fresh_builds() {
+    histories::<Plane>(&[0, 3, 12, 80, 600]);
+}
+
+#[test]
+fn edits_in_space_match_fresh_builds() {
+    histories::<Space>(&[0, 4, 15, 60, 300]);
+}
+
+#[test]
+fn an_insertion_onto_a_vertex_is_rejected_and_stays_staged() {
+    let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
+    let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [2.0, 2.0]];
+    let mut t = MovingTriangulation::<Plane>::new(&square, options).expect("a build");
+    assert_eq!(t.stage_insertions(&[[0.5, 0.25], [1.0, 0.0]]), Ok(4));
+    let before = cell_set(&t);
+    assert_eq!(t.commit_timestamp(), Err(Error::Coincident { vertex: 1, other: 5 }));
+    assert_eq!((cell_set(&t), t.staged_edits(), t.id_count()), (before, (2, 0), 6));
+    // The vertex in the way goes, in the same commit.
+    t.stage_removals(&[1]).expect("it is present");
+    let report = t.commit_timestamp().expect("nothing is in the way");
+    assert_eq!((report.inserted, report.removed, t.vertex_count()), (2, 1, 5));
+    t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+}
+
+#[test]
+fn ids_of_discarded_insertions_are_given_again() {
+    let mut t =
+        MovingTriangulation::<Plane>::new(&[[0.0, 0.0], [1.0, 0.0]], Options::default()).expect("a build");
+    assert_eq!(t.stage_insertions(&[[3.0, 1.0]; 3]), Ok(2));
+    assert_eq!((t.id_count(), t.is_present(2)), (5, false));
+    t.discard_moves();
+    assert_eq!((t.id_count(), t.stage_insertions(&[[0.0, 1.0]])), (2, Ok(2)));
+    assert_eq!(
+        t.stage_removals(&[0, 2]),
+        Err(Error::RemovedVertex { argument: "vertices", index: 1, vertex: 2 })
+    );
+    assert_eq!(t.staged_edits(), (1, 0));
+    t.stage_removals(&[0]).expect("it is present");
+    let again = Error::RemovedVertex { argument: "vertices", index: 0, vertex: 0 };
+    assert_eq!(t.stage_removals(&[0]), Err(again.clone()));
+    assert_eq!(t.move_vertices(&[0], &[[5.0, 5.0]]), Err(again));
+    t.commit_timestamp().expect("room");
+    assert_eq!((t.vertex_count(), t.is_present(0), t.is_present(2)), (2, false, true));
+}

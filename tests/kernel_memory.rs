@@ -1,0 +1,241 @@
+//! The kernel where memory runs out: every allocation of a call fails once, in turn. The call returns an error, and
+//! what it says to have left alone is as it was.
+#![allow(unsafe_code)] // An allocator that fails has no other way to be one.
+
+use deldrift::Error;
+use deldrift::delaunay::{Delaunay, Dimension, Insertion, Level, Plane, Shortcut, Space};
+use deldrift::motion::{MovingTriangulation, Options};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::ptr::null_mut;
+
+struct Failing;
+
+#[global_allocator]
+static ALLOCATOR: Failing = Failing;
+
+thread_local! {
+    /// Allocations of this thread until one fails.
+    static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+}
+
+fn fails() -> bool {
+    let left = LEFT.get();
+    if left != u64::MAX {
+        LEFT.set(left.wrapping_sub(1));
+    }
+    left == 0
+}
+
+// SAFETY: all is handed on to the system's allocator, or there is no memory.
+unsafe impl GlobalAlloc for Failing {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        // SAFETY: the caller's promise.
+        if fails() { null_mut() } else { unsafe { System.alloc(layout) } }
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promise.
+        unsafe { System.dealloc(memory, layout) }
+    }
+
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        // SAFETY: the caller's promise.
+        if fails() { null_mut() } else { unsafe { System.realloc(memory, layout, size) } }
+    }
+}
+
+/// Does the work on something new each time, without the `k`-th allocation, for all `k` until it needs no more; returns how
+/// many there were. After an error `after` looks at what is left.
+fn without_each<T>(
+    make: impl Fn() -> T,
+    mut work: impl FnMut(&mut T) -> Result<(), Error>,
+    mut after: impl FnMut(&mut T),
+) -> u64 {
+    for k in 0.. {
+        let mut t = make();
+        LEFT.set(k);
+        let done = work(&mut t);
+        let has_failed = LEFT.replace(u64::MAX) > k;
+        match done {
+            Ok(()) if !has_failed => return k,
+            // What can do without goes on.
+            Ok(()) => {}
+            Err(error) => {
+                assert!(has_failed && matches!(error, Error::OutOfMemory { .. }), "{error}");
+                after(&mut t);
+            }
+        }
+    }
+    unreachable!()
+}
+
+fn unit(state: &mut u64) -> f64 {
+    *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
+    (*state >> 11) as f64 / (1u64 << 53) as f64
+}
+
+fn point<G: Dimension>(state: &mut u64) -> G::Point {
+    let mut p = G::Point::default();
+    (0..G::D).for_each(|k| p[k] = unit(state) - 0.5);
+    p
+}
+
+fn random<G: Dimension>(n: usize) -> Vec<G::Point> {
+    let mut state = 1;
+    (0..n).map(|_| point::<G>(&mut state)).collect()
+}
+
+/// A vertex in the middle of so many that all are its neighbours.
+fn hub<G: Dimension>(n: usize) -> Vec<G::Point> {
+    let mut points = random::<G>(n);
+    for p in &mut points {
+        let length = p.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
+        (0..G::D).for_each(|k| p[k] /= length);
+    }
+    points[0] = G::Point::default();
+    points
+}
+
+fn built<G: Dimension>(points: &[G::Point]) -> Delaunay<G> {
+    let mut t = Delaunay::<G>::default();
+    t.add_sites(points).expect("room for it");
+    t.rebuild(&mut |_| true).expect("room for it");
+    t.record_changes(Vec::new());
+    t
+}
+
+fn site_of<G: Dimension>(t: &Delaunay<G>, id: u32) -> u32 {
+    t.live_sites().find(|&s| t.site(s).id == id).expect("a site of each vertex")
+}
+
+fn is_valid<G: Dimension>(t: &Delaunay<G>) {
+    t.validate(Level::Delaunay).expect("as it was");
+}
+
+fn builds<G: Dimension>() {
+    let mut points = random::<G>(400);
+    points[17] = points[300];
+    let n = without_each(
+        Delaunay::<G>::default,
+        |t| {
+            t.add_sites(&points)?;
+            t.rebuild(&mut |_| true).map(|merges| assert_eq!(merges.len(), 1))
+        },
+        |_| {},
+    );
+    assert!(n > 10, "{n}");
+    // Where there is no memory for parts, the whole is built on one thread.
+    let (points, options) = (random::<G>(2000), || Options { threads: 3, ..Options::default() });
+    let n = without_each(
+        || None,
+        |t| MovingTriangulation::<G>::new(&points, options()).map(|built| *t = Some(built)),
+        |t| assert!(t.is_none()),
+    );
+    assert!(n > 20, "{n}");
+}
+
+fn inserts<G: Dimension>() {
+    let far = |sign: f64| {
+        let mut q = G::Point::default();
+        (0..G::D).for_each(|k| q[k] = sign * (30.0 + k as f64));
+        q
+    };
+    for (points, q) in [
+        (random::<G>(300), G::Point::default()),
+        (random::<G>(300), far(1.0)),
+        (hub::<G>(400)[1..].to_vec(), G::Point::default()),
+        (hub::<G>(40), hub::<G>(40)[7]),
+        (random::<G>(1), far(1.0)),
+    ] {
+        let n = without_each(
+            || built::<G>(&points),
+            |t| {
+                let s = t.add_site(q, 1000)?;
+                t.insert_site(s, u32::MAX)
+                    .map(|_| ())
+                    .inspect_err(|_| t.discard_site(s).expect("room was made for it"))
+            },
+            |t| {
+                is_valid(t);
+                let s = t.add_site(q, 1000).expect("room for it");
+                let inserted = t.insert_site(s, u32::MAX).expect("room for it");
+                assert_eq!(inserted == Insertion::New, !points.contains(&q));
+                is_valid(t);
+            },
+        );
+        assert!(n > 0);
+    }
+}
+
+fn removes<G: Dimension>() {
+    for points in [random::<G>(300), hub::<G>(60), hub::<G>(300), random::<G>(G::D + 1), random::<G>(1)] {
+        let n_corners = points.len();
+        let n = without_each(
+            || built::<G>(&points),
+            |t| t.remove_site(site_of(t, 0)),
+            |t| {
+                if n_corners > G::D + 1 {
+                    is_valid(t);
+                    t.remove_site(site_of(t, 0)).expect("room for it");
+                    is_valid(t);
+                }
+            },
+        );
+        assert!(n > 0);
+    }
+}
+
+fn relocates<G: Dimension>() {
+    for points in [random::<G>(300), hub::<G>(300), random::<G>(G::D + 1)] {
+        for (q, shortcut) in [
+            (points[0], Shortcut::Flips),
+            (random::<G>(1000)[999], Shortcut::Flips),
+            (hub::<G>(2)[1], Shortcut::Certificates),
+            (points[1], Shortcut::Flips),
+        ] {
+            without_each(
+                || built::<G>(&points),
+                |t| t.relocate_site(site_of(t, 0), &q, 0, shortcut).map(|_| ()),
+                |_| {},
+            );
+        }
+    }
+}
+
+fn answers<G: Dimension>() {
+    for points in [random::<G>(300), hub::<G>(300)[1..].to_vec()] {
+        let n = without_each(
+            || MovingTriangulation::<G>::new(&points, Options::default()).expect("room for it"),
+            |t| {
+                t.tolerance(0)?;
+                t.nearest_vertex(&G::Point::default()).map(|nearest| assert!(nearest.is_some()))
+            },
+            |_| {},
+        );
+        assert!(n < 1000);
+    }
+    let t = built::<G>(&random::<G>(300));
+    LEFT.set(0);
+    let validated = t.validate(Level::Delaunay);
+    assert_eq!(LEFT.replace(u64::MAX), 0, "needs no memory");
+    validated.expect("a Delaunay triangulation");
+}
+
+#[test]
+fn triangulations_of_the_plane_are_left_alone() {
+    builds::<Plane>();
+    inserts::<Plane>();
+    removes::<Plane>();
+    relocates::<Plane>();
+    answers::<Plane>();
+}
+
+#[test]
+fn triangulations_of_space_are_left_alone() {
+    builds::<Space>();
+    inserts::<Space>();
+    removes::<Space>();
+    relocates::<Space>();
+    answers::<Space>();
+}
