@@ -195,8 +195,16 @@ struct Setting {
     warm: usize,
 }
 
-const COLD: Setting =
-    Setting { n: 60, threads: 1, hides: false, tracks: false, reads: false, takes: false, edits: false, warm: 0 };
+const COLD: Setting = Setting {
+    n: 60,
+    threads: 1,
+    hides: false,
+    tracks: false,
+    reads: false,
+    takes: false,
+    edits: false,
+    warm: 0,
+};
 
 const SETTINGS: [Setting; 7] = [
     COLD,
@@ -204,8 +212,8 @@ const SETTINGS: [Setting; 7] = [
     Setting { hides: true, takes: true, ..COLD },
     Setting { tracks: true, warm: 1, ..COLD },
     Setting { hides: true, tracks: true, reads: true, takes: true, edits: true, warm: 1, ..COLD },
-    Setting { n: 1500, threads: 3, ..COLD },
-    Setting { n: 1500, threads: 3, hides: true, tracks: true, reads: true, takes: true, warm: 1, ..COLD },
+    Setting { n: 800, threads: 3, ..COLD },
+    Setting { n: 800, threads: 3, hides: true, tracks: true, reads: true, takes: true, warm: 1, ..COLD },
 ];
 
 /// A call, with what it is about.
@@ -318,7 +326,8 @@ impl<G: Dimension> Scene<G> {
             track_changes: setting.tracks,
             ..Options::default()
         };
-        let mut t = MovingTriangulation::<G>::new(&points, Options { monitor, ..options() }).expect("a build");
+        let mut t =
+            MovingTriangulation::<G>::new(&points, Options { monitor, ..options() }).expect("a build");
         let spacing = (setting.n as f64).powf(-1.0 / G::D as f64);
         for _ in 0..setting.warm {
             nudge::<G>(&mut points, 0.02 * spacing, rng);
@@ -463,7 +472,10 @@ impl<G: Dimension> Scene<G> {
                 carried.follow(t, &list, &|| "taken".to_string());
                 Given::Nothing
             }
-            Call::Tolerance => Given::Numbers(vec![given(t.tolerance(12))?.to_bits()]),
+            Call::Tolerance => {
+                let tolerance = given(t.tolerance(12))?;
+                Given::Numbers(vec![tolerance.to_bits()])
+            }
         })
     }
 
@@ -536,8 +548,10 @@ impl Faults<'_> {
             page.requests = REQUESTS.load(Relaxed);
             page.outcome = Outcome::Untouched;
         });
-        let stride = self.page.requests.div_ceil(self.most).max(1);
-        for (round, k) in (0..).step_by(stride).enumerate().take(4 * self.most) {
+        // The larger ones are slower.
+        let most = if setting.threads > 1 { self.most / 3 } else { self.most };
+        let stride = self.page.requests.div_ceil(most).max(1);
+        for (round, k) in (0..).step_by(stride).enumerate().take(4 * most) {
             let goes_on = round % 3 == 2;
             let mut attempt = |page: &mut Page, traces: bool| {
                 forked(page, |page| {
@@ -677,6 +691,8 @@ fn calls_without_memory_leave_all_as_it_was() {
     for (place, (times, example)) in places {
         println!("aborts {times:>5} at {place}\n        as in {example}");
     }
+    assert_eq!(sum.aborted, 0, "allocations that cannot fail");
+    assert!(sum.faults > 2500, "{} faults", sum.faults);
     assert!(changed.is_empty(), "{} of {}:\n{}", changed.len(), sum.faults, changed.join("\n"));
 }
 
@@ -727,5 +743,5 @@ fn cancelled_commits_leave_all_as_it_was() {
         }
     }
     println!("cancelled {n_calls} times");
-    assert!(n_calls > 500, "{n_calls}");
+    assert!(n_calls > 400, "{n_calls}");
 }
