@@ -302,7 +302,7 @@ pub unsafe extern "C" fn deldrift_star(
     // SAFETY: the header's conditions on pointers.
     unsafe {
         fence::read(t, |kernel| {
-            let mut star = Vec::with_capacity(64);
+            let mut star = Vec::new();
             in_its_dimension!(kernel, t => t.star(vertex, &mut star))?;
             copy_out(Room { capacity, count }, star.len(), &[("cells", cells.cast())], || {
                 pointers::fill("cells", cells, &star)
