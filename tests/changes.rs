@@ -15,7 +15,7 @@ use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, Level, Location, Monitor, MovingTriangulation, Options,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, AtomicUsize, Ordering::Relaxed};
 
@@ -39,6 +39,9 @@ struct History<'c, G: Dimension> {
     kind: Kind,
     positions: Vec<Option<G::Point>>,
     staged: BTreeMap<u32, G::Point>,
+    /// Staged insertions and removals.
+    coming: BTreeMap<u32, G::Point>,
+    leaving: BTreeSet<u32>,
     carried: Carried,
     /// Cells when the latest commit began, if changes are tracked.
     baseline: Option<CellSet>,
@@ -77,6 +80,8 @@ impl<'c, G: Dimension> History<'c, G> {
             kind,
             positions,
             staged: BTreeMap::new(),
+            coming: BTreeMap::new(),
+            leaving: BTreeSet::new(),
             carried: Carried::default(),
             baseline: None,
             tracks,
@@ -124,13 +129,41 @@ impl<'c, G: Dimension> History<'c, G> {
         let how = self.rng.below(10);
         let share = *self.rng.pick(&[1, 1, 1, 2, 10, 40]);
         let mut chosen = self.present();
-        chosen.retain(|v| !self.staged.contains_key(v) && self.rng.one_in(share));
+        chosen
+            .retain(|v| !self.staged.contains_key(v) && !self.leaving.contains(v) && self.rng.one_in(share));
         self.log.push(format!("stage {} by {how}", chosen.len()));
         let is_whole = chosen.len() == self.positions.len();
         let places: Vec<G::Point> = chosen.iter().map(|&v| self.destination(v, how)).collect();
         let staged = if is_whole { self.t.move_all(&places) } else { self.t.move_vertices(&chosen, &places) };
         staged.unwrap_or_else(|error| panic!("{}: {error}", self.context()));
         self.staged.extend(chosen.into_iter().zip(places));
+    }
+
+    /// Stages insertions and removals: a few, or many.
+    fn stage_edits(&mut self) {
+        let most = *self.rng.pick(&[1, 1, 3, 30]);
+        let places: Vec<G::Point> = (0..self.rng.below(most + 1))
+            .map(|_| {
+                let some = some_present(&self.positions, &mut self.rng);
+                match some {
+                    Some(v) if self.rng.one_in(3) => self.destination(v, 4),
+                    _ => draw_one::<G>(self.kind, self.positions.len(), &mut self.rng),
+                }
+            })
+            .collect();
+        let share = *self.rng.pick(&[2, 10, 40, 40]);
+        let mut gone = self.present();
+        gone.retain(|v| !self.leaving.contains(v) && self.rng.one_in(share));
+        self.log.push(format!("stage insertions of {places:?} and removals of {gone:?}"));
+        let first = self.t.stage_insertions(&places).expect("room");
+        assert_eq!(first as usize, self.positions.len(), "{}", self.context());
+        self.positions.resize(self.positions.len() + places.len(), None);
+        self.coming.extend((first..).zip(places));
+        self.t.stage_removals(&gone).expect("room");
+        self.staged.retain(|v, _| !gone.contains(v));
+        self.leaving.extend(gone);
+        let staged = (self.coming.len(), self.leaving.len());
+        assert_eq!(self.t.staged_edits(), staged, "{}", self.context());
     }
 
     fn commit(&mut self) {
@@ -161,8 +194,11 @@ impl<'c, G: Dimension> History<'c, G> {
         }
         self.counts.commits += 1;
         self.baseline = baseline;
-        for (v, q) in std::mem::take(&mut self.staged) {
+        for (v, q) in std::mem::take(&mut self.staged).into_iter().chain(std::mem::take(&mut self.coming)) {
             self.positions[v as usize] = Some(q);
+        }
+        for v in std::mem::take(&mut self.leaving) {
+            self.positions[v as usize] = None;
         }
     }
 
@@ -185,6 +221,13 @@ impl<'c, G: Dimension> History<'c, G> {
         self.log.push("discard".to_string());
         assert_eq!(self.t.discard_moves(), self.staged.len(), "{}", self.context());
         self.staged.clear();
+        self.leaving.clear();
+        while let Some((id, _)) = self.coming.pop_last() {
+            if id as usize + 1 == self.positions.len() {
+                self.positions.pop();
+            }
+        }
+        assert_eq!(self.t.id_count(), self.positions.len(), "{}", self.context());
     }
 
     fn insert(&mut self) {
@@ -202,15 +245,23 @@ impl<'c, G: Dimension> History<'c, G> {
 
     fn remove(&mut self) {
         let Some(v) = some_present(&self.positions, &mut self.rng) else { return };
+        if self.leaving.contains(&v) && self.t.remove_vertex(v).is_err() {
+            return;
+        }
+        if self.leaving.remove(&v) {
+            self.positions[v as usize] = None;
+            return;
+        }
         self.log.push(format!("remove {v}"));
         self.t.remove_vertex(v).expect("a removal");
         self.positions[v as usize] = None;
         self.staged.remove(&v);
+        self.leaving.remove(&v);
     }
 
     fn relocate(&mut self) {
         let Some(v) = some_present(&self.positions, &mut self.rng) else { return };
-        if self.staged.contains_key(&v) {
+        if self.staged.contains_key(&v) || self.leaving.contains(&v) {
             return;
         }
         let how = self.rng.below(10);
@@ -298,8 +349,14 @@ impl<'c, G: Dimension> History<'c, G> {
 
     fn step(&mut self) {
         match self.rng.below(12) {
-            0..6 => {
+            n @ 0..6 => {
+                if n < 2 {
+                    self.stage_edits();
+                }
                 self.stage();
+                if n == 2 {
+                    self.stage_edits();
+                }
                 self.commit();
             }
             6 => self.stage(),

@@ -83,7 +83,7 @@ static void motion() {
     CHECK(t.take_changes().created_count == t.cell_count() && t.take_changes().created_count == 0);
     const std::size_t ids = t.id_count(), vertices = t.vertex_count();
     CHECK(t.stage_insertions({3.0, 1.0, 3.5, 2.0}) == ids);
-    t.stage_removals({4});
+    t.stage_removals({3});
     const deldrift_commit_report report = t.commit_timestamp();
     CHECK(report.inserted == 2 && report.removed == 1 && t.vertex_count() == vertices + 1);
     const deldrift_changes changes = t.take_changes();

@@ -6,6 +6,7 @@ use std::ptr;
 
 use super::pointers;
 use super::status::Failure;
+use crate::complex::memory;
 use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRule};
 
 /// How deldrift_commit_timestamp brings the triangulation to the staged positions. Every algorithm
@@ -210,7 +211,7 @@ impl deldrift_options {
             coincidence,
             track_changes,
             switching: self.switching()?,
-            monitor: self.monitor(),
+            monitor: self.monitor()?,
         })
     }
 
@@ -230,12 +231,13 @@ impl deldrift_options {
         })
     }
 
-    fn monitor(&self) -> Option<Monitor> {
+    fn monitor(&self) -> Result<Option<Monitor>, Failure> {
         if self.cancel.is_none() && self.progress.is_none() {
-            return None;
+            return Ok(None);
         }
         let callbacks = Callbacks { cancel: self.cancel, progress: self.progress, user_data: self.user_data };
-        Some(Box::new(move |fraction| callbacks.go_on(fraction)))
+        let monitor = memory::boxed(move |fraction| callbacks.go_on(fraction))?;
+        Ok(Some(monitor))
     }
 }
 

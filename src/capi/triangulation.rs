@@ -8,6 +8,7 @@ use super::fence;
 use super::options::{self, AlgorithmCode, deldrift_options};
 use super::pointers;
 use super::status::{Failure, deldrift_status};
+use crate::complex::memory;
 use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::Error;
 use crate::motion::{MAX_VERTICES, MovingTriangulation};
@@ -140,7 +141,7 @@ pub unsafe extern "C" fn deldrift_create(
         fence::enter(|| {
             let out = pointers::output("out", out)?;
             let kernel = Kernel::new(dimension, positions, count, options)?;
-            out.write(Box::into_raw(Box::new(deldrift_triangulation::new(kernel))));
+            out.write(Box::into_raw(memory::boxed(deldrift_triangulation::new(kernel))?));
             Ok(())
         })
     }

@@ -60,10 +60,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         for k in 0..self.staged_edits().0 {
             ids[self.coming(k) as usize] = 0;
         }
-        let mut next = 0;
-        for id in ids.iter_mut().filter(|id| **id != NONE) {
+        for (next, id) in (0..).zip(ids.iter_mut().filter(|id| **id != NONE)) {
             *id = next;
-            next += 1;
         }
         Ok(ids)
     }

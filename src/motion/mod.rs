@@ -21,7 +21,7 @@
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
 //! - the vertices at one place share a site; the lowest id represents it, the others are *hidden*;
-//! - a call that fails has no effect: every change is a [transaction](transaction), which is undone from its own record.
+//! - a call that fails has no effect: every change is a transaction (`transaction`), which is undone from its own record.
 //!
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, and once moves are staged a position, a flag and
 //! an id.

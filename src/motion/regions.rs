@@ -152,6 +152,11 @@ impl<G: Dimension> Regions<G> {
         memory::push(&mut self.relocated, vertex)
     }
 
+    /// Makes sure that a vertex can be [noted](Self::note_relocated) without a failure.
+    pub(super) fn make_room_to_note(&mut self) -> Result<()> {
+        memory::reserve(&mut self.relocated, 1)
+    }
+
     /// The filter that the regions are kept for.
     pub(super) fn kept_for(&self) -> Option<Filter> {
         self.valid_for

@@ -21,7 +21,7 @@
 //! threads, all else by one.
 
 use super::{CommitReport, MovingTriangulation};
-use crate::complex::{Corners, Facet, INFINITE};
+use crate::complex::{Corners, Facet, INFINITE, memory};
 use crate::delaunay::{Dimension, Failures, Shortcut};
 use crate::error::{Error, Result};
 use crate::prefetch::{AHEAD, prefetch};
@@ -82,14 +82,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.regions.invalidate();
         let accepted = report.moved;
         let mut repair = std::mem::take(&mut self.repair);
-        if can_move_all {
+        let begun = if can_move_all {
             let moved = self.move_all_staged();
-            self.begin_moves(&mut repair, moved);
+            self.begin_moves(&mut repair, moved)
         } else {
-            self.move_staged(&mut repair);
-        }
+            self.move_staged(&mut repair)
+        };
         repair.failures.are_open = true;
-        let mended = self.mend(&mut repair, report);
+        let mended = begun.and_then(|()| self.mend(&mut repair, report));
         report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
         if !mended? {
@@ -103,7 +103,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// does, after a look that has found failures. `false` if too many vertices would have to be placed; otherwise
     /// those that are to be are not applied.
     pub(super) fn mend_moved(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
-        self.begin_moves(repair, report.moved);
+        self.begin_moves(repair, report.moved)?;
         self.mend(repair, report)
     }
 
@@ -129,14 +129,17 @@ impl<G: Dimension> MovingTriangulation<G> {
             if !(is_triangulation || self.take_back_failed(repair, most)? && self.winds_once(repair)?) {
                 return Ok(false);
             }
-            repair.suspects.clone_from(&repair.failures.facets);
+            repair.suspects.clear();
+            memory::reserve(&mut repair.suspects, repair.failures.facets.len())?;
+            repair.suspects.extend_from_slice(&repair.failures.facets);
             let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck)?;
             if repair.stuck.is_empty() {
                 report.flips += flips;
                 return Ok(true);
             }
-            self.list_stuck(repair);
+            let listed = self.list_stuck(repair);
             self.kernel.undo_flips();
+            listed?;
             if repair.sites.is_empty() {
                 return Ok(false);
             }
@@ -159,14 +162,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Notes the vertices that have been moved: of a whole staging all, `moved` of which have gone to another place.
-    fn begin_moves(&mut self, repair: &mut Repair, moved: u64) {
+    fn begin_moves(&mut self, repair: &mut Repair, moved: u64) -> Result<()> {
         repair.at.clear();
+        memory::reserve(&mut repair.at, self.site_of.len())?;
         repair.queue.clear();
         (repair.n_new, repair.n_old) = (0, 0);
         if self.staging.is_whole() {
             repair.at.resize(self.site_of.len(), At::New);
             repair.n_new = moved as usize;
-            return;
+            return Ok(());
         }
         repair.at.resize(self.site_of.len(), At::Rest);
         for &v in &self.staging.vertices[..self.staging.applied] {
@@ -175,11 +179,14 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.n_new += 1;
             }
         }
+        Ok(())
     }
 
     /// Moves all staged vertices that have sites of their own and have not moved yet.
-    fn move_staged(&mut self, repair: &mut Repair) {
-        self.begin_moves(repair, 0);
+    fn move_staged(&mut self, repair: &mut Repair) -> Result<()> {
+        self.begin_moves(repair, 0)?;
+        // At shared places there are the hidden vertices, and no more representatives than these.
+        memory::reserve(&mut repair.queue, self.staging.vertices.len().min(2 * self.hidden.count()))?;
         // As in the test for tolerances: sites are asked for in advance, as they are in another order than the vertices.
         let (site_of, positions) = (&self.site_of[..], &mut self.staging.positions[..]);
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
@@ -209,6 +216,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         self.kernel.cover(&lower, &upper);
+        Ok(())
     }
 
     /// Takes vertices back until every cell is positive and the hull convex; `false` if more than `most` are back.
@@ -271,6 +279,10 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Takes a vertex back to its old place, and looks at its star.
     fn take_back(&mut self, repair: &mut Repair, s: u32) -> Result<()> {
+        memory::reserve(&mut repair.queue, 1)?;
+        // The queue has to fit where the staged vertices are listed.
+        let listed = &mut self.staging.vertices;
+        memory::reserve(listed, (repair.queue.len() + 1).saturating_sub(listed.len()))?;
         let v = self.kernel.site(s).id;
         self.exchange_position(v);
         repair.at[v as usize] = At::Old;
@@ -281,8 +293,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Lists a vertex of each facet where flips are stuck.
-    fn list_stuck(&mut self, repair: &mut Repair) {
+    fn list_stuck(&mut self, repair: &mut Repair) -> Result<()> {
         repair.sites.clear();
+        memory::reserve(&mut repair.sites, repair.stuck.len())?;
         for k in 0..repair.stuck.len() {
             let facet = repair.stuck[k];
             let complex = self.kernel.complex();
@@ -300,6 +313,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.at[self.kernel.site(s).id as usize] = At::Listed;
             }
         }
+        Ok(())
     }
 
     /// Takes the listed vertices back.
@@ -310,7 +324,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         taken
     }
 
-    /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed.
+    /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed. There is
+    /// room for them.
     fn settle(&mut self, repair: &mut Repair) {
         let is_whole = self.staging.is_whole();
         let vertices = &mut self.staging.vertices;

@@ -18,7 +18,7 @@ pub struct List {
 }
 
 impl List {
-    fn of<C: AsRef<[u32]>>(changes: &Changes<'_, C>) -> Self {
+    pub fn of<C: AsRef<[u32]>>(changes: &Changes<'_, C>) -> Self {
         assert_eq!(changes.removed.len(), changes.removed_corners.len());
         assert_eq!(changes.renumbered_from.len(), changes.renumbered_to.len());
         let renumbered = changes.renumbered_from.iter().zip(changes.renumbered_to);
