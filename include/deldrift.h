@@ -719,7 +719,8 @@ deldrift_status deldrift_cells(const deldrift_triangulation *t,
 /// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
 /// too small. NULL for both with capacity 0 asks for the count alone.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
                                     uint32_t *vertices,
                                     uint32_t *neighbours,
@@ -733,8 +734,8 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL. After a change the first call also does what the
-/// first deldrift_cells does.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call
+/// also does what the first deldrift_cells does; else the cost is that of the star.
 deldrift_status deldrift_star(const deldrift_triangulation *t,
                               uint32_t vertex,
                               uint32_t *cells,
@@ -749,7 +750,7 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 /// cells. Computed from the star of the vertex, whatever the algorithm in force.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
                                    uint32_t vertex,
                                    double *out);
@@ -766,7 +767,8 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 /// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
 /// for the count alone.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_annulus_widths(const deldrift_triangulation *t,
                                         double *widths,
                                         size_t capacity,
@@ -781,7 +783,7 @@ deldrift_status deldrift_annulus_widths(const deldrift_triangulation *t,
 /// width in 2D, and at most that in 3D, where other changes may come sooner.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
-/// DELDRIFT_NO_DELIMITER for a facet of the hull. After a change the first call also does what the first
+/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
 /// deldrift_cells does.
 deldrift_status deldrift_standard_delimiter(const deldrift_triangulation *t,
                                             uint32_t cell,
@@ -795,7 +797,7 @@ deldrift_status deldrift_standard_delimiter(const deldrift_triangulation *t,
 /// position: 2 or 3 numbers.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. After a change the first call also does what the first deldrift_cells does.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
 deldrift_status deldrift_locate(const deldrift_triangulation *t,
                                 const double *position,
                                 deldrift_location *location);
@@ -806,7 +808,7 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
 /// position: 2 or 3 numbers.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
                                         const double *position,
                                         uint32_t *vertex);
@@ -823,7 +825,7 @@ deldrift_status deldrift_coincident_representative(const deldrift_triangulation 
 /// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
 /// first commit there are none. Needs track_changes in the options.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_changed_cells(const deldrift_triangulation *t,
                                        deldrift_indices_view *view);
 

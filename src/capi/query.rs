@@ -254,7 +254,8 @@ pub unsafe extern "C" fn deldrift_cells(
 /// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
 /// too small. NULL for both with capacity 0 asks for the count alone.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_copy_cells(
     t: *const deldrift_triangulation,
@@ -290,8 +291,8 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL. After a change the first call also does what the
-/// first deldrift_cells does.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call
+/// also does what the first deldrift_cells does; else the cost is that of the star.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_star(
     t: *const deldrift_triangulation,
@@ -324,7 +325,7 @@ pub unsafe extern "C" fn deldrift_star(
 /// cells. Computed from the star of the vertex, whatever the algorithm in force.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_tolerance(
     t: *const deldrift_triangulation,
@@ -347,7 +348,8 @@ pub unsafe extern "C" fn deldrift_tolerance(
 /// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
 /// for the count alone.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_annulus_widths(
     t: *const deldrift_triangulation,
@@ -377,7 +379,7 @@ pub unsafe extern "C" fn deldrift_annulus_widths(
 /// width in 2D, and at most that in 3D, where other changes may come sooner.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
-/// DELDRIFT_NO_DELIMITER for a facet of the hull. After a change the first call also does what the first
+/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
 /// deldrift_cells does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_standard_delimiter(
@@ -415,7 +417,7 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
 /// position: 2 or 3 numbers.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. After a change the first call also does what the first deldrift_cells does.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_locate(
     t: *const deldrift_triangulation,
@@ -432,7 +434,7 @@ pub unsafe extern "C" fn deldrift_locate(
 /// position: 2 or 3 numbers.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_nearest_vertex(
     t: *const deldrift_triangulation,
@@ -465,7 +467,7 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
 /// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
 /// first commit there are none. Needs track_changes in the options.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_changed_cells(
     t: *const deldrift_triangulation,

@@ -297,6 +297,9 @@ impl<G: Dimension> Cells<G> {
         memory::reserve(table, 1 << bits)?;
         table.resize(1 << bits, NONE);
         for (k, &index) in lost.iter().enumerate() {
+            if let Some(&next) = lost.get(k + AHEAD) {
+                prefetch(&self.corners, next as usize);
+            }
             let mut at = hash(&self.corners[index as usize]) as usize >> 7 & mask;
             while table[at] != NONE {
                 at = (at + 1) & mask;
@@ -372,9 +375,13 @@ impl<G: Dimension> Cells<G> {
             let row = corners[index as usize];
             tell(&|tracker| tracker.remove(index, row));
         }
-        // The lowest holes are filled first, so that the others may be at the end.
-        if found.len() < holes.len() || !holes.is_sorted() {
-            holes.sort_unstable();
+        // Those that have to be filled come first: holes beyond the end go with it.
+        let mut n_low = 0;
+        for k in 0..holes.len() {
+            if (holes[k] as usize) < n {
+                holes.swap(k, n_low);
+                n_low += 1;
+            }
         }
         let mut next_hole = holes.iter().copied();
         for &(slot, index, ids) in found.iter() {

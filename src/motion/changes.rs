@@ -300,9 +300,9 @@ impl<C> Default for Taken<C> {
 impl<C: Corners> Taken<C> {
     fn clear(&mut self) {
         for list in self.lists() {
-            list.clear();
+            clear(list);
         }
-        self.removed_corners.clear();
+        clear(&mut self.removed_corners);
     }
 
     fn lists(&mut self) -> [&mut Vec<u32>; 7] {
@@ -494,6 +494,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         Ok(())
     }
+}
+
+/// Empties a list; its memory is kept unless it has been of little use.
+fn clear<T>(list: &mut Vec<T>) {
+    if list.capacity() > 4 * list.len() + 1024 {
+        *list = Vec::new();
+    }
+    list.clear();
 }
 
 /// Keeps the first event of each vertex, in the order of the vertices.
