@@ -11,9 +11,9 @@ use crate::motion::Changes;
 /// call that changes it. A pointer is NULL where its list is empty.
 ///
 /// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has happened in
-/// between. It keeps its index unless it is listed as renumbered, and its row keeps the order of the vertices unless the
-/// cell has been turned over, which only a motion can do that goes through a flat cell. So data kept by cell follows in
-/// three steps: set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
+/// between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the vertices while the cell
+/// stays as it is; one that has been turned over by a motion through a flat cell, or that has gone and come back, may
+/// have them in another order. So data kept by cell follows in three steps: set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
 /// indices; make those of created cells. Neighbours change only at cells that are listed, and at the neighbours of those.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]

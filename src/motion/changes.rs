@@ -405,7 +405,7 @@ impl<C: Corners> Taken<C> {
     }
 }
 
-impl<G: Dimension> super::cells::Views<G> {
+impl<G: Dimension> super::views::Views<G> {
     /// Number of events, no more than a few for each of so many vertices.
     pub(super) fn count_visibilities(&mut self, n_ids: usize) -> usize {
         if self.visibilities.len() > 2 * n_ids + 1024 {

@@ -47,14 +47,16 @@ mod staging;
 mod switching;
 mod tolerance;
 mod transaction;
+mod views;
 mod watch;
 mod watched;
 
 pub use crate::delaunay::{Level, Violation};
-pub use cells::{CellsView, NO_CELL};
+pub use cells::NO_CELL;
 pub use changes::{Changes, NO_VERTEX};
 pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
 pub use query::Location;
+pub use views::CellsView;
 
 use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
@@ -62,7 +64,6 @@ use crate::error::{Error, Result};
 use crate::predicates::exact_calls;
 use crate::threads::Threads;
 use auto::Auto;
-use cells::Views;
 use changes::Taken;
 use coincidence::Hidden;
 use editing::Edits;
@@ -71,6 +72,7 @@ use repair::Repair;
 use staging::{Staging, check_position};
 use switching::Switching;
 use transaction::Transaction;
+use views::Views;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;

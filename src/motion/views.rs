@@ -1,0 +1,307 @@
+//! Who reads the cells: arrays that are kept, and follow the changes.
+//!
+//! The [arrays](super::cells) are made when they are first asked for, and kept. A change leaves a list of the slots whose
+//! corners it has changed; the next one who asks brings the arrays up to date, at the cost of these. Who never asks pays
+//! nothing, and a change of no cell costs nobody anything.
+//!
+//! Several threads may ask at the same time, the first one after a change included: it works while the others wait.
+
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use super::MovingTriangulation;
+use super::cells::{Cells, Dirty, MOST};
+use super::changes::{Tracker, Visibility};
+use crate::complex::{NONE, memory};
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::{Error, Result};
+
+/// The finite cells, by vertex id. Valid until the triangulation changes.
+#[derive(Clone, Copy, Debug)]
+pub struct CellsView<'t, G: Dimension> {
+    /// Vertex ids of each cell, positively oriented.
+    pub corners: &'t [G::Corners],
+    /// Index of the neighbour opposite each corner, [`NO_CELL`](super::NO_CELL) on the hull.
+    pub neighbours: &'t [G::Corners],
+}
+
+/// Arrays that are not up to date, and the slots that have changed since they were.
+#[derive(Debug)]
+struct Behind<G: Dimension> {
+    cells: Option<Box<Cells<G>>>,
+    dirty: Dirty,
+    /// Whether any slot may have changed.
+    are_all: bool,
+}
+
+impl<G: Dimension> Default for Behind<G> {
+    fn default() -> Self {
+        Behind { cells: None, dirty: Dirty::default(), are_all: true }
+    }
+}
+
+/// What is kept of the cells for who reads them.
+#[derive(Debug)]
+pub(super) struct Views<G: Dimension> {
+    current: OnceLock<Box<Cells<G>>>,
+    behind: Mutex<Behind<G>>,
+    changed: OnceLock<Vec<u32>>,
+    pub(super) visibilities: Vec<Visibility>,
+}
+
+impl<G: Dimension> Default for Views<G> {
+    fn default() -> Self {
+        Views {
+            current: OnceLock::new(),
+            behind: Mutex::default(),
+            changed: OnceLock::new(),
+            visibilities: Vec::new(),
+        }
+    }
+}
+
+impl<G: Dimension> Views<G> {
+    fn lock(&self) -> MutexGuard<'_, Behind<G>> {
+        // Who panics while arrays are refreshed leaves them to be made from nothing.
+        self.behind.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn behind(&mut self) -> &mut Behind<G> {
+        self.behind.get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The arrays, up to date.
+    pub(super) fn cells(&self, kernel: &Delaunay<G>) -> Result<&Cells<G>> {
+        if let Some(cells) = self.current.get() {
+            return Ok(cells);
+        }
+        let mut behind = self.lock();
+        if let Some(cells) = self.current.get() {
+            return Ok(cells);
+        }
+        let mut cells = match behind.cells.take() {
+            Some(cells) => cells,
+            None => boxed()?,
+        };
+        let were_all = std::mem::replace(&mut behind.are_all, true);
+        let dirty = if were_all { None } else { Some(&behind.dirty) };
+        let done = cells.refresh(kernel, dirty);
+        if let Err(error) = done {
+            behind.cells = Some(cells);
+            behind.are_all = were_all;
+            return Err(error);
+        }
+        behind.dirty.clear();
+        behind.are_all = false;
+        Ok(self.current.get_or_init(|| cells))
+    }
+
+    /// As [`cells`](Self::cells), to be changed.
+    pub(super) fn cells_mut(&mut self, kernel: &Delaunay<G>) -> Result<&mut Cells<G>> {
+        self.cells(kernel)?;
+        Ok(self.current.get_mut().expect("they are up to date"))
+    }
+
+    /// Makes sure that a change, of which the complex has a record, can be [followed](Self::follow).
+    #[inline(always)]
+    pub(super) fn prepare(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        if kernel.complex().rows().is_empty() || !self.exist() { Ok(()) } else { self.prepare_kept(kernel) }
+    }
+
+    #[cold]
+    fn prepare_kept(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        let n_slots = kernel.complex().n_slots();
+        let n_rows = kernel.complex().rows().len();
+        let behind = self.behind();
+        if behind.are_all && behind.cells.is_some() {
+            return Ok(());
+        }
+        // When most have changed, that follows, and needs no list.
+        if MOST * (behind.dirty.slots.len() + n_rows) > n_slots {
+            return Ok(());
+        }
+        let Dirty { slots, bits } = &mut behind.dirty;
+        memory::reserve(slots, n_rows)?;
+        let missing = n_slots.div_ceil(64).saturating_sub(bits.len());
+        memory::reserve(bits, missing)?;
+        bits.resize(bits.len() + missing, 0);
+        Ok(())
+    }
+
+    /// Whether there are arrays, up to date or not.
+    #[inline(always)]
+    fn exist(&mut self) -> bool {
+        self.current.get().is_some() || self.behind().cells.is_some()
+    }
+
+    /// The cells of the record have changed.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, kernel: &Delaunay<G>) {
+        if !kernel.complex().rows().is_empty() && self.exist() {
+            self.follow_kept(kernel);
+        }
+    }
+
+    #[cold]
+    fn follow_kept(&mut self, kernel: &Delaunay<G>) {
+        self.fall_behind();
+        let n_slots = kernel.complex().n_slots();
+        let rows = kernel.complex().rows();
+        let behind = self.behind();
+        if behind.are_all {
+            return;
+        }
+        if MOST * (behind.dirty.slots.len() + rows.len()) > n_slots {
+            behind.dirty.clear();
+            behind.are_all = true;
+            return;
+        }
+        for row in rows {
+            let (word, bit) = (&mut behind.dirty.bits[row.slot as usize / 64], 1 << (row.slot % 64));
+            if *word & bit == 0 {
+                *word |= bit;
+                behind.dirty.slots.push(row.slot);
+            }
+        }
+    }
+
+    /// All cells may have changed.
+    pub(super) fn follow_all(&mut self) {
+        self.fall_behind();
+        let behind = self.behind();
+        behind.dirty.clear();
+        behind.are_all = true;
+    }
+
+    /// The arrays are not up to date any more.
+    fn fall_behind(&mut self) {
+        self.changed.take();
+        if let Some(cells) = self.current.take() {
+            self.behind().cells = Some(cells);
+        }
+    }
+
+    /// The cells have other slots now, by their old ones; no other has changed.
+    pub(super) fn renumber_slots(&mut self, index: &[u32]) {
+        if !self.exist() {
+            return;
+        }
+        self.fall_behind();
+        let behind = self.behind();
+        behind.dirty.clear();
+        behind.are_all = true;
+        if let Some(cells) = &mut behind.cells {
+            for slot in &mut cells.slots {
+                *slot = index.get(*slot as usize).copied().unwrap_or(NONE);
+            }
+        }
+    }
+
+    /// A copy for a kernel of `n_slots` in which vertices have other ids and cells other slots: those listed by the old
+    /// ones.
+    pub(super) fn renumbered(
+        &mut self,
+        kernel: &Delaunay<G>,
+        ids: &[u32],
+        slots: &[u32],
+        n_slots: usize,
+    ) -> Result<Self> {
+        let visibilities = Visibility::renumbered(&self.visibilities, ids)?;
+        let mut views = Views { visibilities, ..Views::default() };
+        if self.exist() {
+            // What is not up to date has rows of vertices without an id.
+            let cells = self.cells(kernel)?.renumbered(ids, slots, n_slots)?;
+            views.current = OnceLock::from(memory::boxed(cells)?);
+            views.behind().are_all = false;
+        }
+        Ok(views)
+    }
+
+    /// From now on changes are since this commit: the arrays have been up to date when it began.
+    pub(super) fn begin_commit(&mut self) {
+        self.changed.take();
+        let cells = match self.current.get_mut() {
+            Some(cells) => Some(cells),
+            None => self.behind.get_mut().unwrap_or_else(PoisonError::into_inner).cells.as_mut(),
+        };
+        if let Some(tracker) = cells.and_then(|cells| cells.since_commit.as_mut()) {
+            tracker.reset();
+        }
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        let behind = self.lock();
+        let kept = self.current.get().or(behind.cells.as_ref());
+        behind.dirty.slots.capacity() * 4
+            + behind.dirty.bits.capacity() * 8
+            + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
+            + self.changed.get().map_or(0, |changed| changed.capacity() * 4)
+            + self.visibilities.capacity() * size_of::<Visibility>()
+    }
+}
+
+/// Empty arrays, in memory of their own.
+fn boxed<G: Dimension>() -> Result<Box<Cells<G>>> {
+    memory::boxed(Cells::default())
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The finite cells and their neighbours.
+    ///
+    /// The first call after a change costs what that has changed, others constant time.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn cells(&self) -> Result<CellsView<'_, G>> {
+        let cells = self.cell_arrays()?;
+        Ok(CellsView { corners: &cells.corners, neighbours: &cells.neighbours })
+    }
+
+    pub(super) fn cell_arrays(&self) -> Result<&Cells<G>> {
+        self.views.cells(&self.kernel)
+    }
+
+    /// Indices, ascending, of the finite cells that did not exist when the latest commit began: of none before the
+    /// first one. Immediate relocations, insertions and removals since then count.
+    ///
+    /// # Errors
+    /// [`Error::ChangesNotTracked`] unless the options ask for it, [`Error::OutOfMemory`].
+    pub fn changed_cells(&self) -> Result<&[u32]> {
+        if !self.options.track_changes {
+            return Err(Error::ChangesNotTracked);
+        }
+        if let Some(changed) = self.views.changed.get() {
+            return Ok(changed);
+        }
+        let cells = self.cell_arrays()?;
+        let _alone = self.views.lock();
+        if let Some(changed) = self.views.changed.get() {
+            return Ok(changed);
+        }
+        let mut changed = Vec::new();
+        // A tracker may be there from a first commit that failed.
+        if let Some(tracker) = cells.since_commit.as_ref().filter(|_| self.timestamp() > 0) {
+            tracker.list_created(&cells.corners, &mut changed)?;
+        }
+        Ok(self.views.changed.get_or_init(|| changed))
+    }
+
+    /// Gets ready to track what a commit changes, if the options ask for it.
+    pub(super) fn prepare_tracking(&mut self) -> Result<()> {
+        if !self.options.track_changes {
+            return Ok(());
+        }
+        let cells = self.views.cells_mut(&self.kernel)?;
+        if cells.since_commit.is_none() {
+            cells.since_commit = Some(Tracker::of(cells.corners.len())?);
+        }
+        Ok(())
+    }
+
+    /// Puts the cells in the order of the sites, and the arrays follow.
+    pub(super) fn sort_cells(&mut self) -> Result<()> {
+        if let Some(index) = self.kernel.sort_cells()? {
+            self.views.renumber_slots(&index);
+        }
+        Ok(())
+    }
+}
