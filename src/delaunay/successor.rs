@@ -33,6 +33,11 @@ impl<G: Dimension> Delaunay<G> {
         Ok(next)
     }
 
+    /// Whether a rebuild leaves all sites at their indices: for several threads they may change places.
+    pub(crate) fn keeps_sites(&self) -> bool {
+        self.parts.count() == 1
+    }
+
     /// Gives all scratch memory to another kernel.
     pub(crate) fn give_scratch_to(&mut self, other: &mut Self) {
         other.cavity = std::mem::take(&mut self.cavity);

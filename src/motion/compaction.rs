@@ -46,6 +46,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         (self.site_of, self.staging, self.edits, self.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();
         self.adopt(kernel, hidden, stride);
+        self.find_sites();
         (self.regions, self.repair) = (Regions::default(), Repair::default());
         (self.transaction, self.taken) = (Transaction::default(), Taken::default());
         Ok(ids)

@@ -279,6 +279,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         let hidden = self.hide_merged(&kernel, merges)?;
         self.adopt(kernel, hidden, stride);
+        self.find_sites();
         Ok(())
     }
 

@@ -125,9 +125,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         let built = is_ready.and_then(|()| self.build(&mut next));
         match built {
-            Ok((hidden, stride)) => {
+            Ok((hidden, stride, keeps_sites)) => {
                 report.rebuilds += 1;
                 self.adopt(next, hidden, stride);
+                if !keeps_sites {
+                    self.find_sites();
+                }
                 Ok(())
             }
             Err(error) => {
@@ -137,12 +140,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Triangulates the sites of a new kernel. Returns the hidden vertices and the mean stride of sorted sites.
-    fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64)> {
-        let mut stride = self.sorted_stride;
+    /// Triangulates the sites of a new kernel. Returns the hidden vertices, the mean stride of sorted sites, and whether the
+    /// sites have their indices from before.
+    fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64, bool)> {
+        let (mut stride, mut keeps_sites) = (self.sorted_stride, next.keeps_sites());
         if next.mean_stride() > STRAYED * stride || !next.has_even_parts() {
             next.sort_sites()?;
-            stride = next.mean_stride();
+            (stride, keeps_sites) = (next.mean_stride(), false);
         }
         next.restore_parts();
         let mut quiet = |_| true;
@@ -154,7 +158,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.takes_changes {
             self.note_visibilities_of(next, &hidden)?;
         }
-        Ok((hidden, stride))
+        keeps_sites &= self.hidden.count() + hidden.count() == 0 && self.edits.are_none();
+        Ok((hidden, stride, keeps_sites))
     }
 
     /// The chains of hidden vertices, unless the options reject them.
@@ -193,11 +198,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Puts a new kernel, which is complete, in the place of the present one. Cannot fail.
+    /// Puts a new kernel, which is complete, in the place of the present one; unless its sites have the indices from before,
+    /// [`find_sites`](Self::find_sites) must follow. Cannot fail.
     pub(super) fn adopt(&mut self, next: Delaunay<G>, hidden: Hidden, stride: f64) {
         self.kernel = next;
         self.hidden = hidden;
         self.sorted_stride = stride;
+        self.regions.invalidate();
+        self.transaction.adopt();
+    }
+
+    /// Finds the site of each vertex.
+    pub(super) fn find_sites(&mut self) {
         for s in self.kernel.live_sites() {
             let mut v = self.kernel.site(s).id;
             while v != NONE {
@@ -205,8 +217,6 @@ impl<G: Dimension> MovingTriangulation<G> {
                 v = self.hidden.next(v);
             }
         }
-        self.regions.invalidate();
-        self.transaction.adopt();
     }
 
     /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.
