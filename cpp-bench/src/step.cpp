@@ -83,7 +83,7 @@ const std::vector<EngineKind> &step_kinds() {
     static const std::vector<EngineKind> kinds = [] {
         std::vector<EngineKind> steps;
         for (const char *name :
-             {"cgal/rebuilding", "cgal/move", "deldrift/rebuilding", "deldrift/repair", "deldrift/auto"})
+             {"cgal/rebuilding", "deldrift/rebuilding", "deldrift/repair", "deldrift/auto"})
             steps.push_back(step_of(engine_kind(name)));
         return steps;
     }();
