@@ -335,14 +335,16 @@ typedef struct deldrift_commit_report {
     uint64_t reserved[2];
 } deldrift_commit_report;
 
-/// What has changed since the program last took the changes: lists that belong to the triangulation, valid until the next
-/// call that changes it. A pointer is NULL where its list is empty.
+/// What has changed since the program last took the changes: lists that belong to the triangulation, valid
+/// until the next call that changes it. A pointer is NULL where its list is empty.
 ///
-/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has happened in
-/// between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the vertices while the cell
-/// stays as it is; one that has been turned over by a motion through a flat cell, or that has gone and come back, may
-/// have them in another order. So data kept by cell follows in three steps: set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
-/// indices; make those of created cells. Neighbours change only at cells that are listed, and at the neighbours of those.
+/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has
+/// happened in between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the
+/// vertices while the cell stays as it is; one that has been turned over by a motion through a flat cell, or
+/// that has gone and come back, may have them in another order. So data kept by cell follows in three steps:
+/// set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
+/// indices; make those of created cells. Neighbours change only at cells that are listed, and at the
+/// neighbours of those.
 typedef struct deldrift_changes {
     /// Number of cells that exist and did not.
     size_t created_count;
@@ -783,8 +785,8 @@ deldrift_status deldrift_annulus_widths(const deldrift_triangulation *t,
 /// width in 2D, and at most that in 3D, where other changes may come sooner.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
-/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
+/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also
+/// does what the first deldrift_cells does.
 deldrift_status deldrift_standard_delimiter(const deldrift_triangulation *t,
                                             uint32_t cell,
                                             uint32_t corner,
@@ -797,7 +799,8 @@ deldrift_status deldrift_standard_delimiter(const deldrift_triangulation *t,
 /// position: 2 or 3 numbers.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
 deldrift_status deldrift_locate(const deldrift_triangulation *t,
                                 const double *position,
                                 deldrift_location *location);

@@ -7,14 +7,16 @@ use super::status::deldrift_status;
 use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::motion::Changes;
 
-/// What has changed since the program last took the changes: lists that belong to the triangulation, valid until the next
-/// call that changes it. A pointer is NULL where its list is empty.
+/// What has changed since the program last took the changes: lists that belong to the triangulation, valid
+/// until the next call that changes it. A pointer is NULL where its list is empty.
 ///
-/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has happened in
-/// between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the vertices while the cell
-/// stays as it is; one that has been turned over by a motion through a flat cell, or that has gone and come back, may
-/// have them in another order. So data kept by cell follows in three steps: set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
-/// indices; make those of created cells. Neighbours change only at cells that are listed, and at the neighbours of those.
+/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has
+/// happened in between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the
+/// vertices while the cell stays as it is; one that has been turned over by a motion through a flat cell, or
+/// that has gone and come back, may have them in another order. So data kept by cell follows in three steps:
+/// set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
+/// indices; make those of created cells. Neighbours change only at cells that are listed, and at the
+/// neighbours of those.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct deldrift_changes {

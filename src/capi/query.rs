@@ -379,8 +379,8 @@ pub unsafe extern "C" fn deldrift_annulus_widths(
 /// width in 2D, and at most that in 3D, where other changes may come sooner.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
-/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
+/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also
+/// does what the first deldrift_cells does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_standard_delimiter(
     t: *const deldrift_triangulation,
@@ -417,7 +417,8 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
 /// position: 2 or 3 numbers.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_locate(
     t: *const deldrift_triangulation,

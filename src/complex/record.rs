@@ -14,7 +14,7 @@ use crate::error::Result;
 
 /// Records of more rows than one cell in so many, and than there are cells in a small triangulation, are not kept as
 /// scratch memory.
-const KEPT: usize = 4;
+const KEPT: usize = 16;
 const SMALL: usize = 1 << 14;
 
 /// What a slot held: the corners of a cell, or none, and the codes of its neighbours' facets.

@@ -30,6 +30,9 @@ const FLIPPED_IF_ASKED: usize = 32;
 /// Suspects from which it follows where each thread's cells begin.
 const SAMPLE: usize = 1 << 10;
 
+/// Rows of a journal for which the memory is always kept.
+const KEPT: usize = 1 << 14;
+
 /// Free cells made at once where there are none.
 const ROOM: usize = 16;
 
@@ -391,7 +394,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         flips.journal.clear();
         // Keep the memory for a lively timestamp, not for one that changes everything.
-        if flips.journal.capacity() > 3 * self.sites.len() {
+        if flips.journal.capacity() > self.sites.len().max(KEPT) {
             flips.journal = Vec::new();
         }
     }
