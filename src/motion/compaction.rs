@@ -8,8 +8,8 @@
 //! there was: a compaction that fails has changed nothing. Scratch memory goes, and so do tolerances: the next commit that
 //! wants some computes them.
 //!
-//! Cost: half a fresh build in the plane, a fifth of one in space, and a pass over all old ids, sites and cells; while it
-//! lasts, the memory of a second triangulation.
+//! Cost: the sort of a fresh build, without its insertions, and a pass over all old ids, sites and cells; while it lasts,
+//! the memory of a second triangulation.
 
 use super::MovingTriangulation;
 use super::changes::Taken;

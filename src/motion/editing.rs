@@ -8,7 +8,7 @@ use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
 use crate::complex::{NONE, memory};
 use crate::delaunay::order::{Keyed, hilbert_order};
-use crate::delaunay::{Dimension, Insertion};
+use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 
 /// Rebuild when more than one vertex in so many comes or goes: a removal and an insertion cost about as much as so many
@@ -254,21 +254,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Gives a new kernel the sites of all vertices that are to be there, where they are to be.
-    fn edit_sites(
-        &mut self,
-        next: &mut crate::delaunay::Delaunay<G>,
-        report: &mut CommitReport,
-    ) -> Result<()> {
+    fn edit_sites(&mut self, next: &mut Delaunay<G>, report: &mut CommitReport) -> Result<()> {
         let spread = self.spread_hidden(next)?;
-        let own = |t: &Self, v: u32| {
-            let at = spread.binary_search_by_key(&v, |&(hidden, _)| hidden);
-            at.map_or(t.site_of[v as usize], |k| spread[k].1)
-        };
         for &v in &self.staging.vertices {
-            report.moved += u64::from(self.move_to_staged(next, v, own(self, v)));
+            report.moved += u64::from(self.move_to_staged(next, v, self.own_site(&spread, v)));
         }
         for &v in &self.edits.removals {
-            next.discard_site(own(self, v))?;
+            next.discard_site(self.own_site(&spread, v))?;
         }
         for &(id, q) in &self.edits.insertions {
             next.add_site(q, id)?;

@@ -49,8 +49,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(|spread| {
             for &v in &self.staging.vertices[first..] {
-                let own = spread.binary_search_by_key(&v, |&(hidden, _)| hidden).map(|k| spread[k].1);
-                let s = own.unwrap_or(self.site_of[v as usize]);
+                let s = self.own_site(&spread, v);
                 report.moved += u64::from(self.move_to_staged(&mut next, v, s));
             }
         });
@@ -73,8 +72,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(|spread| {
-            let own = spread.iter().find(|(hidden, _)| *hidden == vertex);
-            next.set_point(own.map_or(self.site_of[vertex as usize], |&(_, s)| s), *q);
+            next.set_point(self.own_site(&spread, vertex), *q);
         });
         self.build_and_adopt_quietly(next, spread, report)
     }
@@ -114,6 +112,12 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         Ok(spread)
+    }
+
+    /// The site that a vertex has for itself in a new kernel where the hidden ones have been [spread](Self::spread_hidden).
+    pub(super) fn own_site(&self, spread: &[(u32, u32)], vertex: u32) -> u32 {
+        let at = spread.binary_search_by_key(&vertex, |&(hidden, _)| hidden);
+        at.map_or(self.site_of[vertex as usize], |k| spread[k].1)
     }
 
     /// Triangulates the sites of a new kernel, which takes the place of the present one.

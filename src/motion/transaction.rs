@@ -30,7 +30,6 @@ struct VertexBefore {
 /// What the way back needs beside the kernel's log and the staging.
 #[derive(Debug)]
 pub(super) struct Transaction<G: Dimension> {
-    is_on: bool,
     vertices: Vec<VertexBefore>,
     /// Room for the old positions of vertices that are at shared places when the way back begins.
     displaced: Vec<(u32, G::Point)>,
@@ -46,7 +45,6 @@ pub(super) struct Transaction<G: Dimension> {
 impl<G: Dimension> Default for Transaction<G> {
     fn default() -> Self {
         Transaction {
-            is_on: false,
             vertices: Vec::new(),
             displaced: Vec::new(),
             n_hidden: 0,
@@ -102,8 +100,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.transaction.reserve_displaced(self.hidden.count())?;
         self.kernel.begin()?;
         let transaction = &mut self.transaction;
-        debug_assert!(!transaction.is_on && transaction.vertices.is_empty());
-        (transaction.is_on, transaction.has_rebuilt, transaction.wants_order) = (true, false, false);
+        debug_assert!(transaction.vertices.is_empty());
+        (transaction.has_rebuilt, transaction.wants_order) = (false, false);
         transaction.n_hidden = self.hidden.count();
         transaction.n_present = self.n_present;
         transaction.n_visibilities = self.views.count_visibilities(self.site_of.len());
@@ -124,7 +122,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.views.follow(&self.kernel);
         }
         self.kernel.end();
-        self.transaction.is_on = false;
         self.transaction.vertices.clear();
         if self.transaction.wants_order {
             // For speed alone: without the memory for it the cells stay as they are.
@@ -147,7 +144,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         while let Some((vertex, position)) = self.transaction.displaced.pop() {
             self.kernel.set_point(self.site_of[vertex as usize], position);
         }
-        self.transaction.is_on = false;
         self.regions.invalidate();
     }
 

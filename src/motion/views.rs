@@ -80,7 +80,7 @@ impl<G: Dimension> Views<G> {
         }
         let mut cells = match behind.cells.take() {
             Some(cells) => cells,
-            None => boxed()?,
+            None => memory::boxed(Cells::default())?,
         };
         let were_all = std::mem::replace(&mut behind.are_all, true);
         let dirty = if were_all { None } else { Some(&behind.dirty) };
@@ -237,11 +237,6 @@ impl<G: Dimension> Views<G> {
             + self.changed.get().map_or(0, |changed| changed.capacity() * 4)
             + self.visibilities.capacity() * size_of::<Visibility>()
     }
-}
-
-/// Empty arrays, in memory of their own.
-fn boxed<G: Dimension>() -> Result<Box<Cells<G>>> {
-    memory::boxed(Cells::default())
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
