@@ -5,12 +5,16 @@
 //! first with what the slot holds now, and what is left on both sides is matched by corners. Only where cells have become
 //! fewer, the last ones are *renumbered* to fill the holes.
 //!
-//! Invariant: `slots` and `index_of` are inverse to each other for all cells that have not changed since.
+//! Invariants: `slots` and `index_of` are inverse to each other for all cells that have not changed since. The order of
+//! the corners in a row, beside that in its slot, is in `orderings`.
 //!
 //! Cost: in proportion to the slots that have changed; when most have, one pass over all. `make bench` times steps, which
 //! read the cells and what has changed, beside commits alone.
 
 use super::changes::{Tracker, renumber};
+use super::marks::{Bits, Marks};
+use super::matching::{Matcher, are_same};
+use super::ordering::Ordering;
 use crate::complex::{Corners, Facet, NONE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
@@ -22,6 +26,16 @@ pub const NO_CELL: u32 = NONE;
 /// When more than one slot in so many has changed all are looked at.
 pub(super) const MOST: usize = 2;
 
+/// Memory for so many changes is kept in any case.
+const FEW: usize = 64;
+
+/// Rows that are compared first when any may have changed: where most of these are gone from their slots, so are most of
+/// the others.
+const SAMPLE: usize = 512;
+
+/// Slots that are compared at a time when any may have changed.
+const BLOCK: usize = 256;
+
 /// The arrays behind a view.
 #[derive(Debug)]
 pub(super) struct Cells<G: Dimension> {
@@ -31,6 +45,10 @@ pub(super) struct Cells<G: Dimension> {
     pub(super) index_of: Vec<u32>,
     /// The slot of each index.
     pub(super) slots: Vec<u32>,
+    /// By index; there may be more than cells.
+    orderings: Vec<Ordering>,
+    /// A bit for each lost cell that has been found, or whose index has been given to another one. All are 0 between calls.
+    is_settled: Bits,
     /// What has changed since the program last took the changes, if it ever did.
     pub(super) since_taken: Option<Tracker<G::Corners>>,
     /// What has changed since the latest commit began, if that is tracked.
@@ -38,39 +56,25 @@ pub(super) struct Cells<G: Dimension> {
     scratch: Scratch<G::Corners>,
 }
 
-/// Slots that have changed.
-#[derive(Debug, Default)]
-pub(super) struct Dirty {
-    /// Each once.
-    pub(super) slots: Vec<u32>,
-    /// A bit for each; there may be fewer bits than slots.
-    pub(super) bits: Vec<u64>,
-}
-
-impl Dirty {
-    #[inline(always)]
-    fn has(&self, slot: u32) -> bool {
-        self.bits.get(slot as usize / 64).is_some_and(|word| word >> (slot % 64) & 1 == 1)
-    }
-
-    pub(super) fn clear(&mut self) {
-        for slot in self.slots.drain(..) {
-            self.bits[slot as usize / 64] = 0;
-        }
-    }
+/// A slot that holds another cell than before.
+#[derive(Clone, Copy, Debug)]
+struct Found<C> {
+    slot: u32,
+    /// The index of the cell, if it was there before; else [`NO_CELL`].
+    index: u32,
+    ids: C,
 }
 
 /// Lists of a refreshment.
 #[derive(Debug)]
 struct Scratch<C> {
-    /// Indices whose slot no longer holds their cell; [`NO_CELL`] where it was found in another one.
+    /// Indices whose slot no longer holds their cell.
     lost: Vec<u32>,
-    /// Slots that hold another finite cell than before, its index if it was found, and its vertices.
-    found: Vec<(u32, u32, C)>,
-    /// Positions in `lost`, by a hash of the corners.
-    table: Vec<u32>,
-    /// Slots whose gluings are to be written.
-    glued: Vec<u32>,
+    /// Slots that hold another finite cell than before, if they are known; else, those that hold one that was not there.
+    found: Vec<Found<C>>,
+    matcher: Matcher<C>,
+    /// Slots of cells that have other indices.
+    moved: Vec<u32>,
     /// Slots of cells that have been turned over.
     turned: Vec<u32>,
 }
@@ -80,10 +84,18 @@ impl<C> Default for Scratch<C> {
         Scratch {
             lost: Vec::new(),
             found: Vec::new(),
-            table: Vec::new(),
-            glued: Vec::new(),
+            matcher: Matcher::default(),
+            moved: Vec::new(),
             turned: Vec::new(),
         }
+    }
+}
+
+impl<C: Corners> Scratch<C> {
+    fn memory_bytes(&self) -> usize {
+        (self.lost.capacity() + self.moved.capacity() + self.turned.capacity()) * 4
+            + self.found.capacity() * size_of::<Found<C>>()
+            + self.matcher.memory_bytes()
     }
 }
 
@@ -94,6 +106,8 @@ impl<G: Dimension> Default for Cells<G> {
             neighbours: Vec::new(),
             index_of: Vec::new(),
             slots: Vec::new(),
+            orderings: Vec::new(),
+            is_settled: Bits::default(),
             since_taken: None,
             since_commit: None,
             scratch: Scratch::default(),
@@ -109,35 +123,6 @@ fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> G::Corners {
         ids[i] = kernel.site(ids[i]).id;
     }
     ids
-}
-
-/// Whether two cells have the same corners, in any order.
-#[inline(always)]
-fn are_same<C: Corners>(a: &C, b: &C) -> bool {
-    a == b || a.as_ref().iter().all(|x| b.as_ref().contains(x))
-}
-
-/// Whether two orders of the same corners have opposite orientations.
-fn are_opposite<C: Corners>(a: &C, b: &C) -> bool {
-    let (mut a, mut is_odd) = (*a, false);
-    for i in 0..C::N {
-        if a[i] != b[i] {
-            let j = (i + 1..C::N).find(|&j| a[j] == b[i]).expect("the same corners");
-            a.as_mut().swap(i, j);
-            is_odd = !is_odd;
-        }
-    }
-    is_odd
-}
-
-/// A hash that does not depend on the order of the corners.
-#[inline(always)]
-fn hash<C: Corners>(corners: &C) -> u64 {
-    let mixed = |&x: &u32| {
-        let x = (u64::from(x) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        (x ^ x >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9)
-    };
-    corners.as_ref().iter().map(mixed).fold(0, u64::wrapping_add)
 }
 
 /// The index of the corner of this id, which is where it is expected as a rule.
@@ -158,9 +143,12 @@ fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> bool {
 impl<G: Dimension> Cells<G> {
     /// Brings the arrays up to date: only the `dirty` slots have changed, or any, if there is no list of them. After an
     /// error they can be brought up to date later.
-    pub(super) fn refresh(&mut self, kernel: &Delaunay<G>, dirty: Option<&Dirty>) -> Result<()> {
+    pub(super) fn refresh(&mut self, kernel: &Delaunay<G>, dirty: Option<&Marks>) -> Result<()> {
         let mut scratch = std::mem::take(&mut self.scratch);
         let done = self.refresh_with(kernel, dirty, &mut scratch);
+        if done.is_err() {
+            scratch.lost.iter().for_each(|&index| self.is_settled.clear_around(index));
+        }
         self.scratch = scratch;
         done
     }
@@ -168,26 +156,31 @@ impl<G: Dimension> Cells<G> {
     fn refresh_with(
         &mut self,
         kernel: &Delaunay<G>,
-        dirty: Option<&Dirty>,
+        dirty: Option<&Marks>,
         scratch: &mut Scratch<G::Corners>,
     ) -> Result<()> {
         scratch.lost.clear();
         scratch.found.clear();
-        scratch.glued.clear();
+        scratch.moved.clear();
         scratch.turned.clear();
+        self.is_settled.grow(self.corners.len())?;
         match dirty {
-            Some(dirty) => self.compare_slots(kernel, &dirty.slots, scratch)?,
+            Some(dirty) => {
+                self.compare_slots(kernel, dirty.as_slice(), scratch)?;
+                let Scratch { lost, found, matcher, turned, .. } = scratch;
+                matcher.list(&self.corners, lost)?;
+                self.find_lost(matcher, found, turned)?;
+            }
             None => self.compare_all(kernel, scratch)?,
         }
-        self.find_lost(scratch)?;
         self.reserve(kernel, scratch)?;
         self.renumber(kernel, scratch);
         match dirty {
-            Some(dirty) => self.glue_slots(kernel, dirty, &scratch.glued),
+            Some(dirty) => self.glue_slots(kernel, dirty, &scratch.moved),
             None => self.glue_all(kernel),
         }
         // Memory for many changes is not kept.
-        if scratch.found.capacity() > self.corners.len() / MOST + 1024 {
+        if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / MOST + FEW {
             *scratch = Scratch::default();
         }
         Ok(())
@@ -195,7 +188,7 @@ impl<G: Dimension> Cells<G> {
 
     /// Lists what is lost and found in these slots.
     fn compare_slots(
-        &self,
+        &mut self,
         kernel: &Delaunay<G>,
         dirty: &[u32],
         scratch: &mut Scratch<G::Corners>,
@@ -207,7 +200,10 @@ impl<G: Dimension> Cells<G> {
                 prefetch(kernel.complex().cells(), next as usize);
                 prefetch(&self.index_of, next as usize);
             }
-            let index = self.index_of.get(slot as usize).copied().unwrap_or(NO_CELL);
+            if let Some(&next) = dirty.get(k + AHEAD / 2) {
+                prefetch(&self.corners, self.index_in(next) as usize);
+            }
+            let index = self.index_in(slot);
             if !is_finite(kernel, slot) {
                 if index != NO_CELL {
                     scratch.lost.push(index);
@@ -221,25 +217,45 @@ impl<G: Dimension> Cells<G> {
                 }
                 scratch.lost.push(index);
             }
-            scratch.found.push((slot, NO_CELL, ids));
+            scratch.found.push(Found { slot, index: NO_CELL, ids });
         }
         Ok(())
     }
 
+    /// The index of a slot's cell, as far as is known.
+    #[inline(always)]
+    fn index_in(&self, slot: u32) -> u32 {
+        self.index_of.get(slot as usize).copied().unwrap_or(NO_CELL)
+    }
+
     /// Whether a slot still holds the finite cell of an index; lists it if it has been turned over.
     #[inline(always)]
-    fn is_still(&self, index: u32, slot: u32, ids: &G::Corners, turned: &mut Vec<u32>) -> Result<bool> {
-        let corners = &self.corners[index as usize];
-        if corners == ids {
-            return Ok(true);
-        }
-        if !are_same(corners, ids) {
+    fn is_still(&mut self, index: u32, slot: u32, ids: &G::Corners, turned: &mut Vec<u32>) -> Result<bool> {
+        let row = &self.corners[index as usize];
+        if row != ids && !are_same(row, ids) {
             return Ok(false);
         }
-        if are_opposite(corners, ids) {
+        let row = *row;
+        self.order(index, slot, ids, &row, turned)?;
+        Ok(true)
+    }
+
+    /// Notes how a row lists the corners of a slot, and the slot if the cell has been turned over.
+    #[inline(always)]
+    fn order(
+        &mut self,
+        index: u32,
+        slot: u32,
+        ids: &G::Corners,
+        row: &G::Corners,
+        turned: &mut Vec<u32>,
+    ) -> Result<()> {
+        let ordering = Ordering::of(ids, row);
+        if ordering != Ordering::SAME && ordering.is_odd() {
             memory::push(turned, slot)?;
         }
-        Ok(true)
+        self.orderings[index as usize] = ordering;
+        Ok(())
     }
 
     /// Lists what is lost and found in all slots; makes `index_of` from `slots`.
@@ -248,63 +264,81 @@ impl<G: Dimension> Cells<G> {
         self.index_of.clear();
         memory::reserve(&mut self.index_of, n_slots)?;
         self.index_of.resize(n_slots, NO_CELL);
-        for (index, (corners, &slot)) in self.corners.iter().zip(&self.slots).enumerate() {
-            let ids = if is_finite(kernel, slot) { ids_of(kernel, slot) } else { G::Corners::filled(NONE) };
-            if ids == *corners {
-                self.index_of[slot as usize] = index as u32;
-            } else if are_same(corners, &ids) {
-                self.index_of[slot as usize] = index as u32;
-                if are_opposite(corners, &ids) {
-                    memory::push(&mut scratch.turned, slot)?;
-                }
-            } else {
-                memory::push(&mut scratch.lost, index as u32)?;
+        memory::reserve(&mut scratch.lost, self.corners.len())?;
+        for (&slot, index) in self.slots.iter().zip(0..) {
+            match self.index_of.get_mut(slot as usize) {
+                Some(there) if *there == NO_CELL => *there = index,
+                _ => scratch.lost.push(index),
+            }
+        }
+        let (mut n_compared, mut goes_on) = (0, true);
+        for slot in 0..n_slots as u32 {
+            prefetch(&self.corners, self.index_in(slot + AHEAD as u32) as usize);
+            let index = self.index_of[slot as usize];
+            if index == NO_CELL {
+                continue;
+            }
+            n_compared += 1;
+            goes_on &= n_compared != SAMPLE || 2 * scratch.lost.len() <= SAMPLE;
+            let is_there = goes_on && is_finite(kernel, slot);
+            if !(is_there && self.is_still(index, slot, &ids_of(kernel, slot), &mut scratch.turned)?) {
+                self.index_of[slot as usize] = NO_CELL;
+                scratch.lost.push(index);
             }
         }
         if kernel.complex().n_finite() + scratch.lost.len() == self.corners.len() {
             return Ok(());
         }
-        for slot in kernel.complex().finite() {
-            if self.index_of[slot as usize] == NO_CELL {
-                memory::push(&mut scratch.found, (slot, NO_CELL, ids_of(kernel, slot)))?;
+        let Scratch { lost, found, matcher, turned, .. } = scratch;
+        matcher.list(&self.corners, lost)?;
+        let mut slots = kernel.complex().finite();
+        loop {
+            // What is new stays listed.
+            let n_new = found.len();
+            memory::reserve(found, BLOCK)?;
+            let unknown = slots.by_ref().filter(|&slot| self.index_of[slot as usize] == NO_CELL);
+            found.extend(unknown.take(BLOCK).map(|slot| Found {
+                slot,
+                index: NO_CELL,
+                ids: ids_of(kernel, slot),
+            }));
+            if found.len() == n_new {
+                return Ok(());
             }
+            self.find_lost(matcher, &mut found[n_new..], turned)?;
+            let mut end = n_new;
+            for k in n_new..found.len() {
+                let Found { slot, index, .. } = found[k];
+                if index == NO_CELL {
+                    found.swap(k, end);
+                    end += 1;
+                } else {
+                    (self.slots[index as usize], self.index_of[slot as usize]) = (slot, index);
+                }
+            }
+            found.truncate(end);
         }
-        Ok(())
     }
 
     /// Finds lost cells in other slots.
-    fn find_lost(&self, Scratch { lost, found, table, turned, .. }: &mut Scratch<G::Corners>) -> Result<()> {
-        if lost.is_empty() || found.is_empty() {
-            return Ok(());
-        }
-        let bits = (2 * lost.len()).next_power_of_two().trailing_zeros();
-        let mask = (1 << bits) - 1;
-        table.clear();
-        memory::reserve(table, 1 << bits)?;
-        table.resize(1 << bits, NONE);
-        for (k, &index) in lost.iter().enumerate() {
-            if let Some(&next) = lost.get(k + AHEAD) {
-                prefetch(&self.corners, next as usize);
+    fn find_lost(
+        &mut self,
+        matcher: &Matcher<G::Corners>,
+        found: &mut [Found<G::Corners>],
+        turned: &mut Vec<u32>,
+    ) -> Result<()> {
+        for k in 0..found.len() {
+            if let Some(next) = found.get(k + AHEAD) {
+                matcher.prefetch_place(&next.ids);
             }
-            let mut at = hash(&self.corners[index as usize]) as usize >> 7 & mask;
-            while table[at] != NONE {
-                at = (at + 1) & mask;
+            if let Some(next) = found.get(k + AHEAD / 2) {
+                matcher.prefetch_entries(&next.ids);
             }
-            table[at] = k as u32;
-        }
-        for (slot, index, ids) in found {
-            let mut at = hash(ids) as usize >> 7 & mask;
-            while table[at] != NONE {
-                let old = lost[table[at] as usize];
-                if old != NO_CELL && are_same(&self.corners[old as usize], ids) {
-                    *index = old;
-                    if are_opposite(&self.corners[old as usize], ids) {
-                        memory::push(turned, *slot)?;
-                    }
-                    lost[table[at] as usize] = NO_CELL;
-                    break;
-                }
-                at = (at + 1) & mask;
+            let Found { slot, ids, .. } = found[k];
+            if let Some((index, row)) = matcher.find(&ids) {
+                self.order(index, slot, &ids, &row, turned)?;
+                self.is_settled.insert(index);
+                found[k].index = index;
             }
         }
         Ok(())
@@ -317,26 +351,40 @@ impl<G: Dimension> Cells<G> {
         memory::reserve(&mut self.corners, more)?;
         memory::reserve(&mut self.neighbours, more)?;
         memory::reserve(&mut self.slots, more)?;
+        let n_orderings = n.max(self.orderings.len());
+        let more_orderings = n_orderings - self.orderings.len();
+        memory::reserve(&mut self.orderings, more_orderings)?;
+        self.orderings.resize(n_orderings, Ordering::SAME);
         let more_slots = kernel.complex().n_slots().saturating_sub(self.index_of.len());
         memory::reserve(&mut self.index_of, more_slots)?;
         let (n_lost, n_found) = (scratch.lost.len(), scratch.found.len());
-        memory::reserve(&mut scratch.glued, n_lost)?;
+        memory::reserve(&mut scratch.moved, n_lost)?;
         for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
             tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n)?;
         }
         Ok(())
     }
 
-    /// Gives every cell its index: those found again theirs, new ones the holes and then the end. What is left of the holes
-    /// is filled from the end.
+    /// Gives every cell its index: those found again theirs; new ones that of the cell which was in their slot, a hole, or
+    /// one at the end. What is left of the holes is filled from the end.
     fn renumber(
         &mut self,
         kernel: &Delaunay<G>,
-        Scratch { lost, found, glued, turned, .. }: &mut Scratch<G::Corners>,
+        Scratch { lost, found, moved, turned, .. }: &mut Scratch<G::Corners>,
     ) {
         let n = kernel.complex().n_finite();
         self.index_of.resize(kernel.complex().n_slots(), NO_CELL);
-        let Cells { corners, neighbours, index_of, slots, since_taken, since_commit, .. } = self;
+        let Cells {
+            corners,
+            neighbours,
+            index_of,
+            slots,
+            orderings,
+            is_settled,
+            since_taken,
+            since_commit,
+            ..
+        } = self;
         let mut trackers = [since_taken, since_commit];
         let mut trackers = trackers.iter_mut().filter_map(|tracker| tracker.as_mut());
         let (mut first, mut second) = (trackers.next(), trackers.next());
@@ -344,14 +392,38 @@ impl<G: Dimension> Cells<G> {
             first.iter_mut().chain(&mut second).for_each(|tracker| event(tracker));
         };
         // Slots give up what they have lost before others take it.
-        let holes = &mut *lost;
-        for &(_, index, _) in found.iter().filter(|(_, index, _)| *index != NO_CELL) {
+        for &Found { index, .. } in found.iter().filter(|found| found.index != NO_CELL) {
             let slot = slots[index as usize] as usize;
             if index_of.get(slot) == Some(&index) {
                 index_of[slot] = NO_CELL;
             }
         }
-        holes.retain(|&index| index != NO_CELL);
+        for (k, &Found { slot, index, ids }) in found.iter().enumerate() {
+            if let Some(next) = found.get(k + 2 * AHEAD) {
+                prefetch(index_of, next.slot as usize);
+            }
+            if let Some(next) = found.get(k + AHEAD) {
+                let later = index_of[next.slot as usize] as usize;
+                prefetch(corners, later);
+                prefetch(orderings, later);
+                tell(&|tracker| tracker.prefetch(later));
+            }
+            if index != NO_CELL {
+                // It has been found in another slot.
+                (slots[index as usize], index_of[slot as usize]) = (slot, index);
+                continue;
+            }
+            // A new one takes the place of the one before in its slot.
+            let index = index_of[slot as usize];
+            if (index as usize) < n {
+                is_settled.insert(index);
+                orderings[index as usize] = Ordering::SAME;
+                let row = std::mem::replace(&mut corners[index as usize], ids);
+                tell(&|tracker| tracker.replace(index, row));
+            }
+        }
+        let holes = &mut *lost;
+        holes.retain(|&index| !is_settled.remove(index));
         for &index in holes.iter() {
             let slot = slots[index as usize] as usize;
             if index_of.get(slot) == Some(&index) {
@@ -370,27 +442,27 @@ impl<G: Dimension> Cells<G> {
             }
         }
         let mut next_hole = holes.iter().copied();
-        for &(slot, index, ids) in found.iter() {
-            let index = if index == NO_CELL {
-                let index = next_hole.next().unwrap_or(corners.len() as u32);
-                if index as usize == corners.len() {
-                    corners.push(ids);
-                    neighbours.push(ids);
-                    slots.push(slot);
-                } else {
-                    corners[index as usize] = ids;
-                }
-                tell(&|tracker| tracker.create(index));
-                index
+        for &Found { slot, ids, .. } in found.iter() {
+            if index_of[slot as usize] != NO_CELL {
+                continue;
+            }
+            let index = next_hole.next().unwrap_or(corners.len() as u32);
+            if index as usize == corners.len() {
+                corners.push(ids);
+                neighbours.push(ids);
+                slots.push(slot);
             } else {
-                index
-            };
+                corners[index as usize] = ids;
+            }
+            orderings[index as usize] = Ordering::SAME;
+            tell(&|tracker| tracker.create(index));
             slots[index as usize] = slot;
             index_of[slot as usize] = index;
         }
         for &slot in turned.iter() {
             let index = index_of[slot as usize];
             let row = std::mem::replace(&mut corners[index as usize], ids_of(kernel, slot));
+            orderings[index as usize] = Ordering::SAME;
             tell(&|tracker| tracker.turn(index, row));
         }
         for from in (n..corners.len()).rev() {
@@ -401,8 +473,9 @@ impl<G: Dimension> Cells<G> {
             corners[to as usize] = corners[from];
             neighbours[to as usize] = neighbours[from];
             slots[to as usize] = slots[from];
+            orderings[to as usize] = orderings[from];
             index_of[slots[from] as usize] = to;
-            glued.push(slots[from]);
+            moved.push(slots[from]);
             tell(&|tracker| tracker.renumber(from as u32, to));
         }
         corners.truncate(n);
@@ -412,11 +485,24 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours' sides.
-    fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Dirty, moved: &[u32]) {
+    fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Marks, moved: &[u32]) {
         let complex = kernel.complex();
-        for (k, &slot) in dirty.slots.iter().chain(moved).enumerate() {
-            if let Some(&next) = dirty.slots.get(k + AHEAD) {
-                complex.prefetch_neighbours(next.min(complex.n_slots() as u32 - 1));
+        let last = complex.n_slots() as u32 - 1;
+        for (k, &slot) in dirty.as_slice().iter().chain(moved).enumerate() {
+            if let Some(&next) = dirty.as_slice().get(k + 3 * AHEAD / 2) {
+                prefetch(complex.cells(), next as usize);
+            }
+            if let Some(&next) = dirty.as_slice().get(k + AHEAD) {
+                let cell = complex.cell(next.min(last));
+                (0..G::Corners::N).for_each(|i| prefetch(&self.index_of, cell.neighbour(i).cell() as usize));
+            }
+            if let Some(&next) = dirty.as_slice().get(k + AHEAD / 2) {
+                let cell = complex.cell(next.min(last));
+                for i in 0..G::Corners::N {
+                    let index = self.index_in(cell.neighbour(i).cell()) as usize;
+                    prefetch(&self.neighbours, index);
+                    prefetch(&self.orderings, index);
+                }
             }
             if !complex.is_live(slot) {
                 continue;
@@ -425,62 +511,38 @@ impl<G: Dimension> Cells<G> {
             if cell.is_ghost() {
                 let behind = cell.neighbour(G::D);
                 if !dirty.has(behind.cell()) {
-                    let mut facet = ids_of(kernel, slot);
-                    facet[G::D] = NONE;
-                    self.set_neighbour(behind, &facet, NO_CELL);
+                    let index = self.index_of[behind.cell() as usize] as usize;
+                    self.neighbours[index][self.orderings[index].place(behind.index())] = NO_CELL;
                 }
                 continue;
             }
             let index = self.index_of[slot as usize];
-            let (ids, mut across) = (ids_of(kernel, slot), cell.corners);
+            let mut across = cell.corners;
             for i in 0..G::Corners::N {
                 let out = cell.neighbour(i);
                 across[i] = self.index_of[out.cell() as usize];
                 if across[i] != NO_CELL && !dirty.has(out.cell()) {
-                    self.set_neighbour(out, &ids, index);
+                    let place = self.orderings[across[i] as usize].place(out.index());
+                    self.neighbours[across[i] as usize][place] = index;
                 }
             }
-            self.set_row(index as usize, &ids, across);
-        }
-    }
-
-    /// Enters what is beyond the facet of a finite cell that it shares with one of these vertices.
-    #[inline(always)]
-    fn set_neighbour(&mut self, facet: Facet, beyond: &G::Corners, neighbour: u32) {
-        let index = self.index_of[facet.cell() as usize] as usize;
-        let row = &self.corners[index];
-        let is_apex = |i: usize| !beyond.as_ref().contains(&row[i]);
-        let at = if is_apex(facet.index()) {
-            facet.index()
-        } else {
-            (0..G::Corners::N).find(|&i| is_apex(i)).expect("one corner is not of the facet")
-        };
-        self.neighbours[index][at] = neighbour;
-    }
-
-    /// Enters what is opposite the vertices of a cell.
-    #[inline(always)]
-    fn set_row(&mut self, index: usize, ids: &G::Corners, across: G::Corners) {
-        let (corners, row) = (&self.corners[index], &mut self.neighbours[index]);
-        if corners == ids {
-            *row = across;
-            return;
-        }
-        for i in 0..G::Corners::N {
-            row[position_of(corners, i, ids[i])] = across[i];
+            self.neighbours[index as usize] = self.orderings[index as usize].arrange(across);
         }
     }
 
     /// Writes the neighbours of all cells.
     fn glue_all(&mut self, kernel: &Delaunay<G>) {
-        for index in 0..self.slots.len() {
-            let slot = self.slots[index];
+        for slot in kernel.complex().finite() {
+            let later = self.index_in(slot + AHEAD as u32) as usize;
+            prefetch(&self.neighbours, later);
+            prefetch(&self.orderings, later);
             let cell = kernel.complex().cell(slot);
             let mut across = cell.corners;
             for i in 0..G::Corners::N {
                 across[i] = self.index_of[cell.neighbour(i).cell() as usize];
             }
-            self.set_row(index, &ids_of(kernel, slot), across);
+            let index = self.index_of[slot as usize] as usize;
+            self.neighbours[index] = self.orderings[index].arrange(across);
         }
     }
 
@@ -498,6 +560,7 @@ impl<G: Dimension> Cells<G> {
             corners: memory::copy_of(&self.corners)?,
             neighbours: memory::copy_of(&self.neighbours)?,
             slots: memory::copy_of(&self.slots)?,
+            orderings: memory::copy_of(&self.orderings)?,
             since_taken: self.since_taken.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
             since_commit: self.since_commit.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
             ..Cells::default()
@@ -516,9 +579,9 @@ impl<G: Dimension> Cells<G> {
         let trackers = [&self.since_taken, &self.since_commit].into_iter().flatten();
         (self.corners.capacity() + self.neighbours.capacity()) * size_of::<G::Corners>()
             + (self.index_of.capacity() + self.slots.capacity()) * 4
-            + (self.scratch.lost.capacity() + self.scratch.table.capacity() + self.scratch.glued.capacity())
-                * 4
-            + self.scratch.found.capacity() * size_of::<(u32, u32, G::Corners)>()
+            + self.orderings.capacity()
+            + self.is_settled.memory_bytes()
+            + self.scratch.memory_bytes()
             + trackers.map(Tracker::memory_bytes).sum::<usize>()
     }
 }

@@ -6,12 +6,12 @@
 //! nobody asks.
 
 use super::MovingTriangulation;
+use super::marks::Marks;
 use crate::complex::{Corners, NONE, memory};
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::prefetch::{AHEAD, prefetch};
 
-/// More than one index in so many touched are found by a pass over all.
-const MANY: usize = 32;
 /// In place of an id: a vertex that has none any more.
 pub const NO_VERTEX: u32 = NONE;
 
@@ -20,12 +20,14 @@ pub const NO_VERTEX: u32 = NONE;
 pub(super) struct Tracker<C> {
     /// By index, the index at the base; [`NONE`] if the cell has been created since.
     origin: Vec<u32>,
-    /// Indices whose origin may be another one; some may be listed more than once, or be beyond the end.
-    touched: Vec<u32>,
+    /// Indices whose origin may be another one; some may be beyond the end.
+    touched: Marks,
     /// Cells of the base that have been removed: their indices and corners.
     removed: Vec<(u32, C)>,
     /// How often the arrays have been refreshed since: a cell that goes in one refreshment may come back in another.
     n_refreshed: u32,
+    /// How many cells have been given another index since.
+    n_renumbered: usize,
     /// Cells of the base that have been turned over, and how their corners were listed before.
     turned: Vec<Turned<C>>,
 }
@@ -45,13 +47,21 @@ impl<C: Corners> Tracker<C> {
         let mut origin = Vec::new();
         memory::reserve_exact(&mut origin, n)?;
         origin.extend(0..n as u32);
-        Ok(Tracker { origin, touched: Vec::new(), removed: Vec::new(), n_refreshed: 0, turned: Vec::new() })
+        Ok(Tracker {
+            origin,
+            touched: Marks::default(),
+            removed: Vec::new(),
+            n_refreshed: 0,
+            n_renumbered: 0,
+            turned: Vec::new(),
+        })
     }
 
     /// A tracker whose base has no cells.
     pub(super) fn of_none(n: usize) -> Result<Self> {
         let mut tracker = Self::of(n)?;
-        tracker.touched = memory::copy_of(&tracker.origin)?;
+        tracker.touched.reserve(n, n)?;
+        (0..n as u32).for_each(|index| tracker.touched.insert(index));
         tracker.origin.fill(NONE);
         Ok(tracker)
     }
@@ -68,13 +78,9 @@ impl<C: Corners> Tracker<C> {
             keep_first_turns(&mut self.turned);
         }
         memory::reserve(&mut self.turned, n_turned)?;
-        if self.touched.len() > 2 * self.origin.len() {
-            self.touched.sort_unstable();
-            self.touched.dedup();
-        }
         self.n_refreshed = self.n_refreshed.saturating_add(1);
         memory::reserve(&mut self.removed, n_removed)?;
-        memory::reserve(&mut self.touched, n_touched)?;
+        self.touched.reserve(n_touched, n_cells.max(self.origin.len()))?;
         let more = n_cells.saturating_sub(self.origin.len());
         memory::reserve(&mut self.origin, more)
     }
@@ -94,18 +100,36 @@ impl<C: Corners> Tracker<C> {
         }
     }
 
+    /// Asks for what is known of an index; any will do.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, index: usize) {
+        prefetch(&self.origin, index);
+    }
+
+    /// A cell has gone, and a new one has its index.
+    #[inline(always)]
+    pub(super) fn replace(&mut self, index: u32, before: C) {
+        let origin = &mut self.origin[index as usize];
+        if *origin != NONE {
+            self.removed.push((*origin, before));
+            *origin = NONE;
+        }
+        self.touched.insert(index);
+    }
+
     pub(super) fn create(&mut self, index: u32) {
         if index as usize == self.origin.len() {
             self.origin.push(NONE);
         } else {
             self.origin[index as usize] = NONE;
         }
-        self.touched.push(index);
+        self.touched.insert(index);
     }
 
     pub(super) fn renumber(&mut self, from: u32, to: u32) {
         self.origin[to as usize] = self.origin[from as usize];
-        self.touched.push(to);
+        self.n_renumbered += 1;
+        self.touched.insert(to);
     }
 
     pub(super) fn truncate(&mut self, n: usize) {
@@ -114,17 +138,18 @@ impl<C: Corners> Tracker<C> {
 
     /// The cells of now are the base.
     pub(super) fn reset(&mut self) {
-        for &index in &self.touched {
+        for &index in self.touched.as_slice() {
             if let Some(origin) = self.origin.get_mut(index as usize) {
                 *origin = index;
             }
         }
-        if self.touched.capacity() > 1024 + self.origin.len() / 2 {
-            (self.touched, self.removed) = (Vec::new(), Vec::new());
-        }
         self.touched.clear();
+        self.touched.shrink_to(1024 + self.origin.len() / 2);
+        if self.removed.capacity() > 1024 + self.origin.len() / 2 {
+            self.removed = Vec::new();
+        }
         self.removed.clear();
-        self.n_refreshed = 0;
+        (self.n_refreshed, self.n_renumbered) = (0, 0);
         self.turned.clear();
     }
 
@@ -137,41 +162,28 @@ impl<C: Corners> Tracker<C> {
         }
         let mut turned = memory::copy_of(&self.turned)?;
         turned.iter_mut().for_each(|event| renumber(&mut event.before, ids));
+        let mut touched = Marks::default();
+        touched.reserve(self.touched.as_slice().len(), self.origin.len())?;
+        let is_there = |index: &&u32| (**index as usize) < self.origin.len();
+        self.touched.as_slice().iter().filter(is_there).for_each(|&index| touched.insert(index));
         Ok(Tracker {
             origin: memory::copy_of(&self.origin)?,
-            touched: self.sorted_touched()?,
+            touched,
             removed,
             n_refreshed: self.n_refreshed,
+            n_renumbered: self.n_renumbered,
             turned,
         })
-    }
-
-    /// The touched indices, ascending, each once.
-    fn sorted_touched(&self) -> Result<Vec<u32>> {
-        if MANY * self.touched.len() > self.origin.len() {
-            // All are gone through in less time than these take to sort.
-            let is_touched = |&(index, &origin): &(u32, &u32)| origin != index;
-            let touched = (0..).zip(&self.origin).filter(is_touched);
-            let mut list = Vec::new();
-            memory::reserve_exact(&mut list, touched.clone().count())?;
-            list.extend(touched.map(|(index, _)| index));
-            return Ok(list);
-        }
-        let mut touched = memory::copy_of(&self.touched)?;
-        touched.retain(|&index| (index as usize) < self.origin.len());
-        touched.sort_unstable();
-        touched.dedup();
-        Ok(touched)
     }
 
     /// Lists, ascending, the cells that are not among those of the base.
     pub(super) fn list_created(&self, corners: &[C], created: &mut Vec<u32>) -> Result<()> {
         let removed = self.sorted_removed()?;
-        let touched = self.sorted_touched()?;
-        memory::reserve(created, touched.len())?;
-        created.extend(touched.into_iter().filter(|&index| {
-            self.origin[index as usize] == NONE && find(&removed, &sorted(corners[index as usize])).is_none()
-        }));
+        *created = self.touched.sorted()?;
+        created.retain(|&index| {
+            self.origin.get(index as usize) == Some(&NONE)
+                && find(&removed, &sorted(corners[index as usize])).is_none()
+        });
         Ok(())
     }
 
@@ -188,7 +200,8 @@ impl<C: Corners> Tracker<C> {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        (self.origin.capacity() + self.touched.capacity()) * 4
+        self.origin.capacity() * 4
+            + self.touched.memory_bytes()
             + self.removed.capacity() * size_of::<(u32, C)>()
             + self.turned.capacity() * size_of::<Turned<C>>()
     }
@@ -274,11 +287,9 @@ pub(super) struct Taken<C> {
     removed_corners: Vec<C>,
     renumbered_from: Vec<u32>,
     renumbered_to: Vec<u32>,
-    stars: Vec<u32>,
+    stars: Marks,
     hidden: Vec<u32>,
     shown: Vec<u32>,
-    /// By vertex id, a bit for those listed; all are 0 between calls.
-    is_listed: Vec<u64>,
 }
 
 impl<C> Default for Taken<C> {
@@ -289,10 +300,9 @@ impl<C> Default for Taken<C> {
             removed_corners: Vec::new(),
             renumbered_from: Vec::new(),
             renumbered_to: Vec::new(),
-            stars: Vec::new(),
+            stars: Marks::default(),
             hidden: Vec::new(),
             shown: Vec::new(),
-            is_listed: Vec::new(),
         }
     }
 }
@@ -303,32 +313,38 @@ impl<C: Corners> Taken<C> {
             clear(list);
         }
         clear(&mut self.removed_corners);
+        let n_stars = self.stars.as_slice().len();
+        self.stars.clear();
+        self.stars.shrink_to(4 * n_stars + 1024);
     }
 
-    fn lists(&mut self) -> [&mut Vec<u32>; 7] {
+    fn lists(&mut self) -> [&mut Vec<u32>; 6] {
         [
             &mut self.created,
             &mut self.removed,
             &mut self.renumbered_from,
             &mut self.renumbered_to,
-            &mut self.stars,
             &mut self.hidden,
             &mut self.shown,
         ]
     }
 
     /// Lists what a tracker knows.
-    fn list_cells(&mut self, tracker: &Tracker<C>, corners: &[C]) -> Result<()> {
-        let touched = tracker.sorted_touched()?;
+    fn list_cells(&mut self, tracker: &mut Tracker<C>, corners: &[C]) -> Result<()> {
         let by_corners = tracker.sorted_removed()?;
-        memory::reserve(&mut self.created, touched.len())?;
-        memory::reserve(&mut self.renumbered_from, touched.len())?;
-        memory::reserve(&mut self.renumbered_to, touched.len())?;
+        let (n_touched, n_removed) = (tracker.touched.as_slice().len(), tracker.removed.len());
+        memory::reserve(&mut self.created, n_touched)?;
+        let n_renumbered = n_touched.min(tracker.n_renumbered + by_corners.len());
+        memory::reserve(&mut self.renumbered_from, n_renumbered)?;
+        memory::reserve(&mut self.renumbered_to, n_renumbered)?;
+        memory::reserve(&mut self.removed, n_removed)?;
+        memory::reserve(&mut self.removed_corners, n_removed)?;
         let mut has_returned = Vec::new();
-        memory::reserve_exact(&mut has_returned, tracker.removed.len())?;
-        has_returned.resize(tracker.removed.len(), false);
-        for index in touched {
-            let mut origin = tracker.origin[index as usize];
+        memory::reserve_exact(&mut has_returned, by_corners.len())?;
+        has_returned.resize(by_corners.len(), false);
+        tracker.touched.sort();
+        for &index in tracker.touched.as_slice() {
+            let Some(&(mut origin)) = tracker.origin.get(index as usize) else { break };
             if origin == NONE
                 && !by_corners.is_empty()
                 && let Some(k) = find(&by_corners, &sorted(corners[index as usize]))
@@ -344,11 +360,12 @@ impl<C: Corners> Taken<C> {
                 self.renumbered_to.push(index);
             }
         }
-        memory::reserve(&mut self.removed, tracker.removed.len())?;
-        memory::reserve(&mut self.removed_corners, tracker.removed.len())?;
-        let mut turned = memory::copy_of(&tracker.turned)?;
-        keep_first_turns(&mut turned);
-        for (&(origin, corners), _) in tracker.removed.iter().zip(&has_returned).filter(|(_, back)| !**back) {
+        keep_first_turns(&mut tracker.turned);
+        let turned = &tracker.turned;
+        for (k, &(origin, corners)) in tracker.removed.iter().enumerate() {
+            if has_returned.get(k) == Some(&true) {
+                continue;
+            }
             let was_turned = turned.binary_search_by_key(&origin, |event| event.origin);
             self.removed.push(origin);
             self.removed_corners.push(was_turned.map_or(corners, |k| turned[k].before));
@@ -358,34 +375,17 @@ impl<C: Corners> Taken<C> {
 
     /// Lists the vertices of all cells that are listed.
     fn list_stars(&mut self, corners: &[C], n_ids: usize) -> Result<()> {
-        let missing = n_ids.div_ceil(64).saturating_sub(self.is_listed.len());
-        memory::reserve(&mut self.is_listed, missing)?;
-        self.is_listed.resize(self.is_listed.len() + missing, 0);
         let most = C::N * (self.created.len() + self.removed_corners.len());
-        memory::reserve(&mut self.stars, most.min(n_ids))?;
-        let created = self.created.iter().map(|&index| &corners[index as usize]);
-        for vertex in
-            created.chain(&self.removed_corners).flat_map(|row| row.as_ref()).filter(|v| **v != NONE)
-        {
-            let (word, bit) = (&mut self.is_listed[*vertex as usize / 64], 1 << (vertex % 64));
-            if *word & bit == 0 {
-                *word |= bit;
-                self.stars.push(*vertex);
+        self.stars.reserve(most.min(n_ids), n_ids)?;
+        let created = self.created.iter().enumerate().map(|(k, &index)| {
+            if let Some(&later) = self.created.get(k + AHEAD) {
+                prefetch(corners, later as usize);
             }
-        }
-        if 64 * self.stars.len() < n_ids {
-            self.stars.iter().for_each(|vertex| self.is_listed[*vertex as usize / 64] = 0);
-            self.stars.sort_unstable();
-            return Ok(());
-        }
-        // Many are in order when their bits are gone through.
-        self.stars.clear();
-        for (k, word) in self.is_listed.iter_mut().enumerate() {
-            while *word != 0 {
-                self.stars.push(64 * k as u32 + word.trailing_zeros());
-                *word &= *word - 1;
-            }
-        }
+            &corners[index as usize]
+        });
+        let listed = created.chain(&self.removed_corners).flat_map(|row| row.as_ref());
+        listed.filter(|v| **v != NONE).for_each(|&v| self.stars.insert(v));
+        self.stars.sort();
         Ok(())
     }
 
@@ -395,13 +395,12 @@ impl<C: Corners> Taken<C> {
             &self.removed,
             &self.renumbered_from,
             &self.renumbered_to,
-            &self.stars,
             &self.hidden,
             &self.shown,
         ];
         lists.into_iter().map(|list| list.capacity() * 4).sum::<usize>()
             + self.removed_corners.capacity() * size_of::<C>()
-            + self.is_listed.capacity() * 8
+            + self.stars.memory_bytes()
     }
 }
 
@@ -445,7 +444,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             cells.since_taken = Some(Tracker::of_none(cells.corners.len())?);
         }
         self.taken.clear();
-        let tracker = cells.since_taken.as_ref().expect("it has just been made");
+        let tracker = cells.since_taken.as_mut().expect("it has just been made");
         self.taken.list_cells(tracker, &cells.corners)?;
         self.taken.list_stars(&cells.corners, n_ids)?;
         self.list_visibilities()?;
@@ -460,7 +459,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             removed_corners: &taken.removed_corners,
             renumbered_from: &taken.renumbered_from,
             renumbered_to: &taken.renumbered_to,
-            stars: &taken.stars,
+            stars: taken.stars.as_slice(),
             hidden: &taken.hidden,
             shown: &taken.shown,
         })

@@ -9,8 +9,9 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::MovingTriangulation;
-use super::cells::{Cells, Dirty, MOST};
+use super::cells::{Cells, MOST};
 use super::changes::{Tracker, Visibility};
+use super::marks::Marks;
 use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
@@ -28,14 +29,14 @@ pub struct CellsView<'t, G: Dimension> {
 #[derive(Debug)]
 struct Behind<G: Dimension> {
     cells: Option<Box<Cells<G>>>,
-    dirty: Dirty,
+    dirty: Marks,
     /// Whether any slot may have changed.
     are_all: bool,
 }
 
 impl<G: Dimension> Default for Behind<G> {
     fn default() -> Self {
-        Behind { cells: None, dirty: Dirty::default(), are_all: true }
+        Behind { cells: None, dirty: Marks::default(), are_all: true }
     }
 }
 
@@ -116,15 +117,10 @@ impl<G: Dimension> Views<G> {
             return Ok(());
         }
         // When most have changed, that follows, and needs no list.
-        if MOST * (behind.dirty.slots.len() + n_rows) > n_slots {
+        if MOST * (behind.dirty.as_slice().len() + n_rows) > n_slots {
             return Ok(());
         }
-        let Dirty { slots, bits } = &mut behind.dirty;
-        memory::reserve(slots, n_rows)?;
-        let missing = n_slots.div_ceil(64).saturating_sub(bits.len());
-        memory::reserve(bits, missing)?;
-        bits.resize(bits.len() + missing, 0);
-        Ok(())
+        behind.dirty.reserve(n_rows, n_slots)
     }
 
     /// Whether there are arrays, up to date or not.
@@ -150,17 +146,13 @@ impl<G: Dimension> Views<G> {
         if behind.are_all {
             return;
         }
-        if MOST * (behind.dirty.slots.len() + rows.len()) > n_slots {
+        if MOST * (behind.dirty.as_slice().len() + rows.len()) > n_slots {
             behind.dirty.clear();
             behind.are_all = true;
             return;
         }
         for row in rows {
-            let (word, bit) = (&mut behind.dirty.bits[row.slot as usize / 64], 1 << (row.slot % 64));
-            if *word & bit == 0 {
-                *word |= bit;
-                behind.dirty.slots.push(row.slot);
-            }
+            behind.dirty.insert(row.slot);
         }
     }
 
@@ -231,8 +223,7 @@ impl<G: Dimension> Views<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         let behind = self.lock();
         let kept = self.current.get().or(behind.cells.as_ref());
-        behind.dirty.slots.capacity() * 4
-            + behind.dirty.bits.capacity() * 8
+        behind.dirty.memory_bytes()
             + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
             + self.changed.get().map_or(0, |changed| changed.capacity() * 4)
             + self.visibilities.capacity() * size_of::<Visibility>()

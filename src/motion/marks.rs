@@ -1,0 +1,169 @@
+//! Sets of numbers below a bound: a bit for each, and a list of those whose bit is set.
+
+use crate::complex::memory;
+use crate::error::Result;
+
+/// In the time that it takes to sort a number, the bits of so many others are gone through.
+const SPARSE: usize = 256;
+
+/// Bits by number; those beyond the end are 0.
+#[derive(Debug, Default)]
+pub(super) struct Bits(Vec<u64>);
+
+impl Bits {
+    #[inline(always)]
+    pub(super) fn has(&self, k: u32) -> bool {
+        self.0.get(k as usize / 64).is_some_and(|word| word >> (k % 64) & 1 == 1)
+    }
+
+    /// Sets a bit within the end; whether it was not set.
+    #[inline(always)]
+    pub(super) fn insert(&mut self, k: u32) -> bool {
+        let (word, bit) = (&mut self.0[k as usize / 64], 1 << (k % 64));
+        let is_new = *word & bit == 0;
+        *word |= bit;
+        is_new
+    }
+
+    /// Clears a bit within the end; whether it was set.
+    #[inline(always)]
+    pub(super) fn remove(&mut self, k: u32) -> bool {
+        let (word, bit) = (&mut self.0[k as usize / 64], 1 << (k % 64));
+        let was_set = *word & bit != 0;
+        *word &= !bit;
+        was_set
+    }
+
+    /// Clears a bit within the end, and maybe some next to it.
+    #[inline(always)]
+    pub(super) fn clear_around(&mut self, k: u32) {
+        self.0[k as usize / 64] = 0;
+    }
+
+    /// Makes room for the bits of so many numbers.
+    pub(super) fn grow(&mut self, n: usize) -> Result<()> {
+        let missing = n.div_ceil(64).saturating_sub(self.0.len());
+        memory::reserve(&mut self.0, missing)?;
+        self.0.resize(self.0.len() + missing, 0);
+        Ok(())
+    }
+
+    /// The numbers whose bits are set, ascending.
+    fn iter(&self) -> impl Iterator<Item = u32> {
+        self.0.iter().zip(0..).flat_map(|(&word, k)| {
+            let mut rest = word;
+            std::iter::from_fn(move || {
+                let bit = (rest != 0).then(|| rest.trailing_zeros())?;
+                rest &= rest - 1;
+                Some(64 * k + bit)
+            })
+        })
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.0.capacity() * 8
+    }
+}
+
+/// A set.
+#[derive(Debug, Default)]
+pub(super) struct Marks {
+    list: Vec<u32>,
+    bits: Bits,
+}
+
+impl Marks {
+    /// Makes room for `more` numbers below `n`.
+    pub(super) fn reserve(&mut self, more: usize, n: usize) -> Result<()> {
+        memory::reserve(&mut self.list, more)?;
+        self.bits.grow(n)
+    }
+
+    /// Adds a number for which there is room.
+    #[inline(always)]
+    pub(super) fn insert(&mut self, k: u32) {
+        if self.bits.insert(k) {
+            self.list.push(k);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn has(&self, k: u32) -> bool {
+        self.bits.has(k)
+    }
+
+    /// The numbers, in the order in which they came, or ascending since the set was last [sorted](Self::sort).
+    pub(super) fn as_slice(&self) -> &[u32] {
+        &self.list
+    }
+
+    fn is_sparse(&self) -> bool {
+        SPARSE * self.list.len() < 64 * self.bits.0.len()
+    }
+
+    /// Puts the numbers in ascending order.
+    pub(super) fn sort(&mut self) {
+        if self.is_sparse() {
+            self.list.sort_unstable();
+        } else {
+            self.list.clear();
+            self.list.extend(self.bits.iter());
+        }
+    }
+
+    /// The numbers, ascending.
+    pub(super) fn sorted(&self) -> Result<Vec<u32>> {
+        let mut sorted = memory::copy_of(&self.list)?;
+        if self.is_sparse() {
+            sorted.sort_unstable();
+        } else {
+            sorted.clear();
+            sorted.extend(self.bits.iter());
+        }
+        Ok(sorted)
+    }
+
+    pub(super) fn clear(&mut self) {
+        for k in self.list.drain(..) {
+            self.bits.clear_around(k);
+        }
+    }
+
+    /// Gives back memory that is of little use for so many numbers as a rule. The set must be empty.
+    pub(super) fn shrink_to(&mut self, n: usize) {
+        debug_assert!(self.list.is_empty());
+        if self.list.capacity() > n {
+            self.list = Vec::new();
+        }
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.list.capacity() * 4 + self.bits.memory_bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_come_once_and_in_order() {
+        for n in [3_000, 1_000_000] {
+            let mut marks = Marks::default();
+            let numbers: Vec<u32> = (0..2_000).map(|k| k * 7_919 % 1_009 * (n / 1_009)).collect();
+            marks.reserve(numbers.len(), n as usize).expect("room");
+            numbers.iter().for_each(|&k| marks.insert(k));
+            let mut expected = numbers;
+            assert!(!marks.as_slice().is_sorted());
+            expected.sort_unstable();
+            expected.dedup();
+            assert_eq!((expected.len(), marks.as_slice().len()), (1_009, 1_009));
+            assert_eq!(marks.sorted().expect("room"), expected, "below {n}");
+            marks.sort();
+            assert_eq!(marks.as_slice(), expected, "below {n}");
+            assert!(expected.iter().all(|&k| marks.has(k)) && !marks.has(1) && !marks.has(u32::MAX));
+            marks.clear();
+            assert!(marks.as_slice().is_empty() && !expected.iter().any(|&k| marks.has(k)));
+        }
+    }
+}
