@@ -23,6 +23,7 @@ use std::sync::atomic::{AtomicI64, AtomicUsize, Ordering::Relaxed};
 #[derive(Debug, Default)]
 struct Counts {
     commits: usize,
+    given: usize,
     cancelled: usize,
     rejected: usize,
     takes: usize,
@@ -172,23 +173,35 @@ impl<'c, G: Dimension> History<'c, G> {
         let calls = if self.rng.one_in(6) { self.rng.below(4) as i64 } else { i64::MAX };
         self.log.push(format!("commit {} by {algorithm:?}, {calls} calls", self.staged.len()));
         let baseline = self.tracks.then(|| cell_set(&self.t));
+        let given = self.unstage_all();
+        let n_staged = if given.is_some() { 0 } else { self.staged.len() };
+        let commit = |t: &mut MovingTriangulation<G>| match &given {
+            Some(positions) => t.commit_positions(positions),
+            None => t.commit_timestamp(),
+        };
         self.patience.store(calls, Relaxed);
-        let mut committed = self.t.commit_timestamp();
+        let mut committed = commit(&mut self.t);
         self.patience.store(i64::MAX, Relaxed);
         if matches!(committed, Err(Error::Cancelled)) {
             self.counts.cancelled += 1;
-            assert_eq!(self.t.staged_count(), self.staged.len(), "{}", self.context());
+            assert_eq!(self.t.staged_count(), n_staged, "{}", self.context());
             self.after_a_failure();
             if self.rng.one_in(3) {
+                if let Some(positions) = &given {
+                    self.t.move_all(positions).expect("good positions");
+                }
                 return;
             }
             self.log.push("again".to_string());
-            committed = self.t.commit_timestamp();
+            committed = commit(&mut self.t);
         }
         if let Err(error) = &committed {
             self.expect_rejection(error);
-            assert_eq!(self.t.staged_count(), self.staged.len(), "{}", self.context());
+            assert_eq!(self.t.staged_count(), n_staged, "{}", self.context());
             self.after_a_failure();
+            if let Some(positions) = &given {
+                self.t.move_all(positions).expect("good positions");
+            }
             self.discard();
             return;
         }
@@ -200,6 +213,20 @@ impl<'c, G: Dimension> History<'c, G> {
         for v in std::mem::take(&mut self.leaving) {
             self.positions[v as usize] = None;
         }
+    }
+
+    /// Of moves of all vertices, sometimes: unstages them, and returns what is to be given to the commit.
+    fn unstage_all(&mut self) -> Option<Vec<G::Point>> {
+        let n_present = self.positions.iter().flatten().count();
+        let has_edits = self.coming.len() + self.leaving.len() > 0;
+        if n_present == 0 || self.staged.len() < n_present || has_edits || self.rng.one_in(2) {
+            return None;
+        }
+        self.log.push("given".to_string());
+        assert_eq!(self.t.discard_moves(), n_present, "{}", self.context());
+        self.counts.given += 1;
+        let positions = 0..self.positions.len() as u32;
+        Some(positions.map(|v| self.staged.get(&v).copied().unwrap_or_default()).collect())
     }
 
     fn after_a_failure(&mut self) {
@@ -395,7 +422,7 @@ fn follow<G: Dimension>(
         }
     }
     println!("{counts:?}");
-    let rare = [counts.cancelled, counts.renumbered, counts.hidden, counts.shown, counts.flat];
+    let rare = [counts.given, counts.cancelled, counts.renumbered, counts.hidden, counts.shown, counts.flat];
     assert!(rare.iter().all(|&n| 100 * n > counts.commits), "{counts:?}");
 }
 

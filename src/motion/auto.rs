@@ -25,6 +25,7 @@
 //! look at the star, a vertex beyond some eight looks.
 
 use super::regions::Filter;
+use super::staging::Given;
 use super::{CommitReport, MovingTriangulation, SwitchingRule};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
@@ -132,35 +133,39 @@ pub(super) struct Auto {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    pub(super) fn commit_by_auto(&mut self, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn commit_by_auto(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         if !self.kernel.has_cells() {
-            return self.rebuild_staged(report);
+            return self.rebuild_given(given, report);
         }
         if self.staging.count() * FEW < self.n_present {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
-                self.commit_by_filter(Filter::Tolerance, report)
+                self.commit_by_filter(Filter::Tolerance, given, report)
             } else {
-                self.commit_by_placement(Shortcut::Flips, report)
+                self.commit_by_placement(Shortcut::Flips, given, report)
             };
         }
         if self.auto.rebuilds > 0 {
             self.auto.rebuilds -= 1;
-            return self.rebuild_staged(report);
+            return self.rebuild_given(given, report);
         }
-        if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_look(report)? {
+        if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_look(given, report)? {
             return Ok(());
         }
-        self.commit_by_repair(report)?;
+        self.commit_by_repair(given, report)?;
         self.learn(report);
         Ok(())
     }
 
     /// Commits by watching or by slack, if that is in force; `false` if a repair has to follow.
-    fn commit_by_look(&mut self, report: &mut CommitReport) -> Result<bool> {
+    fn commit_by_look(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<bool> {
         if self.auto.look == Look::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
-            if (is_kept || std::mem::take(&mut self.auto.is_due) || self.is_calm())
-                && self.commit_by_watching(self.n_present / BEYOND, report)?
+            if (is_kept || std::mem::take(&mut self.auto.is_due) || self.is_calm(given)?)
+                && self.commit_by_watching(self.n_present / BEYOND, given, report)?
             {
                 self.weigh_watching(report);
                 return Ok(true);
@@ -169,7 +174,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if self.auto.look == Look::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
-            if self.commit_by_slack(report)? {
+            if self.commit_by_slack(given, report)? {
                 if was_kept {
                     self.weigh_slack(report);
                 }
@@ -226,8 +231,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether a sample of the vertices stays within tolerance, but for a few.
-    fn is_calm(&mut self) -> bool {
-        self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE
+    fn is_calm(&mut self, given: &mut Given<'_, G>) -> Result<bool> {
+        self.stage_given(given)?;
+        Ok(self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE)
     }
 
     /// From now on the dearer way is taken.

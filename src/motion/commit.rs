@@ -1,6 +1,7 @@
 //! The commit: one timestamp, all or nothing.
 
 use super::regions::Filter;
+use super::staging::Given;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
@@ -14,6 +15,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::Cancelled`], [`Error::Coincident`] if the options reject that, [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`].
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
+        self.commit_given(Given::nothing())
+    }
+
+    /// As [`commit_timestamp`](Self::commit_timestamp); positions may not be staged yet.
+    fn commit_given(&mut self, given: Given<'_, G>) -> Result<CommitReport> {
         self.prepare_tracking()?;
         let mut report = CommitReport::default();
         let before = self.evaluations();
@@ -24,7 +30,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.staging.list()?;
         }
         self.begin()?;
-        let advanced = self.edit_and_advance(&mut report);
+        let advanced = self.edit_and_advance(given, &mut report);
         if let Err(error) = advanced.and_then(|()| self.views.prepare(&self.kernel)) {
             self.undo();
             return Err(error);
@@ -50,8 +56,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(vertex) = self.staging.first_staged() {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex as usize, vertex });
         }
-        self.move_all(positions)?;
-        let done = self.commit_timestamp();
+        let done = if self.expect_whole(positions.len())? {
+            self.commit_given(Given::all(positions))
+        } else {
+            self.move_all(positions)?;
+            self.commit_timestamp()
+        };
         if done.is_err() {
             self.staging.clear();
         }
@@ -59,24 +69,25 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Makes the edits, and brings the staged vertices to their new positions.
-    fn edit_and_advance(&mut self, report: &mut CommitReport) -> Result<()> {
-        if self.make_edits(report)? { Ok(()) } else { self.advance(report) }
+    fn edit_and_advance(&mut self, given: Given<'_, G>, report: &mut CommitReport) -> Result<()> {
+        if self.make_edits(report)? { Ok(()) } else { self.advance(given, report) }
     }
 
     /// Brings the staged vertices to their new positions.
-    fn advance(&mut self, report: &mut CommitReport) -> Result<()> {
+    fn advance(&mut self, mut given: Given<'_, G>, report: &mut CommitReport) -> Result<()> {
+        let given = &mut given;
         match self.options.algorithm {
-            Algorithm::Placement => self.commit_by_placement(Shortcut::Certificates, report)?,
-            Algorithm::PlacementFlips => self.commit_by_placement(Shortcut::Flips, report)?,
-            Algorithm::Tolerance => self.commit_by_filter(Filter::Tolerance, report)?,
-            Algorithm::SafeRegion => self.commit_by_filter(Filter::SafeRegion, report)?,
-            Algorithm::SafeRegionTolerance => self.commit_by_filter(Filter::Both, report)?,
-            Algorithm::RebuildingTolerance => self.commit_by_switching(report)?,
-            Algorithm::Repair => self.commit_by_repair(report)?,
-            Algorithm::Watching => self.watch_or_repair(report)?,
-            Algorithm::Slack => self.slack_or_repair(report)?,
-            Algorithm::Rebuilding => self.rebuild_staged(report)?,
-            Algorithm::Auto => self.commit_by_auto(report)?,
+            Algorithm::Placement => self.commit_by_placement(Shortcut::Certificates, given, report)?,
+            Algorithm::PlacementFlips => self.commit_by_placement(Shortcut::Flips, given, report)?,
+            Algorithm::Tolerance => self.commit_by_filter(Filter::Tolerance, given, report)?,
+            Algorithm::SafeRegion => self.commit_by_filter(Filter::SafeRegion, given, report)?,
+            Algorithm::SafeRegionTolerance => self.commit_by_filter(Filter::Both, given, report)?,
+            Algorithm::RebuildingTolerance => self.commit_by_switching(given, report)?,
+            Algorithm::Repair => self.commit_by_repair(given, report)?,
+            Algorithm::Watching => self.watch_or_repair(given, report)?,
+            Algorithm::Slack => self.slack_or_repair(given, report)?,
+            Algorithm::Rebuilding => self.rebuild_given(given, report)?,
+            Algorithm::Auto => self.commit_by_auto(given, report)?,
         }
         self.reject_coincidence()
     }

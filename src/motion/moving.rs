@@ -1,7 +1,9 @@
 //! All vertices of a whole staging, moved in one loop.
 //!
 //! Applying a move exchanges the staged position with that of the vertex's site. Vertices are taken in the order of their
-//! ids, and sites are stored in another one, so of a large triangulation they are asked for in advance.
+//! ids, and sites are stored in another one, so of a large triangulation they are asked for in advance. Positions that are
+//! not staged yet are staged block by block on the way: so they are read once, and written once more in the cache next to
+//! the processor.
 //!
 //! Every vertex must have a site of its own: a staging is whole only if no vertex is removed, and none may be hidden.
 //!
@@ -14,6 +16,7 @@ use std::ops::ControlFlow;
 
 use super::MovingTriangulation;
 use super::regions::Fixed;
+use super::staging::{Given, first_bad, stage_block};
 use crate::complex::memory;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
@@ -39,6 +42,9 @@ fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
     std::mem::swap(point, p);
     differ
 }
+
+/// Vertices that are staged at a time: a few kilobytes, and whole lanes.
+const BLOCK: usize = 16 * LANES;
 
 /// A bit for each lane.
 const ALL: u32 = (1 << LANES) - 1;
@@ -154,18 +160,30 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// and nothing has moved, if those to be queued are more than `most`.
     ///
     /// This loop is what a timestamp costs that changes nothing.
-    pub(super) fn move_and_queue<const MOVES_ALL: bool>(&mut self, most: usize) -> Result<Option<u64>> {
-        if size_of_val(self.kernel.sites()) > FAR {
-            self.move_and_queue_from::<MOVES_ALL, true>(most)
+    ///
+    /// An error if one of the positions given is bad; then all vertices are applied, though to some place.
+    pub(super) fn move_and_queue<const MOVES_ALL: bool>(
+        &mut self,
+        most: usize,
+        given: &mut Given<'_, G>,
+    ) -> Result<Option<u64>> {
+        let mut blocks = Blocks { given: given.positions(), are_good: true };
+        let moved = if size_of_val(self.kernel.sites()) > FAR {
+            self.move_and_queue_from::<MOVES_ALL, true>(most, &mut blocks)?
         } else {
-            self.move_and_queue_from::<MOVES_ALL, false>(most)
+            self.move_and_queue_from::<MOVES_ALL, false>(most, &mut blocks)?
+        };
+        if moved.is_some() {
+            blocks.end(given)?;
         }
+        Ok(moved)
     }
 
     /// As [`move_and_queue`](Self::move_and_queue). `IS_FAR` asks for sites in advance.
     fn move_and_queue_from<const MOVES_ALL: bool, const IS_FAR: bool>(
         &mut self,
         most: usize,
+        blocks: &mut Blocks<'_, G>,
     ) -> Result<Option<u64>> {
         #[cfg(target_arch = "x86_64")]
         if avx2::is_there() {
@@ -173,6 +191,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             fn by_avx2<G: Dimension, const MOVES_ALL: bool, const IS_FAR: bool>(
                 t: &mut MovingTriangulation<G>,
                 most: usize,
+                blocks: &mut Blocks<'_, G>,
             ) -> Result<Option<u64>> {
                 let hold = |fixed: &[Fixed<G>; LANES], places: &[G::Point; LANES]| {
                     let tolerances = fixed.each_ref().map(|fixed| fixed.tolerance);
@@ -183,13 +202,14 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let exchange = |movers: &mut Movers<'_, G>, places: &mut _, sites_of: &_| {
                     movers.exchange_by_avx2(places, sites_of)
                 };
-                t.move_and_queue_by::<MOVES_ALL, IS_FAR>(most, hold, exchange)
+                t.move_and_queue_by::<MOVES_ALL, IS_FAR>(most, blocks, hold, exchange)
             }
             // SAFETY: AVX2 and FMA are there.
-            return unsafe { by_avx2::<G, MOVES_ALL, IS_FAR>(self, most) };
+            return unsafe { by_avx2::<G, MOVES_ALL, IS_FAR>(self, most, blocks) };
         }
         self.move_and_queue_by::<MOVES_ALL, IS_FAR>(
             most,
+            blocks,
             |fixed, places| bits_of(fixed, places),
             |movers, places, sites_of| {
                 places.iter_mut().zip(sites_of).map(|(p, &s)| movers.exchange(p, s)).sum()
@@ -202,35 +222,44 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_and_queue_by<const MOVES_ALL: bool, const IS_FAR: bool>(
         &mut self,
         most: usize,
+        blocks: &mut Blocks<'_, G>,
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
         exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[u32; LANES]) -> u64,
     ) -> Result<Option<u64>> {
         let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
         let mut movers = Movers { sites, queue: &mut self.staging.vertices, most, n_moved: 0 };
-        let (places, last_places) = self.staging.positions[..n].as_chunks_mut::<LANES>();
+        let positions = &mut self.staging.positions[..n];
         let (fixed, last_fixed) = self.regions.fixed()[..n].as_chunks::<LANES>();
         let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
         let mut ended = None;
-        for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(sites_of).enumerate() {
-            if IS_FAR && let Some(next) = sites_of.get(k + AHEAD / LANES) {
-                next.iter().for_each(|&s| prefetch(movers.sites, s as usize));
+        'blocks: for (block, positions) in positions.chunks_mut(BLOCK).enumerate() {
+            let first = block * BLOCK;
+            blocks.stage(first, positions, &self.site_of[first..], movers.sites);
+            let (places, last_places) = positions.as_chunks_mut::<LANES>();
+            for (k, places) in (first / LANES..).zip(places) {
+                if IS_FAR && let Some(next) = sites_of.get(k + AHEAD / LANES) {
+                    next.iter().for_each(|&s| prefetch(movers.sites, s as usize));
+                }
+                let beyond = !hold(&fixed[k], places) & ALL;
+                if beyond == 0 {
+                    movers.n_moved += exchange(&mut movers, places, &sites_of[k]);
+                } else if let ControlFlow::Break(room) =
+                    movers.go::<MOVES_ALL>(k * LANES, beyond, places, &sites_of[k])
+                {
+                    ended = Some((k * LANES, room));
+                    break 'blocks;
+                }
             }
-            let beyond = !hold(fixed, places) & ALL;
-            if beyond == 0 {
-                movers.n_moved += exchange(&mut movers, places, at);
-            } else if let ControlFlow::Break(room) = movers.go::<MOVES_ALL>(k * LANES, beyond, places, at) {
-                ended = Some((k * LANES, room));
-                break;
-            }
-        }
-        if ended.is_none() {
-            let first = sites_of.len() * LANES;
-            let beyond = !bits_of(last_fixed, last_places) & ((1 << last_places.len()) - 1);
-            if let ControlFlow::Break(room) =
-                movers.go::<MOVES_ALL>(first, beyond, last_places, last_sites_of)
-            {
-                ended = Some((first, room));
+            if !last_places.is_empty() {
+                let first = sites_of.len() * LANES;
+                let beyond = !bits_of(last_fixed, last_places) & ((1 << last_places.len()) - 1);
+                if let ControlFlow::Break(room) =
+                    movers.go::<MOVES_ALL>(first, beyond, last_places, last_sites_of)
+                {
+                    ended = Some((first, room));
+                    break;
+                }
             }
         }
         let n_moved = movers.n_moved;
@@ -250,45 +279,99 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Moves all vertices of a whole staging, on several threads where that pays; returns how many positions differ.
-    pub(super) fn move_all_staged(&mut self) -> u64 {
+    /// Errors as those of [`move_and_queue`](Self::move_and_queue).
+    pub(super) fn move_all_staged(&mut self, given: &mut Given<'_, G>) -> Result<u64> {
         let n_threads = self.kernel.threads().for_work(self.site_of.len(), MOVED_AT_LEAST, 256);
         let sites = self.kernel.sites_mut();
         let sites = SharedSites { start: sites.as_mut_ptr(), n: sites.len() };
         // SAFETY: every vertex has a site of its own, and these are borrowed for as long as this takes.
-        let moved = unsafe { sites.move_all(&mut self.staging.positions, &self.site_of, n_threads) };
+        let moved = unsafe {
+            sites.move_all(&mut self.staging.positions, given.positions(), &self.site_of, n_threads)
+        };
         self.staging.others_applied = true;
         self.kernel.cover(&moved.lower, &moved.upper);
-        moved.n
+        Blocks { given: given.positions(), are_good: moved.are_good }.end(given)?;
+        Ok(moved.n)
     }
 
     /// Moves all vertices of a whole staging, and adds to the ways of their sites. Returns how many positions differ, and
-    /// the longest way.
-    pub(super) fn move_all_on_record(&mut self) -> (u64, f64) {
+    /// the longest way. Errors as those of [`move_and_queue`](Self::move_and_queue).
+    pub(super) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<(u64, f64)> {
         let mut moved = 0_u64;
         let (mut sum, mut greatest) = (0.0, 0.0);
         let sites = self.kernel.sites_mut();
-        for (v, (p, &s)) in self.staging.positions.iter_mut().zip(&self.site_of).enumerate() {
-            if let Some(&next) = self.site_of.get(v + AHEAD) {
-                prefetch(sites, next as usize);
+        let mut blocks = Blocks { given: given.positions(), are_good: true };
+        for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions.chunks_mut(BLOCK)) {
+            blocks.stage(first, positions, &self.site_of[first..], sites);
+            for (v, p) in (first..).zip(positions) {
+                if let Some(&next) = self.site_of.get(v + AHEAD) {
+                    prefetch(sites, next as usize);
+                }
+                let s = self.site_of[v];
+                let point = &mut sites[s as usize].point;
+                if point == p {
+                    continue;
+                }
+                let distance = G::distance_above(point, p);
+                self.regions.slacks.travel(s, distance);
+                sum += distance;
+                greatest = if distance > greatest { distance } else { greatest };
+                moved += 1;
+                std::mem::swap(point, p);
             }
-            let point = &mut sites[s as usize].point;
-            if point == p {
-                continue;
-            }
-            let distance = G::distance_above(point, p);
-            self.regions.slacks.travel(s, distance);
-            sum += distance;
-            greatest = if distance > greatest { distance } else { greatest };
-            moved += 1;
-            std::mem::swap(point, p);
         }
         self.staging.others_applied = true;
         self.regions.follow_motion(&mut self.kernel, greatest);
         if !self.regions.slacks.expect(sum / moved.max(1) as f64) {
             self.regions.invalidate();
         }
-        (moved, greatest)
+        blocks.end(given)?;
+        Ok((moved, greatest))
     }
+}
+
+/// Stages positions that are not staged yet, block by block.
+struct Blocks<'p, G: Dimension> {
+    given: Option<&'p [G::Point]>,
+    are_good: bool,
+}
+
+impl<G: Dimension> Blocks<'_, G> {
+    /// Stages the positions of the vertices from `first` on; for bad ones those where the vertices are.
+    #[inline(always)]
+    fn stage(&mut self, first: usize, staged: &mut [G::Point], sites_of: &[u32], sites: &[Site<G>]) {
+        if let Some(given) = self.given {
+            let place = |k: usize| sites[sites_of[k] as usize].point;
+            self.are_good &= stage_good::<G>(staged, &given[first..], place);
+        }
+    }
+
+    /// Everything is staged.
+    fn end(self, given: &mut Given<'_, G>) -> Result<()> {
+        given.take();
+        match self.given {
+            Some(positions) if !self.are_good => Err(first_bad::<G>(positions)),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Stages positions, and other ones in the place of those that are bad; whether none is.
+#[inline(always)]
+fn stage_good<G: Dimension>(
+    staged: &mut [G::Point],
+    given: &[G::Point],
+    other: impl Fn(usize) -> G::Point,
+) -> bool {
+    let are_good = stage_block::<G>(staged, given);
+    if !are_good {
+        for (k, p) in staged.iter_mut().enumerate() {
+            if !stage_block::<G>(std::slice::from_mut(p), &given[k..]) {
+                *p = other(k);
+            }
+        }
+    }
+    are_good
 }
 
 /// A bit for each of a few vertices that is certainly within its tolerance.
@@ -298,9 +381,10 @@ fn bits_of<G: Dimension>(fixed: &[Fixed<G>], places: &[G::Point]) -> u32 {
     hold.enumerate().fold(0, |bits, (k, holds)| bits | u32::from(holds) << k)
 }
 
-/// How many positions differ, and a box that holds the new ones.
+/// How many positions differ, a box that holds the new ones, and whether all of these were good.
 struct Moved<G: Dimension> {
     n: u64,
+    are_good: bool,
     lower: G::Point,
     upper: G::Point,
 }
@@ -311,7 +395,7 @@ impl<G: Dimension> Moved<G> {
         for axis in 0..G::D {
             (lower[axis], upper[axis]) = (f64::INFINITY, f64::NEG_INFINITY);
         }
-        Moved { n: 0, lower, upper }
+        Moved { n: 0, are_good: true, lower, upper }
     }
 
     #[inline(always)]
@@ -339,32 +423,49 @@ impl<G: Dimension> SharedSites<G> {
     ///
     /// # Safety
     /// `sites_of` are indices of these sites, no two the same, and nobody else uses the sites meanwhile.
-    unsafe fn move_all(self, positions: &mut [G::Point], sites_of: &[u32], n_threads: usize) -> Moved<G> {
+    unsafe fn move_all(
+        self,
+        positions: &mut [G::Point],
+        given: Option<&[G::Point]>,
+        sites_of: &[u32],
+        n_threads: usize,
+    ) -> Moved<G> {
         if n_threads > 1 {
             let middle = positions.len() / n_threads * (n_threads / 2);
             let (positions, more_positions) = positions.split_at_mut(middle);
+            let (given, more_given) = given.map(|given| given.split_at(middle)).unzip();
             let (sites_of, more_sites_of) = sites_of.split_at(middle);
+            let n_more_threads = n_threads - n_threads / 2;
             let (mut moved, more) = threads::join(
                 // SAFETY: as for the whole; the two halves have no site in common.
-                || unsafe { self.move_all(positions, sites_of, n_threads / 2) },
+                || unsafe { self.move_all(positions, given, sites_of, n_threads / 2) },
                 // SAFETY: likewise.
-                move || unsafe { self.move_all(more_positions, more_sites_of, n_threads - n_threads / 2) },
+                move || unsafe { self.move_all(more_positions, more_given, more_sites_of, n_more_threads) },
             );
             moved.n += more.n;
+            moved.are_good &= more.are_good;
             moved.hold(&more.lower, &more.upper);
             return moved;
         }
         let is_far = self.n * size_of::<Site<G>>() > FAR;
         let mut moved = Moved::none();
-        for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
-            if is_far && let Some(&next) = sites_of.get(k + AHEAD) {
-                prefetch_at(self.start.wrapping_add(next as usize));
+        for (first, positions) in (0..).step_by(BLOCK).zip(positions.chunks_mut(BLOCK)) {
+            if let Some(given) = given {
+                // SAFETY: these are indices of sites that nobody else uses.
+                let place = |k: usize| unsafe { (*self.start.add(sites_of[first + k] as usize)).point };
+                moved.are_good &= stage_good::<G>(positions, &given[first..], place);
             }
-            moved.hold(p, p);
-            debug_assert!((s as usize) < self.n);
-            // SAFETY: `s` is the index of a site that nobody else uses.
-            let point = unsafe { &mut (*self.start.add(s as usize)).point };
-            moved.n += u64::from(exchange::<G>(point, p));
+            for (k, p) in (first..).zip(positions) {
+                if is_far && let Some(&next) = sites_of.get(k + AHEAD) {
+                    prefetch_at(self.start.wrapping_add(next as usize));
+                }
+                moved.hold(p, p);
+                let s = sites_of[k] as usize;
+                debug_assert!(s < self.n);
+                // SAFETY: `s` is the index of a site that nobody else uses.
+                let point = unsafe { &mut (*self.start.add(s)).point };
+                moved.n += u64::from(exchange::<G>(point, p));
+            }
         }
         moved
     }
@@ -374,9 +475,10 @@ impl<G: Dimension> SharedSites<G> {
 mod tests {
     use super::*;
     use crate::delaunay::{Plane, Space};
+    use crate::error::Error;
     use crate::motion::Options;
     use crate::motion::regions::Filter;
-    use crate::motion::{Algorithm, CommitReport};
+    use crate::motion::{Algorithm, CommitReport, Level};
 
     /// Small whole numbers, and the same ones again.
     fn points<G: Dimension>(n: usize, state: &mut u64) -> Vec<G::Point> {
@@ -395,7 +497,12 @@ mod tests {
 
     /// A triangulation with tolerances, and all its vertices staged: some of them where they are, some with one coordinate
     /// that stays, some far away. Returns these places and which are beyond tolerance.
-    fn staged<G: Dimension>(n: usize, state: &mut u64) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<u32>) {
+    /// They are staged at once, or going to be on the way.
+    fn staged<G: Dimension>(
+        n: usize,
+        at_once: bool,
+        state: &mut u64,
+    ) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<u32>) {
         let mut t = MovingTriangulation::<G>::new(&points::<G>(n, state), Options::default()).expect("room");
         let elsewhere = t.staging.positions.clone();
         t.regions
@@ -413,15 +520,24 @@ mod tests {
         }
         let fixed = t.regions.fixed();
         let beyond = (0..n as u32).filter(|&v| !fixed[v as usize].holds(&places[v as usize])).collect();
-        t.move_all(&places).expect("good places");
+        if at_once {
+            t.move_all(&places).expect("good places");
+        } else {
+            assert!(t.expect_whole(n).expect("room"));
+        }
         (t, places, beyond)
+    }
+
+    fn given_unless<G: Dimension>(at_once: bool, places: &[G::Point]) -> Given<'_, G> {
+        if at_once { Given::nothing() } else { Given::all(places) }
     }
 
     fn agree<G: Dimension>() {
         let mut state = 5;
         let (mut n_beyond, mut n_moved) = (0, 0);
-        for n in G::D + 1..60 {
-            let (mut t, places, beyond) = staged::<G>(n, &mut state);
+        // More than a block of them as well.
+        for (n, at_once) in (G::D + 1..60).chain([2 * BLOCK + 3]).flat_map(|n| [(n, true), (n, false)]) {
+            let (mut t, places, beyond) = staged::<G>(n, at_once, &mut state);
             let before = positions(&t);
             let is_beyond = |v: usize| beyond.contains(&(v as u32));
             let differ = |v: &usize| before[*v] != places[*v];
@@ -430,28 +546,38 @@ mod tests {
             (n_beyond, n_moved) = (n_beyond + beyond.len(), n_moved + n_of(false));
 
             if !beyond.is_empty() {
-                assert_eq!(t.move_and_queue::<false>(beyond.len() - 1).expect("room"), None, "{n} vertices");
-                assert_eq!(t.move_and_queue::<true>(beyond.len() - 1).expect("room"), None, "{n} vertices");
+                let (most, given) = (beyond.len() - 1, &mut given_unless(at_once, &places));
+                assert_eq!(t.move_and_queue::<false>(most, given).expect("room"), None, "{n} vertices");
+                assert_eq!(t.move_and_queue::<true>(most, given).expect("room"), None, "{n} vertices");
+                t.stage_given(given).expect("good places");
                 assert!(t.staging.vertices.is_empty() && !t.staging.others_applied);
                 assert_eq!([&positions(&t), &t.staging.positions], [&before, &places], "{n} vertices");
             }
 
-            assert_eq!(t.move_and_queue::<false>(beyond.len()).expect("room"), Some(n_of(false) as u64));
+            let moved = t.move_and_queue::<false>(beyond.len(), &mut given_unless(at_once, &places));
+            assert_eq!(moved.expect("room"), Some(n_of(false) as u64));
             assert_eq!(t.staging.vertices, beyond, "{n} vertices");
             for v in 0..n {
                 let expected = if is_beyond(v) { [before[v], places[v]] } else { [places[v], before[v]] };
                 assert_eq!([positions(&t)[v], t.staging.positions[v]], expected, "vertex {v} of {n}");
             }
 
-            for moved_by in 0..2 {
-                let (mut t, places, beyond) = staged::<G>(n, &mut state);
+            for moved_by in 0..3 {
+                let (mut t, places, beyond) = staged::<G>(n, at_once, &mut state);
+                let given = &mut given_unless(at_once, &places);
                 let before = positions(&t);
                 let n_moved = (0..n).filter(|&v| before[v] != places[v]).count() as u64;
                 if moved_by == 0 {
-                    assert_eq!(t.move_and_queue::<true>(n).expect("room"), Some(n_moved));
+                    assert_eq!(t.move_and_queue::<true>(n, given).expect("room"), Some(n_moved));
                     assert_eq!(t.staging.vertices, beyond, "{n} vertices");
+                } else if moved_by == 1 {
+                    assert_eq!(t.move_all_staged(given).expect("good places"), n_moved);
                 } else {
-                    assert_eq!(t.move_all_staged(), n_moved);
+                    let elsewhere = vec![G::Point::default(); n];
+                    let report = &mut CommitReport::default();
+                    let computed = t.regions.compute(&mut t.kernel, n, Filter::Slack, &elsewhere, report);
+                    computed.expect("room");
+                    assert_eq!(t.move_all_on_record(given).expect("good places").0, n_moved);
                 }
                 assert_eq!([&positions(&t), &t.staging.positions], [&places, &before], "{n} vertices");
             }
@@ -477,8 +603,63 @@ mod tests {
             let (first, second) = (points::<Space>(2_000, &mut 1), points::<Space>(2_000, &mut 2));
             let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
             t.move_all(&second).expect("good places");
-            assert_eq!(t.move_all_staged(), 2_000);
+            assert_eq!(t.move_all_staged(&mut Given::nothing()).expect("good places"), 2_000);
             assert_eq!([&positions(&t), &t.staging.positions], [&second, &first]);
         }
+    }
+
+    /// Wherever a bad position is, all commits say so, and nothing changes.
+    fn bad_positions_are_refused<G: Dimension>() {
+        let n = 5_000;
+        let points = points::<G>(n, &mut 3);
+        let algorithms = [
+            Algorithm::Auto,
+            Algorithm::Tolerance,
+            Algorithm::Repair,
+            Algorithm::Watching,
+            Algorithm::Slack,
+            Algorithm::Rebuilding,
+            Algorithm::Placement,
+        ];
+        for (algorithm, threads) in
+            algorithms.into_iter().flat_map(|algorithm| [(algorithm, 1), (algorithm, 3)])
+        {
+            let options = Options { threads, algorithm, ..Options::default() };
+            let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+            let mut places = points.clone();
+            // What the commits before leave behind differs.
+            for n_commits in 0..4 {
+                for bad in [0, 1, n / 2, n - 2, n - 1] {
+                    let mut given = places.clone();
+                    given.iter_mut().for_each(|p| p[0] += 1.0);
+                    given[bad][G::D - 1] = if bad == 1 { f64::INFINITY } else { f64::NAN };
+                    let error = t.commit_positions(&given).expect_err("a bad position");
+                    let is_it = matches!(
+                        error,
+                        Error::NotFinite { argument: "positions", index, axis, .. }
+                            if index == bad && axis == G::D - 1
+                    );
+                    assert!(is_it, "{algorithm:?}: {error:?}");
+                    assert_eq!((positions(&t), t.staged_count()), (places.clone(), 0), "{algorithm:?}");
+                    assert_eq!(t.timestamp(), n_commits, "{algorithm:?}");
+                }
+                for p in &mut places {
+                    (0..G::D).for_each(|axis| p[axis] += 1e-3);
+                }
+                t.commit_positions(&places).expect("good positions");
+                assert_eq!(positions(&t), places, "{algorithm:?}");
+                t.validate(Level::Delaunay).expect("a triangulation");
+            }
+        }
+    }
+
+    #[test]
+    fn bad_positions_in_the_plane_are_refused() {
+        bad_positions_are_refused::<Plane>();
+    }
+
+    #[test]
+    fn bad_positions_in_space_are_refused() {
+        bad_positions_are_refused::<Space>();
     }
 }

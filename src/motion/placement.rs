@@ -4,6 +4,7 @@
 //! vertices are at their new and some at their old positions: two may meet that are never at the same place at a
 //! timestamp; they share a site for that while.
 
+use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
@@ -25,8 +26,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn commit_by_placement(
         &mut self,
         shortcut: Shortcut,
+        given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
+        self.stage_given(given)?;
         self.staging.list()?;
         self.regions.invalidate();
         self.order_queue_by_site();

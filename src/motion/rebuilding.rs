@@ -10,6 +10,7 @@ use std::cell::Cell;
 
 use super::coincidence::Hidden;
 use super::moving::differ;
+use super::staging::Given;
 use super::{CoincidencePolicy, CommitReport, MovingTriangulation};
 use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension, Merge, Site};
@@ -22,6 +23,16 @@ use crate::prefetch::prefetch;
 const STRAYED: f64 = 1.7;
 
 impl<G: Dimension> MovingTriangulation<G> {
+    /// Triangulates all vertices at their new positions, where none has moved yet.
+    pub(super) fn rebuild_given(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.stage_given(given)?;
+        self.rebuild_staged(report)
+    }
+
     /// Triangulates all staged vertices at their new positions, where none has moved yet.
     pub(super) fn rebuild_staged(&mut self, report: &mut CommitReport) -> Result<()> {
         if !self.staging.is_whole() {

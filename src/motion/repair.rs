@@ -20,6 +20,7 @@
 //! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
 //! threads, all else by one.
 
+use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet, INFINITE, memory};
 use crate::delaunay::{Dimension, Failures, Shortcut};
@@ -68,12 +69,17 @@ pub(super) struct Repair {
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
     /// may be taken back like the others.
-    pub(super) fn commit_by_repair(&mut self, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn commit_by_repair(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         let can_move_all = self.kernel.has_cells()
             && self.staging.is_whole()
             && !self.staging.others_applied
             && self.hidden.count() == 0;
         if !can_move_all {
+            self.stage_given(given)?;
             self.staging.list()?;
         }
         if !self.kernel.has_cells() {
@@ -83,8 +89,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let accepted = report.moved;
         let mut repair = std::mem::take(&mut self.repair);
         let begun = if can_move_all {
-            let moved = self.move_all_staged();
-            self.begin_moves(&mut repair, moved)
+            let moved = self.move_all_staged(given);
+            moved.and_then(|moved| self.begin_moves(&mut repair, moved))
         } else {
             self.move_staged(&mut repair)
         };

@@ -18,6 +18,7 @@
 //! for a logarithm.
 
 use super::regions::Filter;
+use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::Dimension;
 use crate::error::Result;
@@ -27,23 +28,32 @@ const MANY: usize = 3;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by slack where that is possible, else by repair.
-    pub(super) fn slack_or_repair(&mut self, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn slack_or_repair(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         let can = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if can && self.commit_by_slack(report)? {
+        if can && self.commit_by_slack(given, report)? {
             return Ok(());
         }
-        self.commit_by_repair(report)
+        self.commit_by_repair(given, report)
     }
 
     /// Brings all vertices of a whole staging to their new positions; `false` if they are there, but too many bi-cells
     /// have no slack left. No two vertices may share a site.
-    pub(super) fn commit_by_slack(&mut self, report: &mut CommitReport) -> Result<bool> {
+    pub(super) fn commit_by_slack(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<bool> {
         if self.regions.kept_for() != Some(Filter::Slack) {
+            self.stage_given(given)?;
             self.sort_cells()?;
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
             self.regions.compute(&mut self.kernel, n_ids, Filter::Slack, elsewhere, report)?;
         }
-        let (moved, greatest) = self.move_all_on_record();
+        let (moved, greatest) = self.move_all_on_record(given)?;
         let most = self.kernel.complex().n_finite() / MANY;
         let mut repair = std::mem::take(&mut self.repair);
         repair.failures.clear();

@@ -25,6 +25,49 @@ pub(super) struct Staging<G: Dimension> {
     pub(super) others_applied: bool,
 }
 
+/// Positions of all vertices as the caller of a commit has given them, until they are staged: all at once
+/// ([`MovingTriangulation::stage_given`]), or block by block as the vertices move ([`moving`](super::moving)).
+#[derive(Debug)]
+pub(super) struct Given<'p, G: Dimension>(Option<&'p [G::Point]>);
+
+impl<'p, G: Dimension> Given<'p, G> {
+    /// All positions are staged.
+    pub(super) fn nothing() -> Self {
+        Given(None)
+    }
+
+    pub(super) fn all(positions: &'p [G::Point]) -> Self {
+        Given(Some(positions))
+    }
+
+    /// The positions, if they are not staged.
+    pub(super) fn positions(&self) -> Option<&'p [G::Point]> {
+        self.0
+    }
+
+    /// The positions, if they are not staged, of which the caller makes sure that they are.
+    pub(super) fn take(&mut self) -> Option<&'p [G::Point]> {
+        self.0.take()
+    }
+}
+
+/// Stages positions; `false` if one is bad.
+pub(super) fn stage_block<G: Dimension>(staged: &mut [G::Point], given: &[G::Point]) -> bool {
+    let mut bad = 0u64;
+    for (staged, &value) in G::coordinates_mut(staged).iter_mut().zip(G::coordinates(given)) {
+        bad |= u64::from(!is_in_range(value));
+        *staged = value + 0.0;
+    }
+    bad == 0
+}
+
+/// The first error in positions of which one is bad.
+#[cold]
+pub(super) fn first_bad<G: Dimension>(given: &[G::Point]) -> Error {
+    let errors = given.iter().enumerate().map(|(v, p)| check_position::<G>("positions", v, p));
+    errors.filter_map(Result::err).next().expect("one is bad")
+}
+
 impl<G: Dimension> Default for Staging<G> {
     fn default() -> Self {
         Staging {
@@ -149,13 +192,7 @@ impl<G: Dimension> Staging<G> {
     /// Stages all vertices, of which none is, at once; `false`, and nothing staged, if a position is bad.
     fn stage_all(&mut self, positions: &[G::Point]) -> bool {
         debug_assert!(self.count() == 0 && self.positions.len() == positions.len());
-        let mut bad = 0u64;
-        let staged = G::coordinates_mut(&mut self.positions);
-        for (staged, &value) in staged.iter_mut().zip(G::coordinates(positions)) {
-            bad |= u64::from(!is_in_range(value));
-            *staged = value + 0.0;
-        }
-        self.is_whole = bad == 0;
+        self.is_whole = stage_block::<G>(&mut self.positions, positions);
         self.is_whole
     }
 
@@ -310,8 +347,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             });
         }
         let n_ids = self.site_of.len();
-        let are_all = positions.len() == n_ids && self.n_present == n_ids && self.edits.are_none();
-        if self.staging.count() == 0 && are_all {
+        if self.can_stage_whole(positions.len()) {
             self.staging.reserve(n_ids, 0)?;
             if self.staging.stage_all(positions) {
                 return Ok(());
@@ -329,6 +365,32 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         Ok(())
+    }
+
+    /// Whether moves of so many of the first vertices can be staged whole.
+    fn can_stage_whole(&self, n: usize) -> bool {
+        let n_ids = self.site_of.len();
+        self.staging.count() == 0 && n == n_ids && self.n_present == n_ids && self.edits.are_none()
+    }
+
+    /// Says that all vertices are staged, though their positions are not yet, if these can be staged whole.
+    pub(super) fn expect_whole(&mut self, n: usize) -> Result<bool> {
+        if n == 0 || !self.can_stage_whole(n) {
+            return Ok(false);
+        }
+        self.staging.reserve(n, 0)?;
+        self.staging.is_whole = true;
+        Ok(true)
+    }
+
+    /// Stages positions that are not staged yet.
+    pub(super) fn stage_given(&mut self, given: &mut Given<'_, G>) -> Result<()> {
+        match given.take() {
+            Some(positions) if !stage_block::<G>(&mut self.staging.positions, positions) => {
+                Err(first_bad::<G>(positions))
+            }
+            _ => Ok(()),
+        }
     }
 
     #[inline(always)]

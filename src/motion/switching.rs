@@ -8,6 +8,7 @@
 
 use super::MovingTriangulation;
 use super::regions::Filter;
+use super::staging::Given;
 use super::{CommitReport, SwitchingRule};
 use crate::delaunay::Dimension;
 use crate::error::Result;
@@ -38,7 +39,12 @@ impl Switching {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    pub(super) fn commit_by_switching(&mut self, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn commit_by_switching(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.stage_given(given)?;
         let rule = self.options.switching;
         let group = u64::from(rule.period.max(1));
         if !self.switching.has_switched && self.switching.commits.is_multiple_of(group) {
@@ -46,7 +52,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.switching.commits += 1;
         if self.switching.has_switched {
-            self.commit_by_filter(Filter::Tolerance, report)
+            self.commit_by_filter(Filter::Tolerance, given, report)
         } else {
             self.rebuild_staged(report)
         }

@@ -34,6 +34,7 @@
 use super::moving::differ;
 use super::placement::Placed;
 use super::regions::Filter;
+use super::staging::Given;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::NONE;
@@ -42,34 +43,40 @@ use crate::error::Result;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a filter and a queue.
-    pub(super) fn commit_by_filter(&mut self, filter: Filter, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn commit_by_filter(
+        &mut self,
+        filter: Filter,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         if !self.kernel.has_cells() {
-            return self.rebuild_staged(report);
+            return self.rebuild_given(given, report);
         }
-        self.accept_by(filter, usize::MAX, report)?;
+        self.accept_by(filter, given, report)?;
         self.place_beyond(report)
     }
 
-    /// Moves the vertices that stay in their regions and queues the others; `false` if those are more than `most`: then
-    /// nothing, or some of the vertices, has moved.
-    pub(super) fn accept_by(
+    /// Moves the vertices that stay in their regions and queues the others.
+    fn accept_by(
         &mut self,
         filter: Filter,
-        most: usize,
+        given: &mut Given<'_, G>,
         report: &mut CommitReport,
-    ) -> Result<bool> {
-        self.pre_compute(filter, report)?;
-        if filter == Filter::Tolerance && self.staging.is_whole() && self.hidden.count() == 0 {
-            let moved = self.move_and_queue::<false>(most)?;
-            if let Some(moved) = moved {
-                report.moved += moved;
-                report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
-            }
-            return Ok(moved.is_some());
+    ) -> Result<()> {
+        if self.regions.kept_for() != Some(filter) {
+            self.stage_given(given)?;
+            self.pre_compute(filter, report)?;
         }
+        if filter == Filter::Tolerance && self.staging.is_whole() && self.hidden.count() == 0 {
+            let moved = self.move_and_queue::<false>(usize::MAX, given)?;
+            report.moved += moved.expect("there is room for all in the queue");
+            report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
+            return Ok(());
+        }
+        self.stage_given(given)?;
         self.staging.list()?;
         self.accept_listed(filter, report);
-        Ok(self.staging.vertices.len() - self.staging.applied <= most)
+        Ok(())
     }
 
     /// Places the queued vertices; the regions follow.

@@ -40,6 +40,7 @@
 
 use super::regions::Filter;
 use super::repair::Repair;
+use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::memory;
 use crate::delaunay::{Dimension, Waiting};
@@ -50,23 +51,33 @@ const MANY: usize = 4;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
-    pub(super) fn watch_or_repair(&mut self, report: &mut CommitReport) -> Result<()> {
+    pub(super) fn watch_or_repair(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         let can_watch = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if can_watch && self.commit_by_watching(self.n_present / MANY, report)? {
+        if can_watch && self.commit_by_watching(self.n_present / MANY, given, report)? {
             return Ok(());
         }
-        self.commit_by_repair(report)
+        self.commit_by_repair(given, report)
     }
 
     /// Brings all vertices of a whole staging to their new positions if no more than `most` leave their tolerance; `false`
     /// otherwise, and nothing has moved. No two vertices may share a site.
-    pub(super) fn commit_by_watching(&mut self, most: usize, report: &mut CommitReport) -> Result<bool> {
+    pub(super) fn commit_by_watching(
+        &mut self,
+        most: usize,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<bool> {
         if self.regions.kept_for() != Some(Filter::Watch) {
+            self.stage_given(given)?;
             self.sort_cells()?;
             let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
             self.regions.compute(&mut self.kernel, n_ids, Filter::Watch, elsewhere, report)?;
         }
-        let Some(moved) = self.move_and_queue::<true>(most)? else {
+        let Some(moved) = self.move_and_queue::<true>(most, given)? else {
             return Ok(false);
         };
         report.moved += moved;
