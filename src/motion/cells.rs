@@ -518,6 +518,7 @@ impl<G: Dimension> Cells<G> {
             + (self.index_of.capacity() + self.slots.capacity()) * 4
             + (self.scratch.lost.capacity() + self.scratch.table.capacity() + self.scratch.glued.capacity())
                 * 4
+            + self.scratch.turned.capacity() * 4
             + self.scratch.found.capacity() * size_of::<(u32, u32, G::Corners)>()
             + trackers.map(Tracker::memory_bytes).sum::<usize>()
     }
