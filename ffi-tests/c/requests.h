@@ -33,15 +33,19 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, v
 ssize_t __wrap_write(int file, const void *bytes, size_t count);
 ssize_t __wrap_writev(int file, const struct iovec *parts, int count);
 
-// Which requests are refused beside the first one: none, all later ones, or those later ones that are for as much or more.
-typedef enum { NONE_LATER, ALL_LATER, LARGE_LATER } later;
+// Which requests are refused beside the first one: none, all later ones, or those later ones with which as much would be
+// held as with the first one, as where there is a limit.
+typedef enum { NONE_LATER, ALL_LATER, BEYOND_LATER } later;
 
-// Whether requests are counted; how many there were; which is the first to be refused, and for how much that is; which
-// later ones are; how many were; and how often something was written while they were counted.
+// Whether requests are counted; how many there were; which is the first to be refused, and how much would have been held
+// with it; which later ones are; how many were; and how often something was written while they were counted.
 static atomic_bool is_counting;
-static atomic_size_t n_requests, first_refused, size_refused;
+static atomic_size_t n_requests, first_refused, too_much;
 static later refused_later;
 static atomic_size_t n_refused, n_written;
+
+// Bytes that have been asked for and not given back.
+static atomic_size_t held_bytes;
 
 // From now on requests are counted, from 0 on, and number `first` is refused.
 static inline void count_requests(size_t first, later too) {
@@ -49,7 +53,7 @@ static inline void count_requests(size_t first, later too) {
     n_refused = 0;
     n_written = 0;
     first_refused = first;
-    size_refused = SIZE_MAX;
+    too_much = SIZE_MAX;
     refused_later = too;
     is_counting = true;
 }
@@ -60,10 +64,10 @@ static inline void stop_counting(void) {
 
 static bool is_refused(size_t size) {
     if (!is_counting) return false;
-    size_t k = n_requests++;
+    size_t k = n_requests++, held = held_bytes + size;
     if (k == first_refused) {
-        size_refused = size;
-    } else if (k < first_refused || refused_later == NONE_LATER || (refused_later == LARGE_LATER && size < size_refused)) {
+        too_much = held;
+    } else if (k < first_refused || refused_later == NONE_LATER || (refused_later == BEYOND_LATER && held < too_much)) {
         return false;
     }
     n_refused++;
@@ -77,7 +81,7 @@ static struct {
     uintptr_t address;
     size_t size;
 } blocks[PLACES];
-static size_t n_blocks, held_bytes;
+static size_t n_blocks;
 static pthread_mutex_t blocks_lock = PTHREAD_MUTEX_INITIALIZER;
 
 static size_t place_of(uintptr_t address) {
@@ -133,9 +137,8 @@ void *__wrap_calloc(size_t count, size_t size) {
 }
 
 void *__wrap_realloc(void *block, size_t size) {
-    if (is_refused(size)) return NULL;
     size_t before = forget_block((uintptr_t)block);
-    void *moved = __real_realloc(block, size);
+    void *moved = is_refused(size) ? NULL : __real_realloc(block, size);
     if (moved == NULL) enter_block(block, before);
     return enter_block(moved, size);
 }

@@ -32,6 +32,7 @@ static const setting SETTINGS[] = {
     {.n = 100, .threads = 1, .is_hub = true},
     {.n = 60, .threads = 1, .is_flat = true, .hides = true, .tracks = true, .takes = true, .stages = 5},
     {.n = 60, .threads = 1, .flattens = true, .hides = true, .tracks = true, .takes = true, .warm = 1, .stages = 2},
+    {.n = 3000, .threads = 2},
     {.n = 700, .threads = 3},
     {.n = 700, .threads = 3, .hides = true, .tracks = true, .reads = true, .takes = true, .warm = 1, .stages = 16},
 };
