@@ -176,8 +176,10 @@ fn hear_panics() {
     });
 }
 
+type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
+
 /// The hook that was in place.
-static BEFORE: OnceLock<Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>> = OnceLock::new();
+static BEFORE: OnceLock<Hook> = OnceLock::new();
 
 fn hear(panic: &PanicHookInfo<'_>) {
     if INSIDE.get() {
