@@ -25,6 +25,33 @@ fn every_function_is_called_by_a_c_program() {
     assert!(missing.is_empty(), "no C program calls {missing:?}");
 }
 
+/// Those that may give `DELDRIFT_OUT_OF_MEMORY`, and say so, have their requests refused; the others have none.
+#[test]
+fn every_function_is_called_without_memory() {
+    let (header, faults) = (text_of("include/deldrift.h"), text_of("ffi-tests/c/faults.c"));
+    let (_, calls) = faults.split_once("other_functions_ask_for_nothing(").expect("it is there");
+    let (without_requests, _) = calls.split_once("\n}\n").expect("a function ends");
+    let with_requests = text_of("ffi-tests/c/scenes.h");
+    let mut documentation = String::new();
+    let mut n_functions = 0;
+    for line in header.lines() {
+        if line.starts_with("///") {
+            documentation += line;
+        } else if let Some(name) = declarations(line).find_map(function_name) {
+            let may_fail = documentation.contains("DELDRIFT_OUT_OF_MEMORY");
+            let call = format!("{name}(");
+            let program = if may_fail { &with_requests } else { without_requests };
+            assert!(program.contains(&call), "{name}, which may lack memory: {may_fail}");
+            assert!(!may_fail || !without_requests.contains(&call), "{name} may lack memory");
+            n_functions += 1;
+        }
+        if line.is_empty() {
+            documentation.clear();
+        }
+    }
+    assert!(n_functions > 40, "{n_functions}");
+}
+
 #[test]
 fn every_status_is_asserted() {
     let header = text_of("include/deldrift.h");

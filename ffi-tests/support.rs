@@ -9,6 +9,19 @@ use std::{env, fs};
 /// What the static library needs of the system, as `rustc --print native-static-libs` says.
 const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
 
+/// Functions of the system in whose place `c/requests.h` has its own.
+const REPLACED: [&str; 9] = [
+    "malloc",
+    "calloc",
+    "realloc",
+    "posix_memalign",
+    "aligned_alloc",
+    "free",
+    "pthread_create",
+    "write",
+    "writev",
+];
+
 /// A file of the repository.
 pub fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
@@ -66,6 +79,11 @@ impl Linkage {
     }
 }
 
+/// Whether a program sees what the library asks the system for. It must be linked with the static one.
+pub fn sees_requests(source: &Path) -> bool {
+    ["faults.c", "memory_bytes.c"].iter().any(|name| source.ends_with(name))
+}
+
 /// The compiler for a source, with the project's warnings as errors and the headers in reach.
 pub fn compiler(source: &Path) -> Command {
     static HOST: OnceLock<String> = OnceLock::new();
@@ -92,6 +110,10 @@ pub fn build(source: &Path, folder: &Path, linkage: Linkage, flags: &[&str]) -> 
     let libraries = library_folder();
     let mut command = compiler(source);
     command.args(flags).arg(source).arg("-o").arg(&program);
+    if sees_requests(source) {
+        assert!(matches!(linkage, Linkage::Static), "a shared library has requests of its own");
+        command.args(REPLACED.map(|name| format!("-Wl,--wrap={name}")));
+    }
     match linkage {
         Linkage::Shared => {
             let run_path = format!("-Wl,-rpath,{}", libraries.display());

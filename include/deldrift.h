@@ -661,10 +661,12 @@ deldrift_status deldrift_cell_count(const deldrift_triangulation *t, size_t *cou
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 deldrift_status deldrift_staged_count(const deldrift_triangulation *t, size_t *count);
 
-/// How many bytes of memory the triangulation holds, to *bytes, what its views show included.
+/// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
+/// for later calls included, and without what the system's allocator adds to each of its arrays.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
-deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t, size_t *bytes);
+deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t,
+                                      size_t *bytes);
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
 ///

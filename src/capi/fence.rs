@@ -12,8 +12,8 @@
 use std::cell::{Cell, RefCell};
 use std::ffi::c_char;
 use std::fmt::{self, Write};
-use std::panic::{self, AssertUnwindSafe};
-use std::sync::Once;
+use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
+use std::sync::{Once, OnceLock};
 
 use super::pointers;
 use super::status::{Failure, deldrift_status};
@@ -170,15 +170,25 @@ fn hear_panics() {
         return;
     }
     PLACED.call_once(|| {
-        let before = panic::take_hook();
-        panic::set_hook(Box::new(move |panic| {
-            if INSIDE.get() {
-                record(format_args!("{panic}"));
-            } else if !threads::is_worker() {
-                before(panic);
-            }
-        }));
+        BEFORE.get_or_init(panic::take_hook);
+        // A function keeps nothing, so its box needs no memory, which here could not be refused.
+        panic::set_hook(Box::new(hear));
     });
+}
+
+type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
+
+/// The hook that was in place.
+static BEFORE: OnceLock<Hook> = OnceLock::new();
+
+fn hear(panic: &PanicHookInfo<'_>) {
+    if INSIDE.get() {
+        record(format_args!("{panic}"));
+    } else if !threads::is_worker()
+        && let Some(before) = BEFORE.get()
+    {
+        before(panic);
+    }
 }
 
 #[cfg(test)]

@@ -129,7 +129,8 @@ pub unsafe extern "C" fn deldrift_staged_count(
     unsafe { tell!(t, count, t => t.staged_count()) }
 }
 
-/// How many bytes of memory the triangulation holds, to *bytes, what its views show included.
+/// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
+/// for later calls included, and without what the system's allocator adds to each of its arrays.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
@@ -138,7 +139,7 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
     bytes: *mut usize,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, bytes, t => t.memory_bytes()) }
+    unsafe { tell!(t, bytes, t => size_of::<deldrift_triangulation>() + t.memory_bytes()) }
 }
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.

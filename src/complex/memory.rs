@@ -69,6 +69,11 @@ pub(crate) fn boxed<T>(value: T) -> Result<Box<T>> {
     }
 }
 
+/// Bytes of an array's memory.
+pub(crate) fn bytes_of<T>(array: &Vec<T>) -> usize {
+    array.capacity() * size_of::<T>()
+}
+
 /// A copy of an array.
 pub(crate) fn copy_of<T: Copy>(array: &[T]) -> Result<Vec<T>> {
     let mut copy = Vec::new();

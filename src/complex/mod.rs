@@ -284,10 +284,16 @@ impl<C: Corners> Complex<C> {
             return Err(Error::TooManyCells { limit: MAX_CELLS });
         }
         let more = n.max(self.cells.len() / 8).min(MAX_CELLS - self.cells.len());
+        let room = self.cells.len() + more;
+        // The cells last: where there is room for one, there is for its mark, whatever has failed before.
+        let more_marks = room - self.marks.len();
+        memory::reserve_exact(&mut self.marks, more_marks)?;
+        if self.is_recording() {
+            self.cover(room)?;
+        }
         memory::reserve_exact(&mut self.cells, more)?;
-        let spare = self.cells.capacity() - self.marks.len();
-        memory::reserve_exact(&mut self.marks, spare)?;
-        if self.is_recording() { self.cover_slots() } else { Ok(()) }
+        debug_assert!(self.cells.capacity() <= self.marks.capacity());
+        Ok(())
     }
 
     /// Makes sure that `n` more cells can be [released](Self::release) without a failure.
@@ -503,10 +509,12 @@ impl<C: Corners> Complex<C> {
             }
             cell
         };
-        memory::reserve_exact(&mut self.marks, other.cells.len())?;
+        // As when the complex grows, the cells last.
+        let room = self.cells.capacity().max(n + other.cells.len());
+        let more_marks = room - self.marks.len();
+        memory::reserve_exact(&mut self.marks, more_marks)?;
         memory::extend(&mut self.cells, &other.cells, n_threads, shifted)?;
-        let spare = self.cells.capacity() - self.marks.len();
-        memory::reserve_exact(&mut self.marks, spare)?;
+        debug_assert!(self.cells.capacity() <= self.marks.capacity());
         self.marks.resize(self.cells.len(), 0);
         self.free.extend(other.free.iter().map(|c| c + n as u32));
         self.n_ghosts += other.n_ghosts;

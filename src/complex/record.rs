@@ -83,16 +83,12 @@ impl<C: Corners> Complex<C> {
     /// Begins a record of all changes.
     pub(crate) fn begin_record(&mut self) -> Result<()> {
         debug_assert!(!self.record.is_on && self.record.rows.is_empty());
-        self.cover_slots()?;
+        let n_slots = self.cells.capacity();
+        self.cover(n_slots)?;
         self.record.is_on = true;
         self.record.n_slots = self.cells.len();
         self.record.n_ghosts = self.n_ghosts;
         Ok(())
-    }
-
-    /// Has a bit for every slot that there is room for.
-    pub(super) fn cover_slots(&mut self) -> Result<()> {
-        self.cover(self.cells.capacity())
     }
 
     /// The cells are about to be sorted into so many slots: a record in which no row has been noted yet begins there.
@@ -105,7 +101,7 @@ impl<C: Corners> Complex<C> {
     }
 
     /// Has a bit for each of so many slots.
-    fn cover(&mut self, n_slots: usize) -> Result<()> {
+    pub(super) fn cover(&mut self, n_slots: usize) -> Result<()> {
         let missing = n_slots.div_ceil(64).saturating_sub(self.record.noted.len());
         if missing > 0 {
             memory::reserve_exact(&mut self.record.noted, missing)?;

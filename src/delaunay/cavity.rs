@@ -42,6 +42,10 @@ impl<G: Dimension> Default for Cavity<G> {
 }
 
 impl<G: Dimension> Cavity<G> {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.cells) + G::scratch_bytes(&self.scratch)
+    }
+
     /// The cells made by the last insertion.
     pub(super) fn made(&self) -> &[u32] {
         &self.cells[..self.n_cells]

@@ -25,6 +25,12 @@ pub struct Scratch {
     rim: Vec<(u32, Facet)>,
 }
 
+impl Scratch {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.turns) + memory::bytes_of(&self.rim)
+    }
+}
+
 /// The zone found, by the length of its lists: `n_cells + 2` edges of the rim.
 struct Zone {
     n_cells: usize,

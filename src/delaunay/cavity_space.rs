@@ -45,6 +45,18 @@ pub struct Scratch {
     pub(super) spheres: Spheres,
 }
 
+impl Scratch {
+    pub(super) fn memory_bytes(&self) -> usize {
+        let Meetings { table, labels, local } = &self.meetings;
+        memory::bytes_of(&self.zone)
+            + memory::bytes_of(&self.rim)
+            + memory::bytes_of(table)
+            + memory::bytes_of(labels)
+            + memory::bytes_of(local)
+            + self.spheres.memory_bytes()
+    }
+}
+
 /// Where the two facets of a ridge meet.
 #[derive(Debug, Default)]
 struct Meetings {

@@ -61,6 +61,13 @@ impl Default for Waiting {
 }
 
 impl Failures {
+    /// Bytes held.
+    pub fn memory_bytes(&self) -> usize {
+        let lists = [&self.cells, &self.open_ghosts, &self.ghosts].map(memory::bytes_of);
+        let facets = [&self.facets, &self.ridges].map(memory::bytes_of);
+        lists.iter().chain(&facets).sum()
+    }
+
     /// Forgets everything; keeps the memory.
     pub fn clear(&mut self) {
         self.cells.clear();

@@ -88,6 +88,8 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn begin_build(t: &mut Delaunay<Self>) -> Result<()>;
     /// Frees what [`begin_build`](Self::begin_build) made.
     fn end_build(t: &mut Delaunay<Self>);
+    /// Bytes of the scratch memory of insertions.
+    fn scratch_bytes(scratch: &Self::Scratch) -> usize;
     /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site. Lists
     /// the new cells in `cavity`. After an error nothing has changed.
     fn insert<const BUILD: bool>(
@@ -298,6 +300,10 @@ impl Dimension for Plane {
 
     fn end_build(_: &mut Delaunay<Self>) {}
 
+    fn scratch_bytes(scratch: &Self::Scratch) -> usize {
+        scratch.memory_bytes()
+    }
+
     #[inline(always)]
     fn insert<const BUILD: bool>(
         t: &mut Delaunay<Self>,
@@ -492,6 +498,10 @@ impl Dimension for Space {
 
     fn end_build(t: &mut Delaunay<Self>) {
         t.cavity.scratch.spheres.end();
+    }
+
+    fn scratch_bytes(scratch: &Self::Scratch) -> usize {
+        scratch.memory_bytes()
     }
 
     #[inline(always)]

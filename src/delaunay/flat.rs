@@ -74,7 +74,11 @@ impl<G: Dimension> Flat<G> {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.places.capacity() * size_of::<([u64; 3], u32)>()
+        // The map has a power of two of places, seven in eight of which it fills, and a byte of its own for each.
+        match self.places.capacity() {
+            0 => 0,
+            n => (n * 8 / 7).next_power_of_two() * (size_of::<([u64; 3], u32)>() + 1),
+        }
     }
 }
 

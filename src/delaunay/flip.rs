@@ -74,6 +74,15 @@ impl<G: Dimension> Default for Flips<G> {
 }
 
 impl<G: Dimension> Flips<G> {
+    fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.suspects)
+            + memory::bytes_of(&self.stuck)
+            + memory::bytes_of(&self.later)
+            + memory::bytes_of(&self.changed)
+            + memory::bytes_of(&self.made)
+            + memory::bytes_of(&self.journal)
+    }
+
     fn begin(&mut self) {
         (self.n_flips, self.certificates, self.has_failed) = (0, 0, false);
         self.stuck.clear();
@@ -146,6 +155,15 @@ impl<G: Dimension> Default for AllFlips<G> {
             n_slots: 0,
             free: Vec::new(),
         }
+    }
+}
+
+impl<G: Dimension> AllFlips<G> {
+    pub(super) fn memory_bytes(&self) -> usize {
+        let flips = self.parts.iter().chain([&self.own]);
+        flips.map(Flips::memory_bytes).sum::<usize>()
+            + memory::bytes_of(&self.parts)
+            + memory::bytes_of(&self.free)
     }
 }
 

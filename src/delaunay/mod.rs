@@ -442,10 +442,15 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
-        self.sites.capacity() * size_of::<Site<G>>()
-            + self.free_sites.capacity() * 4
+        memory::bytes_of(&self.sites)
+            + memory::bytes_of(&self.free_sites)
+            + self.parts.memory_bytes()
             + self.complex.memory_bytes()
-            + self.log.memory_bytes()
             + self.flat.memory_bytes()
+            + self.cavity.memory_bytes()
+            + self.hole.memory_bytes()
+            + self.flips.memory_bytes()
+            + self.log.memory_bytes()
+            + self.changed.as_ref().map_or(0, memory::bytes_of)
     }
 }

@@ -27,6 +27,10 @@ pub(super) struct Parts {
 }
 
 impl Parts {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.starts) + memory::bytes_of(&self.planes)
+    }
+
     /// Planes for `n_parts` parts with like shares of a sample.
     fn of_sample<G: Dimension>(sample: &mut [G::Point], n_parts: usize) -> Result<Self> {
         let mut parts = Parts::default();

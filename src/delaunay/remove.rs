@@ -57,6 +57,18 @@ impl<G: Dimension> Default for Hole<G> {
     }
 }
 
+impl<G: Dimension> Hole<G> {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.star)
+            + memory::bytes_of(&self.link)
+            + memory::bytes_of(&self.sites)
+            + memory::bytes_of(&self.open)
+            + memory::bytes_of(&self.open_ghost)
+            + memory::bytes_of(&self.made)
+            + memory::bytes_of(&self.made_at)
+    }
+}
+
 /// Cells from here on are those of `made`, not yet in the complex.
 const NEW: u32 = MAX_CELLS as u32;
 

@@ -32,6 +32,10 @@ pub struct Spheres {
 }
 
 impl Spheres {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.entries)
+    }
+
     /// Gets ready for a build of about so many cells.
     pub(super) fn begin(&mut self, n_cells: usize) -> Result<()> {
         let n = n_cells.next_power_of_two().min(MOST_ENTRIES);

@@ -223,6 +223,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let s = self.kernel.add_site(*q, id)?;
         self.site_of[id as usize] = s;
         let inserted = self.with_regions(report, |t, _| {
+            // The way back does not know of a site without cells that is in, so nothing may fail after that.
+            t.regions.make_room_to_note()?;
             let inserted = t.kernel.insert_site(s, NONE)?;
             if let Insertion::Coincident(at) = inserted {
                 // The new id is the highest of all, so it is the one to hide: nothing else changes.

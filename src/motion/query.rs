@@ -231,9 +231,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Bytes held, views included.
     pub fn memory_bytes(&self) -> usize {
         self.kernel.memory_bytes()
-            + self.site_of.capacity() * 4
+            + memory::bytes_of(&self.site_of)
+            + self.options.monitor.as_ref().map_or(0, |monitor| size_of_val(&**monitor))
             + self.staging.memory_bytes()
             + self.regions.memory_bytes()
+            + self.repair.memory_bytes()
             + self.edits.memory_bytes()
             + self.hidden.memory_bytes()
             + self.transaction.memory_bytes()

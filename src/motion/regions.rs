@@ -163,11 +163,13 @@ impl<G: Dimension> Regions<G> {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.fixed.capacity() * size_of::<Fixed<G>>()
-            + self.delimiters.capacity() * size_of::<(G::Point, f64)>()
+        memory::bytes_of(&self.fixed)
+            + memory::bytes_of(&self.reach)
+            + memory::bytes_of(&self.delimiters)
             + self.watched.memory_bytes()
             + self.slacks.memory_bytes()
-            + self.reach.capacity() * 8
+            + memory::bytes_of(&self.changed)
+            + memory::bytes_of(&self.relocated)
     }
 
     /// Follows the number of ids and cells. New vertices have no bi-cells yet, so no tolerance smaller than any.

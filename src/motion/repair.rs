@@ -66,6 +66,18 @@ pub(super) struct Repair {
     queue: Vec<u32>,
 }
 
+impl Repair {
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.failures.memory_bytes()
+            + memory::bytes_of(&self.touched)
+            + memory::bytes_of(&self.suspects)
+            + memory::bytes_of(&self.stuck)
+            + memory::bytes_of(&self.at)
+            + memory::bytes_of(&self.sites)
+            + memory::bytes_of(&self.queue)
+    }
+}
+
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
     /// may be taken back like the others.

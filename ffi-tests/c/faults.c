@@ -1,0 +1,255 @@
+// Calls for which there is no memory: of the requests of a call, one is refused, alone, or with all that follow, or with
+// those that follow and would have as much held; which one is a matter of turns. The call gives DELDRIFT_OUT_OF_MEMORY, or does without; after a failure all is as it was, and the same call
+// then gives what it would have given. Nothing is printed, and what has been asked for is given back in the end.
+//
+// DELDRIFT_SOAK multiplies the number of faults; below 1 some calls are left out.
+#include "scenes.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+// Of the requests of a call, so many are refused from the first one on, and so many more at even distances.
+enum { FIRST = 6, SPREAD = 4 };
+
+typedef struct {
+    size_t faults, clean, absorbed, changed;
+} tally;
+
+static tally tallies[N_KINDS];
+static size_t n_shown;
+
+// Where the program is, for one that ends here.
+static char place[200] = "before the first call";
+
+static void tell_where(int signal) {
+    (void)signal;
+    (void)!__real_write(2, "ended at: ", 10);
+    (void)!__real_write(2, place, strlen(place));
+    (void)!__real_write(2, "\n", 1);
+    _exit(1);
+}
+
+// What there is after a call that has succeeded, and after one commit more.
+typedef struct {
+    uint64_t given;
+    numbers now, later;
+    uint64_t cells, later_cells;
+} ending;
+
+static const char *end_of(scene *s, ending *end) {
+    const char *wrong = NULL;
+    end->now = numbers_of(s->t);
+    end->cells = arrays_of(s->t).cells;
+    if (s->setting->takes) wrong = take(s);
+    OK(deldrift_commit_timestamp(s->t, NULL));
+    if (deldrift_validate(s->t, 3) != DELDRIFT_OK) return "no triangulation after the next commit";
+    end->later = numbers_of(s->t);
+    end->later_cells = arrays_of(s->t).cells;
+    if (s->setting->takes && wrong == NULL) wrong = take(s);
+    return wrong;
+}
+
+// How a scene is before its call, and what comes of that without faults.
+typedef struct {
+    numbers before;
+    deldrift_commit_report sums;
+    size_t n_requests;
+    arrays arrays;
+    deldrift_status status;
+    ending end;
+} control;
+
+static control control_of(uint32_t dimension, call call, const setting *setting) {
+    control c;
+    const char *wrong = NULL;
+    scene s = make_scene(dimension, call, setting);
+    c.before = numbers_of(s.t);
+    OK(deldrift_statistics(s.t, &c.sums));
+    c.status = make_call(&s, SIZE_MAX, NONE_LATER, &c.end.given, &wrong);
+    c.n_requests = n_requests;
+    bool has_none = c.status == DELDRIFT_NO_DELIMITER || c.status == DELDRIFT_NO_SUCH_FACET;
+    CHECK(c.status == DELDRIFT_OK || c.status == DELDRIFT_CHANGES_NOT_TRACKED || has_none);
+    if (wrong == NULL) wrong = end_of(&s, &c.end);
+    if (wrong != NULL) fprintf(stderr, "%s without a fault: %s\n", NAMES[call.kind], wrong);
+    CHECK(wrong == NULL);
+    end_scene(&s);
+    s = make_scene(dimension, call, setting);
+    c.arrays = arrays_of(s.t);
+    end_scene(&s);
+    return c;
+}
+
+// One fault; what is wrong, or NULL. `looks` if the cells are read after a failure, even if nobody had.
+static const char *fault(scene *s, const control *c, size_t k, later too, bool looks, bool *has_failed) {
+    const char *wrong = NULL;
+    ending end;
+    deldrift_status status = make_call(s, k, too, &end.given, &wrong);
+    CHECK(n_refused > 0);
+    if (n_written > 0) return "something is printed";
+    if (wrong != NULL) return wrong;
+    *has_failed = status == DELDRIFT_OUT_OF_MEMORY;
+    if (*has_failed) {
+        numbers now = numbers_of(s->t);
+        deldrift_commit_report sums;
+        OK(deldrift_statistics(s->t, &sums));
+        wrong = difference(&now, &c->before);
+        if (wrong != NULL) return wrong;
+        if (memcmp(&sums, &c->sums, sizeof sums) != 0) return "other sums";
+        if (deldrift_validate(s->t, 3) != DELDRIFT_OK) return "no triangulation";
+        if (looks || s->setting->reads) {
+            arrays there = arrays_of(s->t);
+            if (there.cells != c->arrays.cells) return "other cells";
+            if (s->setting->reads && memcmp(&there, &c->arrays, sizeof there) != 0) return "other rows of cells";
+        }
+        if (looks && s->setting->takes) wrong = take(s);
+        if (wrong != NULL) return wrong;
+        status = make_call(s, SIZE_MAX, NONE_LATER, &end.given, &wrong);
+        if (wrong != NULL) return wrong;
+    }
+    if (status != c->status) return deldrift_status_string(status);
+    if (end.given != c->end.given) return "it gives something else";
+    wrong = end_of(s, &end);
+    if (wrong == NULL) wrong = difference(&end.now, &c->end.now);
+    if (wrong == NULL && end.cells != c->end.cells) wrong = "other cells in the end";
+    if (wrong == NULL) wrong = difference(&end.later, &c->end.later);
+    if (wrong == NULL && end.later_cells != c->end.later_cells) wrong = "other cells after the next commit";
+    return wrong;
+}
+
+static void faults_of(uint32_t dimension, call call, size_t which, double share, size_t turn) {
+    const setting *setting = &SETTINGS[which];
+    // There for what several threads build.
+    bool builds = call.kind == CREATE || (call.kind == COMMIT && call.algorithm == DELDRIFT_REBUILDING);
+    if (setting->n > 1000 && !builds) return;
+    // Larger ones are slower.
+    share *= setting->n > 1000 ? 3 : setting->n > 100 ? 0.5 : 1;
+    size_t most = (size_t)(share * (FIRST + SPREAD) + 0.5), n_first = (size_t)(share * FIRST + 0.5);
+    if (most == 0) {
+        size_t period = (size_t)(1 / (share * (FIRST + SPREAD)));
+        if (turn % period != 0) return;
+        most = 1;
+    }
+    control c = control_of(dimension, call, setting);
+    tally *sum = &tallies[call.kind];
+    for (size_t round = 0; round < most; round++) {
+        size_t k = round, n_rest = c.n_requests > n_first ? c.n_requests - n_first : 0;
+        if (most == 1) {
+            k = turn * 7 % (c.n_requests + 1);
+        } else if (round >= n_first && n_rest > most - n_first) {
+            k = n_first + ((round - n_first) * n_rest + turn % n_rest) / (most - n_first) % n_rest;
+        }
+        if (k >= c.n_requests) break;
+        later too = (later)((round + turn) % 3);
+        bool has_failed = false;
+        snprintf(place, sizeof place, "%s, %uD, algorithm %u, goal %d, setting %zu: request %zu of %zu%s", NAMES[call.kind],
+                 dimension, call.algorithm, call.goal, which, k, c.n_requests, (const char *[]){"", " and all later ones", " and all beyond it"}[too]);
+        size_t blocks_before = n_blocks;
+        scene s = make_scene(dimension, call, setting);
+        const char *wrong = fault(&s, &c, k, too, (round + turn) % 2 == 0, &has_failed);
+        end_scene(&s);
+        if (wrong == NULL && n_blocks != blocks_before) wrong = "memory is not given back";
+        sum->faults++;
+        sum->clean += wrong == NULL && has_failed;
+        sum->absorbed += wrong == NULL && !has_failed;
+        sum->changed += wrong != NULL;
+        if (wrong != NULL && n_shown++ < 30) fprintf(stderr, "%s: %s\n", place, wrong);
+    }
+}
+
+// The first calls of a process make what later ones have.
+static void the_first_calls_need_no_more_than_others(void) {
+    deldrift_triangulation *t = NULL;
+    size_t count;
+    count_requests(0, ALL_LATER);
+    CHECK_STATUS(deldrift_vertex_count(NULL, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK(n_requests == 0);
+    CHECK_STATUS(deldrift_create(2, SQUARE, SQUARE_COUNT, NULL, &t), DELDRIFT_OUT_OF_MEMORY);
+    CHECK_STATUS(deldrift_create(3, TETRAHEDRON, TETRAHEDRON_COUNT, NULL, &t), DELDRIFT_OUT_OF_MEMORY);
+    CHECK_MESSAGE("bytes");
+    stop_counting();
+    // Otherwise the requests of the library are not seen here at all.
+    CHECK(t == NULL && n_refused >= 2 && n_written == 0);
+}
+
+// All functions whose documentation does not name DELDRIFT_OUT_OF_MEMORY.
+static void other_functions_ask_for_nothing(uint32_t dimension) {
+    const call some = {COMMIT_SOME, DELDRIFT_AUTO, 0};
+    scene s = make_scene(dimension, some, &SETTINGS[6]);
+    uint32_t number;
+    size_t count;
+    uint64_t timestamp;
+    bool present;
+    double position[3];
+    deldrift_commit_report report;
+    count_requests(0, ALL_LATER);
+    deldrift_options options;
+    deldrift_options_init(&options);
+    CHECK(strlen(deldrift_version()) > 0 && strlen(deldrift_status_string(DELDRIFT_OK)) > 0);
+    OK(deldrift_dimension(s.t, &number));
+    OK(deldrift_get_algorithm(s.t, &number));
+    OK(deldrift_vertex_count(s.t, &count));
+    OK(deldrift_cell_count(s.t, &count));
+    OK(deldrift_staged_count(s.t, &count));
+    OK(deldrift_memory_bytes(s.t, &count));
+    OK(deldrift_id_count(s.t, &count));
+    OK(deldrift_timestamp(s.t, &timestamp));
+    OK(deldrift_statistics(s.t, &report));
+    OK(deldrift_is_present(s.t, 3, &present));
+    OK(deldrift_position(s.t, 3, position));
+    CHECK_STATUS(deldrift_position(s.t, 1u << 30, position), DELDRIFT_NO_SUCH_VERTEX);
+    CHECK(strlen(deldrift_last_error()) > 0);
+    OK(deldrift_copy_positions(s.t, numbers_out, ROOM / 3, &count));
+    OK(deldrift_coincident_representative(s.t, 30, &number));
+    OK(deldrift_validate(s.t, 3));
+    OK(deldrift_set_algorithm(s.t, DELDRIFT_TOLERANCE));
+    OK(deldrift_discard_moves(s.t));
+    deldrift_destroy(s.t);
+    stop_counting();
+    CHECK(n_requests == 0 && n_written == 0);
+    s.t = NULL;
+    end_scene(&s);
+}
+
+int main(void) {
+    static const deldrift_algorithm all[] = ALL_ALGORITHMS;
+    struct sigaction action = {.sa_handler = tell_where};
+    sigaction(SIGABRT, &action, NULL);
+    double factor = soak();
+    the_first_calls_need_no_more_than_others();
+    size_t turn = 0;
+    for (uint32_t dimension = 2; dimension <= 3; dimension++) {
+        other_functions_ask_for_nothing(dimension);
+        for (size_t which = 0; which < N_SETTINGS; which++) {
+            for (kind k = 0; k < N_KINDS; k++) {
+                bool is_of_one = k == RELOCATE || k == INSERT || k == REMOVE || k == LOCATE || k == NEAREST;
+                // Moves and edits that are staged already would be in the way.
+                if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
+                if (is_commit(k)) {
+                    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+                        faults_of(dimension, (call){k, all[i], 0}, which, factor, turn++);
+                    }
+                } else {
+                    for (int goal = 0; goal < (is_of_one ? 3 : 1); goal++) {
+                        deldrift_algorithm algorithm = is_of_one ? DELDRIFT_SAFE_REGION_TOLERANCE : DELDRIFT_AUTO;
+                        faults_of(dimension, (call){k, algorithm, goal}, which, factor, turn++);
+                    }
+                }
+            }
+        }
+    }
+    tally sum = {0, 0, 0, 0};
+    printf("%-34s%8s%8s%10s%9s\n", "", "faults", "clean", "absorbed", "changed");
+    for (kind k = 0; k < N_KINDS; k++) {
+        tally *of = &tallies[k];
+        printf("%-34s%8zu%8zu%10zu%9zu\n", NAMES[k], of->faults, of->clean, of->absorbed, of->changed);
+        sum.faults += of->faults;
+        sum.clean += of->clean;
+        sum.absorbed += of->absorbed;
+        sum.changed += of->changed;
+        CHECK(factor < 1 || of->clean > 0);
+    }
+    printf("%-34s%8zu%8zu%10zu%9zu\n", "all", sum.faults, sum.clean, sum.absorbed, sum.changed);
+    CHECK(sum.changed == 0);
+    CHECK((double)sum.faults > 1000 * factor);
+    return 0;
+}

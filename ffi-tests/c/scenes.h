@@ -1,0 +1,308 @@
+// Triangulations before a call, and the calls: what is done where memory is refused. See faults.c.
+#ifndef SCENES_H
+#define SCENES_H
+
+#include "requests.h"
+#include "state.h"
+
+// What a triangulation has gone through before a call.
+typedef struct {
+    size_t n;
+    uint32_t threads;
+    // Vertices at the same place; changes tracked, cells read, changes taken; a callback.
+    bool hides, tracks, reads, takes, asks;
+    // Vertices that have come and gone at once.
+    bool edits;
+    // Insertions, and as many removals, staged with the moves of a commit.
+    size_t stages;
+    // Commits before.
+    int warm;
+    // All points around one of them; all in a line, until they move; all in a line once they have moved.
+    bool is_hub, is_flat, flattens;
+} setting;
+
+static const setting SETTINGS[] = {
+    {.n = 60, .threads = 1},
+    {.n = 60, .threads = 1, .reads = true, .warm = 2},
+    {.n = 60, .threads = 1, .hides = true, .takes = true, .asks = true},
+    {.n = 60, .threads = 1, .tracks = true, .warm = 1},
+    {.n = 60, .threads = 1, .hides = true, .reads = true, .takes = true, .stages = 3, .warm = 1},
+    {.n = 60, .threads = 1, .hides = true, .takes = true, .tracks = true, .stages = 16},
+    {.n = 60, .threads = 1, .hides = true, .tracks = true, .reads = true, .takes = true, .edits = true, .warm = 1},
+    {.n = 100, .threads = 1, .is_hub = true},
+    {.n = 60, .threads = 1, .is_flat = true, .hides = true, .tracks = true, .takes = true, .stages = 5},
+    {.n = 60, .threads = 1, .flattens = true, .hides = true, .tracks = true, .takes = true, .warm = 1, .stages = 2},
+    {.n = 3000, .threads = 2},
+    {.n = 700, .threads = 3},
+    {.n = 700, .threads = 3, .hides = true, .tracks = true, .reads = true, .takes = true, .warm = 1, .stages = 16},
+};
+enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
+
+typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS, COMMIT,
+    COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
+    DELIMITER, LOCATE, NEAREST, CHANGED_CELLS, N_KINDS } kind;
+
+static const char *const NAMES[N_KINDS] = {
+    "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
+    "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
+    "deldrift_stage_removals", "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
+    "deldrift_commit_positions", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
+    "deldrift_star", "deldrift_tolerance", "deldrift_annulus_widths", "deldrift_standard_delimiter", "deldrift_locate",
+    "deldrift_nearest_vertex", "deldrift_changed_cells",
+};
+
+// A call: `goal` is for those of one vertex, which goes near, far, or to a place that is taken.
+typedef struct {
+    kind kind;
+    deldrift_algorithm algorithm;
+    int goal;
+} call;
+
+static bool is_commit(kind k) {
+    return k == COMMIT || k == COMMIT_SOME || k == COMMIT_POSITIONS;
+}
+
+typedef struct {
+    uint32_t dimension;
+    call call;
+    const setting *setting;
+    deldrift_triangulation *t;
+    // Where vertices are, and where those that are to move go; of all ids that there are.
+    double *points, *places;
+    size_t n;
+    mirror mirror;
+} scene;
+
+// Room for what calls give, made before.
+enum { ROOM = 1 << 16 };
+static uint32_t ids_out[ROOM], more_out[ROOM];
+static double numbers_out[ROOM];
+
+static bool never(void *user_data) {
+    (void)user_data;
+    return false;
+}
+
+static deldrift_options options_of(const scene *s) {
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.algorithm = s->call.algorithm;
+    options.threads = s->setting->threads;
+    options.track_changes = s->setting->tracks;
+    options.cancel = s->setting->asks ? never : NULL;
+    return options;
+}
+
+static void put_at(double *points, uint32_t dimension, size_t v, size_t place) {
+    memcpy(points + v * dimension, points + place * dimension, dimension * sizeof *points);
+}
+
+static void hide(const scene *s, double *points) {
+    if (!s->setting->hides) return;
+    put_at(points, s->dimension, 20, 10);
+    put_at(points, s->dimension, 30, 10);
+    put_at(points, s->dimension, 40, 11);
+}
+
+static void flatten(double *points, size_t n, uint32_t dimension) {
+    for (size_t i = 0; i < n * dimension; i++) {
+        if (i % dimension != 0) points[i] = 0.5;
+    }
+}
+
+// Vertex 12 in the middle, all others as far from it as each other.
+static void surround(double *points, size_t n, uint32_t dimension) {
+    for (size_t v = 0; v < n; v++) {
+        double length = 0, *p = points + v * dimension;
+        for (uint32_t i = 0; i < dimension; i++) length += (p[i] - 0.5) * (p[i] - 0.5);
+        for (uint32_t i = 0; i < dimension; i++) p[i] = v == 12 ? 0.5 : 0.5 + (p[i] - 0.5) / sqrt(length);
+    }
+}
+
+static void nudge(double *points, size_t count, double size, uint64_t *state) {
+    for (size_t i = 0; i < count; i++) points[i] += size * (next_random(state) - 0.5);
+}
+
+// Takes the changes, which must be those that there were.
+static const char *take(scene *s) {
+    deldrift_changes changes;
+    OK(deldrift_take_changes(s->t, &changes));
+    return follow(&s->mirror, &changes, s->t);
+}
+
+// The same each time.
+static scene make_scene(uint32_t dimension, call call, const setting *setting) {
+    scene s = {dimension, call, setting, NULL, NULL, NULL, setting->n, {0, 0, NULL}};
+    uint64_t state = 5;
+    uint32_t d = dimension, v = 0;
+    size_t room = (setting->n + 40) * d;
+    double spacing = pow((double)setting->n, -1.0 / d);
+    s.points = random_positions(d, setting->n + 40, 17);
+    s.places = malloc(room * sizeof *s.places);
+    CHECK(s.places != NULL);
+    if (setting->is_hub) surround(s.points, s.n, d);
+    if (setting->is_flat) flatten(s.points, s.n, d);
+    hide(&s, s.points);
+    deldrift_options options = options_of(&s);
+    s.t = create(d, s.points, s.n, &options);
+    for (int k = 0; k < setting->warm; k++) {
+        nudge(s.points, s.n * d, 0.02 * spacing, &state);
+        hide(&s, s.points);
+        OK(deldrift_move_vertices(s.t, NULL, s.points, s.n));
+        OK(deldrift_commit_timestamp(s.t, NULL));
+    }
+    if (setting->takes) CHECK(take(&s) == NULL);
+    if (setting->edits) {
+        OK(deldrift_insert_vertex(s.t, s.points + s.n++ * d, &v));
+        OK(deldrift_remove_vertex(s.t, 7));
+        put_at(s.points, d, 8, s.n);
+        OK(deldrift_relocate_vertex(s.t, 8, s.points + 8 * d));
+    }
+    if (setting->reads) {
+        deldrift_cells_view view;
+        OK(deldrift_cells(s.t, &view));
+        // The arrays are there, but not up to date.
+        if (setting->edits) OK(deldrift_remove_vertex(s.t, 9));
+    }
+    memcpy(s.places, s.points, room * sizeof *s.places);
+    nudge(s.places, s.n * d, 0.3 * spacing, &state);
+    if (setting->flattens) flatten(s.places, s.n + 20, d);
+    if (call.kind == COMMIT) OK(deldrift_move_vertices(s.t, NULL, s.places, s.n));
+    for (uint32_t w = 2; w < s.n; w += 3) {
+        bool present;
+        OK(deldrift_is_present(s.t, w, &present));
+        if (present && call.kind == COMMIT_SOME) OK(deldrift_move_vertex(s.t, w, s.places + w * d));
+    }
+    if (call.kind < COMMIT && call.kind != MOVE_ALL) OK(deldrift_move_vertices(s.t, (uint32_t[]){3, 4}, s.places, 2));
+    if (is_commit(call.kind) || call.kind == COMPACT) {
+        // Some at the places of others, some beside.
+        for (size_t k = 0; k < setting->stages; k++) {
+            double *coming = s.places + (s.n + k) * d;
+            for (uint32_t i = 0; i < d; i++) coming[i] = s.points[3 * k * d + i] + 0.01 * (double)(k % 3);
+        }
+        uint32_t leaving[16];
+        for (uint32_t k = 0; k < setting->stages; k++) leaving[k] = 10 + 3 * k;
+        OK(deldrift_stage_insertions(s.t, s.places + s.n * d, setting->stages, &v));
+        OK(deldrift_stage_removals(s.t, leaving, setting->stages));
+        s.n += setting->stages;
+    }
+    return s;
+}
+
+static void end_scene(scene *s) {
+    deldrift_destroy(s->t);
+    free(s->points);
+    free(s->places);
+    free(s->mirror.rows);
+}
+
+// A number for cells, given by their indices, in any order.
+static uint64_t digest_of_cells(const deldrift_triangulation *t, const uint32_t *indices, size_t count) {
+    deldrift_cells_view view;
+    OK(deldrift_cells(t, &view));
+    uint64_t sum = count;
+    for (size_t k = 0; k < count; k++) {
+        CHECK(indices[k] < view.count);
+        sum += digest_of_row(view.vertices + (size_t)indices[k] * view.corners_per_cell, view.corners_per_cell);
+    }
+    return sum;
+}
+
+// Makes the call while requests are counted, and of them `first` is refused; a number for what it gives, as far as that does
+// not depend on the order of cells.
+static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *given, const char **wrong) {
+    uint32_t d = s->dimension, goal = (uint32_t)s->call.goal, vertex = (const uint32_t[]){12, 10, 30}[goal];
+    double to[3], centre[3] = {0}, radius = 0, tolerance = 0;
+    for (uint32_t i = 0; i < d; i++) {
+        to[i] = goal == 0 ? s->points[12 * d + i] + 1e-3 : goal == 1 ? 1.5 + i : s->points[13 * d + i];
+    }
+    deldrift_options options = options_of(s);
+    deldrift_triangulation *const none = (deldrift_triangulation *)ids_out, *made = none;
+    deldrift_commit_report report = {.timestamp = 77};
+    deldrift_changes changes;
+    deldrift_cells_view cells;
+    deldrift_indices_view indices;
+    deldrift_location location;
+    uint32_t out = 77;
+    size_t count = 0;
+    deldrift_status status = DELDRIFT_OK;
+    ids_out[0] = more_out[0] = 77;
+    numbers_out[0] = 77;
+    count_requests(first, too);
+    switch (s->call.kind) {
+        case CREATE: status = deldrift_create(d, s->points, s->n, &options, &made); break;
+        case RELOCATE: status = deldrift_relocate_vertex(s->t, vertex, to); break;
+        case INSERT: status = deldrift_insert_vertex(s->t, to, &out); break;
+        case REMOVE: status = deldrift_remove_vertex(s->t, vertex); break;
+        case MOVE: status = deldrift_move_vertex(s->t, 12, to); break;
+        case MOVE_SOME: status = deldrift_move_vertices(s->t, (uint32_t[]){1, 2, 5}, s->places, 3); break;
+        case MOVE_ALL: status = deldrift_move_vertices(s->t, NULL, s->places, s->n); break;
+        case STAGE_INSERTIONS: status = deldrift_stage_insertions(s->t, s->points, 20, &out); break;
+        case STAGE_REMOVALS: status = deldrift_stage_removals(s->t, (uint32_t[]){10, 20, 21, 22}, 4); break;
+        case COMMIT:
+        case COMMIT_SOME: status = deldrift_commit_timestamp(s->t, &report); break;
+        case COMMIT_POSITIONS: status = deldrift_commit_positions(s->t, s->places, s->n, &report); break;
+        case COMPACT: status = deldrift_compact(s->t, ids_out, ROOM, &count); break;
+        case TAKE_CHANGES: status = deldrift_take_changes(s->t, &changes); break;
+        case CELLS: status = deldrift_cells(s->t, &cells); break;
+        case COPY_CELLS: status = deldrift_copy_cells(s->t, ids_out, more_out, ROOM / 4, &count); break;
+        case STAR: status = deldrift_star(s->t, 12, ids_out, ROOM, &count); break;
+        case TOLERANCE: status = deldrift_tolerance(s->t, 12, &tolerance); break;
+        case ANNULUS_WIDTHS: status = deldrift_annulus_widths(s->t, numbers_out, ROOM, &count); break;
+        case DELIMITER: status = deldrift_standard_delimiter(s->t, 11, 1, centre, &radius, &tolerance); break;
+        case LOCATE: status = deldrift_locate(s->t, to, &location); break;
+        case NEAREST: status = deldrift_nearest_vertex(s->t, to, &out); break;
+        case CHANGED_CELLS: status = deldrift_changed_cells(s->t, &indices); break;
+        case N_KINDS: break;
+    }
+    stop_counting();
+    *wrong = NULL;
+    *given = status;
+    if (status != DELDRIFT_OK) {
+        bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
+        if (!untouched || numbers_out[0] != 77 || count != 0) *wrong = "an output is written";
+        return status;
+    }
+    switch (s->call.kind) {
+        case CREATE:
+            *given = arrays_of(made).cells;
+            if (deldrift_validate(made, 3) != DELDRIFT_OK) *wrong = "no triangulation";
+            deldrift_destroy(made);
+            break;
+        case COMMIT:
+        case COMMIT_SOME:
+        case COMMIT_POSITIONS:
+            *given = digest_of((uint64_t[]){report.timestamp, report.coincident, report.inserted, report.removed}, 32);
+            break;
+        case COMPACT:
+            *given = digest_of(ids_out, count * sizeof *ids_out);
+            renumber(&s->mirror, d + 1, ids_out);
+            break;
+        case TAKE_CHANGES: *wrong = follow(&s->mirror, &changes, s->t); break;
+        case CELLS: *given = cells.count; break;
+        case COPY_CELLS: {
+            deldrift_cells_view view;
+            OK(deldrift_cells(s->t, &view));
+            size_t bytes = view.count * (d + 1) * sizeof *ids_out;
+            if (count != view.count) *wrong = "not a copy";
+            if (count > 0 && memcmp(ids_out, view.vertices, bytes) != 0) *wrong = "not a copy";
+            if (count > 0 && memcmp(more_out, view.neighbours, bytes) != 0) *wrong = "not a copy";
+            break;
+        }
+        case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
+        case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
+        case ANNULUS_WIDTHS:
+            for (size_t i = 0; i < count; i++) *given += digest_of(&numbers_out[i], sizeof *numbers_out);
+            break;
+        case TOLERANCE: *given = digest_of(&tolerance, sizeof tolerance); break;
+        case LOCATE: {
+            bool is_cell = location.kind == DELDRIFT_LOCATION_CELL || location.kind == DELDRIFT_LOCATION_OUTSIDE;
+            *given = mixed(location.kind, is_cell ? digest_of_cells(s->t, &location.index, 1) : location.index);
+            break;
+        }
+        default: *given = out;
+    }
+    return status;
+}
+
+#endif

@@ -1,0 +1,171 @@
+// All that can be read of a triangulation, in a few numbers; and a copy of its cells that follows the lists of changes.
+#ifndef STATE_H
+#define STATE_H
+
+#include "check.h"
+
+static inline uint64_t mixed(uint64_t sum, uint64_t value) {
+    sum = (sum ^ value) * 0x9e3779b97f4a7c15u;
+    return sum ^ sum >> 29;
+}
+
+static inline uint64_t digest_of(const void *bytes, size_t count) {
+    const uint8_t *from = bytes;
+    uint64_t sum = count;
+    while (count >= 8) {
+        uint64_t word;
+        memcpy(&word, from, 8);
+        sum = mixed(sum, word);
+        from += 8;
+        count -= 8;
+    }
+    for (size_t i = 0; i < count; i++) sum = mixed(sum, from[i]);
+    return sum;
+}
+
+// A number for a set of vertices, whatever their order.
+static inline uint64_t digest_of_row(const uint32_t *row, uint32_t corners) {
+    uint64_t sum = corners;
+    for (uint32_t i = 0; i < corners; i++) sum += mixed(7, row[i]);
+    return mixed(1, sum);
+}
+
+typedef struct {
+    size_t ids, vertices, cells, staged;
+    uint64_t timestamp;
+    // Bits of all positions; of each vertex the one that stands for its place.
+    uint64_t positions, representatives;
+} numbers;
+
+typedef struct {
+    // The cells as a set, each with the vertex beyond each of its facets.
+    uint64_t cells;
+    // The arrays as they are.
+    uint64_t rows, neighbours;
+} arrays;
+
+// What can be read without cells being made for the one who reads.
+static inline numbers numbers_of(const deldrift_triangulation *t) {
+    numbers n = {0};
+    uint32_t dimension = 0;
+    OK(deldrift_dimension(t, &dimension));
+    OK(deldrift_id_count(t, &n.ids));
+    OK(deldrift_vertex_count(t, &n.vertices));
+    OK(deldrift_cell_count(t, &n.cells));
+    OK(deldrift_staged_count(t, &n.staged));
+    OK(deldrift_timestamp(t, &n.timestamp));
+    double *positions = malloc((n.ids * dimension + 1) * sizeof *positions);
+    CHECK(positions != NULL);
+    size_t count = 0;
+    OK(deldrift_copy_positions(t, positions, n.ids, &count));
+    CHECK(count == n.ids);
+    n.positions = digest_of(positions, n.ids * dimension * sizeof *positions);
+    free(positions);
+    for (uint32_t v = 0; v < n.ids; v++) {
+        bool present = false;
+        uint32_t representative = DELDRIFT_NONE;
+        OK(deldrift_is_present(t, v, &present));
+        if (present) OK(deldrift_coincident_representative(t, v, &representative));
+        n.representatives = mixed(n.representatives, representative);
+    }
+    return n;
+}
+
+static inline arrays arrays_of(const deldrift_triangulation *t) {
+    arrays a = {0};
+    deldrift_cells_view view;
+    OK(deldrift_cells(t, &view));
+    uint32_t corners = view.corners_per_cell;
+    for (size_t c = 0; c < view.count; c++) {
+        const uint32_t *row = view.vertices + c * corners;
+        uint64_t own = digest_of_row(row, corners);
+        a.cells += mixed(2, own);
+        for (uint32_t i = 0; i < corners; i++) {
+            uint32_t across = view.neighbours[c * corners + i];
+            CHECK(across == DELDRIFT_NONE || across < view.count);
+            uint64_t other = across == DELDRIFT_NONE
+                                 ? 3
+                                 : digest_of_row(view.vertices + (size_t)across * corners, corners);
+            a.cells += mixed(mixed(own, row[i]), other);
+        }
+    }
+    a.rows = digest_of(view.vertices, view.count * corners * sizeof *view.vertices);
+    a.neighbours = digest_of(view.neighbours, view.count * corners * sizeof *view.neighbours);
+    return a;
+}
+
+// What differs; NULL if nothing does.
+static inline const char *difference(const numbers *a, const numbers *b) {
+    if (a->ids != b->ids) return "other ids";
+    if (a->vertices != b->vertices) return "another number of vertices";
+    if (a->cells != b->cells) return "another number of cells";
+    if (a->staged != b->staged) return "other staged moves";
+    if (a->timestamp != b->timestamp) return "another timestamp";
+    if (a->positions != b->positions) return "other positions";
+    if (a->representatives != b->representatives) return "other vertices hidden";
+    return NULL;
+}
+
+// The vertices of the cells by index, as the lists of changes tell.
+typedef struct {
+    size_t count, room;
+    uint32_t *rows;
+} mirror;
+
+// The ids are others now.
+static inline void renumber(mirror *m, uint32_t corners, const uint32_t *map) {
+    for (size_t i = 0; i < m->count * corners; i++) m->rows[i] = map[m->rows[i]];
+}
+
+// Checks a list against what was there, and follows it; what is wrong, or NULL.
+static inline const char *follow(mirror *m, const deldrift_changes *list, const deldrift_triangulation *t) {
+    deldrift_cells_view view;
+    OK(deldrift_cells(t, &view));
+    const size_t corners = view.corners_per_cell, bytes = corners * sizeof *m->rows;
+    size_t room = m->count > view.count ? m->count : view.count;
+    if (room > m->room) {
+        m->rows = realloc(m->rows, room * bytes);
+        CHECK(m->rows != NULL);
+        m->room = room;
+    }
+    for (size_t k = 0; k < list->removed_count; k++) {
+        if (list->removed[k] >= m->count) return "removed is what was not there";
+        if (memcmp(m->rows + list->removed[k] * corners, list->removed_vertices + k * corners, bytes) != 0) {
+            return "another is removed";
+        }
+    }
+    uint32_t *moving = malloc((list->renumbered_count + 1) * bytes);
+    CHECK(moving != NULL);
+    for (size_t k = 0; k < list->renumbered_count; k++) {
+        CHECK(list->renumbered_from[k] < m->count && list->renumbered_to[k] < view.count);
+        memcpy(moving + k * corners, m->rows + list->renumbered_from[k] * corners, bytes);
+    }
+    for (size_t k = 0; k < list->renumbered_count; k++) {
+        memcpy(m->rows + list->renumbered_to[k] * corners, moving + k * corners, bytes);
+    }
+    free(moving);
+    for (size_t k = 0; k < list->created_count; k++) {
+        CHECK(list->created[k] < view.count);
+        memcpy(m->rows + list->created[k] * corners, view.vertices + list->created[k] * corners, bytes);
+    }
+    m->count = view.count;
+    for (size_t c = 0; c < view.count; c++) {
+        uint32_t *row = m->rows + c * corners;
+        const uint32_t *now = view.vertices + c * corners;
+        if (digest_of_row(row, view.corners_per_cell) != digest_of_row(now, view.corners_per_cell)) {
+            return "a list that is not right";
+        }
+        // One that has been turned over has its vertices in another order.
+        memcpy(row, now, bytes);
+    }
+    return NULL;
+}
+
+// Times that a test is to do its work, by the environment; 1 if it says nothing.
+static inline double soak(void) {
+    const char *given = getenv("DELDRIFT_SOAK");
+    double factor = given == NULL ? 1 : strtod(given, NULL);
+    return factor > 0 ? factor : 1;
+}
+
+#endif
