@@ -19,6 +19,7 @@ use crate::complex::{Corners, Facet, NONE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::prefetch::{AHEAD, prefetch};
+use crate::threads;
 
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;
@@ -32,6 +33,9 @@ const FEW: usize = 64;
 /// Rows that are compared first when any may have changed: where most of these are gone from their slots, so are most of
 /// the others.
 const SAMPLE: usize = 512;
+
+/// Rows that take as long to write as it takes to start a thread for them.
+const GLUED_AT_LEAST: usize = 1 << 13;
 
 /// Slots that are compared at a time when any may have changed.
 const BLOCK: usize = 256;
@@ -134,6 +138,24 @@ pub(super) fn position_of<C: Corners>(row: &C, expected: usize, id: u32) -> usiz
     (0..C::N).find(|&i| row[i] == id).expect("a corner of the cell")
 }
 
+/// Works on parts of rows, `first` the first of them, each part on a thread of its own.
+fn for_parts<R: Send>(
+    rows: &mut [R],
+    first: usize,
+    n_threads: usize,
+    work: &(impl Fn(usize, &mut [R]) + Sync),
+) {
+    if n_threads < 2 {
+        return work(first, rows);
+    }
+    let middle = rows.len() / n_threads * (n_threads / 2);
+    let (rows, more) = rows.split_at_mut(middle);
+    threads::join(
+        || for_parts(rows, first, n_threads / 2, work),
+        || for_parts(more, first + middle, n_threads - n_threads / 2, work),
+    );
+}
+
 /// Whether a slot holds a finite cell.
 #[inline(always)]
 fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> bool {
@@ -163,6 +185,9 @@ impl<G: Dimension> Cells<G> {
         scratch.found.clear();
         scratch.moved.clear();
         scratch.turned.clear();
+        if self.corners.is_empty() {
+            return self.fill(kernel);
+        }
         self.is_settled.grow(self.corners.len())?;
         match dirty {
             Some(dirty) => {
@@ -530,20 +555,55 @@ impl<G: Dimension> Cells<G> {
         }
     }
 
-    /// Writes the neighbours of all cells.
+    /// Writes the neighbours of all cells, on several threads where that pays.
     fn glue_all(&mut self, kernel: &Delaunay<G>) {
-        for slot in kernel.complex().finite() {
-            let later = self.index_in(slot + AHEAD as u32) as usize;
-            prefetch(&self.neighbours, later);
-            prefetch(&self.orderings, later);
-            let cell = kernel.complex().cell(slot);
-            let mut across = cell.corners;
-            for i in 0..G::Corners::N {
-                across[i] = self.index_of[cell.neighbour(i).cell() as usize];
+        let (slots, orderings, index_of) = (&self.slots[..], &self.orderings[..], &self.index_of[..]);
+        let n_threads = kernel.threads().for_work(slots.len(), GLUED_AT_LEAST, 256);
+        for_parts(&mut self.neighbours, 0, n_threads, &|first, rows: &mut [G::Corners]| {
+            for (index, row) in (first..).zip(rows) {
+                if let Some(&next) = slots.get(index + AHEAD) {
+                    prefetch(kernel.complex().cells(), next as usize);
+                }
+                let cell = kernel.complex().cell(slots[index]);
+                let mut across = cell.corners;
+                for i in 0..G::Corners::N {
+                    across[i] = index_of[cell.neighbour(i).cell() as usize];
+                }
+                *row = orderings[index].arrange(across);
             }
-            let index = self.index_of[slot as usize] as usize;
-            self.neighbours[index] = self.orderings[index].arrange(across);
+        });
+    }
+
+    /// Makes the arrays of all cells, of which there are none yet.
+    fn fill(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        let (n, n_slots) = (kernel.complex().n_finite(), kernel.complex().n_slots());
+        let Cells { corners, neighbours, index_of, slots, orderings, .. } = self;
+        memory::reserve(corners, n)?;
+        memory::reserve(neighbours, n)?;
+        memory::reserve(slots, n)?;
+        let more_orderings = n.saturating_sub(orderings.len());
+        memory::reserve(orderings, more_orderings)?;
+        index_of.clear();
+        memory::reserve(index_of, n_slots)?;
+        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
+            tracker.reserve(0, 0, n, n)?;
+            (0..n as u32).for_each(|index| tracker.create(index));
         }
+        index_of.resize(n_slots, NO_CELL);
+        for (slot, index) in kernel.complex().finite().zip(0..) {
+            slots.push(slot);
+            index_of[slot as usize] = index;
+        }
+        orderings.clear();
+        orderings.resize(n, Ordering::SAME);
+        neighbours.resize(n, G::Corners::filled(NONE));
+        corners.resize(n, G::Corners::filled(NONE));
+        let (slots, n_threads) = (&slots[..], kernel.threads().for_work(n, GLUED_AT_LEAST, 256));
+        for_parts(corners, 0, n_threads, &|first, rows: &mut [G::Corners]| {
+            rows.iter_mut().zip(&slots[first..]).for_each(|(row, &slot)| *row = ids_of(kernel, slot));
+        });
+        self.glue_all(kernel);
+        Ok(())
     }
 
     /// The index, in the complex, of a corner of a cell.

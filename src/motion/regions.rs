@@ -500,10 +500,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
         change: impl FnOnce(&mut Self, &mut CommitReport) -> Result<T>,
     ) -> Result<T> {
-        let Some(filter) = self.regions.valid_for.take() else {
-            return change(self, report);
-        };
         self.regions.relocated.clear();
+        let Some(filter) = self.regions.valid_for.take() else {
+            let done = change(self, report);
+            self.regions.relocated.clear();
+            return done;
+        };
         self.kernel.record_changes(std::mem::take(&mut self.regions.changed));
         let done = change(self, report);
         if let Some(changed) = self.kernel.take_changes()
