@@ -1,6 +1,8 @@
 //! Every program, run with either library.
 
-use crate::support::{Linkage, build, command, fresh_folder, sees_requests, sources, succeed};
+use crate::support::{
+    Linkage, build, command, fresh_folder, repository, sees_requests, sources, succeed,
+};
 
 #[test]
 fn c_programs_run_with_the_shared_library() {
@@ -41,6 +43,15 @@ fn run_all(language: &str, linkage: Linkage) {
             assert_eq!(said, "", "{}", source.display());
         }
     }
+}
+
+/// The example of a solver carries its data to the end, and checks them.
+#[test]
+fn the_example_of_a_solver_keeps_its_data() {
+    let folder = fresh_folder("example");
+    let program = build(&repository("examples/solver.c"), &folder, Linkage::Static, &[]);
+    let said = succeed(&mut command(program));
+    assert!(said.ends_with("mass kept, neighbours right\n"), "{said}");
 }
 
 /// The triangles that the example prints, in ascending order.
