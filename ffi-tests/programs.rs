@@ -1,8 +1,6 @@
 //! Every program, run with either library.
 
-use crate::support::{
-    Linkage, build, command, fresh_folder, repository, sees_requests, sources, succeed,
-};
+use crate::support::{Linkage, build, command, fresh_folder, repository, sees_requests, sources, succeed};
 
 #[test]
 fn c_programs_run_with_the_shared_library() {
