@@ -34,7 +34,7 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 bench: benchmark ## deldrift beside CGAL: a table, and cpp-bench/results/bench.csv (PRESET=quick or full)
 	cpp-bench/run --preset $(PRESET) $(ARGS)
 
-report: benchmark ## the report RR-6750 anew, beside CGAL: cpp-bench/results/report/index.html (PRESET=quick or full)
+report: benchmark ## the experiments of RR-6750, beside CGAL: cpp-bench/results/report/index.html (PRESET=quick or full)
 	@.ci/packages python3
 	-@cpp-bench/fetch_man
 	cpp-bench/run --report --preset $(PRESET) $(ARGS)
@@ -46,10 +46,10 @@ memory: benchmark ## bytes per vertex, beside CGAL's: cpp-bench/results/memory.c
 large: benchmark ## 50 million points in 2D, 20 million in 3D: cpp-bench/results/large.csv
 	cpp-bench/run --large $(ARGS)
 
-targets: benchmark ## the speeds to be reached, beside those measured: cpp-bench/results/targets.csv
+targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/results/targets.csv
 	cpp-bench/run --targets $(ARGS)
 
-table: ## the measured figures of README.md, from cpp-bench/results
+table: ## fill in the tables of README.md, from cpp-bench/results
 	cpp-bench/readme_table
 
 lint: ## format, clippy, documentation, freshness of the header
@@ -82,6 +82,6 @@ benchmark: library
 	@echo "building cpp-bench"
 	@cpp-bench/run --help >/dev/null
 
-clean: ## away with all that was built
+clean: ## remove build outputs
 	cargo clean
 	rm -rf build cpp-bench/build

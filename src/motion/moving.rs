@@ -237,15 +237,16 @@ impl<G: Dimension> MovingTriangulation<G> {
             let first = block * BLOCK;
             blocks.stage(first, positions, &self.site_of[first..], movers.sites);
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
-            for (k, places) in (first / LANES..).zip(places) {
+            let (fixed, at) = (&fixed[first / LANES..], &sites_of[first / LANES..]);
+            for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(at).enumerate() {
+                let k = first / LANES + k;
                 if IS_FAR && let Some(next) = sites_of.get(k + AHEAD / LANES) {
                     next.iter().for_each(|&s| prefetch(movers.sites, s as usize));
                 }
-                let beyond = !hold(&fixed[k], places) & ALL;
+                let beyond = !hold(fixed, places) & ALL;
                 if beyond == 0 {
-                    movers.n_moved += exchange(&mut movers, places, &sites_of[k]);
-                } else if let ControlFlow::Break(room) =
-                    movers.go::<MOVES_ALL>(k * LANES, beyond, places, &sites_of[k])
+                    movers.n_moved += exchange(&mut movers, places, at);
+                } else if let ControlFlow::Break(room) = movers.go::<MOVES_ALL>(k * LANES, beyond, places, at)
                 {
                     ended = Some((k * LANES, room));
                     break 'blocks;
@@ -303,11 +304,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut blocks = Blocks { given: given.positions(), are_good: true };
         for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions.chunks_mut(BLOCK)) {
             blocks.stage(first, positions, &self.site_of[first..], sites);
-            for (v, p) in (first..).zip(positions) {
-                if let Some(&next) = self.site_of.get(v + AHEAD) {
+            let sites_of = &self.site_of[first..];
+            for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
+                if let Some(&next) = sites_of.get(k + AHEAD) {
                     prefetch(sites, next as usize);
                 }
-                let s = self.site_of[v];
                 let point = &mut sites[s as usize].point;
                 if point == p {
                     continue;
@@ -455,12 +456,13 @@ impl<G: Dimension> SharedSites<G> {
                 let place = |k: usize| unsafe { (*self.start.add(sites_of[first + k] as usize)).point };
                 moved.are_good &= stage_good::<G>(positions, &given[first..], place);
             }
-            for (k, p) in (first..).zip(positions) {
+            let sites_of = &sites_of[first..];
+            for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
                 if is_far && let Some(&next) = sites_of.get(k + AHEAD) {
                     prefetch_at(self.start.wrapping_add(next as usize));
                 }
                 moved.hold(p, p);
-                let s = sites_of[k] as usize;
+                let s = s as usize;
                 debug_assert!(s < self.n);
                 // SAFETY: `s` is the index of a site that nobody else uses.
                 let point = unsafe { &mut (*self.start.add(s)).point };
