@@ -55,6 +55,7 @@ table: ## fill in the tables of README.md, from cpp-bench/results
 lint: ## format, clippy, documentation, freshness of the header
 	@.ci/packages g++
 	cargo fmt --check
+	cargo clippy -- -D warnings
 	cargo clippy --all-targets -- -D warnings
 	RUSTDOCFLAGS=-Dwarnings cargo doc --no-deps
 	cargo test --test ffi header

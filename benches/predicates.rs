@@ -8,7 +8,7 @@
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
-use deldrift::predicates::*;
+use deldrift::internals::predicates::*;
 use robust::{Coord, Coord3D};
 use std::array::from_fn;
 use std::hint::black_box;

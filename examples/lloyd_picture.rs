@@ -8,7 +8,7 @@
 //! Cells and tolerances are read from the library; centroids are those of Voronoi cells clipped to a polygon.
 
 use deldrift::Error;
-use deldrift::delaunay::Plane;
+use deldrift::Plane;
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;

@@ -9,7 +9,7 @@
 //! changed, and the numbers in the captions.
 
 use deldrift::Error;
-use deldrift::delaunay::Plane;
+use deldrift::Plane;
 use deldrift::motion::{Algorithm, CommitReport, MovingTriangulation, Options};
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};

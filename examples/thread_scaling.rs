@@ -12,8 +12,8 @@
 //! does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
 //! medians and the least are than with the first thread count.
 
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 use std::time::Instant;
 
 const ROUNDS: usize = 7;

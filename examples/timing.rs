@@ -2,8 +2,8 @@
 mod common;
 
 use common::Random;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::*;
+use deldrift::{Dimension, Plane, Space};
 use std::time::Instant;
 
 fn run<G: Dimension>(n: usize) {

@@ -18,8 +18,8 @@ mod common;
 use std::time::Instant;
 
 use common::Random;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 
 const N: usize = 10_000;
 const COMMITS: usize = 10;

@@ -23,8 +23,8 @@
 mod common;
 
 use common::Random;
-use deldrift::delaunay::{Coordinates, Dimension, Plane, Space};
 use deldrift::motion::{MovingTriangulation, NO_CELL, Options};
+use deldrift::{Coordinates, Dimension, Plane, Space};
 
 const N: usize = 10_000;
 const SEEDS: u64 = 10;

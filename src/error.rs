@@ -21,7 +21,7 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
-    /// A coordinate is of a magnitude above [`crate::predicates::MAX_MAGNITUDE`].
+    /// A coordinate is of a magnitude above 1e57.
     OutOfRange {
         /// Parameter at fault.
         argument: &'static str,

@@ -12,17 +12,37 @@
 //!    Whatever the algorithm and the history, they are the cells that rebuilding gives.
 //! 4. A call that fails has no effect.
 //!
-//! Reading order, each layer knowing only those after it:
-//! [`capi`] → [`motion`] → [`delaunay`] → [`complex`] → [`predicates`].
+//! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `delaunay` → `complex` → `predicates`.
+//! What is public in the last three is so for the layers above: it trusts its arguments, so none of it leaves the crate.
 
 pub mod capi;
-pub mod complex;
-pub mod delaunay;
+mod complex;
+mod delaunay;
 mod error;
 pub mod motion;
-pub mod predicates;
+mod predicates;
 mod prefetch;
 mod processors;
 mod threads;
 
+pub use delaunay::{Coordinates, Dimension, Plane, Space};
 pub use error::{Error, Result};
+
+/// The parts below [`motion`], for the crate's own tests and benchmarks. They trust their arguments, wrong indices are
+/// undefined behaviour, and any version may change them.
+#[cfg(feature = "internals")]
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::delaunay::{Delaunay, Insertion, Shortcut};
+
+    pub mod predicates {
+        pub use crate::predicates::*;
+    }
+}
+
+// A triangulation may be handed to another thread, and be read from several at once.
+const _: () = {
+    const fn is_send_and_sync<T: Send + Sync>() {}
+    is_send_and_sync::<motion::MovingTriangulation<Plane>>();
+    is_send_and_sync::<motion::MovingTriangulation<Space>>();
+};

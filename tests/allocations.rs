@@ -8,8 +8,8 @@
 mod common;
 
 use common::{Rng, point};
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
 use std::cell::Cell;

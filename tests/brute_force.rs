@@ -5,8 +5,8 @@ mod common;
 use common::exact::{Grid, delaunay_cells, orientation, representatives, to_point};
 use common::history::ALGORITHMS;
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Level, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 
 /// A point drawn by some rule.
 type Draw = fn(&mut Rng, usize) -> Grid;

@@ -11,10 +11,10 @@ use common::history::ALGORITHMS;
 use common::inputs::{KINDS, Kind, draw, draw_one, quantized, to_grid};
 use common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted};
 use deldrift::Error;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, Level, Location, Monitor, MovingTriangulation, Options,
 };
+use deldrift::{Dimension, Plane, Space};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, AtomicUsize, Ordering::Relaxed};

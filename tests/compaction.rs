@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted};
 use deldrift::Error;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, CommitReport, Level, MovingTriangulation, NO_VERTEX, Options};
+use deldrift::{Dimension, Plane, Space};
 
 const ALGORITHMS: [Algorithm; 11] = [
     Algorithm::Auto,

@@ -3,8 +3,10 @@
 #![allow(unsafe_code)] // An allocator that fails has no other way to be one.
 
 use deldrift::Error;
-use deldrift::delaunay::{Delaunay, Dimension, Insertion, Level, Plane, Shortcut, Space};
+use deldrift::internals::{Delaunay, Insertion, Shortcut};
+use deldrift::motion::Level;
 use deldrift::motion::{MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::ptr::null_mut;

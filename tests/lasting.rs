@@ -13,10 +13,10 @@ use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
 
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
 use deldrift::Error;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, CommitReport, Level, Monitor, MovingTriangulation, Options,
 };
+use deldrift::{Dimension, Plane, Space};
 
 /// Each has its own histories, and turns up now and then in those of the others.
 const ALGORITHMS: [Algorithm; 5] =

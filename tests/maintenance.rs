@@ -6,10 +6,10 @@
 mod common;
 
 use common::{Rng, assert_same_cells, cell_set, fresh_cells};
-use deldrift::delaunay::{Coordinates, Dimension, Plane, Space};
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, CommitReport, Level, MovingTriangulation, Options, SwitchingRule,
 };
+use deldrift::{Coordinates, Dimension, Plane, Space};
 
 const MAINTENANCE: [Algorithm; 4] = [
     Algorithm::Tolerance,

@@ -7,8 +7,8 @@ use common::history::{ALGORITHMS, History, Snapshot, nudged};
 use common::inputs::{KINDS, Kind, draw, integer_sphere, on_sphere};
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
 use deldrift::Error;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -2,7 +2,7 @@
 
 mod exact_oracle;
 
-use deldrift::predicates::*;
+use deldrift::internals::predicates::*;
 use exact_oracle::*;
 use std::array::from_fn;
 use std::cmp::Ordering;

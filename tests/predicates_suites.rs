@@ -3,7 +3,7 @@
 //! They are looked for in the directory that the environment variable `DELDRIFT_SHARED` names, else in
 //! `shared` beside this package; without them the test is skipped.
 
-use deldrift::predicates::*;
+use deldrift::internals::predicates::*;
 use std::env;
 use std::fs;
 use std::path::PathBuf;

@@ -6,8 +6,8 @@
 mod common;
 
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, CommitReport, Level, Location, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 
 /// A motion of all positions; it gets the positions of the beginning and those of now.
 type Motion<G> = fn(&[Point<G>], &mut [Point<G>], &mut Rng);

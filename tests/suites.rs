@@ -7,8 +7,8 @@ use common::files::{Json, npy, text};
 use common::history::ALGORITHMS;
 use common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted};
 use deldrift::Error;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options};
+use deldrift::{Dimension, Plane, Space};
 use spade::Triangulation;
 use std::collections::{BTreeMap, HashSet, VecDeque};
 

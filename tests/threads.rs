@@ -8,8 +8,8 @@ mod common;
 use common::inputs::{KINDS, Kind, draw};
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, point, seeds};
 use deldrift::Error;
-use deldrift::delaunay::{Dimension, Plane, Space};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
 use std::sync::{Arc, Mutex};
 use std::thread;
 

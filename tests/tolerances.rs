@@ -6,10 +6,10 @@
 mod common;
 
 use common::Rng;
-use deldrift::predicates::{
+use deldrift::internals::predicates::{
     BiCells, LANES, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
-    is_certainly_outside, is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d,
-    separator3d, squared_distance, tolerances2d, tolerances3d,
+    is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, separator3d,
+    squared_distance, tolerances2d, tolerances3d,
 };
 use num_bigint::{BigInt, Sign};
 use std::array::from_fn;
@@ -17,6 +17,11 @@ use std::array::from_fn;
 type Integers = Vec<BigInt>;
 
 /// Integers proportional to the numbers, all of the same scale.
+/// Whether a point that stays where it is is certainly strictly outside the sphere.
+fn is_certainly_outside<const D: usize>(centre: &[f64; D], radius: f64, p: &[f64; D]) -> bool {
+    is_path_certainly_outside(centre, radius, p, p)
+}
+
 fn integers(numbers: &[f64]) -> (Integers, i64) {
     let parts = |x: f64| {
         let bits = x.to_bits();

@@ -1,7 +1,7 @@
 //! Shared by the examples: random numbers, the same in every run.
 #![allow(dead_code)] // Each example uses a part.
 
-use deldrift::delaunay::Dimension;
+use deldrift::Dimension;
 
 /// Splitmix64.
 pub struct Random(pub u64);

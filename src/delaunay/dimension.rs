@@ -29,7 +29,7 @@ impl Coordinates for [f64; 3] {}
 /// A dimension: its arrays and its predicates.
 ///
 /// The predicates take sites (a place and the vertex id that breaks ties, see
-/// [`crate::predicates`]) by index. `INFINITE` must not be among the indices whose place is read.
+/// `predicates`) by index. `INFINITE` must not be among the indices whose place is read.
 pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Number of coordinates.
     const D: usize;
@@ -110,7 +110,7 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
     /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
     fn orientation_tolerance(points: &[&Self::Point]) -> f64;
-    /// As [`predicates::squared_distance`].
+    /// As `predicates::squared_distance`.
     fn squared_distance(p: &Self::Point, q: &Self::Point) -> f64;
     /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
     ///
@@ -122,11 +122,11 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         tolerances: &[f64; LANES],
         places: [&Self::Point; LANES],
     ) -> u32;
-    /// As [`predicates::distance_above`].
+    /// As `predicates::distance_above`.
     fn distance_above(p: &Self::Point, q: &Self::Point) -> f64;
-    /// As [`predicates::is_certainly_inside`].
+    /// As `predicates::is_certainly_inside`.
     fn is_certainly_inside(centre: &Self::Point, radius: f64, p: &Self::Point) -> bool;
-    /// As [`predicates::is_path_certainly_outside`].
+    /// As `predicates::is_path_certainly_outside`.
     fn is_path_certainly_outside(
         centre: &Self::Point,
         radius: f64,

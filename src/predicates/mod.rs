@@ -102,16 +102,16 @@ pub use lifted::{Lifted, side_of_seen_circle};
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed};
 pub use plane::{incircle, orient2d};
-pub use separator::{Separator, delimiter3d, separator3d, tolerances3d};
+pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{
-    Circle, Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, side_of_circle,
-    side_of_sphere, sphere,
+    Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, side_of_circle, side_of_sphere,
+    sphere,
 };
 pub(crate) use tally::add_exact_calls;
 pub use tally::exact_calls;
 pub use tolerance::{
-    Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside, is_certainly_outside,
+    Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
     tolerances2d,
 };

@@ -141,7 +141,6 @@ pub(super) const LEAST_DETERMINANT: f64 = 1e-250;
 const ABOVE: f64 = 1.0 + 6.0 * UNIT;
 /// (1 ± u)⁵ for squared distances, and two products.
 const SQUARE_BELOW: f64 = 1.0 - 8.0 * UNIT;
-const SQUARE_ABOVE: f64 = 1.0 + 8.0 * UNIT;
 
 /// (k + 1) u, k = (D + 4) / 2: what a half-width loses, in units of the outer radius.
 const fn half_width_error(dimension: usize) -> f64 {
@@ -232,14 +231,6 @@ pub(crate) fn are_within3d(
 #[inline(always)]
 pub fn is_certainly_inside<const D: usize>(centre: &[f64; D], radius: f64, p: &[f64; D]) -> bool {
     squared_distance(centre, p) < displacement_limit(radius)
-}
-
-/// Whether `p` is certainly strictly outside the sphere.
-#[inline(always)]
-pub fn is_certainly_outside<const D: usize>(centre: &[f64; D], radius: f64, p: &[f64; D]) -> bool {
-    // The finite bound excludes overflow, of which nothing follows.
-    let square = squared_distance(centre, p);
-    square > radius * radius * SQUARE_ABOVE + LEAST * LEAST && square < f64::INFINITY
 }
 
 /// Whether a point that goes straight from one place to the other is certainly

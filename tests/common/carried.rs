@@ -1,7 +1,7 @@
 //! What a program keeps for each cell, carried along by the change lists alone.
 
 use super::{Rng, sorted};
-use deldrift::delaunay::Dimension;
+use deldrift::Dimension;
 use deldrift::motion::{Changes, MovingTriangulation};
 use std::collections::{BTreeMap, BTreeSet};
 

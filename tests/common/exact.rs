@@ -6,7 +6,7 @@
 //! vanishes, of the first cofactor of a lift that does not, from the highest id down.
 
 use super::{CellSet, sorted};
-use deldrift::delaunay::Dimension;
+use deldrift::Dimension;
 
 /// A point of integers.
 pub type Grid = Vec<i64>;

@@ -3,7 +3,7 @@
 use super::exact::{Grid, orientation, representatives, squared_distance};
 use super::inputs::{Kind, QUANTUM, draw, draw_one, quantized, to_grid};
 use super::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted};
-use deldrift::delaunay::Dimension;
+use deldrift::Dimension;
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
 use std::collections::BTreeMap;
 

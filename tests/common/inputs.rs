@@ -3,7 +3,7 @@
 
 use super::exact::Grid;
 use super::{Rng, point};
-use deldrift::delaunay::Dimension;
+use deldrift::Dimension;
 
 /// All coordinates are multiples of this, ...
 pub const QUANTUM: f64 = 1.0 / (1u64 << 20) as f64;

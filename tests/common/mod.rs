@@ -7,7 +7,7 @@ pub mod files;
 pub mod history;
 pub mod inputs;
 
-use deldrift::delaunay::Dimension;
+use deldrift::Dimension;
 use deldrift::motion::{Level, MovingTriangulation, NO_CELL, Options};
 use std::collections::BTreeSet;
 
