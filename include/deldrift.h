@@ -3,11 +3,11 @@
  *
  * Made from the sources in src/capi by `DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi`: change it there.
  *
- * A triangulation is created once from an array of points. Vertex i is the i-th point, for ever (but for
- * deldrift_compact, which gives new ids). Then points move: stage the moves, commit them as the next
+ * A triangulation is created once from an array of points. Vertex i is the i-th point, until
+ * deldrift_compact gives new ids. Then the points move: stage the moves, commit them as the next
  * timestamp, read the cells. After every commit the cells are exactly those of the Delaunay triangulation
- * of the current positions; ties (cocircular and cospherical points) are broken by vertex id, so that they
- * depend on nothing but positions and ids.
+ * of the current positions. Ties (cocircular and cospherical points) are broken by vertex id, so the cells
+ * depend only on positions and ids.
  *
  *     #include <deldrift.h>
  *     #include <stdio.h>
@@ -35,12 +35,12 @@
  *
  * Arrays. Points are contiguous: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D. Counts and capacities are
  * in points, vertices or cells, never in numbers or bytes. A pointer must be aligned for its type and
- * point to as much as the count says; NULL is accepted where that is said, and for an array of 0.
- * Otherwise it is an error like any other.
+ * point to as many elements as the count says. NULL is accepted where the documentation says so, and if the
+ * count is 0; otherwise it is an error.
  *
  * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: the
  * triangulation is as it was, and outputs are not written (except the count of a buffer that is too
- * small). deldrift_last_error tells the details. Nothing is printed, and no exception leaves the library.
+ * small). deldrift_last_error gives the details. Nothing is printed, and no exception leaves the library.
  *
  * Besides the errors named with each function, every function that takes a triangulation may return
  * DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUSY (called from a callback of a call
@@ -76,7 +76,7 @@
 
 /// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
 ///
-/// deldrift_last_error tells in words which argument was at fault, at which index, and its value.
+/// deldrift_last_error says which argument was wrong, at which index, and its value.
 enum deldrift_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -116,7 +116,7 @@ enum deldrift_status
     DELDRIFT_TOO_MANY_VERTICES = 15,
     /// There would be more cells than the library can link to each other.
     DELDRIFT_TOO_MANY_CELLS = 16,
-    /// Memory could not be had.
+    /// Not enough memory.
     DELDRIFT_OUT_OF_MEMORY = 17,
     /// The cancel callback returned true.
     DELDRIFT_CANCELLED = 18,
@@ -126,8 +126,8 @@ enum deldrift_status
     DELDRIFT_INVALID = 20,
     /// A callback, or another thread, used a triangulation while a call was changing it.
     DELDRIFT_BUSY = 21,
-    /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. Only
-    /// deldrift_destroy is of use now.
+    /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. It can only
+    /// be destroyed.
     DELDRIFT_POISONED = 22,
     /// A defect of the library; please report the message.
     DELDRIFT_INTERNAL_ERROR = 23,
@@ -313,7 +313,7 @@ typedef struct deldrift_commit_report {
     uint64_t placements;
     /// Flips made.
     uint64_t flips;
-    /// 1 if the triangulation was built anew (in the statistics, how often).
+    /// 1 if the triangulation was rebuilt (in the statistics, how often).
     uint64_t rebuilds;
     /// Hidden vertices at the end: those at the place of a vertex with a lower id.
     uint64_t coincident;
@@ -336,12 +336,12 @@ typedef struct deldrift_commit_report {
 } deldrift_commit_report;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
-/// until the next call that changes it. A pointer is NULL where its list is empty.
+/// until the next call that changes it. A pointer is NULL if its list is empty.
 ///
-/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has
+/// A cell is its set of vertices: one that existed before and exists now is neither created nor removed, whatever has
 /// happened in between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the
-/// vertices while the cell stays as it is; one that has been turned over by a motion through a flat cell, or
-/// that has gone and come back, may have them in another order. So data kept by cell follows in three steps:
+/// vertices, except if the cell was turned over by a motion through a flat cell, or was removed and created
+/// again in between. A program with data per cell updates it in three steps:
 /// set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
 /// indices; make those of created cells. Neighbours change only at cells that are listed, and at the
 /// neighbours of those.
@@ -367,7 +367,7 @@ typedef struct deldrift_changes {
     size_t star_count;
     /// These vertices, ascending. Some may have been removed.
     const uint32_t *stars;
-    /// Number of vertices that are hidden and were not: others of lower ids have come to be at the same place.
+    /// Number of vertices that are hidden and were not: a vertex of lower id is at the same place now.
     size_t hidden_count;
     /// These vertices, ascending.
     const uint32_t *hidden;
@@ -493,8 +493,7 @@ deldrift_status deldrift_move_vertex(deldrift_triangulation *t,
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
 ///
 /// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
-/// that of all ids ever given (deldrift_id_count), no move of the vertices from count on is staged, and the
-/// entries of removed vertices are not read.
+/// deldrift_id_count, vertices from count on are not staged, and entries of removed vertices are not read.
 /// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
 /// and may be NULL if count is 0, when nothing is staged.
 ///
@@ -557,7 +556,7 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 /// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
 /// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
 ///
-/// positions: count points, one for each id ever given (count is that of deldrift_id_count); entries of
+/// positions: count points, one for each id (count must be deldrift_id_count); entries of
 /// removed vertices are not read. Read during the call only. report: as for deldrift_commit_timestamp.
 /// Ends all views.
 ///
@@ -617,7 +616,7 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
 /// (deldrift_id_count before the call), which is also written when the buffer is too small: then nothing
 /// has been compacted.
 ///
-/// Takes about as long as to triangulate anew, or less, and while it lasts the memory of a second
+/// Takes no longer than a rebuild, and while it runs the memory of a second
 /// triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
@@ -840,7 +839,7 @@ deldrift_status deldrift_changed_cells(const deldrift_triangulation *t,
 /// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then tells the first violation.
+/// deldrift_last_error then gives the first violation.
 deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t level);
 
 #ifdef __cplusplus

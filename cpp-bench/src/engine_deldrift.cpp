@@ -53,10 +53,7 @@ public:
                     "deldrift_relocate_vertex");
     }
 
-    void expect_readings() override {
-        is_read_ = true;
-        options_.track_changes = 1;
-    }
+    void expect_readings() override { is_read_ = true; }
 
     /// The changes first: to take them ends all views.
     Reading read() override {

@@ -8,12 +8,12 @@ use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::motion::Changes;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
-/// until the next call that changes it. A pointer is NULL where its list is empty.
+/// until the next call that changes it. A pointer is NULL if its list is empty.
 ///
-/// A cell is its set of vertices: one that existed and exists is neither created nor removed, whatever has
+/// A cell is its set of vertices: one that existed before and exists now is neither created nor removed, whatever has
 /// happened in between. It keeps its index unless it is listed as renumbered. Its row keeps the order of the
-/// vertices while the cell stays as it is; one that has been turned over by a motion through a flat cell, or
-/// that has gone and come back, may have them in another order. So data kept by cell follows in three steps:
+/// vertices, except if the cell was turned over by a motion through a flat cell, or was removed and created
+/// again in between. A program with data per cell updates it in three steps:
 /// set aside those of removed cells, and of renumbered ones by old index; write the latter to their new
 /// indices; make those of created cells. Neighbours change only at cells that are listed, and at the
 /// neighbours of those.
@@ -41,7 +41,7 @@ pub struct deldrift_changes {
     pub star_count: usize,
     /// These vertices, ascending. Some may have been removed.
     pub stars: *const u32,
-    /// Number of vertices that are hidden and were not: others of lower ids have come to be at the same place.
+    /// Number of vertices that are hidden and were not: a vertex of lower id is at the same place now.
     pub hidden_count: usize,
     /// These vertices, ascending.
     pub hidden: *const u32,

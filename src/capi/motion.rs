@@ -26,7 +26,7 @@ pub struct deldrift_commit_report {
     pub placements: u64,
     /// Flips made.
     pub flips: u64,
-    /// 1 if the triangulation was built anew (in the statistics, how often).
+    /// 1 if the triangulation was rebuilt (in the statistics, how often).
     pub rebuilds: u64,
     /// Hidden vertices at the end: those at the place of a vertex with a lower id.
     pub coincident: u64,
@@ -99,8 +99,7 @@ pub unsafe extern "C" fn deldrift_move_vertex(
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
 ///
 /// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
-/// that of all ids ever given (deldrift_id_count), no move of the vertices from count on is staged, and the
-/// entries of removed vertices are not read.
+/// deldrift_id_count, vertices from count on are not staged, and entries of removed vertices are not read.
 /// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
 /// and may be NULL if count is 0, when nothing is staged.
 ///
@@ -235,7 +234,7 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 /// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
 /// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
 ///
-/// positions: count points, one for each id ever given (count is that of deldrift_id_count); entries of
+/// positions: count points, one for each id (count must be deldrift_id_count); entries of
 /// removed vertices are not read. Read during the call only. report: as for deldrift_commit_timestamp.
 /// Ends all views.
 ///
@@ -361,7 +360,7 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
 /// (deldrift_id_count before the call), which is also written when the buffer is too small: then nothing
 /// has been compacted.
 ///
-/// Takes about as long as to triangulate anew, or less, and while it lasts the memory of a second
+/// Takes no longer than a rebuild, and while it runs the memory of a second
 /// triangulation.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,

@@ -490,7 +490,7 @@ pub unsafe extern "C" fn deldrift_changed_cells(
 /// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then tells the first violation.
+/// deldrift_last_error then gives the first violation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, level: u32) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.

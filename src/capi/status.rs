@@ -9,7 +9,7 @@ use crate::motion::Violation;
 
 /// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
 ///
-/// deldrift_last_error tells in words which argument was at fault, at which index, and its value.
+/// deldrift_last_error says which argument was wrong, at which index, and its value.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(clippy::enum_variant_names)]
@@ -48,7 +48,7 @@ pub enum deldrift_status {
     DELDRIFT_TOO_MANY_VERTICES = 15,
     /// There would be more cells than the library can link to each other.
     DELDRIFT_TOO_MANY_CELLS = 16,
-    /// Memory could not be had.
+    /// Not enough memory.
     DELDRIFT_OUT_OF_MEMORY = 17,
     /// The cancel callback returned true.
     DELDRIFT_CANCELLED = 18,
@@ -58,8 +58,8 @@ pub enum deldrift_status {
     DELDRIFT_INVALID = 20,
     /// A callback, or another thread, used a triangulation while a call was changing it.
     DELDRIFT_BUSY = 21,
-    /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. Only
-    /// deldrift_destroy is of use now.
+    /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. It can only
+    /// be destroyed.
     DELDRIFT_POISONED = 22,
     /// A defect of the library; please report the message.
     DELDRIFT_INTERNAL_ERROR = 23,

@@ -7,9 +7,11 @@ use crate::complex::{Corners, NONE, memory};
 use crate::error::Result;
 use crate::prefetch::{AHEAD, prefetch};
 
-/// From so many on, cells are listed, unless the ids of their corners are more than so many times as many.
+/// From so many on, cells are listed, unless the ids of their corners are more than so many times as many, or more than so
+/// many cells have the same lowest corner: each of them may have to be looked at.
 const MANY: usize = 1 << 12;
 const SPARSE: usize = 8;
+const LONGEST: u32 = 256;
 
 /// Cache lines that are asked for in advance of the cells of a lowest corner.
 const LINES: usize = 4;
@@ -77,9 +79,10 @@ impl<C: Corners> Matcher<C> {
         self.ends.clear();
         if lost.len() >= MANY {
             let n_ids = ahead(corners, lost).map(|(_, row)| lowest(row)).fold(0, usize::max) + 1;
-            if n_ids <= SPARSE * lost.len() {
-                return self.list_by_lowest(corners, lost, n_ids);
+            if n_ids <= SPARSE * lost.len() && self.list_by_lowest(corners, lost, n_ids)? {
+                return Ok(());
             }
+            self.ends.clear();
         }
         let table = &mut self.table;
         let n = (2 * lost.len()).next_power_of_two();
@@ -98,24 +101,28 @@ impl<C: Corners> Matcher<C> {
         Ok(())
     }
 
-    fn list_by_lowest(&mut self, corners: &[C], lost: &[u32], n_ids: usize) -> Result<()> {
+    /// Lists the cells unless a list would be too long.
+    fn list_by_lowest(&mut self, corners: &[C], lost: &[u32], n_ids: usize) -> Result<bool> {
         let Matcher { ends, entries, .. } = self;
         memory::reserve(ends, n_ids + 1)?;
         ends.resize(n_ids + 1, 0);
-        entries.resize(lost.len(), Entry { mark: 0, index: NONE, corners: C::filled(NONE) });
         for (_, row) in ahead(corners, lost) {
             ends[lowest(row) + 1] += 1;
+        }
+        if ends.iter().any(|&n| n > LONGEST) {
+            return Ok(false);
         }
         for v in 0..n_ids {
             ends[v + 1] += ends[v];
         }
+        entries.resize(lost.len(), Entry { mark: 0, index: NONE, corners: C::filled(NONE) });
         // Each is where the entries begin, until these have been made.
         for (index, &corners) in ahead(corners, lost) {
             let end = &mut ends[lowest(&corners)];
             entries[*end as usize] = Entry { mark: hash(&corners), index, corners };
             *end += 1;
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Asks for what [`prefetch_entries`](Self::prefetch_entries) is going to need.
@@ -206,5 +213,16 @@ mod tests {
         let mut matcher = Matcher::default();
         matcher.list(&[], &[]).expect("room");
         assert_eq!(matcher.find(&[0, 1, 2, 3]), None);
+    }
+
+    /// Cells around one vertex are not searched one after the other.
+    #[test]
+    fn cells_of_a_hub_are_found_by_a_hash() {
+        let corners: Vec<_> = (0..20_000).map(|k| [0, k + 1, k + 2]).collect();
+        let lost: Vec<u32> = (0..20_000).collect();
+        let mut matcher = Matcher::default();
+        matcher.list(&corners, &lost).expect("room");
+        assert!(matcher.ends.is_empty());
+        assert!((0..).zip(&corners).all(|(index, row)| matcher.find(row) == Some((index, *row))));
     }
 }
