@@ -96,7 +96,7 @@ static void list_neighbours(solver *s, const deldrift_triangulation *t, const de
         status = deldrift_star(t, v, *star, *star_room, &n_cells);
     }
     check(status);
-    // No more than this many; a row that is too short is made anew at the end.
+    // No more than this many; a row that is too short moves to the end.
     if (s->room[v] < DIMENSION * n_cells) {
         s->room[v] = (uint32_t)(DIMENSION * n_cells);
         if (s->used + s->room[v] > s->capacity) {

@@ -6,7 +6,7 @@
 //!
 //! 1. A solver stages [relocations](motion::MovingTriangulation::move_vertices) and
 //!    [commits](motion::MovingTriangulation::commit_timestamp) them as the next timestamp.
-//! 2. *Rebuilding* triangulates all positions anew; *placement* relocates vertices one at a time, and where
+//! 2. *Rebuilding* triangulates all positions again; *placement* relocates vertices one at a time, and where
 //!    no certificate of a star fails, only coordinates change.
 //! 3. Signs are exact, ties are broken by vertex id: the cells are a function of positions and ids alone.
 //!    Whatever the algorithm and the history, they are the cells that rebuilding gives.

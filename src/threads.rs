@@ -42,7 +42,7 @@ impl Threads {
     /// The calling thread alone.
     pub(crate) const ONE: Threads = Threads { most: 1, is_given: true };
 
-    /// So many at most, or with 0 as many as the system runs at the same time where that pays.
+    /// At most `given`, or with 0 as many as the system runs at the same time where that pays.
     pub(crate) fn at_most(given: u32) -> Self {
         static AVAILABLE: OnceLock<usize> = OnceLock::new();
         let available = || *AVAILABLE.get_or_init(processors::available);
@@ -50,7 +50,7 @@ impl Threads {
         Threads { most, is_given: given != 0 }
     }
 
-    /// How many to use for work on so many items: no more than leave each one `paying` items, below which a
+    /// How many to use for work on `items` items: at most as many as leave each one `paying` items, below which a
     /// thread more costs as much as it saves, or `least` if the number is the caller's choice.
     pub(crate) fn for_work(self, items: usize, paying: usize, least: usize) -> usize {
         (items / if self.is_given { least } else { paying }).clamp(1, self.most)
@@ -233,7 +233,7 @@ pub(crate) fn for_ranges<R: Send>(
             if k >= n_ranges {
                 return;
             }
-            // SAFETY: there is room for so many, and each number is taken once.
+            // SAFETY: there is room for that many, and each number is taken once.
             unsafe { slots.write(k, work(share(n, k, n_ranges))) };
         }
     });

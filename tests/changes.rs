@@ -613,7 +613,7 @@ fn cells_that_come_back_are_not_listed() {
     }
 }
 
-/// Rebuilding makes all cells anew, in new slots; only what differs is listed.
+/// Rebuilding makes all cells again, in new slots; only what differs is listed.
 fn rebuilding_keeps_what_stays<G: Dimension>() {
     let mut points = cloud::<G>(3000, 6);
     let options = Options { algorithm: Algorithm::Rebuilding, ..Options::default() };
@@ -624,7 +624,7 @@ fn rebuilding_keeps_what_stays<G: Dimension>() {
     assert_eq!(t.commit_timestamp().expect("room").rebuilds, 1);
     assert!(carried.take(&mut t, NO_CONTEXT).is_empty());
 
-    // Some leap far, so that storage is sorted anew, and the cells of the others keep their indices.
+    // Some leap far, so that storage is sorted again, and the cells of the others keep their indices.
     let rng = &mut Rng::new(7);
     for p in points.iter_mut().filter(|p| p[0] > 0.7) {
         *p = point::<G>(|_| 0.7 + 0.3 * rng.unit());

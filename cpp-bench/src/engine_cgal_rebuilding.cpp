@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CGAL, all anew at each timestamp: a spatial sort and one insertion after another.
+// CGAL, rebuilt at each timestamp: a spatial sort and one insertion after another.
 #include "cgal_reading.hpp"
 #include "cgal_space.hpp"
 #include "engine.hpp"

@@ -3,7 +3,7 @@
 // own `move_if_no_collision`.
 //
 // CGAL holds one vertex per place. Points at the same place therefore share a vertex that counts them,
-// and every point knows its vertex. A point that leaves a shared vertex is inserted anew and the
+// and every point knows its vertex. A point that leaves a shared vertex is inserted again and the
 // vertex stays; a point that lands on an occupied place joins the vertex there, and its own vertex
 // goes when it was the last one at it. This also covers a place that is occupied only until its
 // occupant has been moved at the same timestamp.

@@ -47,7 +47,7 @@ struct Lane {
     std::size_t timestamp = nowhere;
     std::map<std::size_t, std::vector<double>> seconds;
 
-    /// Begins anew, with an engine that has not seen the series.
+    /// Starts over, with an engine that has not seen the series.
     void restart(unsigned dimension);
 };
 

@@ -146,7 +146,7 @@ private:
         old << file.rdbuf();
         if (old.str() == state.str()) return;
         if (!old.str().empty())
-            std::cerr << "beginning anew: commit, preset or seed are others than last time\n";
+            std::cerr << "starting over: commit, preset or seed differ from last time\n";
         for (const auto &entry : fs::directory_iterator(options_.results))
             if (entry.path().filename().string().rfind("report", 0) == 0 &&
                 entry.path().extension() == ".csv")

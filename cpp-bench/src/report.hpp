@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report RR-6750 anew: its inputs, its algorithms on CGAL, and deldrift.
+// The report RR-6750 repeated: its inputs, its algorithms on CGAL, and deldrift.
 #pragma once
 
 #include "options.hpp"

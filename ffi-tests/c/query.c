@@ -373,7 +373,7 @@ static void views_stay_until_the_next_change(void) {
     CHECK(later.vertices == view.vertices && later.neighbours == view.neighbours);
     CHECK(memcmp(copy, view.vertices, bytes) == 0);
 
-    // After a change that has no effect in the end, the cells are the same set, in a view taken anew.
+    // After a change that has no effect in the end, the cells are the same set, in a new view.
     OK(deldrift_insert_vertex(t, (const double[]){0.5, 0.5}, &vertex));
     OK(deldrift_remove_vertex(t, vertex));
     later = cells_of(t);

@@ -81,7 +81,7 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// Makes so many cells more, all of them free; they are used after those that are free already, whose order
+    /// Adds `n` cells, all of them free; they are used after those that are free already, whose order
     /// [`undo_flips`](Self::undo_flips) relies on.
     pub(crate) fn create_free(&mut self, n: usize) -> Result<()> {
         self.reserve(self.free.len() + n)?;
@@ -292,7 +292,7 @@ impl<C: Corners> Complex<C> {
         rows.for_each(|row| self.put_back(row));
     }
 
-    /// Goes back to where there were so many cells, these of them free, after the cells have been
+    /// Goes back to where there were this number of cells, with these free ones, after the cells have been
     /// [put back](Self::put_back_all).
     pub(crate) fn restore_free(&mut self, n_slots: usize, free: &[u32]) {
         self.cells.truncate(n_slots);

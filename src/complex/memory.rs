@@ -135,7 +135,7 @@ pub(crate) fn extend<T: Sync, U: Copy + Send>(
         reserve_exact(array, from.len())?;
     }
     write(from, &mut array.spare_capacity_mut()[..from.len()], n_threads, &make);
-    // SAFETY: so many entries have just been written behind the last one.
+    // SAFETY: that many entries have just been written behind the last one.
     unsafe { array.set_len(array.len() + from.len()) };
     Ok(())
 }

@@ -6,7 +6,7 @@
 //! Invariants, for every live cell `c` and index `i`:
 //! - neighbours are mutual: if `neighbour(c, i)` is facet `j` of `d`, then
 //!   `neighbour(d, j)` is facet `i` of `c`;
-//! - the two cells have the same corners but for the ones opposite the facet;
+//! - the two cells have the same corners except for those opposite the facet;
 //! - only the last corner may be [`INFINITE`].
 //!
 //! A neighbour is stored with the index of the shared facet seen from the other side, in the two low bits:
@@ -131,7 +131,7 @@ impl<C: Corners> Cell<C> {
     }
 }
 
-/// The free indices among those of so many sorted cells, one after so many of them.
+/// The free indices among those of `n_live` sorted cells: one after every `gap_after` of them.
 fn gaps(n_live: usize, gap_after: usize) -> impl Iterator<Item = u32> {
     (1..=n_live / gap_after).map(move |k| (k * (gap_after + 1) - 1) as u32)
 }
@@ -336,7 +336,7 @@ impl<C: Corners> Complex<C> {
     }
 
     /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to
-    /// set, but for the facet opposite corner 0.
+    /// set, except for the facet opposite corner 0.
     #[inline(always)]
     pub(crate) fn put_glued(&mut self, cell: u32, corners: C, neighbours: C) {
         self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
@@ -352,7 +352,7 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts -= self.cell(cell).is_ghost() as usize;
     }
 
-    /// As [`retire`](Self::retire) for several cells, of which so many are ghosts.
+    /// As [`retire`](Self::retire) for several cells, of which `n` are ghosts.
     #[inline(always)]
     pub(crate) fn retire_ghosts(&mut self, n: usize) {
         self.n_ghosts -= n;
@@ -402,7 +402,7 @@ impl<C: Corners> Complex<C> {
     }
 
     /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`, and a free
-    /// one after so many of them; returns the new index of each.
+    /// one after every `gap_after` of them; returns the new index of each.
     pub(crate) fn sort(&mut self, n_sites: usize, gap_after: usize) -> Result<Vec<u32>> {
         debug_assert!(!self.is_recording() || self.rows().is_empty(), "rows are named by slot");
         let (sorted, index) = self.sorted(n_sites, gap_after, |s| s)?;

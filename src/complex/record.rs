@@ -12,8 +12,7 @@
 use super::{Cell, Complex, Corners, Facet, NONE, memory};
 use crate::error::Result;
 
-/// Records of more rows than one cell in so many, and than there are cells in a small triangulation, are not kept as
-/// scratch memory.
+/// Records of more rows than one cell in `KEPT`, and of more than `SMALL` rows, are not kept as scratch memory.
 const KEPT: usize = 16;
 const SMALL: usize = 1 << 14;
 
@@ -91,7 +90,7 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// The cells are about to be sorted into so many slots: a record in which no row has been noted yet begins there.
+    /// The cells are about to be sorted into `n_slots` slots: a record in which no row has been noted yet begins there.
     pub(super) fn follow_sort(&mut self, capacity: usize, n_slots: usize) -> Result<()> {
         if self.record.is_on {
             self.cover(capacity)?;
@@ -100,7 +99,7 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// Has a bit for each of so many slots.
+    /// Has a bit for each of `n_slots` slots.
     pub(super) fn cover(&mut self, n_slots: usize) -> Result<()> {
         let missing = n_slots.div_ceil(64).saturating_sub(self.record.noted.len());
         if missing > 0 {

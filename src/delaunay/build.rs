@@ -22,16 +22,16 @@ pub struct Merge {
 /// Insertions between two calls of a monitor.
 const MONITORED: usize = 1024;
 
-/// Distances in a sample of about so many.
+/// Number of distances in a sample.
 const STRIDES: usize = 1024;
 
-/// So many cells do not fit in a core's own cache.
+/// From this number on, cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
 
 /// Cells between free ones where several threads will flip.
 const GAP_AFTER: usize = 63;
 
-/// After how many cells a free one is, if so many threads flip: each that flips in space needs some among its own.
+/// After how many cells there is a free one, for this number of threads: each that flips in space needs free cells of its own.
 fn gap_after<G: Dimension>(n_threads: usize) -> usize {
     if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX }
 }
@@ -75,7 +75,7 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
-    /// Triangulates the live sites anew. Coincident sites are dropped in favour of the lowest id and reported.
+    /// Triangulates the live sites from nothing. Coincident sites are dropped in favour of the lowest id and reported.
     /// `monitor` is called with the fraction done; if it returns `false`, the cells are left half made.
     pub fn rebuild(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<Vec<Merge>> {
         self.flat.clear();
@@ -250,7 +250,7 @@ impl<G: Dimension> Delaunay<G> {
         Ok(Some(index))
     }
 
-    /// How many threads flip so many cells, and so want some of their own.
+    /// How many threads flip, for this number of cells.
     fn flipping_threads(&self, n_cells: usize) -> usize {
         self.threads.for_work(n_cells, LARGE, LARGE / 64)
     }

@@ -140,7 +140,7 @@ fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> R
     }
 }
 
-/// Makes room for a zone of so many cells: two more edges in the rim, and no more turns than that.
+/// Makes room for a zone of `n_cells` cells: its rim has two edges more, and at most as many turns.
 #[inline(always)]
 fn make_room(cavity: &mut Cavity<Plane>, n_cells: usize) -> Result<()> {
     if cavity.cells.len() < n_cells + 2 { grow(cavity, n_cells) } else { Ok(()) }

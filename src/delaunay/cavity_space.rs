@@ -112,7 +112,7 @@ pub(super) fn insert<const BUILD: bool>(
     Ok(())
 }
 
-/// Makes room for all that so many new cells need.
+/// Makes room for all that the new cells need.
 #[inline(always)]
 fn reserve(
     t: &mut Delaunay<Space>,

@@ -1,4 +1,4 @@
-//! Removal of a hub: a site with so many neighbours that gift wrapping, quadratic in them, is too slow.
+//! Removal of a *hub*, a vertex of high degree: gift wrapping, which is quadratic in the degree, would be too slow.
 //!
 //! The cells that fill the hole are cells of the Delaunay triangulation of the link's sites: their spheres are empty
 //! of all sites but the removed one, so of those of the link. Triangulate the link, start behind each facet of the

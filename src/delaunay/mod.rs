@@ -76,7 +76,7 @@ use flip::AllFlips;
 use parts::Parts;
 use remove::Hole;
 
-/// Lists of more than one cell in so many are put in storage order, unless all cells are near the processor anyway.
+/// Lists of more than one cell in this number are put in storage order, unless all cells are near the processor anyway.
 const SPARSE: usize = 32;
 const NEAR: usize = 1 << 14;
 
@@ -403,7 +403,7 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Asks for what a look at the bi-cell of a facet needs, but for the vertex beyond.
+    /// Prefetches what a check of the bi-cell of a facet needs, except for the vertex beyond.
     #[inline(always)]
     pub(crate) fn prefetch_bicell(&self, facet: Facet) {
         let cell = self.complex.cell(facet.cell());
@@ -414,7 +414,7 @@ impl<G: Dimension> Delaunay<G> {
         prefetch(self.complex.cells(), cell.neighbour(facet.index()).cell() as usize);
     }
 
-    /// Makes room for so many more cells in the record, if there is one.
+    /// Makes room for `n` more cells in the record, if there is one.
     #[inline(always)]
     pub(crate) fn reserve_record(&mut self, n: usize) -> Result<()> {
         match &mut self.changed {

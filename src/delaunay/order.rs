@@ -103,13 +103,13 @@ fn sort_in_box<'p, G: Dimension>(
     }
 }
 
-/// So many items, which need no spare memory, are sorted by comparisons: about as fast as by digits.
+/// Up to this number, items are sorted by comparisons: about as fast as by digits, and without spare memory.
 const FEW: usize = 256;
 
 /// Bits of a digit at most: more would be more places to write to than the processor keeps at hand.
 const DIGIT: u32 = 11;
 
-/// Sorts items by their keys, which have so many bits, and those of one key as they were: ascending.
+/// Sorts items by their keys, which have `bits` bits; items of the same key keep their order.
 ///
 /// By digits from the lowest on, with `spare` to write to, as a sort that makes its own room could not tell that there is
 /// none.

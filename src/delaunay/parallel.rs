@@ -124,7 +124,7 @@ impl<G: Dimension> Build<'_, G> {
         } else {
             self.triangulate_halves(t, parts, end, monitor)
         };
-        // The work of the others is in vain.
+        // The work of the others is lost.
         self.stop.fetch_or(built.is_err(), Relaxed);
         built
     }

@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::threads;
 use std::ops::Range;
 
-/// A sample of about so many sites for each part puts each plane where the sizes of the parts differ by a
+/// A sample of this number of sites for each part puts each plane where the sizes of the parts differ by a
 /// hundredth.
 const SAMPLE: usize = 1 << 13;
 

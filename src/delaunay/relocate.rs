@@ -24,7 +24,7 @@ use crate::error::Result;
 pub enum Relocation {
     /// Only coordinates (or the id) changed.
     InPlace,
-    /// That, and so many flips.
+    /// That, and this number of flips.
     Flipped(u64),
     /// The site was removed and inserted again.
     Placed,

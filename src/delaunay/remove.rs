@@ -96,7 +96,7 @@ impl<G: Dimension> Delaunay<G> {
         let mut gathered = Ok(());
         while next < n_star {
             if star.capacity() < n_star + G::D || link.capacity() < n_link + 1 {
-                // SAFETY: so many have been written.
+                // SAFETY: that many have been written.
                 unsafe { (star.set_len(n_star), link.set_len(n_link)) };
                 gathered = memory::reserve(star, G::D).and_then(|()| memory::reserve(link, 1));
                 if gathered.is_err() {
@@ -123,7 +123,7 @@ impl<G: Dimension> Delaunay<G> {
                 }
             }
         }
-        // SAFETY: so many have been written.
+        // SAFETY: that many have been written.
         unsafe { (star.set_len(n_star), link.set_len(n_link)) };
         gathered
     }

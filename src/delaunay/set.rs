@@ -3,7 +3,7 @@
 use crate::complex::memory;
 use crate::error::Result;
 
-/// So many need no memory of their own.
+/// Up to this number, indices need no memory of their own.
 const FEW: usize = 64;
 /// Places where to look for them: a power of two, four times as many, so that hardly any two meet.
 const PLACES: usize = 4 * FEW;

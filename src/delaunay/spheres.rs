@@ -36,7 +36,7 @@ impl Spheres {
         memory::bytes_of(&self.entries)
     }
 
-    /// Gets ready for a build of about so many cells.
+    /// Gets ready for a build of about `n_cells` cells.
     pub(super) fn begin(&mut self, n_cells: usize) -> Result<()> {
         let n = n_cells.next_power_of_two().min(MOST_ENTRIES);
         self.entries.clear();

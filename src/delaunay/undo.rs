@@ -71,7 +71,7 @@ impl<G: Dimension> Delaunay<G> {
         memory::push(&mut self.log.sites, Logged { s, before: self.sites[s as usize], has_place })
     }
 
-    /// Gives up all cells, but for the way back.
+    /// Gives up all cells, which are kept only for `undo`.
     pub(super) fn give_up_cells(&mut self) {
         let cells = std::mem::take(&mut self.complex);
         if self.log.is_on && self.log.cells.is_none() {
@@ -84,7 +84,7 @@ impl<G: Dimension> Delaunay<G> {
         self.log.cells.is_some()
     }
 
-    /// Goes back to where the change began, but for the places of sites that were only moved.
+    /// Undoes the change, except for the places of sites that were only moved.
     pub(crate) fn undo(&mut self) {
         let all_cells = self.log.cells.take();
         let gave_up = all_cells.is_some();

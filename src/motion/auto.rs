@@ -9,15 +9,15 @@
 //! | after such a rebuild | rebuilding, for a while |
 //!
 //! **Looking at everything or not.** Few flips in the last commits announce that most bi-cells have tolerance left. To
-//! compute that of all costs eight sweeps. What is computed anew after that, and watched, is counted and weighed by
-//! measured costs ([`Costs`]): when it has cost a quarter of a computation of all more than the dearer way would have, that
+//! compute that of all costs eight sweeps. What is recomputed after that, and watched, is counted and weighed by
+//! measured costs ([`Costs`]): when it has cost a quarter of a computation of all more than the more expensive way would have, that
 //! is taken, and the cheaper one tried ever more rarely. In space the way down is repair, slack, watching, without
 //! slack where next to nothing changes; in the plane a sweep is so cheap that slack would seldom pay. Before watching
-//! a sample of the vertices is looked at. When what is watched or what is computed anew has cost more than the other
+//! a sample of the vertices is checked. When what is watched or what is recomputed has cost more than the other
 //! by half a computation of all, all tolerances are computed again, so that what is watched follows from how far the
 //! vertices go now.
 //!
-//! **Rebuilding.** After a repair that had to rebuild, so many commits rebuild at once as have failed in a row, and
+//! **Rebuilding.** After a repair that had to rebuild, as many commits rebuild at once as have failed in a row, and
 //! twice as many the next time.
 //!
 //! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
@@ -30,9 +30,10 @@ use super::{CommitReport, MovingTriangulation, SwitchingRule};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 
-/// Fewer than one staged vertex in so many are few: a placement costs about as much as so many vertices swept.
+/// A staging is small if it has less than one vertex in `FEW`: a placement costs about as much as sweeping this number of
+/// vertices.
 const FEW: usize = 20;
-/// Watching pays only while fewer than one vertex in so many is beyond its tolerance.
+/// Watching pays only while less than one vertex in `BEYOND` is beyond its tolerance.
 const BEYOND: usize = 8;
 /// Vertices sampled before all tolerances are computed, and the share of them that must be within.
 const SAMPLE: u32 = 64;
@@ -50,13 +51,13 @@ struct Costs {
     beyond: f64,
     /// Per vertex, what a sweep costs that is spared.
     sweep: f64,
-    /// Per vertex, a look at the slack of all cells; none if that never pays.
+    /// Per vertex, checking the slack of all cells; none if that never pays.
     slack: Option<f64>,
     /// A bi-cell that has used up its slack.
     used_up: f64,
     /// Per vertex, to compute all tolerances.
     computed: f64,
-    /// Commits of no more flips and placements than one vertex in so many announce that the next way down pays.
+    /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices.
     calm: f64,
 }
 
@@ -86,10 +87,9 @@ const fn costs<G: Dimension>() -> Costs {
     }
 }
 
-/// Commits of no more flips and placements than one vertex in so many announce that watching pays without a look at slack
-/// before.
+/// Watching is tried without slack before it after commits with at most one flip or placement per this number of vertices.
 const QUIET: f64 = 4000.0;
-/// Fewer than one bi-cell in so many vertices that use up their slack announce that watching pays.
+/// Watching is tried when less than one bi-cell per this number of vertices uses up its slack.
 const STILL: u64 = 60;
 
 /// How much is looked at.
@@ -104,14 +104,14 @@ enum Look {
     Watched,
 }
 
-/// Most commits rebuilt without a look.
+/// Most commits rebuilt without trying to repair.
 const REBUILT: u32 = 15;
 
 /// What the last commits found.
 #[derive(Debug, Default)]
 pub(super) struct Auto {
     look: Look,
-    /// What that has cost more than the dearer way would have, and what the watched bi-cells have cost more than the
+    /// What that has cost more than the more expensive way would have, and what the watched bi-cells have cost more than the
     /// vertices beyond, in nanoseconds.
     excess: f64,
     imbalance: f64,
@@ -123,7 +123,7 @@ pub(super) struct Auto {
     /// Commits until a cheaper way may be tried again, and how many they will be next time.
     wait: u32,
     next_wait: u32,
-    /// Commits still to be rebuilt without a look, and how many they were last time.
+    /// Commits still to be rebuilt without trying to repair, and how many they were last time.
     rebuilds: u32,
     last_rebuilds: u32,
     /// Immediate relocations in this round, those within tolerance, and those that changed no cell.
@@ -185,7 +185,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(false)
     }
 
-    /// Weighs what watching has cost against the dearer way, and what is watched against what is computed anew.
+    /// Weighs what watching has cost against the more expensive way, and what is watched against what is recomputed.
     fn weigh_watching(&mut self, report: &CommitReport) {
         let costs = costs::<G>();
         let n = self.n_present as f64;
@@ -212,7 +212,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Enters by how much a commit has cost more than the dearer way; when that has become too much it is taken.
+    /// Enters by how much a commit has cost more than the more expensive way, which is taken when the sum is too large.
     fn weigh(&mut self, report: &CommitReport, excess: f64) {
         self.follow_pace(report);
         let auto = &mut self.auto;
@@ -230,13 +230,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.auto.is_due |= self.auto.look == Look::Watched && self.regions.kept_for() == Some(Filter::Watch);
     }
 
-    /// Whether a sample of the vertices stays within tolerance, but for a few.
+    /// Whether all but a few of a sample of the vertices stay within tolerance.
     fn is_calm(&mut self, given: &mut Given<'_, G>) -> Result<bool> {
         self.stage_given(given)?;
         Ok(self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE)
     }
 
-    /// From now on the dearer way is taken.
+    /// From now on the more expensive way is taken.
     fn give_up(&mut self) {
         let auto = &mut self.auto;
         auto.look =

@@ -24,10 +24,10 @@ use crate::threads;
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;
 
-/// When more than one slot in so many has changed all are looked at.
+/// When more than one slot in `MOST` has changed, all are compared.
 pub(super) const MOST: usize = 2;
 
-/// Memory for so many changes is kept in any case.
+/// Memory for this number of changes is always kept.
 const FEW: usize = 64;
 
 /// Rows that are compared first when any may have changed: where most of these are gone from their slots, so are most of

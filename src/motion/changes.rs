@@ -66,7 +66,7 @@ impl<C: Corners> Tracker<C> {
         Ok(tracker)
     }
 
-    /// Makes room for so many removals, cells turned over, touched indices, and cells.
+    /// Makes room for these numbers of removals, cells turned over, touched indices, and cells.
     pub(super) fn reserve(
         &mut self,
         n_removed: usize,
@@ -405,7 +405,7 @@ impl<C: Corners> Taken<C> {
 }
 
 impl<G: Dimension> super::views::Views<G> {
-    /// Number of events, no more than a few for each of so many vertices.
+    /// Number of events, after a list that has grown far beyond the number of ids has been shortened.
     pub(super) fn count_visibilities(&mut self, n_ids: usize) -> usize {
         if self.visibilities.len() > 2 * n_ids + 1024 {
             keep_first(&mut self.visibilities);
@@ -413,7 +413,7 @@ impl<G: Dimension> super::views::Views<G> {
         self.visibilities.len()
     }
 
-    /// Forgets the events after so many.
+    /// Forgets the events after the first `n`.
     pub(super) fn forget_visibilities(&mut self, n: usize) {
         self.visibilities.truncate(n);
     }

@@ -45,7 +45,7 @@ impl Hidden {
         before
     }
 
-    /// Makes room for so many ids.
+    /// Makes room for `n_ids` ids.
     pub(super) fn reserve(&mut self, n_ids: usize) -> Result<()> {
         let missing = n_ids.saturating_sub(self.next.len());
         if missing > 0 {

@@ -2,7 +2,7 @@
 //!
 //! A staged insertion gets its id at once; the vertex is present from the commit on. The commit removes and inserts first,
 //! at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or go it
-//! triangulates all of them anew. Either way all of it is one transaction.
+//! rebuilds. Either way all of it is one transaction.
 
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
@@ -11,8 +11,8 @@ use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 
-/// Rebuild when more than one vertex in so many comes or goes: a removal and an insertion cost about as much as so many
-/// vertices rebuilt.
+/// Rebuild when more than one vertex in `EDITED` is inserted or removed: a removal and an insertion cost about as much as
+/// rebuilding this number of vertices.
 const EDITED: usize = 8;
 
 /// What waits.

@@ -3,7 +3,7 @@
 use crate::complex::memory;
 use crate::error::Result;
 
-/// In the time that it takes to sort a number, the bits of so many others are gone through.
+/// Scanning the bits of this number of numbers takes as long as sorting one.
 const SPARSE: usize = 256;
 
 /// Bits by number; those beyond the end are 0.
@@ -40,7 +40,7 @@ impl Bits {
         self.0[k as usize / 64] = 0;
     }
 
-    /// Makes room for the bits of so many numbers.
+    /// Makes room for the bits of the numbers below `n`.
     pub(super) fn grow(&mut self, n: usize) -> Result<()> {
         let missing = n.div_ceil(64).saturating_sub(self.0.len());
         memory::reserve(&mut self.0, missing)?;
@@ -129,7 +129,7 @@ impl Marks {
         }
     }
 
-    /// Gives back memory that is of little use for so many numbers as a rule. The set must be empty.
+    /// Gives back memory for more than `n` numbers. The set must be empty.
     pub(super) fn shrink_to(&mut self, n: usize) {
         debug_assert!(self.list.is_empty());
         if self.list.capacity() > n {

@@ -7,8 +7,8 @@ use crate::complex::{Corners, NONE, memory};
 use crate::error::Result;
 use crate::prefetch::{AHEAD, prefetch};
 
-/// From so many on, cells are listed, unless the ids of their corners are more than so many times as many, or more than so
-/// many cells have the same lowest corner: each of them may have to be looked at.
+/// From `MANY` on, cells are listed by their lowest corner, unless the ids are more than `SPARSE` times as many as the cells,
+/// or more than `LONGEST` cells have the same lowest corner: a search goes through all of these.
 const MANY: usize = 1 << 12;
 const SPARSE: usize = 8;
 const LONGEST: u32 = 256;

@@ -5,9 +5,9 @@
 //!
 //! | file | report | what |
 //! |---|---|---|
-//! | `rebuilding` | section 1 | triangulate all positions anew |
+//! | `rebuilding` | section 1 | triangulate all positions again |
 //! | `placement` | sections 3.1, 3.2 | relocate the vertices one at a time |
-//! | `tolerance` | section 3.3 | place only those that leave their tolerance or safe region |
+//! | `tolerance` | section 3.3 | place only vertices that leave their tolerance or safe region |
 //! | `switching` | section 5.2 | rebuild until few do |
 //! | `repair` | | move all at once, check every certificate, mend what fails |
 //! | `watch` | | as repair, but of what has left its tolerance, or soon will |

@@ -1,4 +1,4 @@
-//! *Rebuilding* (report, section 1): triangulate all positions anew.
+//! *Rebuilding* (report, section 1): triangulate all positions again.
 //!
 //! The storage order of the sites is kept while it serves: motions are small, so what was near still is. Where sites next
 //! to each other in storage have gone apart, they are sorted first.
@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 use crate::prefetch::prefetch;
 
 /// Sites are sorted when the mean distance of those next to each other has become so much greater. Measured with
-/// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): less sorts in vain, with more
+/// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): with less, it sorts without need; with more
 /// the walks take longer than to sort.
 const STRAYED: f64 = 1.7;
 

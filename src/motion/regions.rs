@@ -1,4 +1,4 @@
-//! Tolerances and delimiters: what lets a vertex move without a look at its certificates (report, sections 2.3, 2.4).
+//! Tolerances and delimiters: what lets a vertex move without checking its certificates (report, sections 2.3, 2.4).
 //!
 //! Invariants while valid: every interior bi-cell has a delimiter, a sphere with its interior facet inside and its opposing
 //! vertices outside, and the ball around the fixed position of each vertex, of its tolerance, is inside all its safe
@@ -32,7 +32,7 @@ use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::{Error, Result};
 use crate::predicates::{LANES, displacement_limit};
 
-/// Tolerances are kept up to one part in so many of the least extent.
+/// Tolerances are capped at this fraction (one over `CAPPED`) of the least extent.
 const CAPPED: f64 = 16.0;
 
 /// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices' steps and
@@ -392,8 +392,8 @@ impl<G: Dimension> Regions<G> {
     }
 
     /// Whether a bi-cell's tolerance is so small, next to its size h and the displacement u of its vertices from one
-    /// timestamp to the next, that to watch it is cheaper than to compute stars anew every so often. Watching those
-    /// below θ costs in proportion to θ / h, what is computed anew in proportion to u / θ; so the best θ² is in
+    /// timestamp to the next, that watching it is cheaper than recomputing stars now and then. Watching those
+    /// below θ costs in proportion to θ / h, what is recomputed in proportion to u / θ; so the best θ² is in
     /// proportion to u h.
     fn is_soon_beyond(&self, vertices: &[u32], tolerance: f64, elsewhere: &[G::Point]) -> bool {
         let here = |v: u32| &self.fixed[v as usize].point;

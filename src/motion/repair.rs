@@ -27,7 +27,7 @@ use crate::delaunay::{Dimension, Failures, Shortcut};
 use crate::error::{Error, Result};
 use crate::prefetch::{AHEAD, prefetch};
 
-/// Rebuild when more than one vertex in so many would have to be placed. (A placement costs less in the plane, next to a
+/// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
 /// vertex rebuilt, and flips are never stuck there.)
 const fn placed<G: Dimension>() -> usize {
     if G::D == 2 { 8 } else { 20 }
@@ -118,7 +118,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Mends a triangulation all staged vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
-    /// does, after a look that has found failures. `false` if too many vertices would have to be placed; otherwise
+    /// does, after a check that has found failures. `false` if too many vertices would have to be placed; otherwise
     /// those that are to be are not applied.
     pub(super) fn mend_moved(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
         self.begin_moves(repair, report.moved)?;

@@ -1,4 +1,4 @@
-//! *Slack*: a tolerance for each bi-cell, and a look at each timestamp at those that have used it up.
+//! *Slack*: a tolerance for each bi-cell; each timestamp checks those that have used it up.
 //!
 //! ```text
 //! move all vertices, and add to their ways
@@ -7,7 +7,7 @@
 //! if something failed: mend it, as a repair does, and compute the bi-cells of all new cells
 //! ```
 //!
-//! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star computed anew, in
+//! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star recomputed, in
 //! space 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
 //! ([`Slacks`](super::slacks::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers each.
 //!
@@ -23,7 +23,7 @@ use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::Dimension;
 use crate::error::Result;
 
-/// More than one cell in so many past a deadline: a sweep of everything is cheaper.
+/// With more than one cell in `MANY` past its deadline, a sweep of everything is cheaper.
 const MANY: usize = 3;
 
 impl<G: Dimension> MovingTriangulation<G> {

@@ -8,7 +8,7 @@
 //!
 //! When a corner passes its deadline the cell is *referred* to the present: the longest way of a corner since is taken off
 //! its slacks, which is exact, and new deadlines follow. The bi-cells that have none left are checked and computed
-//! anew; they concern no more than the two cells.
+//! recomputed; they concern only the two cells.
 //!
 //! **Units.** Ways and slacks are integers of 16 bits. The unit is a power of two of about a sixteenth of the mean way of
 //! a timestamp, chosen when all are computed, and again when it has not fitted for long. Ways are rounded up, slacks down.
@@ -16,7 +16,7 @@
 //! ways of one timestamp at one more.
 //!
 //! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these. Memory:
-//! so many bytes for a cell, and 2 for a site.
+//! as many bytes for a cell, and 2 for a site.
 
 #![allow(unsafe_code)]
 
@@ -36,7 +36,7 @@ const UNITS: f64 = 16.0;
 /// How much smaller or greater it may become, and for how many timestamps it may be beyond that.
 const FITTING: f64 = 16.0;
 const UNFIT: u32 = 32;
-/// A slack of so many timestamps is not worth an effort to find more.
+/// A slack of this number of timestamps is enough: no effort is made to find more.
 const ENOUGH: f64 = 64.0;
 /// How many cells or bi-cells in advance to ask for.
 const AHEAD: usize = 8;
@@ -259,7 +259,7 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// Checks the bi-cells that have no slack left after a motion from where the vertices were `before`, by id, by at most
-    /// `greatest` each, and computes those anew that hold; returns how many there were. `None`, and nothing checked, if
+    /// `greatest` each, and recomputes those that hold; returns how many there were. `None`, and nothing checked, if
     /// more than `most` cells are concerned.
     pub(super) fn check_expired(
         &mut self,
@@ -286,7 +286,7 @@ impl<G: Dimension> Slacks<G> {
         checked.map(|()| can.then_some(n))
     }
 
-    /// Makes room for the facets of so many cells, and for these and their neighbours to be open.
+    /// Makes room for the facets of `n_cells` cells, and for these and their neighbours to be open.
     fn reserve(&mut self, n_cells: usize, facets: &mut Vec<u32>) -> Result<()> {
         memory::reserve(facets, G::Corners::N * n_cells)?;
         memory::reserve(&mut self.open, (1 + G::Corners::N) * n_cells)

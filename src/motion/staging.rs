@@ -367,7 +367,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Whether moves of so many of the first vertices can be staged whole.
+    /// Whether moves of the first `n` vertices can be staged whole.
     fn can_stage_whole(&self, n: usize) -> bool {
         let n_ids = self.site_of.len();
         self.staging.count() == 0 && n == n_ids && self.n_present == n_ids && self.edits.are_none()

@@ -78,7 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         f64::from(within) / f64::from(rule.sample.max(1))
     }
 
-    /// Starts over with rebuilding, when the algorithm is chosen anew.
+    /// Starts over with rebuilding, when the algorithm is chosen again.
     pub(super) fn reset_switching(&mut self) {
         self.switching = Switching::default();
     }

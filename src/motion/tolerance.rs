@@ -16,9 +16,9 @@
 //! worked off in the embedding at the *moving* positions: once every accepted vertex has moved, that is a
 //! Delaunay triangulation by Proposition 1 (in space, with the correction in [`regions`](super::regions)),
 //! the queued vertices being where they were; predicates are exact, so it stays one after each placement,
-//! without a look at any delimiter. So delimiters are computed once, after the last placement, and no vertex
+//! without checking any delimiter. So delimiters are computed once, after the last placement, and no vertex
 //! is ever queued again. They are taken at the moving positions, which lie within them by construction. A
-//! vertex *w* that gets a smaller tolerance is fixed anew where it is: the ball around `f_w` of radius ε_w
+//! vertex *w* that gets a smaller tolerance is fixed again where it is: the ball around `f_w` of radius ε_w
 //! holds the ball around `m_w` of radius `ε_w − |m_w − f_w|`, so
 //! `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
 //!

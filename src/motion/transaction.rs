@@ -57,7 +57,7 @@ impl<G: Dimension> Default for Transaction<G> {
 }
 
 impl<G: Dimension> Transaction<G> {
-    /// Makes room for the positions of all vertices at shared places, if so many are hidden.
+    /// Makes room for the positions of all vertices at shared places, `n_hidden` of which are hidden.
     pub(super) fn reserve_displaced(&mut self, n_hidden: usize) -> Result<()> {
         let missing = (2 * n_hidden).saturating_sub(self.displaced.capacity());
         if missing == 0 {

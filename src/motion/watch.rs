@@ -1,4 +1,4 @@
-//! *Watching*: a tolerance for each vertex, and a look at each timestamp at the bi-cells that would make it too small.
+//! *Watching*: a tolerance for each vertex; each timestamp checks the bi-cells that would make it too small.
 //!
 //! ```text
 //! for each vertex: is it beyond its tolerance?
@@ -46,7 +46,7 @@ use crate::complex::memory;
 use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 
-/// More than one vertex in so many beyond its tolerance: a sweep of everything is cheaper.
+/// With more than one vertex in `MANY` beyond its tolerance, a sweep of everything is cheaper.
 const MANY: usize = 4;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -132,8 +132,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Mends what a look at some certificates of a whole staging has found. The listed vertices and those placed have their
-    /// bi-cells computed anew, like all new cells.
+    /// Repairs what a check of some certificates of a whole staging has found. The listed vertices and those placed have their
+    /// bi-cells recomputed, like all new cells.
     pub(super) fn mend_checked(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<()> {
         self.with_regions(report, |t, report| {
             for &v in &t.staging.vertices {

@@ -32,7 +32,7 @@ enum Motion {
     Swap,
     /// Onto other vertices.
     Meet,
-    /// To places drawn anew, as the input was.
+    /// To new random places, drawn as the input was.
     Redraw,
     /// Far away, outside the hull as a rule.
     Teleport,
