@@ -12,6 +12,9 @@
 //! does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
 //! medians and the least are than with the first thread count.
 
+mod common;
+
+use common::Rng;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
 use std::time::Instant;
@@ -19,21 +22,8 @@ use std::time::Instant;
 const ROUNDS: usize = 7;
 const STEPS: [&str; 5] = ["build", "sweep", "repair", "mending", "rebuilding"];
 
-/// Splitmix64.
-struct Random(u64);
-
-impl Random {
-    /// In [0, 1).
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 /// Moves each coordinate by up to half of `size` either way.
-fn shake<G: Dimension>(points: &mut [G::Point], size: f64, random: &mut Random) {
+fn shake<G: Dimension>(points: &mut [G::Point], size: f64, random: &mut Rng) {
     for p in points {
         for k in 0..G::D {
             p[k] += size * (random.unit() - 0.5);
@@ -50,7 +40,7 @@ fn commit<G: Dimension>(t: &mut MovingTriangulation<G>) -> f64 {
 
 /// One round: the figures of all steps.
 fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] {
-    let mut random = Random(1);
+    let mut random = Rng::new(1);
     let mut points = points.to_vec();
     let options = Options { algorithm: Algorithm::Repair, threads, ..Options::default() };
     let start = Instant::now();
@@ -81,7 +71,7 @@ fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] 
 }
 
 fn print<G: Dimension>(n: usize, threads: &[u32]) {
-    let mut random = Random(7);
+    let mut random = Rng::new(7);
     let side = (n as f64).powf(1.0 / G::D as f64);
     let mut points = vec![G::Point::default(); n];
     shake::<G>(&mut points, side, &mut random);

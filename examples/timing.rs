@@ -1,15 +1,15 @@
 //! Static build, rebuilding commit and placement commit of random points, in ns per vertex.
 mod common;
 
-use common::Random;
+use common::{Rng, in_cube};
 use deldrift::motion::*;
 use deldrift::{Dimension, Plane, Space};
 use std::time::Instant;
 
 fn run<G: Dimension>(n: usize) {
-    let mut r = Random(7);
+    let mut r = Rng::new(7);
     let side = (n as f64).powf(1.0 / G::D as f64);
-    let mut p: Vec<G::Point> = (0..n).map(|_| r.in_cube::<G>(side)).collect();
+    let mut p: Vec<G::Point> = (0..n).map(|_| in_cube::<G>(&mut r, side)).collect();
     let repeats = (300_000 / n).max(1);
     let mut best = f64::MAX;
     for _ in 0..repeats.max(3) {

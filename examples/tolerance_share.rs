@@ -17,7 +17,7 @@ mod common;
 
 use std::time::Instant;
 
-use common::Random;
+use common::{Rng, in_ball, in_cube};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
 
@@ -27,13 +27,13 @@ const REPEATS: usize = 3;
 
 /// Random points, and where they are at each timestamp.
 fn walk<G: Dimension>(n: usize, step: f64, commits: usize) -> Vec<Vec<G::Point>> {
-    let random = &mut Random(1);
+    let random = &mut Rng::new(1);
     let side = (n as f64).powf(1.0 / G::D as f64);
-    let mut now: Vec<G::Point> = (0..n).map(|_| random.in_cube::<G>(side)).collect();
+    let mut now: Vec<G::Point> = (0..n).map(|_| in_cube::<G>(random, side)).collect();
     let mut all = vec![now.clone()];
     for _ in 0..commits {
         for p in &mut now {
-            let mut direction = random.in_ball::<G>(1.0);
+            let mut direction = in_ball::<G>(random, 1.0);
             let length = direction.as_ref().iter().map(|x| x * x).sum::<f64>().sqrt();
             for k in 0..G::D {
                 direction[k] *= step / length;

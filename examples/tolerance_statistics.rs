@@ -22,7 +22,7 @@
 //! bi-cells of which all points are interior.
 mod common;
 
-use common::Random;
+use common::{Rng, in_ball};
 use deldrift::motion::{MovingTriangulation, NO_CELL, Options};
 use deldrift::{Coordinates, Dimension, Plane, Space};
 
@@ -110,10 +110,10 @@ fn least_width<G: Dimension>(points: &[G::Point]) -> f64 {
 }
 
 /// The least width that a random search finds: steps of all sizes from many places, kept where they improve.
-fn searched_width<G: Dimension>(points: &[G::Point], random: &mut Random) -> f64 {
+fn searched_width<G: Dimension>(points: &[G::Point], random: &mut Rng) -> f64 {
     let mut best = f64::INFINITY;
     for start in 0..12 {
-        let step = |size: f64, from: &G::Point, random: &mut Random| {
+        let step = |size: f64, from: &G::Point, random: &mut Rng| {
             let mut to = *from;
             for k in 0..G::D {
                 to[k] += size * (2.0 * random.unit() - 1.0);
@@ -159,8 +159,8 @@ const ROWS: [&str; 8] = [
 fn measure<G: Dimension>(seed: u64, rows: &mut [[Mean; 2]; 8], ratios: &mut Vec<f64>) {
     let unit_ball = if G::D == 2 { std::f64::consts::PI } else { 4.0 / 3.0 * std::f64::consts::PI };
     let radius = (N as f64 / unit_ball).powf(1.0 / G::D as f64);
-    let random = &mut Random(seed);
-    let points: Vec<G::Point> = (0..N).map(|_| random.in_ball::<G>(radius)).collect();
+    let random = &mut Rng::new(seed);
+    let points: Vec<G::Point> = (0..N).map(|_| in_ball::<G>(random, radius)).collect();
     let t = MovingTriangulation::<G>::new(&points, Options::default()).expect("points in range");
     let is_interior = |v: u32| norm(&points[v as usize]) < radius - MARGIN;
 

@@ -23,6 +23,9 @@ pub mod motion;
 mod predicates;
 mod prefetch;
 mod processors;
+#[cfg(test)]
+#[path = "../tests/common/random.rs"]
+mod random;
 mod threads;
 
 pub use delaunay::{Coordinates, Dimension, Plane, Space};

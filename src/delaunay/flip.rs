@@ -445,19 +445,15 @@ impl<G: Dimension> Delaunay<G> {
 mod tests {
     use super::*;
     use crate::delaunay::{Failures, Level};
+    use crate::random::Rng;
     use crate::threads::Threads;
-
-    fn unit(state: &mut u64) -> f64 {
-        *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-        (*state >> 11) as f64 / (1u64 << 53) as f64
-    }
 
     /// A triangulation whose sites have moved by up to `size` along each axis, and the facets that fail; no cell is
     /// inverted.
     fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<Facet>) {
-        let mut state = 5;
+        let rng = &mut Rng::new(5);
         let mut points = vec![G::Point::default(); n];
-        points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = unit(&mut state)));
+        points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
         let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
         t.add_sites(&points).expect("room for it");
         t.rebuild(&mut |_| true).expect("room for it");
@@ -466,7 +462,7 @@ mod tests {
         for s in t.live_sites().collect::<Vec<_>>() {
             let old = t.site(s).point;
             let mut q = old;
-            (0..G::D).for_each(|k| q[k] += size * (2.0 * unit(&mut state) - 1.0));
+            (0..G::D).for_each(|k| q[k] += size * (2.0 * rng.unit() - 1.0));
             t.cover(&q, &q);
             t.set_point(s, q);
             failures.clear();

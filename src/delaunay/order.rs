@@ -264,6 +264,7 @@ pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = u32> + Clone) -> Resu
 mod tests {
     use super::*;
     use crate::delaunay::{Plane, Space};
+    use crate::random::Rng;
 
     /// On a full grid a Hilbert curve visits every cell once and steps to a neighbour each time.
     #[test]
@@ -317,14 +318,13 @@ mod tests {
     /// Few items, and many with keys of one to three digits, some of which all have in common.
     #[test]
     fn digits_sort_as_comparisons_do() {
-        let mut state = 1u64;
+        let rng = &mut Rng::new(1);
         for (n, bits) in
             [(1, 8), (2, 32), (255, 30), (256, 32), (257, 32), (1000, 4), (5000, 24), (30_000, 30)]
         {
             for common in [0, 0x00ff_ff00, !0] {
                 let keys = (0..n).map(|item| {
-                    state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-                    let key = (state >> 32) as u32 & !common & (u32::MAX >> (32 - bits));
+                    let key = rng.next() as u32 & !common & (u32::MAX >> (32 - bits));
                     Keyed(u64::from(key) << 32 | item)
                 });
                 let mut keyed: Vec<Keyed> = keys.collect();

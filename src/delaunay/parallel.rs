@@ -195,15 +195,12 @@ impl<G: Dimension> Build<'_, G> {
 mod tests {
     use super::*;
     use crate::delaunay::{Level, Plane, Space};
+    use crate::random::Rng;
 
     fn random<G: Dimension>(n: usize) -> Vec<G::Point> {
-        let mut state = 1u64;
-        let mut unit = || {
-            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-            (state >> 11) as f64 / (1u64 << 53) as f64
-        };
+        let rng = &mut Rng::new(1);
         let mut points = vec![G::Point::default(); n];
-        points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = unit()));
+        points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
         points
     }
 

@@ -128,19 +128,19 @@ impl IndexSet {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Rng;
     use std::collections::HashSet;
 
     #[test]
     fn sets_hold_what_has_been_entered() {
         let mut set = IndexSet::new();
-        let mut state = 1u64;
+        let rng = &mut Rng::new(1);
         for round in 0..200 {
             set.clear();
             let mut expected = HashSet::new();
             let mut order = Vec::new();
             for _ in 0..[3, 64, 65, 66, 130, 1000][round % 6] {
-                state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-                let index = (state >> 32) as u32 >> [24, 20, 0][round / 6 % 3];
+                let index = rng.next() as u32 >> [24, 20, 0][round / 6 % 3];
                 let is_new = expected.insert(index);
                 assert_eq!(set.insert(index), Ok(is_new));
                 if is_new {

@@ -249,16 +249,16 @@ impl<G: Dimension> MovingTriangulation<G> {
 mod tests {
     use crate::delaunay::{Dimension, Plane, Space};
     use crate::motion::{Algorithm, MovingTriangulation, Options};
+    use crate::random::Rng;
 
     /// The mean distance in storage after each of a few commits of vertices that go anywhere, next to that at first.
     fn strides<G: Dimension>() -> Vec<f64> {
-        let mut state = 1_u64;
+        let rng = &mut Rng::new(1);
         let mut points = || {
             let mut points = vec![G::Point::default(); 2_000];
             for p in &mut points {
                 for axis in 0..G::D {
-                    state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-                    p[axis] = (state >> 40) as f64;
+                    p[axis] = (rng.next() >> 40) as f64;
                 }
             }
             points
