@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use deldrift::motion::Algorithm;
+
+use crate::algorithms;
 use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 
 const HEADER: &str = "include/deldrift.h";
@@ -9,18 +12,16 @@ const HEADER: &str = "include/deldrift.h";
 /// The sources of the header, in the order in which it shows them.
 const SOURCES: [&str; 6] = ["status", "options", "triangulation", "motion", "changes", "query"];
 
-/// With `DELDRIFT_UPDATE_HEADER=1` the header is written instead.
+/// With `DELDRIFT_UPDATE_HEADER=1` the files are written instead.
 #[test]
 fn header_is_what_the_sources_say() {
-    let made = make_header();
-    if std::env::var_os("DELDRIFT_UPDATE_HEADER").is_some_and(|value| value == "1") {
-        fs::write(repository(HEADER), made).expect("the header can be written");
-        return;
+    for (path, made) in [(HEADER, make_header()), (algorithms::LIST, algorithms::list())] {
+        if std::env::var_os("DELDRIFT_UPDATE_HEADER").is_some_and(|value| value == "1") {
+            fs::write(repository(path), made).expect("a file can be written");
+        } else {
+            assert!(made == text_of(path), "{path} is stale: run make header and commit it");
+        }
     }
-    assert!(
-        made == text_of(HEADER),
-        "{HEADER} is stale: run DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header and commit it"
-    );
 }
 
 #[test]
@@ -45,7 +46,9 @@ fn make_header() -> String {
         cbindgen::Config::from_file(repository("cbindgen.toml")).expect("cbindgen.toml is valid");
     config.header = config.header.map(|page| page.trim().replace("@EXAMPLE@", &example()));
     config.after_includes = Some(version());
-    let mut builder = cbindgen::Builder::new().with_config(config);
+    let enumeration = fresh_folder("enumeration").join("algorithms.rs");
+    fs::write(&enumeration, enumeration_of_algorithms()).expect("a source can be written");
+    let mut builder = cbindgen::Builder::new().with_config(config).with_src(enumeration);
     for source in SOURCES {
         builder = builder.with_src(repository(&format!("src/capi/{source}.rs")));
     }
@@ -53,6 +56,24 @@ fn make_header() -> String {
     builder.generate().expect("the sources are understood").write(&mut header);
     let header = String::from_utf8(header).expect("the sources are text");
     header.lines().map(|line| without_tags(line) + "\n").collect()
+}
+
+/// The algorithms that have a name in C, as a source. What the enumeration says of itself is said of the type of its
+/// numbers.
+fn enumeration_of_algorithms() -> String {
+    let options = text_of("src/capi/options.rs");
+    let (before, _) = options.split_once("pub type AlgorithmCode").expect("it is there");
+    let (_, documentation) = before.rsplit_once("\n\n").expect("it is not the first item");
+    let mut source = format!("{documentation}#[repr(u32)]\npub enum deldrift_algorithm {{\n");
+    for algorithm in Algorithm::ALL {
+        if let Some(name) = algorithms::c_name(algorithm) {
+            for line in algorithm.row().documentation.lines() {
+                source += &format!("    ///{line}\n");
+            }
+            source += &format!("    {name} = {},\n", algorithm.code());
+        }
+    }
+    source + "}\n"
 }
 
 /// Every structure has a typedef of the same name, so that uses need no `struct`.

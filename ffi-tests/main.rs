@@ -4,12 +4,14 @@
 //! | file | what |
 //! |---|---|
 //! | `header.rs` | the committed header is what the sources say, and compiles as C11 and C++17 |
+//! | `algorithms.rs` | what is said of algorithms elsewhere is what their rows say |
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `c/faults.c`, `c/limits.c`, `c/memory_bytes.c` | calls for which there is no memory, and how much is held |
 //! | `coverage.rs` | every function and every status of the header is used by some program |
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
 //! | `installation.rs` | programs that find the library by CMake or pkg-config (`--include-ignored`) |
 
+mod algorithms;
 mod coverage;
 mod header;
 mod installation;

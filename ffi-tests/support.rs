@@ -6,6 +6,8 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 use std::{env, fs};
 
+use crate::algorithms;
+
 /// What the static library needs of the system, as `rustc --print native-static-libs` says.
 const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
 
@@ -101,6 +103,7 @@ pub fn compiler(source: &Path) -> Command {
     let mut command = tool.to_command();
     command.arg(if is_cpp { "-std=c++17" } else { "-std=c11" });
     command.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread", "-I"]).arg(repository("include"));
+    command.args(algorithms::definitions());
     command
 }
 

@@ -1,7 +1,7 @@
 /*
  * deldrift: exact Delaunay triangulations of moving points, in 2D and 3D.
  *
- * Made from the sources in src/capi by `DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi`: change it there.
+ * Made by `make header` from src/capi and, for the algorithms, src/motion/algorithms.rs: change it there.
  *
  * A triangulation is created once from an array of points. Vertex i is the i-th point, until
  * deldrift_compact gives new ids. Then the points move: stage the moves, commit them as the next
@@ -169,58 +169,57 @@ typedef uint32_t deldrift_location_kind;
 
 /// How deldrift_commit_timestamp brings the triangulation to the staged positions. Every algorithm
 /// gives exactly the same cells; they differ in what they cost.
+///
+/// DELDRIFT_AUTO is for most programs. DELDRIFT_COMPARE_... are algorithms of the research report RR-6750 to
+/// compare with, not for use: in the recorded report each of them is slower than another algorithm in most or all
+/// rows. The recorded report is cpp-bench/results/report.csv, in which the experiments of RR-6750 are repeated: 74
+/// rows, each an input or a part of one.
+///
+/// Numbers from 1000 on are for the library's own tests, and may mean something else in any version.
 enum deldrift_algorithm
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    /// The library chooses at each commit by what the last ones found: watching while few vertices leave
-    /// their tolerance, in 3D slack while few bi-cells use theirs up, otherwise repair, or rebuilding where too
+    /// Chooses at each commit by what the last ones found. Where all vertices are staged: repair, of only those
+    /// certificates that can fail while displacements are small compared with the spacing, or rebuilding where too
     /// much would fail. Where fewer than one vertex in twenty is staged: tolerance if that is up to date, else
     /// placement with flips.
     DELDRIFT_AUTO = 0,
-    /// Builds the triangulation anew from all positions.
+    /// Builds the triangulation anew from all positions (RR-6750, section 1).
     DELDRIFT_REBUILDING = 1,
-    /// Takes the moved vertices one by one: finds the new place by a walk from the old one, removes and
-    /// inserts. Where no certificate of the star fails, only the coordinates change.
-    DELDRIFT_PLACEMENT = 2,
-    /// As placement, but a star whose cells stay positively oriented is repaired by flips; in 3D
-    /// they are taken back where they lead nowhere.
-    DELDRIFT_PLACEMENT_FLIPS = 3,
+    /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
+    /// the cells of the star stay positively oriented, flips repair it (in 3D they are taken back where they lead
+    /// nowhere); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
+    /// that move far.
+    DELDRIFT_PLACEMENT_FLIPS = 2,
     /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
     /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the
-    /// tolerances around it. For displacements so small that nearly all vertices stay within, and for
-    /// schemes that converge. All tolerances are computed by the first commit, and by the first one after
-    /// another algorithm's.
-    DELDRIFT_TOLERANCE = 4,
-    /// As tolerance, with a larger region for each vertex: inside the delimiters of the facets it is on,
-    /// outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not so far that
-    /// delimiters prove too little. More vertices stay within, at the cost of a distance for every facet of
-    /// the star of each, and of the memory of a delimiter for every facet of every cell. For displacements
-    /// that are often just above the tolerances.
-    DELDRIFT_SAFE_REGION = 5,
-    /// The safe region is tested only where the tolerance test fails: as many vertices stay within as with
-    /// either, and most cost one distance. Memory as for the safe region. For displacements that are small
-    /// for most vertices and not for all.
-    DELDRIFT_SAFE_REGION_TOLERANCE = 6,
-    /// Rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the rule is
-    /// that of switch_share and the options behind it. A sample costs the tolerances of a few vertices. For
-    /// schemes that begin with large displacements and converge. To choose another algorithm and this one
-    /// again starts over.
-    DELDRIFT_REBUILDING_TOLERANCE = 7,
+    /// tolerances around it (RR-6750, Algorithm 1). For displacements so small that nearly all vertices stay
+    /// within, and for schemes that converge. All tolerances are computed by the first commit, and by the first
+    /// one after another algorithm's.
+    DELDRIFT_TOLERANCE = 3,
     /// All vertices move at once, every certificate is checked, and what fails is mended by flips and
     /// placements. Rebuilds where too much fails.
-    DELDRIFT_REPAIR = 8,
-    /// As repair, but only the certificates of vertices that leave their tolerance are checked, and those
-    /// that would make it too small. For displacements of up to about a thousandth of the spacing in 2D, and a
-    /// ten-thousandth in 3D. Commits that do not move all vertices at once, or while vertices share a place,
-    /// are those of repair.
-    DELDRIFT_WATCHING = 9,
-    /// As repair, but only the certificates of those bi-cells are checked whose own tolerance is used up by
-    /// the ways that their vertices have gone. For displacements of up to a few ten-thousandths of the spacing
-    /// in 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
-    /// while vertices share a place, are those of repair.
-    DELDRIFT_SLACK = 10,
+    DELDRIFT_REPAIR = 4,
+    /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report
+    /// slower than that in 61 of 74 rows.
+    DELDRIFT_COMPARE_PLACEMENT = 16,
+    /// For comparison: as DELDRIFT_TOLERANCE, with a larger region for each vertex: inside the delimiters of the
+    /// facets it is on, outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not
+    /// so far that delimiters prove too little (RR-6750, Algorithm 2). More vertices stay within, at the cost of a
+    /// distance for every facet of the star of each, and of the memory of a delimiter for every facet of every
+    /// cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
+    DELDRIFT_COMPARE_SAFE_REGION = 17,
+    /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within as
+    /// with either, and most cost one distance. Memory as for the safe region. In the recorded report slower than
+    /// DELDRIFT_TOLERANCE in 69 of 74 rows.
+    DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE = 18,
+    /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
+    /// rule is that of switch_share and the options behind it (RR-6750, section 5.2). A sample costs the tolerances
+    /// of a few vertices. To choose another algorithm and this one again starts over. In the recorded report slower
+    /// than DELDRIFT_AUTO in 71 of 74 rows.
+    DELDRIFT_COMPARE_REBUILDING_TOLERANCE = 19,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -258,7 +257,7 @@ typedef struct deldrift_triangulation deldrift_triangulation;
 /// The structure may grow in later versions. struct_size says how much of it the program knows: fields
 /// beyond it have their defaults. A size greater than the library's own is accepted as long as all
 /// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
-/// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value not listed here.
+/// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
 ///
 /// The callbacks are called from inside deldrift_create and deldrift_commit_timestamp, on the thread
 /// that called these, one at a time, and not after deldrift_destroy. They must return normally (no
@@ -288,7 +287,7 @@ typedef struct deldrift_options {
     void (*progress)(void *user_data, double fraction);
     /// Handed to the callbacks as it is.
     void *user_data;
-    /// DELDRIFT_REBUILDING_TOLERANCE stops rebuilding at the first sample of which at least this share stays
+    /// DELDRIFT_COMPARE_REBUILDING_TOLERANCE stops rebuilding at the first sample of which at least this share stays
     /// within tolerance: above 0 and at most 1. 0, the default, stands for 0.75 in 2D and 0.55 in 3D.
     double switch_share;
     /// Seed of its random samples: with the same seed, the same calls do the same. Default 0.

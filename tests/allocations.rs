@@ -8,7 +8,7 @@
 mod common;
 
 use common::{Rng, point};
-use deldrift::motion::{Algorithm, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, Commits, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
@@ -23,28 +23,18 @@ const CALM: f64 = 1e-3;
 const BRISK: f64 = 0.01;
 const LIVELY: f64 = 0.03;
 
-/// What allocates nothing: dimension, algorithm, displacements. (Lively repairs in space rebuild, as so many
-/// cells of a hull are inverted.)
-const STEADY: [(usize, Algorithm, &[f64]); 18] = [
-    (2, Algorithm::Placement, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::PlacementFlips, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::Tolerance, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::SafeRegion, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::SafeRegionTolerance, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::Repair, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::Watching, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::Slack, &[STILL, CALM, LIVELY]),
-    (2, Algorithm::Auto, &[STILL, CALM, LIVELY]),
-    (3, Algorithm::Placement, &[STILL, CALM, LIVELY]),
-    (3, Algorithm::PlacementFlips, &[STILL, CALM, LIVELY]),
-    (3, Algorithm::Tolerance, &[STILL, CALM, LIVELY]),
-    (3, Algorithm::SafeRegion, &[STILL, CALM, LIVELY]),
-    (3, Algorithm::SafeRegionTolerance, &[STILL, CALM, LIVELY]),
-    (3, Algorithm::Repair, &[STILL, CALM, BRISK]),
-    (3, Algorithm::Watching, &[STILL, CALM, BRISK]),
-    (3, Algorithm::Slack, &[STILL, CALM, BRISK]),
-    (3, Algorithm::Auto, &[STILL, CALM, BRISK]),
-];
+/// Displacements at which an algorithm allocates nothing. (Lively repairs in space rebuild, as so many cells of a hull are
+/// inverted.)
+fn displacements(dimension: usize, algorithm: Algorithm) -> [f64; 3] {
+    let relocates = algorithm.row().commits == Commits::OneByOne;
+    [STILL, CALM, if dimension == 2 || relocates { LIVELY } else { BRISK }]
+}
+
+/// All but those that rebuild.
+fn steady_algorithms() -> impl Iterator<Item = Algorithm> {
+    let rebuilds = [Algorithm::Rebuilding, Algorithm::RebuildingTolerance];
+    Algorithm::ALL.into_iter().filter(move |algorithm| !rebuilds.contains(algorithm))
+}
 
 const N: usize = 1000;
 /// Timestamps of a round.
@@ -141,8 +131,8 @@ fn allocations<G: Dimension>(algorithm: Algorithm, displacement: f64) -> BTreeMa
 #[test]
 fn commits_allocate_nothing_once_they_have_gone_round() {
     let mut found = Vec::new();
-    for (dimension, algorithm, displacements) in STEADY {
-        for &displacement in displacements {
+    for (dimension, algorithm) in [2, 3].into_iter().flat_map(|d| steady_algorithms().map(move |a| (d, a))) {
+        for displacement in displacements(dimension, algorithm) {
             let sites = match dimension {
                 2 => allocations::<Plane>(algorithm, displacement),
                 _ => allocations::<Space>(algorithm, displacement),

@@ -3,9 +3,8 @@
 mod common;
 
 use common::exact::{Grid, delaunay_cells, orientation, representatives, to_point};
-use common::history::ALGORITHMS;
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
-use deldrift::motion::{Level, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
 
 /// A point drawn by some rule.
@@ -136,7 +135,7 @@ fn histories_agree<G: Dimension>(n_seeds: u64, limit: usize) {
                         positions[v] = Some(q);
                     }
                     _ => {
-                        t.set_algorithm(*rng.pick(&ALGORITHMS));
+                        t.set_algorithm(*rng.pick(&Algorithm::ALL));
                         let mut moves = Vec::new();
                         for v in present {
                             if rng.one_in(3) {

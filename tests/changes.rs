@@ -7,12 +7,11 @@ mod common;
 
 use common::carried::{Carried, some_present, take};
 use common::exact::{Grid, orientation, representatives};
-use common::history::ALGORITHMS;
 use common::inputs::{KINDS, Kind, draw, draw_one, quantized, to_grid};
 use common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted};
 use deldrift::Error;
 use deldrift::motion::{
-    Algorithm, CoincidencePolicy, Level, Location, Monitor, MovingTriangulation, Options,
+    Algorithm, CoincidencePolicy, Commits, Level, Location, Monitor, MovingTriangulation, Options,
 };
 use deldrift::{Dimension, Plane, Space};
 use std::collections::{BTreeMap, BTreeSet};
@@ -168,7 +167,7 @@ impl<'c, G: Dimension> History<'c, G> {
     }
 
     fn commit(&mut self) {
-        let algorithm = *self.rng.pick(&ALGORITHMS);
+        let algorithm = *self.rng.pick(&Algorithm::ALL);
         self.t.set_algorithm(algorithm);
         let calls = if self.rng.one_in(6) { self.rng.below(4) as i64 } else { i64::MAX };
         self.log.push(format!("commit {} by {algorithm:?}, {calls} calls", self.staged.len()));
@@ -521,7 +520,7 @@ fn still_commits_keep_the_view<G: Dimension>(algorithm: Algorithm) {
 
 #[test]
 fn commits_that_change_no_cell_keep_the_view() {
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         still_commits_keep_the_view::<Plane>(algorithm);
         still_commits_keep_the_view::<Space>(algorithm);
     }
@@ -567,7 +566,7 @@ fn rows_are_kept<G: Dimension>(algorithm: Algorithm, step: f64) {
 
 #[test]
 fn cells_that_survive_keep_their_rows() {
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         rows_are_kept::<Plane>(algorithm, 0.01);
         rows_are_kept::<Space>(algorithm, 0.01);
     }
@@ -605,7 +604,7 @@ fn there_and_back<G: Dimension>(algorithm: Algorithm, reads: bool) {
 
 #[test]
 fn cells_that_come_back_are_not_listed() {
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         for reads in [false, true] {
             there_and_back::<Plane>(algorithm, reads);
             there_and_back::<Space>(algorithm, reads);
@@ -702,7 +701,7 @@ fn sorting_keeps_indices<G: Dimension>(n: usize, algorithm: Algorithm, threads: 
 
 #[test]
 fn sorting_the_cells_keeps_indices() {
-    for algorithm in [Algorithm::Repair, Algorithm::Watching, Algorithm::Slack] {
+    for algorithm in Algorithm::ALL.into_iter().filter(|a| a.row().commits == Commits::Together) {
         for cancelled_at in [usize::MAX, 0] {
             for threads in [1, 4] {
                 sorting_keeps_indices::<Plane>(17_000, algorithm, threads, cancelled_at);

@@ -12,20 +12,6 @@ use deldrift::Error;
 use deldrift::motion::{Algorithm, CommitReport, Level, MovingTriangulation, NO_VERTEX, Options};
 use deldrift::{Dimension, Plane, Space};
 
-const ALGORITHMS: [Algorithm; 11] = [
-    Algorithm::Auto,
-    Algorithm::Rebuilding,
-    Algorithm::Placement,
-    Algorithm::PlacementFlips,
-    Algorithm::Tolerance,
-    Algorithm::SafeRegion,
-    Algorithm::SafeRegionTolerance,
-    Algorithm::RebuildingTolerance,
-    Algorithm::Repair,
-    Algorithm::Watching,
-    Algorithm::Slack,
-];
-
 thread_local! {
     /// Bytes that this thread may still have.
     static LEFT: Cell<isize> = const { Cell::new(isize::MAX) };
@@ -86,7 +72,7 @@ impl<G: Dimension> History<G> {
     fn new(seed: u64) -> Self {
         let mut rng = Rng::new(seed);
         let options = Options {
-            algorithm: *rng.pick(&ALGORITHMS),
+            algorithm: *rng.pick(&Algorithm::ALL),
             track_changes: rng.one_in(2),
             threads: 1,
             ..Options::default()
@@ -279,7 +265,7 @@ fn histories<G: Dimension>() {
             match history.rng.below(10) {
                 0..=1 => (0..8).for_each(|_| history.insert()),
                 2..=3 => (0..8).for_each(|_| history.remove()),
-                4 => history.t.set_algorithm(ALGORITHMS[step % ALGORITHMS.len()]),
+                4 => history.t.set_algorithm(Algorithm::ALL[step % Algorithm::ALL.len()]),
                 5 => history.take_changes(),
                 6 => history.stage(),
                 7 => {
@@ -357,7 +343,7 @@ fn used<G: Dimension>(t: &mut MovingTriangulation<G>) -> usize {
 }
 
 fn memory_is_that_of_a_fresh_one<G: Dimension>() {
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         let options = || Options { algorithm, track_changes: true, ..Options::default() };
         let mut t = worn::<G>(500, 40, options());
         let before = used(&mut t);
@@ -382,7 +368,7 @@ fn a_compacted_triangulation_needs_no_more_memory_than_a_fresh_one() {
 /// A commit of all vertices says the same as that of a fresh triangulation with the same positions.
 #[test]
 fn commits_after_a_compaction_are_those_of_a_fresh_triangulation() {
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         let options = || Options { algorithm, ..Options::default() };
         let mut t = worn::<Plane>(300, 3, options());
         t.compact().expect("room");

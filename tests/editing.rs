@@ -4,7 +4,7 @@
 mod common;
 
 use common::exact::representatives;
-use common::history::{ALGORITHMS, Snapshot};
+use common::history::Snapshot;
 use common::inputs::{Kind, draw, draw_one};
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
 use deldrift::Error;
@@ -188,7 +188,7 @@ fn histories<G: Dimension>(sizes: &[usize]) {
                     if model.rng.one_in(3) {
                         model.call();
                     }
-                    let algorithm = ALGORITHMS[(seed as usize + step + k) % ALGORITHMS.len()];
+                    let algorithm = Algorithm::ALL[(seed as usize + step + k) % Algorithm::ALL.len()];
                     model.commit(algorithm);
                 }
             }

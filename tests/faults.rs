@@ -10,7 +10,7 @@
 mod common;
 
 use common::carried::{Carried, List};
-use common::history::{ALGORITHMS, Snapshot};
+use common::history::Snapshot;
 use common::{Rng, point, seeds, sorted};
 use deldrift::motion::{Algorithm, CommitReport, Level, Location, Monitor, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
@@ -260,7 +260,7 @@ impl Call {
         for goal in [Goal::Near, Goal::Far, Goal::Shared] {
             calls.extend([Call::Relocate(goal), Call::Insert(goal), Call::Remove(goal)]);
         }
-        for algorithm in ALGORITHMS {
+        for algorithm in Algorithm::ALL {
             calls.extend([Call::Commit(algorithm, true), Call::Commit(algorithm, false)]);
         }
         calls.extend([Call::StageInsertions, Call::StageRemovals]);
@@ -765,7 +765,7 @@ fn cancels_at_each_call<G: Dimension>(call: Call, setting: &Setting) -> usize {
 #[test]
 fn cancelled_commits_leave_all_as_it_was() {
     let mut n_calls = 0;
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         for is_whole in [true, false] {
             for setting in &SETTINGS {
                 n_calls += cancels_at_each_call::<Plane>(Call::Commit(algorithm, is_whole), setting);

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::history::{ALGORITHMS, History, Snapshot, nudged};
+use common::history::{History, Snapshot, nudged};
 use common::inputs::{KINDS, Kind, draw, integer_sphere, on_sphere};
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
 use deldrift::Error;
@@ -78,7 +78,7 @@ fn one_by_one_from_nothing_to_nothing_in_space() {
 
 /// Vertices that pass through one hyperplane, all or one after the other, and the collapse of all dimensions.
 fn collapses_and_expands<G: Dimension>(side: i64) {
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         let mut points = Vec::new();
         for i in 0..side.pow(G::D as u32) {
             points.push(point::<G>(|k| (i / side.pow(k as u32) % side) as f64));
@@ -126,7 +126,7 @@ fn magnitudes_do_not_matter<G: Dimension>() {
             (0..20).map(|_| Some(point::<G>(|_| coordinate(rng)))).collect();
         let points: Vec<G::Point> = positions.iter().copied().flatten().collect();
         let mut t = MovingTriangulation::<G>::new(&points, Options::default()).expect("a build");
-        for algorithm in ALGORITHMS {
+        for algorithm in Algorithm::ALL {
             t.set_algorithm(algorithm);
             for v in 0..20 {
                 if rng.one_in(3) {
@@ -167,7 +167,7 @@ fn lattice<G: Dimension>(n: i64) -> Vec<G::Point> {
 
 fn coincidence_is_rejected<G: Dimension>() {
     let points = lattice::<G>(25);
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         for seed in seeds(20) {
             let rng = &mut Rng::new(seed);
             let mut t = rejecting::<G>(&points, algorithm);
@@ -272,7 +272,7 @@ impl Canceller {
 /// A commit is cancelled wherever the monitor is asked; each time the timestamp before is restored,
 /// coincident vertices included, and in the end the commit succeeds.
 fn commits_are_cancelled_anywhere<G: Dimension>(n: usize) {
-    for (kind, algorithm) in KINDS.into_iter().zip(ALGORITHMS.into_iter().cycle()) {
+    for (kind, algorithm) in KINDS.into_iter().zip(Algorithm::ALL.into_iter().cycle()) {
         let rng = &mut Rng::new(9);
         let mut points = draw::<G>(kind, n, rng);
         for i in 0..n / 4 {
@@ -466,7 +466,7 @@ fn hubs_come_and_go<G: Dimension>(name: &str, rim: Vec<G::Point>, hubs: &[G::Poi
             history.relocate(v, q);
             history.check_cells();
         }
-        for algorithm in ALGORITHMS {
+        for algorithm in Algorithm::ALL {
             for q in [far, hub] {
                 history.stage(v, q);
                 history.commit(algorithm);

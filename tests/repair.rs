@@ -1,4 +1,5 @@
-//! *Repair*, *watching* and *auto* under adversarial motion: after every commit the cells are those of a fresh build.
+//! The algorithms that move all vertices at once, and *auto*, under adversarial motion: after every commit the cells are
+//! those of a fresh build.
 //!
 //! Each history is a sequence of motions, drawn by its seed from those of [`MOTIONS`], on random points or on
 //! a grid, whose ties every motion breaks or makes. `DELDRIFT_SOAK` multiplies the number of seeds.
@@ -6,7 +7,7 @@
 mod common;
 
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
-use deldrift::motion::{Algorithm, CommitReport, Level, Location, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, CommitReport, Commits, Level, Location, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
 
 /// A motion of all positions; it gets the positions of the beginning and those of now.
@@ -133,7 +134,8 @@ fn agree<G: Dimension>(algorithm: Algorithm, seed: u64) -> CommitReport {
 }
 
 fn all_agree<G: Dimension>() {
-    for algorithm in [Algorithm::Repair, Algorithm::Watching, Algorithm::Slack, Algorithm::Auto] {
+    let together = Algorithm::ALL.into_iter().filter(|a| a.row().commits == Commits::Together);
+    for algorithm in together.chain([Algorithm::Auto]) {
         let (mut flips, mut placements, mut rebuilds, mut within) = (0, 0, 0, 0);
         for seed in seeds(1000) {
             let sums = agree::<G>(algorithm, seed);

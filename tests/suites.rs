@@ -4,10 +4,9 @@
 mod common;
 
 use common::files::{Json, npy, text};
-use common::history::ALGORITHMS;
 use common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted};
 use deldrift::Error;
-use deldrift::motion::{CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options};
+use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options};
 use deldrift::{Dimension, Plane, Space};
 use spade::Triangulation;
 use std::collections::{BTreeMap, HashSet, VecDeque};
@@ -46,7 +45,7 @@ fn goes_around<G: Dimension>(points: &[G::Point], name: &str) {
     let mut shifted = points.to_vec();
     shifted.rotate_left(1);
     let shifted_cells = fresh_cells::<G>(&shifted.iter().copied().map(Some).collect::<Vec<_>>());
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         t.set_algorithm(algorithm);
         for (to, expected) in [(&shifted[..], &shifted_cells), (points, &cells)] {
             t.move_all(to).expect("moves");
@@ -81,7 +80,7 @@ fn ukraine_has_as_many_triangles_as_published() {
     let Some(json) = text("suites/delaunator/ukraine.json") else { return };
     let mut t = build::<Plane>(&points_of::<Plane>(&Json::parse(&json).table()), "ukraine");
     assert_eq!(t.cell_count(), 1711);
-    for algorithm in ALGORITHMS {
+    for algorithm in Algorithm::ALL {
         let home = t.position(0).expect("present");
         for (place, count) in [([80.0, 220.0], 1713), (home, 1711)] {
             t.set_algorithm(algorithm);
@@ -207,7 +206,7 @@ fn one_of_two_points_is_replaced() {
 fn cgal_moves<G: Dimension>(name: &str) {
     let Some(operations) = text(name) else { return };
     // Immediate, then as timestamps by each algorithm.
-    for algorithm in [None].into_iter().chain(ALGORITHMS.map(Some)) {
+    for algorithm in [None].into_iter().chain(Algorithm::ALL.map(Some)) {
         let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(&[], options).expect("an empty triangulation");
         t.set_algorithm(algorithm.unwrap_or_default());

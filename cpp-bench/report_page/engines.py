@@ -1,18 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The algorithms: names, colours, and in which order they are shown."""
 
-NAMES = {
-    "rebuilding": "rebuilding",
-    "placement": "placement",
-    "move": "move_if_no_collision",
-    "placement_flips": "placement with flips",
-    "safe_region": "S",
-    "tolerance": "T",
-    "safe_region_tolerance": "S+T",
-    "rebuilding_tolerance": "rebuilding+T",
-    "repair": "repair",
-    "auto": "auto",
-}
+import os
+import re
+
+
+def algorithms():
+    """(name, purpose) of the algorithms of deldrift."""
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "algorithms.inc")
+    with open(path, encoding="utf-8") as file:
+        return re.findall(r"^ALGORITHM\((\w+), \d+, (\w+),", file.read(), re.MULTILINE)
+
+
+NAMES = {name: name.replace("_", " ") for name, _ in algorithms()}
+NAMES.update(
+    move="move_if_no_collision",
+    placement_flips="placement with flips",
+    safe_region="S",
+    tolerance="T",
+    safe_region_tolerance="S+T",
+    rebuilding_tolerance="rebuilding+T",
+)
 
 LONG_NAMES = dict(
     NAMES, safe_region="S, safe region", tolerance="T, tolerance", safe_region_tolerance="S+T, both"
@@ -42,23 +50,5 @@ CGAL = [
 ]
 DELDRIFT = CGAL + ["repair", "auto"]
 
-TABLE_CGAL = [
-    "rebuilding",
-    "placement",
-    "move",
-    "safe_region",
-    "tolerance",
-    "safe_region_tolerance",
-    "rebuilding_tolerance",
-]
-TABLE_DELDRIFT = [
-    "rebuilding",
-    "placement",
-    "placement_flips",
-    "safe_region",
-    "tolerance",
-    "safe_region_tolerance",
-    "rebuilding_tolerance",
-    "repair",
-    "auto",
-]
+TABLE_CGAL = CGAL[:2] + ["move"] + CGAL[2:]
+TABLE_DELDRIFT = [name for name, purpose in algorithms() if purpose != "internal"]

@@ -9,8 +9,10 @@ Reading Engine::read() { throw std::logic_error("this engine gives no readings")
 
 double Engine::visit(std::uint32_t, const double *) { throw std::logic_error("this engine relocates no vertex"); }
 
-const std::vector<EngineKind> &engine_kinds() {
-    static const std::vector<EngineKind> kinds = {
+namespace {
+
+std::vector<EngineKind> make_engine_kinds() {
+    std::vector<EngineKind> kinds = {
         // engine, algorithm, is_stateless, is_slow_in_3d, make, is_reproduction
         {"cgal", "rebuilding", true, false, make_cgal_rebuilding},
         {"cgal", "placement", false, true, make_cgal_placement},
@@ -19,16 +21,20 @@ const std::vector<EngineKind> &engine_kinds() {
         {"cgal", "safe_region", false, true, make_cgal_safe_region, true},
         {"cgal", "safe_region_tolerance", false, true, make_cgal_safe_region_tolerance, true},
         {"cgal", "rebuilding_tolerance", false, false, make_cgal_rebuilding_tolerance, true},
-        {"deldrift", "rebuilding", false, false, deldrift_by(DELDRIFT_REBUILDING)},
-        {"deldrift", "placement", false, true, deldrift_by(DELDRIFT_PLACEMENT)},
-        {"deldrift", "placement_flips", false, true, deldrift_by(DELDRIFT_PLACEMENT_FLIPS)},
-        {"deldrift", "tolerance", false, true, deldrift_by(DELDRIFT_TOLERANCE)},
-        {"deldrift", "safe_region", false, true, deldrift_by(DELDRIFT_SAFE_REGION)},
-        {"deldrift", "safe_region_tolerance", false, true, deldrift_by(DELDRIFT_SAFE_REGION_TOLERANCE)},
-        {"deldrift", "rebuilding_tolerance", false, false, deldrift_by(DELDRIFT_REBUILDING_TOLERANCE)},
-        {"deldrift", "repair", false, false, deldrift_by(DELDRIFT_REPAIR)},
-        {"deldrift", "auto", false, false, deldrift_by(DELDRIFT_AUTO)},
     };
+    for (const Algorithm &algorithm : algorithms()) {
+        EngineKind kind = {"deldrift", algorithm.name, false, algorithm.is_one_by_one, deldrift_by(algorithm)};
+        kind.keeps_data = algorithm.keeps_data;
+        kind.is_internal = algorithm.purpose == Purpose::internal;
+        kinds.push_back(kind);
+    }
+    return kinds;
+}
+
+}  // namespace
+
+const std::vector<EngineKind> &engine_kinds() {
+    static const std::vector<EngineKind> kinds = make_engine_kinds();
     return kinds;
 }
 

@@ -3,6 +3,7 @@
 // of it.
 #pragma once
 
+#include "algorithms.hpp"
 #include "reading.hpp"
 
 #include <deldrift.h>
@@ -86,6 +87,8 @@ struct EngineKind {
     EngineMaker make;
     bool is_reproduction = false;  // the report's algorithm on CGAL: elsewhere it runs where it is named only
     bool is_step = false;          // an update ends with a reading: see step.hpp
+    bool keeps_data = false;       // between updates, so that its cost depends on those before
+    bool is_internal = false;      // a means of deldrift's auto: it runs where it is named in full only
 
     std::string base_name() const { return engine + "/" + algorithm; }
     std::string name() const { return base_name() + (is_step ? " step" : ""); }
@@ -105,9 +108,9 @@ std::unique_ptr<Engine> make_cgal_safe_region(unsigned dimension, unsigned n_thr
 std::unique_ptr<Engine> make_cgal_safe_region_tolerance(unsigned dimension, unsigned n_threads);
 std::unique_ptr<Engine> make_cgal_rebuilding_tolerance(unsigned dimension, unsigned n_threads);
 
-EngineMaker deldrift_by(deldrift_algorithm algorithm);
+EngineMaker deldrift_by(const Algorithm &algorithm);
 
 /// The same, but positions are staged by `prepare`: an update is the commit alone.
-EngineMaker deldrift_staged_by(deldrift_algorithm algorithm);
+EngineMaker deldrift_staged_by(const Algorithm &algorithm);
 
 }  // namespace bench

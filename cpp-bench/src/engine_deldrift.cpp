@@ -13,9 +13,10 @@ constexpr std::uint32_t full_validation = 3;
 
 class Deldrift : public Engine {
 public:
-    Deldrift(unsigned dimension, deldrift_algorithm algorithm, unsigned n_threads) : dimension_(dimension) {
+    Deldrift(unsigned dimension, const Algorithm &algorithm, unsigned n_threads)
+        : dimension_(dimension), has_pre_computations_(algorithm.is_one_by_one && algorithm.keeps_data) {
         deldrift_options_init(&options_);
-        options_.algorithm = algorithm;
+        options_.algorithm = algorithm.code;
         options_.threads = n_threads;
     }
     Deldrift(const Deldrift &) = delete;
@@ -28,7 +29,7 @@ public:
         n_points_ = n_points;
         positions_.clear();
         rebuilds_ =
-            options_.algorithm == DELDRIFT_REBUILDING || options_.algorithm == DELDRIFT_REBUILDING_TOLERANCE;
+            options_.algorithm == DELDRIFT_REBUILDING || options_.algorithm == DELDRIFT_COMPARE_REBUILDING_TOLERANCE;
         require(deldrift_create(dimension_, positions, n_points, &options_, &triangulation_), "deldrift_create");
         pre_compute();
     }
@@ -132,12 +133,11 @@ private:
 
     /// What the report calls pre-computations, of tolerances and delimiters, is done by the first commit.
     void pre_compute() {
-        if (options_.algorithm == DELDRIFT_TOLERANCE || options_.algorithm == DELDRIFT_SAFE_REGION ||
-            options_.algorithm == DELDRIFT_SAFE_REGION_TOLERANCE)
-            commit();
+        if (has_pre_computations_) commit();
     }
 
     unsigned dimension_;
+    bool has_pre_computations_;
     deldrift_options options_;
     deldrift_triangulation *triangulation_ = nullptr;
     std::size_t n_points_ = 0;
@@ -162,13 +162,13 @@ public:
 
 }  // namespace
 
-EngineMaker deldrift_staged_by(deldrift_algorithm algorithm) {
+EngineMaker deldrift_staged_by(const Algorithm &algorithm) {
     return [algorithm](unsigned dimension, unsigned n_threads) {
         return std::make_unique<StagedDeldrift>(dimension, algorithm, n_threads);
     };
 }
 
-EngineMaker deldrift_by(deldrift_algorithm algorithm) {
+EngineMaker deldrift_by(const Algorithm &algorithm) {
     return [algorithm](unsigned dimension, unsigned n_threads) {
         return std::make_unique<Deldrift>(dimension, algorithm, n_threads);
     };

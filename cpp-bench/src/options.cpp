@@ -24,7 +24,8 @@ const char *const usage =
   --steps N                ... in so many equal steps
   --snap MAGNITUDE         coordinates of series files that are smaller than this become 0, for every engine
   --engine NAME            only this one (cgal, deldrift, or as in deldrift/auto); may be repeated.
-                           CGAL's rebuilding, the baseline, always runs
+                           CGAL's rebuilding, the baseline, always runs. deldrift/watching and deldrift/slack run
+                           where named in full only
   --threads N              number of threads deldrift may use, default 1; may be repeated
   --seed N                 of the generated positions, default 1
   --repeat N               time everything so many times and take medians

@@ -178,7 +178,9 @@ private:
 
     bool is_wanted(const EngineKind &kind) const {
         const auto &wanted = options_.engines;
-        return wanted.empty() || std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end() ||
+        const bool is_meant =
+            wanted.empty() || std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end();
+        return (is_meant && !kind.is_internal) ||
                std::find(wanted.begin(), wanted.end(), kind.name()) != wanted.end();
     }
 
@@ -269,8 +271,7 @@ private:
     /// Engines that cannot get cheaper with smaller displacements and are far slower than rebuilding; those
     /// with tolerances live through all timestamps.
     static bool is_sampled(const EngineKind &kind, const Series &series) {
-        const bool has_memory = kind.algorithm.find("tolerance") != std::string::npos ||
-                                kind.algorithm.find("safe_region") != std::string::npos;
+        const bool has_memory = kind.keeps_data || kind.is_reproduction;
         if (series.dimension == 2) return false;
         return kind.is_slow_in_3d && (!has_memory || !series.segments.empty());
     }

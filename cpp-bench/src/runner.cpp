@@ -139,7 +139,9 @@ private:
 
     bool is_wanted(const EngineKind &kind) const {
         const auto &wanted = options_.engines;
-        return (wanted.empty() && !kind.is_reproduction) || std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end() ||
+        const bool is_meant = (wanted.empty() && !kind.is_reproduction) ||
+                              std::find(wanted.begin(), wanted.end(), kind.engine) != wanted.end();
+        return (is_meant && !kind.is_internal) ||
                std::find(wanted.begin(), wanted.end(), kind.base_name()) != wanted.end();
     }
 

@@ -173,7 +173,7 @@ private:
     void test(unsigned dimension, double wanted) {
         const std::size_t last = n_warm + sizes_.n_rounds;
         const EngineKind test_alone = {"deldrift", "tolerance staged", false, false,
-                                       deldrift_staged_by(DELDRIFT_TOLERANCE)};
+                                       deldrift_staged_by(algorithm_of(DELDRIFT_TOLERANCE))};
         const Series series =
             trembling_points("tested", dimension, sizes_.n_tested, swept_displacement, last, seed_);
         const auto done =

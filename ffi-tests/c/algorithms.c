@@ -99,14 +99,15 @@ static sums random_walk(uint32_t dimension, size_t count, deldrift_algorithm alg
 
 // That each does what it is called after.
 static void is_what_it_says(deldrift_algorithm algorithm, sums near) {
-    bool by_tolerance = algorithm == DELDRIFT_TOLERANCE || algorithm == DELDRIFT_SAFE_REGION_TOLERANCE;
-    bool by_safe_region = algorithm == DELDRIFT_SAFE_REGION || algorithm == DELDRIFT_SAFE_REGION_TOLERANCE;
-    bool may_turn_to_it = algorithm == DELDRIFT_REBUILDING_TOLERANCE || algorithm == DELDRIFT_WATCHING ||
+    bool by_tolerance = algorithm == DELDRIFT_TOLERANCE || algorithm == DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE;
+    bool by_safe_region =
+        algorithm == DELDRIFT_COMPARE_SAFE_REGION || algorithm == DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE;
+    bool may_turn_to_it = algorithm == DELDRIFT_COMPARE_REBUILDING_TOLERANCE || algorithm == BY_WATCHING ||
                           algorithm == DELDRIFT_AUTO;
     if (!may_turn_to_it) CHECK((near.within_tolerance > 0) == by_tolerance);
     CHECK((near.within_safe_region > 0) == by_safe_region);
     if (algorithm == DELDRIFT_REBUILDING) CHECK(near.rebuilds == 6);
-    if (algorithm >= DELDRIFT_REPAIR || algorithm == DELDRIFT_AUTO) CHECK(near.rebuilds < 6);
+    if (algorithm != DELDRIFT_REBUILDING && algorithm != DELDRIFT_COMPARE_REBUILDING_TOLERANCE) CHECK(near.rebuilds < 6);
     if (by_tolerance || by_safe_region) CHECK(near.rebuilds == 0 && near.placements > 0);
 }
 

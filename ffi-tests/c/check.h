@@ -69,11 +69,8 @@ static inline size_t cell_count(const deldrift_triangulation *t) {
     return count;
 }
 
-// Every algorithm, in the order of their values, for an array.
-#define ALL_ALGORITHMS                                                                          \
-    {DELDRIFT_AUTO, DELDRIFT_REBUILDING, DELDRIFT_PLACEMENT, DELDRIFT_PLACEMENT_FLIPS,          \
-     DELDRIFT_TOLERANCE, DELDRIFT_SAFE_REGION, DELDRIFT_SAFE_REGION_TOLERANCE,                  \
-     DELDRIFT_REBUILDING_TOLERANCE, DELDRIFT_REPAIR, DELDRIFT_WATCHING, DELDRIFT_SLACK}
+// ALL_ALGORITHMS, for an array, and BY_WATCHING and so on for those that have no name in the header, come from the command
+// line: see ffi-tests/algorithms.rs.
 
 // The corners of a quadrilateral, and of a tetrahedron, with a vertex inside: four cells, without ties.
 static const double SQUARE[] = {0, 0, 4, 0, 5, 5, 0, 4, 1, 2};

@@ -230,7 +230,7 @@ int main(void) {
                     }
                 } else {
                     for (int goal = 0; goal < (is_of_one ? 3 : 1); goal++) {
-                        deldrift_algorithm algorithm = is_of_one ? DELDRIFT_SAFE_REGION_TOLERANCE : DELDRIFT_AUTO;
+                        deldrift_algorithm algorithm = is_of_one ? DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE : DELDRIFT_AUTO;
                         faults_of(dimension, (call){k, algorithm, goal}, which, factor, turn++);
                     }
                 }

@@ -37,7 +37,7 @@ static const scenario SCENARIOS[] = {
     {"commit, placement with flips", COMMIT_SOME, DELDRIFT_PLACEMENT_FLIPS, 1, false, 0.3},
     {"commit, repair", COMMIT, DELDRIFT_REPAIR, 1, false, 3e-2},
     {"commit, repair, 2 threads", COMMIT, DELDRIFT_REPAIR, 2, false, 3e-2},
-    {"commit, slack", COMMIT, DELDRIFT_SLACK, 1, false, 1e-4},
+    {"commit, slack", COMMIT, BY_SLACK, 1, false, 1e-4},
     {"commit, tracked", COMMIT, DELDRIFT_AUTO, 1, true, 1e-2},
     {"commit with edits", COMMIT_EDITS, DELDRIFT_AUTO, 1, true, 1e-2},
     {"take changes", TAKE_CHANGES, DELDRIFT_AUTO, 1, true, 1e-2},

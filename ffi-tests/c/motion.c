@@ -316,7 +316,7 @@ static void reports_count_what_was_within(deldrift_algorithm algorithm, bool tol
 static void relocated_stars_are_certified(void) {
     deldrift_options options;
     deldrift_options_init(&options);
-    options.algorithm = DELDRIFT_PLACEMENT;
+    options.algorithm = DELDRIFT_COMPARE_PLACEMENT;
     deldrift_triangulation *t = create(3, TETRAHEDRON, TETRAHEDRON_COUNT, &options);
     static const double aim[3] = {0.5, 0.75, 0.75};
     deldrift_commit_report report;
@@ -355,10 +355,10 @@ int main(void) {
     coincident_vertices_hide_behind_the_lowest_id();
     coincident_vertices_can_be_refused();
     statistics_sum_up();
-    reports_count_what_was_within(DELDRIFT_PLACEMENT, false, false);
+    reports_count_what_was_within(DELDRIFT_COMPARE_PLACEMENT, false, false);
     reports_count_what_was_within(DELDRIFT_TOLERANCE, true, false);
-    reports_count_what_was_within(DELDRIFT_SAFE_REGION, false, true);
-    reports_count_what_was_within(DELDRIFT_SAFE_REGION_TOLERANCE, true, false);
+    reports_count_what_was_within(DELDRIFT_COMPARE_SAFE_REGION, false, true);
+    reports_count_what_was_within(DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE, true, false);
     relocated_stars_are_certified();
     ties_are_counted();
     return 0;

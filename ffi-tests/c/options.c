@@ -135,15 +135,15 @@ static void algorithms_can_be_exchanged(void) {
             OK(deldrift_get_algorithm(t, &algorithm));
             CHECK(algorithm == all[j]);
         }
-        CHECK_STATUS(deldrift_set_algorithm(t, (deldrift_algorithm)11), DELDRIFT_INVALID_OPTIONS);
-        CHECK_MESSAGE("algorithm is 11");
+        CHECK_STATUS(deldrift_set_algorithm(t, (deldrift_algorithm)999), DELDRIFT_INVALID_OPTIONS);
+        CHECK_MESSAGE("algorithm is 999");
         OK(deldrift_get_algorithm(t, &algorithm));
-        CHECK(algorithm == DELDRIFT_SLACK);
+        CHECK(algorithm == all[sizeof all / sizeof *all - 1]);
         deldrift_destroy(t);
     }
 }
 
-// A triangulation by DELDRIFT_REBUILDING_TOLERANCE, of which a part moves at each step.
+// A triangulation by DELDRIFT_COMPARE_REBUILDING_TOLERANCE, of which a part moves at each step.
 typedef struct {
     deldrift_triangulation *t;
     uint32_t dimension;
@@ -154,7 +154,7 @@ typedef struct {
 enum { SWITCHING_COUNT = 200 };
 
 static switching switching_by(uint32_t dimension, deldrift_options options) {
-    options.algorithm = DELDRIFT_REBUILDING_TOLERANCE;
+    options.algorithm = DELDRIFT_COMPARE_REBUILDING_TOLERANCE;
     switching s = {NULL, dimension, random_positions(dimension, SWITCHING_COUNT, 9), 10};
     s.t = create(dimension, s.positions, SWITCHING_COUNT, &options);
     return s;
@@ -189,11 +189,11 @@ static void rebuilding_ends_at_a_sample_within_tolerance(uint32_t dimension, uin
 
     // Once and for all, unless the algorithm is chosen anew.
     for (int step = 0; step < 6; step++) CHECK(!rebuilds(&s, 1));
-    OK(deldrift_set_algorithm(s.t, DELDRIFT_REBUILDING_TOLERANCE));
+    OK(deldrift_set_algorithm(s.t, DELDRIFT_COMPARE_REBUILDING_TOLERANCE));
     CHECK(!rebuilds(&s, 1));
     OK(deldrift_set_algorithm(s.t, DELDRIFT_TOLERANCE));
     CHECK(!rebuilds(&s, 1));
-    OK(deldrift_set_algorithm(s.t, DELDRIFT_REBUILDING_TOLERANCE));
+    OK(deldrift_set_algorithm(s.t, DELDRIFT_COMPARE_REBUILDING_TOLERANCE));
     CHECK(rebuilds(&s, 1));
     end(s);
 }
@@ -344,8 +344,8 @@ int main(void) {
     the_seed_decides();
     creation_can_be_cancelled();
     a_cancelled_commit_has_no_effect(DELDRIFT_REBUILDING);
-    a_cancelled_commit_has_no_effect(DELDRIFT_PLACEMENT);
+    a_cancelled_commit_has_no_effect(DELDRIFT_PLACEMENT_FLIPS);
     a_cancelled_commit_has_no_effect(DELDRIFT_TOLERANCE);
-    a_cancelled_commit_has_no_effect(DELDRIFT_SAFE_REGION_TOLERANCE);
+    a_cancelled_commit_has_no_effect(DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE);
     return 0;
 }

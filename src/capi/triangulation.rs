@@ -251,5 +251,5 @@ pub unsafe extern "C" fn deldrift_get_algorithm(
     algorithm: *mut AlgorithmCode,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, algorithm, t => options::algorithm_code(t.algorithm())) }
+    unsafe { tell!(t, algorithm, t => t.algorithm().code()) }
 }

@@ -1,9 +1,8 @@
 //! The commit: one timestamp, all or nothing.
 
-use super::regions::Filter;
 use super::staging::Given;
-use super::{Algorithm, CommitReport, MovingTriangulation};
-use crate::delaunay::{Dimension, Shortcut};
+use super::{CommitReport, MovingTriangulation};
+use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -75,20 +74,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Brings the staged vertices to their new positions.
     fn advance(&mut self, mut given: Given<'_, G>, report: &mut CommitReport) -> Result<()> {
-        let given = &mut given;
-        match self.options.algorithm {
-            Algorithm::Placement => self.commit_by_placement(Shortcut::Certificates, given, report)?,
-            Algorithm::PlacementFlips => self.commit_by_placement(Shortcut::Flips, given, report)?,
-            Algorithm::Tolerance => self.commit_by_filter(Filter::Tolerance, given, report)?,
-            Algorithm::SafeRegion => self.commit_by_filter(Filter::SafeRegion, given, report)?,
-            Algorithm::SafeRegionTolerance => self.commit_by_filter(Filter::Both, given, report)?,
-            Algorithm::RebuildingTolerance => self.commit_by_switching(given, report)?,
-            Algorithm::Repair => self.commit_by_repair(given, report)?,
-            Algorithm::Watching => self.watch_or_repair(given, report)?,
-            Algorithm::Slack => self.slack_or_repair(given, report)?,
-            Algorithm::Rebuilding => self.rebuild_given(given, report)?,
-            Algorithm::Auto => self.commit_by_auto(given, report)?,
-        }
+        self.commit_by(self.options.algorithm, &mut given, report)?;
         self.reject_coincidence()
     }
 

@@ -1,7 +1,8 @@
 //! Triangulations of moving points: staging, timestamps, and the algorithms of the report.
 //!
 //! A vertex has an id, for life or until a compaction, and a position at each timestamp. Relocations are staged; a commit
-//! makes all of them the next timestamp, by one of the algorithms:
+//! makes all of them the next timestamp, by one of the algorithms. `algorithms` has a row for each; they are in these
+//! files:
 //!
 //! | file | report | what |
 //! |---|---|---|
@@ -26,6 +27,7 @@
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, and once moves are staged a position, a flag and
 //! an id.
 
+mod algorithms;
 mod auto;
 mod bicell;
 mod cells;
@@ -55,9 +57,10 @@ mod watch;
 mod watched;
 
 pub use crate::delaunay::{Level, Violation};
+pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use cells::NO_CELL;
 pub use changes::{Changes, NO_VERTEX};
-pub use options::{Algorithm, CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
+pub use options::{CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
 pub use query::Location;
 pub use views::CellsView;
 

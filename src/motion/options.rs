@@ -2,41 +2,8 @@
 
 use std::fmt;
 
+use super::Algorithm;
 use crate::delaunay::Dimension;
-
-/// How [`commit_timestamp`](super::MovingTriangulation::commit_timestamp) brings the triangulation to the
-/// staged positions. Every algorithm gives exactly the same cells; they differ in cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Algorithm {
-    /// Chosen at each commit by what the last ones found: watching while few vertices leave their tolerance,
-    /// otherwise repair, or rebuilding where too much would fail; placement by flips when few are staged.
-    #[default]
-    Auto,
-    /// Build anew from all positions (report, section 1).
-    Rebuilding,
-    /// Relocate each vertex by a walk from its old place, a removal and an insertion (report, section 3.1).
-    /// Nothing but coordinates changes where no certificate of the star fails.
-    Placement,
-    /// As placement, but where the star stays positively oriented, flips repair it (report, section 3.2, for
-    /// the plane; in space they are taken back where they are stuck).
-    PlacementFlips,
-    /// Vertices that stay within their certified tolerance change nothing; the others are placed (report, Algorithm 1).
-    Tolerance,
-    /// Vertices that stay within their safe region change nothing; the others are placed (report, Algorithm 2).
-    SafeRegion,
-    /// The safe region is tested where the tolerance test fails.
-    SafeRegionTolerance,
-    /// Rebuilding until most vertices stay within their tolerance, then *tolerance* (report, section 5.2).
-    RebuildingTolerance,
-    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and placements.
-    Repair,
-    /// As repair, but only the certificates of vertices beyond their tolerance are checked, and those that would make
-    /// it too small. Where vertices share a place or not all are staged at once, repair.
-    Watching,
-    /// As repair, but only the certificates of those bi-cells are checked that have used up their own tolerance. Where
-    /// vertices share a place or not all are staged at once, repair.
-    Slack,
-}
 
 /// When *rebuilding + tolerance* swaps from the one to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,20 +7,6 @@ use deldrift::Dimension;
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
 use std::collections::BTreeMap;
 
-pub const ALGORITHMS: [Algorithm; 11] = [
-    Algorithm::Rebuilding,
-    Algorithm::Placement,
-    Algorithm::PlacementFlips,
-    Algorithm::Tolerance,
-    Algorithm::SafeRegion,
-    Algorithm::SafeRegionTolerance,
-    Algorithm::RebuildingTolerance,
-    Algorithm::Repair,
-    Algorithm::Watching,
-    Algorithm::Slack,
-    Algorithm::Auto,
-];
-
 /// How a set of vertices moves from one timestamp to the next.
 #[derive(Clone, Copy, Debug)]
 enum Motion {
@@ -178,7 +164,7 @@ impl<G: Dimension> History<G> {
             }
             _ => {
                 self.stage_motion();
-                let algorithm = *self.rng.pick(&ALGORITHMS);
+                let algorithm = *self.rng.pick(&Algorithm::ALL);
                 self.commit(algorithm);
             }
         }
