@@ -186,7 +186,7 @@ enum deldrift_algorithm
     /// much would fail. Where fewer than one vertex in twenty is staged: tolerance if that is up to date, else
     /// placement with flips.
     DELDRIFT_AUTO = 0,
-    /// Builds the triangulation anew from all positions (RR-6750, section 1).
+    /// Builds the triangulation again from all positions (RR-6750, section 1).
     DELDRIFT_REBUILDING = 1,
     /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
     /// the cells of the star stay positively oriented, flips repair it (in 3D they are taken back where they lead

@@ -25,10 +25,10 @@ pub enum Purpose {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Commits {
     /// The triangulation is built again.
-    Anew,
+    Rebuild,
     /// Vertices are relocated one after the other.
     OneByOne,
-    /// All vertices move at once; then what fails is mended.
+    /// all vertices move at once; then what fails is repaired.
     Together,
     /// By one of the other algorithms.
     ByOthers,
@@ -127,11 +127,11 @@ algorithms! {
         by: commit_by_auto(),
     }
 
-    /// Builds the triangulation anew from all positions (RR-6750, section 1).
+    /// Builds the triangulation again from all positions (RR-6750, section 1).
     Rebuilding = 1 {
         name: "rebuilding",
         purpose: Use,
-        commits: Anew,
+        commits: Rebuild,
         keeps: "",
         by: rebuild_given(),
     }
