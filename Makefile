@@ -8,6 +8,9 @@ PREFIX ?= /usr/local
 # make report ARGS="--scenario man"
 ARGS ?=
 
+# Tests of code that uses AVX2: they also run without it.
+SCALAR_TOO := maintenance oracle repair threads tolerances
+
 # Where cargo builds, and all others look for the library: one absolute path, CARGO_TARGET_DIR if that is set.
 override CARGO_TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
 override CARGO_TARGET_DIR := $(if $(filter /%,$(CARGO_TARGET_DIR)),,$(CURDIR)/)$(CARGO_TARGET_DIR)
@@ -26,6 +29,7 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 	@.ci/packages cmake g++ libcgal-dev pkg-config python3 valgrind
 	-@.ci/packages chromium
 	cargo test
+	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
 	cargo test --test ffi -- --include-ignored
 	$(MAKE) benchmark
 	ctest --test-dir cpp-bench/build --output-on-failure

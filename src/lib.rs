@@ -26,6 +26,7 @@ mod processors;
 #[cfg(test)]
 #[path = "../tests/common/random.rs"]
 mod random;
+mod simd;
 mod threads;
 
 pub use delaunay::{Coordinates, Dimension, Plane, Space};

@@ -1,6 +1,6 @@
 //! A hint to the processor, for arrays that are read out of order.
 
-#![allow(unsafe_code)]
+pub(crate) use crate::simd::prefetch_at;
 
 /// Bytes of an array above which its entries are asked for in advance: as many as a cache near the processor has.
 pub(crate) const FAR: usize = 1 << 20;
@@ -12,17 +12,4 @@ pub(crate) const AHEAD: usize = 24;
 #[inline(always)]
 pub(crate) fn prefetch<T>(array: &[T], at: usize) {
     prefetch_at(array.as_ptr().wrapping_add(at));
-}
-
-/// Asks for what is at an address; any will do.
-#[inline(always)]
-pub(crate) fn prefetch_at<T>(address: *const T) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a prefetch is a hint: it reads nothing that can be seen, and no address is wrong.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>(address.cast()) };
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = address;
 }

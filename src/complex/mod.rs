@@ -29,7 +29,6 @@ pub use flips::{Obstacle, Stretch};
 pub use record::Row;
 
 use crate::error::{Error, Result};
-#[cfg(target_arch = "x86_64")]
 use crate::prefetch::prefetch;
 use record::Record;
 
@@ -214,7 +213,6 @@ impl<C: Corners> Complex<C> {
     }
 
     /// Asks for the neighbours of a cell, which may be free.
-    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(crate) fn prefetch_neighbours(&self, cell: u32) {
         for i in 0..C::N {

@@ -9,13 +9,10 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::{Delaunay, Dimension, Plane, Space};
-#[cfg(target_arch = "x86_64")]
-use crate::complex::Cell;
-use crate::complex::{Corners, Facet, INFINITE, memory};
+use crate::complex::{Cell, Corners, Facet, INFINITE, memory};
 use crate::error::Result;
-#[cfg(target_arch = "x86_64")]
-use crate::predicates::avx2;
-use crate::predicates::{self, LANES};
+use crate::predicates;
+use crate::simd::{Avx2, LANES};
 use crate::threads;
 
 /// A sweep of so many cells takes as long as to start a thread for them.
@@ -23,7 +20,6 @@ const SWEPT_AT_LEAST: usize = 1 << 14;
 
 /// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order at
 /// all ([`prefetch::FAR`](crate::prefetch)), as most neighbours are stored close by.
-#[cfg(target_arch = "x86_64")]
 const FAR: usize = 4 << 20;
 
 /// What does not hold.
@@ -149,19 +145,24 @@ impl<G: Dimension> Delaunay<G> {
     /// Free ones are skipped. Ghosts come in the order of the list, and so do finite cells.
     #[inline(always)]
     pub(super) fn screen(&self, cells: impl Iterator<Item = u32> + Clone, look: impl FnMut(u32) -> bool) {
-        #[cfg(target_arch = "x86_64")]
-        if avx2::is_there() {
-            let is_far = self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR;
-            // SAFETY: AVX2 and FMA are there.
-            return unsafe {
-                if is_far {
-                    self.screen_by_avx2::<true>(cells, look)
-                } else {
-                    self.screen_by_avx2::<false>(cells, look)
-                }
-            };
+        let Some(avx2) = Avx2::new() else { return self.screen_singly(cells, look) };
+        if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR {
+            avx2.run_with(
+                self,
+                cells,
+                look,
+                #[inline(always)]
+                |t, cells, look| t.screen_in_lanes::<true>(avx2, cells, look),
+            );
+        } else {
+            avx2.run_with(
+                self,
+                cells,
+                look,
+                #[inline(always)]
+                |t, cells, look| t.screen_in_lanes::<false>(avx2, cells, look),
+            );
         }
-        self.screen_singly(cells, look);
     }
 
     /// As [`screen`](Self::screen), one cell at a time.
@@ -275,18 +276,16 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<()> {
         let Waiting { facets, n } = waiting;
         let n = std::mem::take(n);
-        #[cfg(target_arch = "x86_64")]
-        if avx2::is_there() && n > 0 {
-            #[target_feature(enable = "avx2,fma")]
-            fn hold<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> u32 {
-                // SAFETY: AVX2 and FMA are there.
-                unsafe { G::facets_hold(t, facets) }
-            }
+        if let Some(avx2) = Avx2::new()
+            && n > 0
+        {
             // Any facets between finite cells fill the last lanes.
             let any = facets[0];
             facets[n..].fill(any);
-            // SAFETY: AVX2 and FMA are there.
-            let hold = unsafe { hold(self, facets) };
+            let hold = avx2.run(
+                #[inline(always)]
+                || G::facets_hold(avx2, self, facets),
+            );
             for (k, &facet) in facets[..n].iter().enumerate() {
                 if hold >> k & 1 == 0 {
                     self.check_bicell_exactly(facet, before, failures)?;

@@ -10,13 +10,13 @@ use std::ops::{Index, IndexMut};
 
 use super::cavity::Cavity;
 use super::flip::{Flipper, Flips};
-#[cfg(target_arch = "x86_64")]
 use super::screen;
-use super::site::Sites;
+use super::site::{self, Site, Sites};
 use super::{Delaunay, cavity_plane, cavity_space, certify};
 use crate::complex::{Corners, Facet, INFINITE, Obstacle};
 use crate::error::Result;
-use crate::predicates::{self, Delimiter, LANES, StaticFilter};
+use crate::predicates::{self, Delimiter, StaticFilter};
+use crate::simd::{Avx2, LANES};
 
 /// Coordinates of one point: `[f64; D]`.
 pub trait Coordinates:
@@ -113,15 +113,19 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// As `predicates::squared_distance`.
     fn squared_distance(p: &Self::Point, q: &Self::Point) -> f64;
     /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
-    ///
-    /// # Safety
-    /// The processor must have AVX2 and FMA.
-    #[cfg(target_arch = "x86_64")]
-    unsafe fn are_within(
+    fn are_within(
+        avx2: Avx2,
         fixed: [&Self::Point; LANES],
         tolerances: &[f64; LANES],
         places: [&Self::Point; LANES],
     ) -> u32;
+    /// Exchanges places with those of sites, by index; returns how many differ, bit by bit.
+    fn exchange(
+        avx2: Avx2,
+        places: &mut [Self::Point; LANES],
+        sites: &mut [Site<Self>],
+        sites_of: &[u32; LANES],
+    ) -> u64;
     /// As `predicates::distance_above`.
     fn distance_above(p: &Self::Point, q: &Self::Point) -> f64;
     /// As `predicates::is_certainly_inside`.
@@ -136,18 +140,9 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool;
     /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each.
-    ///
-    /// # Safety
-    ///
-    /// The processor must have AVX2 and FMA.
-    #[cfg(target_arch = "x86_64")]
-    unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
+    fn cells_hold(avx2: Avx2, t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
     /// As [`bicell_holds`](Self::bicell_holds), of several facets, or by bounds that are sharper: one bit each.
-    ///
-    /// # Safety
-    /// The processor must have AVX2 and FMA.
-    #[cfg(target_arch = "x86_64")]
-    unsafe fn facets_hold(t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32;
+    fn facets_hold(avx2: Avx2, t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32;
     /// Takes sites that are certainly outside the sphere of a cell out of a set of them, by position.
     fn drop_outside(t: &Delaunay<Self>, cell: &Self::Corners, sites: &[u32], set: u64) -> u64;
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
@@ -265,14 +260,24 @@ impl Dimension for Plane {
         predicates::squared_distance(p, q)
     }
 
-    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    unsafe fn are_within(
+    fn are_within(
+        avx2: Avx2,
         fixed: [&[f64; 2]; LANES],
         tolerances: &[f64; LANES],
         places: [&[f64; 2]; LANES],
     ) -> u32 {
-        predicates::are_within2d(fixed, tolerances, places)
+        predicates::are_within2d(avx2, fixed, tolerances, places)
+    }
+
+    #[inline(always)]
+    fn exchange(
+        avx2: Avx2,
+        places: &mut [[f64; 2]; LANES],
+        sites: &mut [Site<Self>],
+        sites_of: &[u32; LANES],
+    ) -> u64 {
+        site::exchange_in_plane(avx2, places, sites, sites_of)
     }
 
     #[inline(always)]
@@ -330,16 +335,14 @@ impl Dimension for Plane {
         certify::triangle_holds(t, cell)
     }
 
-    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
-        screen::triangles_hold(t, cells, apexes)
+    fn cells_hold(avx2: Avx2, t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+        screen::triangles_hold(avx2, t, cells, apexes)
     }
 
-    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    unsafe fn facets_hold(t: &Delaunay<Self>, edges: &[Facet; LANES]) -> u32 {
-        screen::edges_hold(t, edges)
+    fn facets_hold(avx2: Avx2, t: &Delaunay<Self>, edges: &[Facet; LANES]) -> u32 {
+        screen::edges_hold(avx2, t, edges)
     }
 
     #[inline(always)]
@@ -463,14 +466,24 @@ impl Dimension for Space {
         predicates::squared_distance(p, q)
     }
 
-    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    unsafe fn are_within(
+    fn are_within(
+        avx2: Avx2,
         fixed: [&[f64; 3]; LANES],
         tolerances: &[f64; LANES],
         places: [&[f64; 3]; LANES],
     ) -> u32 {
-        predicates::are_within3d(fixed, tolerances, places)
+        predicates::are_within3d(avx2, fixed, tolerances, places)
+    }
+
+    #[inline(always)]
+    fn exchange(
+        avx2: Avx2,
+        places: &mut [[f64; 3]; LANES],
+        sites: &mut [Site<Self>],
+        sites_of: &[u32; LANES],
+    ) -> u64 {
+        site::exchange_in_space(avx2, places, sites, sites_of)
     }
 
     #[inline(always)]
@@ -531,26 +544,26 @@ impl Dimension for Space {
         certify::tetrahedron_holds(t, cell)
     }
 
-    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    unsafe fn cells_hold(t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
-        screen::tetrahedra_hold(t, cells, apexes)
+    fn cells_hold(avx2: Avx2, t: &Delaunay<Self>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+        screen::tetrahedra_hold(avx2, t, cells, apexes)
     }
 
-    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    unsafe fn facets_hold(t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32 {
-        screen::faces_hold(t, facets)
+    fn facets_hold(avx2: Avx2, t: &Delaunay<Self>, facets: &[Facet; LANES]) -> u32 {
+        screen::faces_hold(avx2, t, facets)
     }
 
     #[inline(always)]
     fn drop_outside(t: &Delaunay<Self>, cell: &[u32; 4], sites: &[u32], set: u64) -> u64 {
-        #[cfg(target_arch = "x86_64")]
-        if predicates::avx2::is_there() {
-            // SAFETY: AVX2 and FMA are there.
-            return unsafe { screen::drop_outside_sphere(t, cell, sites, set) };
-        }
-        set
+        let Some(avx2) = Avx2::new() else { return set };
+        avx2.run_with(
+            (t, cell),
+            sites,
+            set,
+            #[inline(always)]
+            |(t, cell), sites, set| screen::drop_outside_sphere(avx2, t, cell, sites, set),
+        )
     }
 
     #[inline(always)]

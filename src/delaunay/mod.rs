@@ -44,7 +44,6 @@ mod parallel;
 mod parts;
 mod relocate;
 mod remove;
-#[cfg(target_arch = "x86_64")]
 mod screen;
 mod set;
 pub mod site;

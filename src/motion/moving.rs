@@ -20,10 +20,8 @@ use super::staging::{Given, first_bad, stage_block};
 use crate::complex::memory;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
-use crate::predicates::LANES;
-#[cfg(target_arch = "x86_64")]
-use crate::predicates::avx2;
 use crate::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
+use crate::simd::{ALL, Avx2, LANES};
 use crate::threads;
 
 /// Moves of so many vertices take as long as to start a thread for them.
@@ -45,9 +43,6 @@ fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
 
 /// Vertices that are staged at a time: a few kilobytes, and whole lanes.
 const BLOCK: usize = 16 * LANES;
-
-/// A bit for each lane.
-const ALL: u32 = (1 << LANES) - 1;
 
 /// Vertices that go to their new places unless they have to wait.
 struct Movers<'m, G: Dimension> {
@@ -85,51 +80,6 @@ impl<G: Dimension> Movers<'_, G> {
         u64::from(exchange::<G>(&mut self.sites[s as usize].point, p))
     }
 
-    /// As [`exchange`](Self::exchange), of as many as there are lanes.
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    #[inline]
-    fn exchange_by_avx2(&mut self, places: &mut [G::Point; LANES], sites_of: &[u32; LANES]) -> u64 {
-        use std::arch::x86_64::*;
-        let sites = sites_of.map(|s| std::ptr::from_mut(&mut self.sites[s as usize]).cast::<f64>());
-        let [s, t, u, v] = sites;
-        let at = G::coordinates_mut(places).as_mut_ptr();
-        // SAFETY: AVX2 is there. In the plane `at` has 8 numbers, in space 12. A site begins with its point, and in space
-        // is four numbers long, the last of which is written as it was. All is read before anything is written.
-        let equal = unsafe {
-            if G::D == 2 {
-                let new = [_mm256_loadu_pd(at), _mm256_loadu_pd(at.add(4))];
-                let old = [_mm256_loadu2_m128d(t, s), _mm256_loadu2_m128d(v, u)];
-                _mm256_storeu2_m128d(t, s, new[0]);
-                _mm256_storeu2_m128d(v, u, new[1]);
-                _mm256_storeu_pd(at, old[0]);
-                _mm256_storeu_pd(at.add(4), old[1]);
-                let equal = [are_equal(new[0], old[0]), are_equal(new[1], old[1])];
-                [equal[0] & 3, equal[0] >> 2, equal[1] & 3, equal[1] >> 2]
-            } else {
-                let last = _mm256_loadu_pd(at.add(8));
-                let new = [
-                    _mm256_loadu_pd(at),
-                    _mm256_loadu_pd(at.add(3)),
-                    _mm256_loadu_pd(at.add(6)),
-                    _mm256_permute4x64_pd::<0b00_11_10_01>(last),
-                ];
-                let old = sites.map(|site| _mm256_loadu_pd(site));
-                for k in 0..LANES {
-                    _mm256_storeu_pd(sites[k], _mm256_blend_pd::<0b1000>(new[k], old[k]));
-                }
-                // Each has one number too many, which the next one mends.
-                _mm256_storeu_pd(at, old[0]);
-                _mm256_storeu_pd(at.add(3), old[1]);
-                _mm256_storeu_pd(at.add(6), old[2]);
-                _mm_storeu_pd(at.add(9), _mm256_castpd256_pd128(old[3]));
-                _mm_store_sd(at.add(11), _mm256_extractf128_pd::<1>(old[3]));
-                std::array::from_fn(|k| are_equal(new[k], old[k]) & 7)
-            }
-        };
-        equal.iter().map(|&bits| u64::from(bits != (1 << G::D) - 1)).sum()
-    }
-
     fn queue(&mut self, first: usize, beyond: u32) -> ControlFlow<Result<()>> {
         if self.queue.len() + beyond.count_ones() as usize > self.most {
             return ControlFlow::Break(Ok(()));
@@ -142,16 +92,6 @@ impl<G: Dimension> Movers<'_, G> {
         self.queue.extend((0..LANES).filter(|k| beyond >> k & 1 == 1).map(|k| (first + k) as u32));
         ControlFlow::Continue(())
     }
-}
-
-/// A bit for each of four numbers that is the same in both, bit by bit.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-#[inline]
-fn are_equal(x: std::arch::x86_64::__m256d, y: std::arch::x86_64::__m256d) -> u32 {
-    use std::arch::x86_64::*;
-    let equal = _mm256_cmpeq_epi64(_mm256_castpd_si256(x), _mm256_castpd_si256(y));
-    _mm256_movemask_pd(_mm256_castsi256_pd(equal)) as u32
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -185,27 +125,27 @@ impl<G: Dimension> MovingTriangulation<G> {
         most: usize,
         blocks: &mut Blocks<'_, G>,
     ) -> Result<Option<u64>> {
-        #[cfg(target_arch = "x86_64")]
-        if avx2::is_there() {
-            #[target_feature(enable = "avx2,fma")]
-            fn by_avx2<G: Dimension, const MOVES_ALL: bool, const IS_FAR: bool>(
-                t: &mut MovingTriangulation<G>,
-                most: usize,
-                blocks: &mut Blocks<'_, G>,
-            ) -> Result<Option<u64>> {
-                let hold = |fixed: &[Fixed<G>; LANES], places: &[G::Point; LANES]| {
-                    let tolerances = fixed.each_ref().map(|fixed| fixed.tolerance);
-                    let fixed = fixed.each_ref().map(|fixed| &fixed.point);
-                    // SAFETY: AVX2 and FMA are there.
-                    unsafe { G::are_within(fixed, &tolerances, places.each_ref()) }
-                };
-                let exchange = |movers: &mut Movers<'_, G>, places: &mut _, sites_of: &_| {
-                    movers.exchange_by_avx2(places, sites_of)
-                };
-                t.move_and_queue_by::<MOVES_ALL, IS_FAR>(most, blocks, hold, exchange)
-            }
-            // SAFETY: AVX2 and FMA are there.
-            return unsafe { by_avx2::<G, MOVES_ALL, IS_FAR>(self, most, blocks) };
+        if let Some(avx2) = Avx2::new() {
+            return avx2.run_with(
+                self,
+                most,
+                blocks,
+                #[inline(always)]
+                |t, most, blocks| {
+                    t.move_and_queue_by::<MOVES_ALL, IS_FAR>(
+                        most,
+                        blocks,
+                        #[inline(always)]
+                        |fixed, places| {
+                            let tolerances = fixed.each_ref().map(|fixed| fixed.tolerance);
+                            let fixed = fixed.each_ref().map(|fixed| &fixed.point);
+                            G::are_within(avx2, fixed, &tolerances, places.each_ref())
+                        },
+                        #[inline(always)]
+                        |movers, places, sites_of| G::exchange(avx2, places, movers.sites, sites_of),
+                    )
+                },
+            );
         }
         self.move_and_queue_by::<MOVES_ALL, IS_FAR>(
             most,

@@ -3,30 +3,21 @@
 //! They are those of the [prepared sphere](super::sphere) of the first cell: its volume, that of the second cell, and the
 //! side of the second opposing vertex, by the same operations, and so within the same bounds.
 
-#![allow(unsafe_code)]
-
 use super::StaticFilter;
-#[cfg(target_arch = "x86_64")]
 use super::filter::{semi_static_bounds_2d, semi_static_bounds_3d};
-#[cfg(target_arch = "x86_64")]
-use super::lanes::avx2;
-use super::lanes::{BiCells, LANES, Real};
+use super::lanes::BiCells;
 use super::tolerance::{cross, dot};
+use crate::simd::{Avx2, LANES, Real};
 
 /// For each lane, whether both triangles, of the edge `ab` with `c` and `d`, surely are positively oriented, the second
 /// with the edge reversed, and `d` is outside the circle of the first.
 #[inline]
 pub fn bicells_hold2d(f: &StaticFilter, bicells: &BiCells<2, 4>) -> [bool; LANES] {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2")]
-        fn all(f: &StaticFilter, bicells: &BiCells<2, 4>) -> u32 {
-            bicells_surely_hold2d(f, &bicells.lanes()).bits()
-        }
-        if avx2::is_there() {
-            // SAFETY: it is.
-            return bits(unsafe { all(f, bicells) });
-        }
+    if let Some(avx2) = Avx2::new() {
+        return bits(avx2.run(
+            #[inline(always)]
+            || bicells_surely_hold2d(f, &bicells.lanes(avx2)).bits(),
+        ));
     }
     std::array::from_fn(|i| bicells_surely_hold2d(f, &bicells.lane(i)))
 }
@@ -34,21 +25,15 @@ pub fn bicells_hold2d(f: &StaticFilter, bicells: &BiCells<2, 4>) -> [bool; LANES
 /// Likewise for tetrahedra, of the facet with `c` positively oriented and the reversed one with `d`.
 #[inline]
 pub fn bicells_hold3d(f: &StaticFilter, bicells: &BiCells<3, 5>) -> [bool; LANES] {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2")]
-        fn all(f: &StaticFilter, bicells: &BiCells<3, 5>) -> u32 {
-            bicells_surely_hold3d(f, &bicells.lanes()).bits()
-        }
-        if avx2::is_there() {
-            // SAFETY: it is.
-            return bits(unsafe { all(f, bicells) });
-        }
+    if let Some(avx2) = Avx2::new() {
+        return bits(avx2.run(
+            #[inline(always)]
+            || bicells_surely_hold3d(f, &bicells.lanes(avx2)).bits(),
+        ));
     }
     std::array::from_fn(|i| bicells_surely_hold3d(f, &bicells.lane(i)))
 }
 
-#[cfg(target_arch = "x86_64")]
 fn bits(mask: u32) -> [bool; LANES] {
     std::array::from_fn(|i| mask >> i & 1 == 1)
 }
@@ -56,19 +41,20 @@ fn bits(mask: u32) -> [bool; LANES] {
 /// As [`bicells_hold2d`], of one bi-cell or of those in lanes.
 #[inline(always)]
 pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, bicells: &[[T; 2]; 4]) -> T::Mask {
-    let bounds = [T::splat(filter.orient), T::splat(filter.prepared)];
+    let any = bicells[0][0];
+    let bounds = [any.splat(filter.orient), any.splat(filter.prepared)];
     Certificates::in_plane(&differences(bicells)).exceed(bounds)
 }
 
 /// As [`bicells_hold3d`], of one bi-cell or of those in lanes.
 #[inline(always)]
 pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, bicells: &[[T; 3]; 5]) -> T::Mask {
-    let bounds = [T::splat(filter.orient), T::splat(filter.prepared)];
+    let any = bicells[0][0];
+    let bounds = [any.splat(filter.orient), any.splat(filter.prepared)];
     Certificates::in_space(&differences(bicells)).exceed(bounds)
 }
 
 /// The same by the bounds of the bi-cells' own extents.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size2d<T: Real>(bicells: &[[T; 2]; 4]) -> T::Mask {
     let differences = differences(bicells);
@@ -76,7 +62,6 @@ pub(crate) fn bicells_hold_for_their_size2d<T: Real>(bicells: &[[T; 2]; 4]) -> T
 }
 
 /// The same by the bounds of the bi-cells' own extents.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T::Mask {
     let differences = differences(bicells);
@@ -87,7 +72,7 @@ pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T
 #[inline(always)]
 fn differences<T: Real, const D: usize, const P: usize, const N: usize>(points: &[[T; D]; P]) -> [[T; D]; N] {
     const { assert!(N + 1 == P) };
-    let mut differences = [[T::splat(0.0); D]; N];
+    let mut differences = [[points[0][0]; D]; N];
     for k in 0..N {
         for axis in 0..D {
             differences[k][axis] = points[k + 1][axis] - points[0][axis];
@@ -102,10 +87,9 @@ fn square<T: Real>(p: &[T; 2]) -> T {
 }
 
 /// The greatest magnitude along each axis.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn extents<T: Real, const D: usize, const N: usize>(differences: &[[T; D]; N]) -> [T; D] {
-    let mut greatest = [T::splat(0.0); D];
+    let mut greatest = [differences[0][0].splat(0.0); D];
     for difference in differences {
         for axis in 0..D {
             greatest[axis] = difference[axis].abs().max(greatest[axis]);
@@ -140,14 +124,14 @@ impl<T: Real> Certificates<T> {
             n[k] = uu * vw[k] - vv * uw[k] + ww * uv[k];
         }
         let volume = dot(u, &vw);
-        let beyond = T::splat(0.0) - dot(s, &uv);
+        let beyond = volume.splat(0.0) - dot(s, &uv);
         Certificates { volume, beyond, side: dot(s, &n) - ss * volume }
     }
 
     /// Whether all surely have the sign wanted, given the bounds of the volumes and of the side.
     #[inline(always)]
     fn exceed(&self, [orient, prepared]: [T; 2]) -> T::Mask {
-        let zero = T::splat(0.0);
+        let zero = self.side.splat(0.0);
         orient.is_less(self.volume) & orient.is_less(self.beyond) & self.side.is_less(zero - prepared)
     }
 }

@@ -62,8 +62,7 @@
 //! extent. So one formula gives both the static bound, from a box of all points there are, and the
 //! semi-static bound, from the box of the few points at hand.
 
-#[cfg(target_arch = "x86_64")]
-use super::lanes::Real;
+use crate::simd::Real;
 
 /// Unit roundoff, u.
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -285,29 +284,26 @@ pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
 }
 
 /// Bounds of `orient2d` and of a prepared circle for differences of at most these magnitudes.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(super) fn semi_static_bounds_2d<T: Real>([x, y]: [T; 2]) -> [T; 2] {
-    let (one, underflow) = (T::splat(1.0), T::splat(UNDERFLOW));
+    let (one, underflow) = (x.splat(1.0), x.splat(UNDERFLOW));
     let (area, largest) = (x * y, x.max(y));
     let amplified = largest.max(one);
     [
-        T::splat(ORIENT_2D) * area + underflow,
-        T::splat(PREPARED_2D) * area * (largest * largest) + underflow * (amplified * amplified),
+        x.splat(ORIENT_2D) * area + underflow,
+        x.splat(PREPARED_2D) * area * (largest * largest) + underflow * (amplified * amplified),
     ]
 }
 
 /// Bounds of `orient3d` and of a prepared sphere for differences of at most these magnitudes.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(super) fn semi_static_bounds_3d<T: Real>([x, y, z]: [T; 3]) -> [T; 2] {
-    let (one, underflow) = (T::splat(1.0), T::splat(UNDERFLOW));
+    let (one, underflow) = (x.splat(1.0), x.splat(UNDERFLOW));
     let (volume, largest) = (x * y * z, x.max(y).max(z));
     let amplified = largest.max(one);
     [
-        T::splat(ORIENT_3D) * volume + underflow * amplified,
-        T::splat(PREPARED_3D) * volume * (largest * largest)
-            + underflow * (amplified * amplified * amplified),
+        x.splat(ORIENT_3D) * volume + underflow * amplified,
+        x.splat(PREPARED_3D) * volume * (largest * largest) + underflow * (amplified * amplified * amplified),
     ]
 }
 

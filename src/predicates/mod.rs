@@ -87,7 +87,7 @@ mod sphere;
 mod tally;
 mod tolerance;
 
-#[cfg(target_arch = "x86_64")]
+pub use crate::simd::LANES;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
     bicells_surely_hold3d,
@@ -95,9 +95,7 @@ pub(crate) use bicells::{
 pub use bicells::{bicells_hold2d, bicells_hold3d};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
-pub use lanes::{BiCells, LANES};
-#[cfg(target_arch = "x86_64")]
-pub(crate) use lanes::{Real, avx2};
+pub use lanes::BiCells;
 pub use lifted::{Lifted, side_of_seen_circle};
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed};
@@ -115,7 +113,6 @@ pub use tolerance::{
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
     tolerances2d,
 };
-#[cfg(target_arch = "x86_64")]
 pub(crate) use tolerance::{are_within2d, are_within3d};
 
 /// Largest magnitude of an accepted coordinate.

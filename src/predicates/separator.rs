@@ -1,13 +1,10 @@
 //! Delimiters and separators of space: see [`tolerance`](super::tolerance).
 
-#![allow(unsafe_code)]
-
-#[cfg(target_arch = "x86_64")]
-use super::lanes::avx2;
-use super::lanes::{BiCells, LANES, Real};
+use super::lanes::BiCells;
 use super::tolerance::{
     CROSS, Delimiter, LEAST, LEAST_DETERMINANT, ORIENT_3D, UNIT, cross, dot, middle, minus, square_between,
 };
+use crate::simd::{ALL, Avx2, LANES, Real};
 
 /// The points of a bi-cell: the vertices of the facet, then the opposing ones, `c` and `d`.
 type Points<T> = [[T; 3]; 5];
@@ -46,10 +43,11 @@ pub fn separator3d(c: &[f64; 3], facet: [&[f64; 3]; 3], d: &[f64; 3], enough: f6
 /// Tolerances of [`LANES`] bi-cells, as [`separator3d`] has them.
 #[inline]
 pub fn tolerances3d(bicells: &BiCells<3, 5>, enough: [f64; LANES]) -> [f64; LANES] {
-    #[cfg(target_arch = "x86_64")]
-    if avx2::is_there() {
-        // SAFETY: it is.
-        return unsafe { tolerances_by_avx2(bicells, &enough) };
+    if let Some(avx2) = Avx2::new() {
+        return avx2.run(
+            #[inline(always)]
+            || tolerances_in_lanes(avx2, bicells, &enough),
+        );
     }
     std::array::from_fn(|i| {
         let [o, f, g, c, d] = bicells.lane(i);
@@ -57,13 +55,12 @@ pub fn tolerances3d(bicells: &BiCells<3, 5>, enough: [f64; LANES]) -> [f64; LANE
     })
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn tolerances_by_avx2(bicells: &BiCells<3, 5>, enough: &[f64; LANES]) -> [f64; LANES] {
-    let separated = separate::<avx2::Lanes, true>(&bicells.lanes(), avx2::Lanes::load(enough));
+#[inline(always)]
+fn tolerances_in_lanes(avx2: Avx2, bicells: &BiCells<3, 5>, enough: &[f64; LANES]) -> [f64; LANES] {
+    let separated = separate::<_, true>(&bicells.lanes(avx2), avx2.load(enough));
     let mut tolerances = separated.half_width.min(separated.reach).store();
     let is_enough = separated.is_enough.bits();
-    if is_enough != (1 << LANES) - 1 {
+    if is_enough != ALL {
         let [x, y, z] = separated.outside;
         let outside = [x.bits(), y.bits(), z.bits()];
         let [o, f, g, s] = separated.planes;
@@ -165,7 +162,7 @@ fn reach_by_spheres(points: &Points<f64>, partition: usize, planes: &[f64; 4], w
 /// Half the width of which this is the square, as a lower bound; infinite if that is.
 #[inline(always)]
 fn half_of_square<T: Real>(square: T) -> T {
-    (square.sqrt() * T::splat(0.5 - 8.0 * UNIT) - T::splat(LEAST)).max(T::splat(0.0))
+    (square.sqrt() * square.splat(0.5 - 8.0 * UNIT) - square.splat(LEAST)).max(square.splat(0.0))
 }
 
 /// Centre, radius and half-width of the sphere in the middle between those about the point that is
@@ -177,7 +174,7 @@ fn annulus<T: Real>([o, f, g, c, d]: [&[T; 3]; 5], is_standard: T::Mask) -> ([T;
     let (p, q) = (minus(c, o), minus(d, o));
     // u·x = |u|² / 2, v·x = |v|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
     let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
-    let scale = T::splat(0.5) / dot(&u, &vw);
+    let scale = o[0].splat(0.5) / dot(&u, &vw);
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
     let ws = w[0] * (p[0] + q[0]) + w[1] * (p[1] + q[1]) + w[2] * (p[2] + q[2]);
     let coordinate = |k: usize| o[k] + (uu * vw[k] + vv * wu[k] + ws * uv[k]) * scale;
@@ -220,7 +217,7 @@ impl<T: Real> Slabs<T> {
         let volume = dot(&u, &normals[1]);
         let [x, y, z] =
             [dot(&minus(f, c), &normals[0]), dot(&minus(c, g), &normals[1]), dot(&minus(c, o), &normals[2])];
-        let zero = T::splat(0.0);
+        let zero = volume.splat(0.0);
         let is_negative = volume.is_less(zero);
         let above = |height| T::select(is_negative, zero - height, height);
         let extents = [extent(points, 0), extent(points, 1), extent(points, 2)];
@@ -230,22 +227,23 @@ impl<T: Real> Slabs<T> {
             normals,
             heights: [above(x), above(y), above(z)],
             volume: volume.abs(),
-            bound: T::splat(ORIENT_3D) * (extents[0] * extents[1] * extents[2]) + T::splat(LEAST_DETERMINANT),
+            bound: volume.splat(ORIENT_3D) * (extents[0] * extents[1] * extents[2])
+                + volume.splat(LEAST_DETERMINANT),
             // (|n| + CROSS square)², where |n| is below 3.47 square.
-            blur: T::splat(7.0 * CROSS) * (square * square) + T::splat(LEAST * LEAST),
+            blur: square.splat(7.0 * CROSS) * (square * square) + square.splat(LEAST * LEAST),
         }
     }
 
     /// A mask that is nowhere set.
     #[inline(always)]
     fn nowhere(&self) -> T::Mask {
-        self.volume.is_less(T::splat(0.0))
+        self.volume.is_less(self.volume.splat(0.0))
     }
 
     /// The partition by the signs of the affine dependency: which vertex is outside.
     #[inline(always)]
     fn exception(&self) -> [T::Mask; 3] {
-        let zero = T::splat(0.0);
+        let zero = self.volume.splat(0.0);
         let is_beyond = |k: usize| self.heights[k].is_less(zero);
         let (x, y, z) = (is_beyond(0), is_beyond(1), is_beyond(2));
         [x, y & !x, z & !(x | y)]
@@ -254,7 +252,7 @@ impl<T: Real> Slabs<T> {
     /// As [`Separated::planes`].
     #[inline(always)]
     fn squared_widths(&self, outside: [T::Mask; 3], is_standard: T::Mask) -> [T; 4] {
-        let (zero, infinity) = (T::splat(0.0), T::splat(f64::INFINITY));
+        let (zero, infinity) = (self.volume.splat(0.0), self.volume.splat(f64::INFINITY));
         // The width of the slab of the given partition, if it has one, is that of the standard partition: a
         // negative height has the line beyond the edge, and the slab separates it from the whole facet.
         let mut standard = infinity;

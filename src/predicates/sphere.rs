@@ -27,8 +27,8 @@
 
 use super::StaticFilter;
 use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d};
-use super::lanes::Real;
 use super::tolerance::minus;
+use crate::simd::Real;
 
 /// Vector and area of a cell of the plane: `[n_x, n_y, V]`.
 pub type Circle<T = f64> = [T; 3];

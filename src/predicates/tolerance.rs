@@ -105,12 +105,9 @@
 //! [`separator3d`]: super::separator3d
 //! [`tolerances3d`]: super::tolerances3d
 
-#![allow(unsafe_code)]
-
 use super::filter::{extents, largest};
-#[cfg(target_arch = "x86_64")]
-use super::lanes::avx2::{self, Lanes};
-use super::lanes::{BiCells, LANES, Real};
+use super::lanes::BiCells;
+use crate::simd::{Avx2, LANES, Real};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,36 +192,35 @@ pub fn displacement_limit(tolerance: f64) -> f64 {
 #[inline(always)]
 fn limit<T: Real>(tolerance: T) -> T {
     // Twice the least distance, so that its square is certainly above that of the least.
-    let least = T::splat(2.0 * LEAST);
-    let t = T::select(least.is_less(tolerance), tolerance, T::splat(0.0));
+    let least = tolerance.splat(2.0 * LEAST);
+    let t = T::select(least.is_less(tolerance), tolerance, tolerance.splat(0.0));
     // 1e150 is no restriction, and its square is finite.
-    let t = t.min(T::splat(1e150));
-    t * t * T::splat(SQUARE_BELOW)
+    let t = t.min(t.splat(1e150));
+    t * t * t.splat(SQUARE_BELOW)
 }
 
-/// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each. The
-/// processor must have AVX2 and FMA.
-#[cfg(target_arch = "x86_64")]
+/// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
 #[inline(always)]
 pub(crate) fn are_within2d(
+    avx2: Avx2,
     fixed: [&[f64; 2]; LANES],
     tolerances: &[f64; LANES],
     places: [&[f64; 2]; LANES],
 ) -> u32 {
-    let square = square_between(&Lanes::of_pairs(fixed), &Lanes::of_pairs(places));
-    square.is_less(limit(Lanes::load(tolerances))).bits()
+    let square = square_between(&avx2.pairs(fixed), &avx2.pairs(places));
+    square.is_less(limit(avx2.load(tolerances))).bits()
 }
 
 /// Likewise in space.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn are_within3d(
+    avx2: Avx2,
     fixed: [&[f64; 3]; LANES],
     tolerances: &[f64; LANES],
     places: [&[f64; 3]; LANES],
 ) -> u32 {
-    let square = square_between(&Lanes::of_triples(fixed), &Lanes::of_triples(places));
-    square.is_less(limit(Lanes::load(tolerances))).bits()
+    let square = square_between(&avx2.triples(fixed), &avx2.triples(places));
+    square.is_less(limit(avx2.load(tolerances))).bits()
 }
 
 /// Whether `p` is certainly strictly inside the sphere.
@@ -261,16 +257,11 @@ pub fn delimiter2d(c: &[f64; 2], facet: [&[f64; 2]; 2], d: &[f64; 2]) -> Delimit
 /// Tolerances of [`LANES`] bi-cells, as [`delimiter2d`] has them.
 #[inline]
 pub fn tolerances2d(bicells: &BiCells<2, 4>) -> [f64; LANES] {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2")]
-        fn all(bicells: &BiCells<2, 4>) -> [f64; LANES] {
-            annulus2d(&bicells.lanes()).2.store()
-        }
-        if avx2::is_there() {
-            // SAFETY: it is.
-            return unsafe { all(bicells) };
-        }
+    if let Some(avx2) = Avx2::new() {
+        return avx2.run(
+            #[inline(always)]
+            || annulus2d(&bicells.lanes(avx2)).2.store(),
+        );
     }
     std::array::from_fn(|i| annulus2d(&bicells.lane(i)).2)
 }
@@ -282,7 +273,7 @@ fn annulus2d<T: Real>([o, f, c, d]: &[[T; 2]; 4]) -> ([T; 2], T, T) {
     let s = [(c[0] - o[0]) + (d[0] - o[0]), (c[1] - o[1]) + (d[1] - o[1])];
     // u·x = |u|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
     let (uu, ws) = (u[0] * u[0] + u[1] * u[1], w[0] * s[0] + w[1] * s[1]);
-    let scale = T::splat(0.5) / (u[0] * w[1] - u[1] * w[0]);
+    let scale = o[0].splat(0.5) / (u[0] * w[1] - u[1] * w[0]);
     let centre = [o[0] + (uu * w[1] - ws * u[1]) * scale, o[1] + (ws * u[0] - uu * w[0]) * scale];
     let inner = square_between(&centre, o).max(square_between(&centre, f));
     let outer = square_between(&centre, c).min(square_between(&centre, d));
@@ -295,11 +286,11 @@ fn annulus2d<T: Real>([o, f, c, d]: &[[T; 2]; 4]) -> ([T; 2], T, T) {
 #[inline(always)]
 pub(super) fn middle<T: Real, const D: usize>(inner: T, outer: T) -> (T, T) {
     let (r, big) = (inner.sqrt(), outer.sqrt());
-    let radius = T::splat(0.5) * (r + big);
-    let lost = big * T::splat(const { half_width_error(D) }) + T::splat(2.0 * LEAST);
+    let radius = r.splat(0.5) * (r + big);
+    let lost = big * big.splat(const { half_width_error(D) }) + big.splat(2.0 * LEAST);
     let half_width = (radius - r).min(big - radius) - lost;
     // Also for NaN.
-    (radius, half_width.max(T::splat(0.0)))
+    (radius, half_width.max(half_width.splat(0.0)))
 }
 
 /// Certified lower bound of the tolerance of the orientation of a triangle: half its least height. 0 unless
@@ -352,25 +343,28 @@ pub(super) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
-#[cfg(all(test, target_arch = "x86_64"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 
-    #[target_feature(enable = "avx2,fma")]
-    fn within(fixed: &[[f64; 3]; LANES], tolerances: &[f64; LANES], places: &[[f64; 3]; LANES]) -> [u32; 2] {
+    fn within(
+        avx2: Avx2,
+        fixed: &[[f64; 3]; LANES],
+        tolerances: &[f64; LANES],
+        places: &[[f64; 3]; LANES],
+    ) -> [u32; 2] {
         let plane = |points: &[[f64; 3]; LANES]| points.map(|[x, y, _]| [x, y]);
+        let (fixed2d, places2d) = (plane(fixed), plane(places));
         [
-            are_within2d(plane(fixed).each_ref(), tolerances, plane(places).each_ref()),
-            are_within3d(fixed.each_ref(), tolerances, places.each_ref()),
+            avx2.run(|| are_within2d(avx2, fixed2d.each_ref(), tolerances, places2d.each_ref())),
+            avx2.run(|| are_within3d(avx2, fixed.each_ref(), tolerances, places.each_ref())),
         ]
     }
 
     /// Several vertices are found to be within exactly where each of them is, tolerances without a use included.
     #[test]
     fn several_are_within_where_each_is() {
-        if !avx2::is_there() {
-            return;
-        }
+        let Some(avx2) = Avx2::new() else { return };
         let mut state = 1_u64;
         let mut random = move |n: u64| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -382,8 +376,7 @@ mod tests {
             let mut points = || [(); LANES].map(|()| [(); 3].map(|()| random(3) as f64));
             let (fixed, places) = (points(), points());
             let tolerances = [(); LANES].map(|()| special[random(special.len() as u64) as usize]);
-            // SAFETY: AVX2 and FMA are there.
-            let found = unsafe { within(&fixed, &tolerances, &places) };
+            let found = within(avx2, &fixed, &tolerances, &places);
             for k in 0..LANES {
                 let ([a, b, _], [c, d, _]) = (fixed[k], places[k]);
                 let limit = displacement_limit(tolerances[k]);
