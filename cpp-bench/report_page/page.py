@@ -64,7 +64,7 @@ def page(results, drawn):
     links = ['<a href="#table-1">Table 1</a>', '<a href="#table-2">Table 2</a>']
     links += [f'<a href="#figure-{n}">Figure {n}</a>' for n, _, _ in drawn]
     body = [
-        "<h1>Delaunay triangulations for moving points, anew</h1>",
+        "<h1>Delaunay triangulations for moving points, repeated</h1>",
         lead(results),
         scaled_down(results),
         environment(results),
@@ -88,7 +88,7 @@ def page(results, drawn):
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
         '<link rel="icon" href="data:,">'
-        "<title>RR-6750 anew: deldrift beside CGAL</title>"
+        "<title>RR-6750 repeated: deldrift beside CGAL</title>"
         f"<style>{style.themed()}{style.PLOT}{style.PAGE}</style></head><body>"
         + "\n".join(body)
         + "</body></html>\n"
@@ -119,7 +119,7 @@ def lead(results):
         "faster than by rebuilding it? In 2008 the INRIA report "
         '<a href="https://inria.hal.science/inria-00344053">RR-6750</a> answered: give every vertex a'
         " certified "
-        "<em>tolerance</em> within which it may move and nothing changes. Here its inputs are recorded anew"
+        "<em>tolerance</em> within which it may move and nothing changes. Here its inputs are recorded again"
         " and replayed, "
         "with identical positions, to CGAL, to the report's algorithms on CGAL's triangulations, and to"
         " deldrift.</p>"

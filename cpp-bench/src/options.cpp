@@ -45,7 +45,7 @@ const char *const usage =
                            to large.csv
   --large-points-2d N      other sizes for --large; 0 leaves the dimension out
   --large-points-3d N
-  --targets                the speeds to be reached where next to nothing changes, and by two threads, instead, to
+  --targets                special cases beside the speed-up wanted, instead, to
                            targets.csv: within eight minutes
   --self-test              test the benchmark's own checks instead
 )";

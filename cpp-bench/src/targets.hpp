@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The speeds that deldrift sets itself where next to nothing changes, of the test for tolerances, and what two threads
+// The speeds that deldrift sets itself where almost nothing changes, of the test for tolerances, and what two threads
 // must gain.
 #pragma once
 

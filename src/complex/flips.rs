@@ -27,7 +27,7 @@ pub enum Obstacle {
     Elsewhere,
     /// The stretch has no free cell.
     Full,
-    /// There is no memory to keep the way back.
+    /// There is no memory for undoing.
     Memory,
 }
 

@@ -1,4 +1,4 @@
-//! Flips, while there are any, and the way back.
+//! Flips, while there are any, and undoing them.
 //!
 //! A facet that fails the empty-sphere test is flipped. In the plane that is always possible and leads to the Delaunay
 //! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3, 3-2 or 4-4 flip there
@@ -49,7 +49,7 @@ pub struct Flips<G: Dimension> {
     changed: Vec<u32>,
     /// The third cell of flips that have made one.
     made: Vec<u32>,
-    /// The way back: the rows that each flip has changed.
+    /// For undoing: the rows that each flip has changed.
     journal: Vec<Row<G::Corners>>,
     n_flips: u64,
     certificates: u64,

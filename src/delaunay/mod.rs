@@ -14,8 +14,8 @@
 //! | `remove` | removal: fill the star by gift wrapping |
 //! | `hub` | removal of a vertex with very many neighbours |
 //! | `relocate` | one site to a new place |
-//! | `flip` | flips, on several threads, and the way back |
-//! | `undo` | the way back from any change |
+//! | `flip` | flips, on several threads, and undoing them |
+//! | `undo` | undoing any change |
 //! | `successor` | a kernel to be built beside another one |
 //! | `certify`, `screen` | all certificates at once |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |

@@ -333,7 +333,7 @@ mod tests {
         all_agree::<Space>();
     }
 
-    /// A random triangulation at rest leaves next to nothing to look at, so that the screen is worth it.
+    /// A random triangulation at rest leaves almost nothing to check, so that the screen is worth it.
     #[test]
     fn cells_at_rest_pass() {
         fn n_open<G: Dimension>() -> usize {
@@ -366,7 +366,7 @@ mod tests {
         n
     }
 
-    /// What is said of facets is so, and next to nothing that is so is left unsaid, also where the cells are so small next to
+    /// What is said of facets is so, and almost nothing that is so is left unsaid, also where the cells are so small next to
     /// all that a bound for all says nothing.
     fn facets_are_certain<G: Dimension>() {
         let Some(avx2) = Avx2::new() else { return };

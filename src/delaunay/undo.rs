@@ -1,4 +1,4 @@
-//! The way back: a change of the kernel that fails leaves no trace.
+//! Undoing changes of the kernel: one that fails leaves no trace.
 //!
 //! Between [`begin`](Delaunay::begin) and [`end`](Delaunay::end) the complex keeps a [record](crate::complex) of its
 //! cells, and sites that are removed, added or renamed are *logged*: what they were is kept, in the order of the changes.

@@ -12,7 +12,7 @@
 //! compute that of all costs eight sweeps. What is recomputed after that, and watched, is counted and weighed by
 //! measured costs ([`Costs`]): when it has cost a quarter of a computation of all more than the more expensive way would have, that
 //! is taken, and the cheaper one tried ever more rarely. In space the way down is repair, slack, watching, without
-//! slack where next to nothing changes; in the plane a sweep is so cheap that slack would seldom pay. Before watching
+//! slack where almost nothing changes; in the plane a sweep is so cheap that slack would seldom pay. Before watching
 //! a sample of the vertices is checked. When what is watched or what is recomputed has cost more than the other
 //! by half a computation of all, all tolerances are computed again, so that what is watched follows from how far the
 //! vertices go now.

@@ -16,7 +16,7 @@
 //! | `auto` | | watching, repair or rebuilding, by what the last commits found |
 //!
 //! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4);
-//! `moving` has the loops that move all vertices; `transaction` the way back from a change; `cells` and `changes` what
+//! `moving` has the loops that move all vertices; `transaction` what undoes a change; `cells` and `changes` what
 //! callers read of it; `compaction` forgets removed vertices.
 //!
 //! Invariants between calls:
@@ -180,7 +180,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             t.relocate_filtered(vertex, &q, &mut report)
         });
         if let Err(error) = relocated {
-            // The way back does not know the place of a vertex that was only moved.
+            // Undoing does not know the place of a vertex that was only moved.
             self.kernel.set_point(self.site_of[vertex as usize], old);
             return Err(error);
         }
@@ -226,7 +226,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let s = self.kernel.add_site(*q, id)?;
         self.site_of[id as usize] = s;
         let inserted = self.with_regions(report, |t, _| {
-            // The way back does not know of a site without cells that is in, so nothing may fail after that.
+            // Undoing does not know of a site that is in without cells, so nothing may fail after that.
             t.regions.make_room_to_note()?;
             let inserted = t.kernel.insert_site(s, NONE)?;
             if let Insertion::Coincident(at) = inserted {

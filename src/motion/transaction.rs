@@ -1,4 +1,4 @@
-//! One change of the triangulation, with its way back.
+//! One change of the triangulation, made or undone.
 //!
 //! ```text
 //! begin
@@ -7,7 +7,7 @@
 //! else: publish
 //! ```
 //!
-//! What is kept for the way back: the rows of cells and the sites that were removed, added or renamed
+//! What is kept for undoing: the rows of cells and the sites that were removed, added or renamed
 //! ([`Delaunay::begin`]), the site and the successor of each vertex that came to or left a shared place, and, of a commit,
 //! where the moved vertices were ([`staging`](super::staging): applying a move exchanges the two positions). A
 //! [rebuilding](super::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
@@ -27,11 +27,11 @@ struct VertexBefore {
     next: u32,
 }
 
-/// What the way back needs beside the kernel's log and the staging.
+/// What undoing needs beside the kernel's log and the staging.
 #[derive(Debug)]
 pub(super) struct Transaction<G: Dimension> {
     vertices: Vec<VertexBefore>,
-    /// Room for the old positions of vertices that are at shared places when the way back begins.
+    /// Room for the old positions of vertices that are at shared places when undoing begins.
     displaced: Vec<(u32, G::Point)>,
     n_hidden: usize,
     n_present: usize,
@@ -66,7 +66,7 @@ impl<G: Dimension> Transaction<G> {
         memory::reserve(&mut self.displaced, 2 * n_hidden)
     }
 
-    /// A new kernel is in place: there is no way back, and nothing that could fail.
+    /// A new kernel is in place: nothing can be undone, and nothing can fail.
     pub(super) fn adopt(&mut self) {
         self.has_rebuilt = true;
         self.vertices.clear();
