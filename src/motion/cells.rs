@@ -587,6 +587,9 @@ impl<G: Dimension> Cells<G> {
         memory::reserve(index_of, n_slots)?;
         for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
             tracker.reserve(0, 0, n, n)?;
+        }
+        // From here on nothing fails.
+        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
             (0..n as u32).for_each(|index| tracker.create(index));
         }
         index_of.resize(n_slots, NO_CELL);
