@@ -200,6 +200,24 @@ fn fill_from<R: Send>(first: usize, results: &mut [R], work: &(impl Fn(usize) ->
     }
 }
 
+/// Works on parts of an array, each on a thread of its own; `first` is the index of its first entry.
+pub(crate) fn for_parts<R: Send>(
+    entries: &mut [R],
+    first: usize,
+    n_threads: usize,
+    work: &(impl Fn(usize, &mut [R]) + Sync),
+) {
+    if n_threads < 2 {
+        return work(first, entries);
+    }
+    let middle = entries.len() / n_threads * (n_threads / 2);
+    let (entries, more) = entries.split_at_mut(middle);
+    join(
+        || for_parts(entries, first, n_threads / 2, work),
+        || for_parts(more, first + middle, n_threads - n_threads / 2, work),
+    );
+}
+
 /// Where several threads write results, each at indices of its own.
 struct Slots<R>(*mut R);
 
@@ -261,6 +279,11 @@ mod tests {
             assert!(parts.into_iter().flatten().eq(0..1000));
             let ranges = for_ranges(1000, n_ranges, |range| range).expect("room for them");
             assert!(ranges.into_iter().flatten().eq(0..1000));
+            let mut entries = vec![0; 1000];
+            for_parts(&mut entries, 0, n_ranges, &|first, part| {
+                part.iter_mut().zip(first..).for_each(|(entry, index)| *entry = index);
+            });
+            assert!(entries.into_iter().eq(0..1000));
         }
     }
 

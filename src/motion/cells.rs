@@ -11,15 +11,17 @@
 //! Cost: in proportion to the slots that have changed; when most have, one pass over all. `make bench` times steps, which
 //! read the cells and what has changed, beside commits alone.
 
+mod comparing;
+mod gluing;
+
 use super::changes::{Tracker, renumber};
 use super::marks::{Bits, Marks};
-use super::matching::{Matcher, are_same};
+use super::matching::Matcher;
 use super::ordering::Ordering;
 use crate::complex::{Corners, Facet, NONE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::prefetch::{AHEAD, prefetch};
-use crate::threads;
 
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;
@@ -29,16 +31,6 @@ pub(super) const MOST: usize = 2;
 
 /// Memory for this number of changes is always kept.
 const FEW: usize = 64;
-
-/// Rows that are compared first when any may have changed: where most of these are gone from their slots, so are most of
-/// the others.
-const SAMPLE: usize = 512;
-
-/// Rows that take as long to write as it takes to start a thread for them.
-const GLUED_AT_LEAST: usize = 1 << 13;
-
-/// Slots that are compared at a time when any may have changed.
-const BLOCK: usize = 256;
 
 /// The arrays behind a view.
 #[derive(Debug)]
@@ -138,24 +130,6 @@ pub(super) fn position_of<C: Corners>(row: &C, expected: usize, id: u32) -> usiz
     (0..C::N).find(|&i| row[i] == id).expect("a corner of the cell")
 }
 
-/// Works on parts of rows, `first` the first of them, each part on a thread of its own.
-fn for_parts<R: Send>(
-    rows: &mut [R],
-    first: usize,
-    n_threads: usize,
-    work: &(impl Fn(usize, &mut [R]) + Sync),
-) {
-    if n_threads < 2 {
-        return work(first, rows);
-    }
-    let middle = rows.len() / n_threads * (n_threads / 2);
-    let (rows, more) = rows.split_at_mut(middle);
-    threads::join(
-        || for_parts(rows, first, n_threads / 2, work),
-        || for_parts(more, first + middle, n_threads - n_threads / 2, work),
-    );
-}
-
 /// Whether a slot holds a finite cell.
 #[inline(always)]
 fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> bool {
@@ -207,164 +181,6 @@ impl<G: Dimension> Cells<G> {
         // Memory for many changes is not kept.
         if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / MOST + FEW {
             *scratch = Scratch::default();
-        }
-        Ok(())
-    }
-
-    /// Lists what is lost and found in these slots.
-    fn compare_slots(
-        &mut self,
-        kernel: &Delaunay<G>,
-        dirty: &[u32],
-        scratch: &mut Scratch<G::Corners>,
-    ) -> Result<()> {
-        memory::reserve(&mut scratch.lost, dirty.len())?;
-        memory::reserve(&mut scratch.found, dirty.len())?;
-        for (k, &slot) in dirty.iter().enumerate() {
-            if let Some(&next) = dirty.get(k + AHEAD) {
-                prefetch(kernel.complex().cells(), next as usize);
-                prefetch(&self.index_of, next as usize);
-            }
-            if let Some(&next) = dirty.get(k + AHEAD / 2) {
-                prefetch(&self.corners, self.index_in(next) as usize);
-            }
-            let index = self.index_in(slot);
-            if !is_finite(kernel, slot) {
-                if index != NO_CELL {
-                    scratch.lost.push(index);
-                }
-                continue;
-            }
-            let ids = ids_of(kernel, slot);
-            if index != NO_CELL {
-                if self.is_still(index, slot, &ids, &mut scratch.turned)? {
-                    continue;
-                }
-                scratch.lost.push(index);
-            }
-            scratch.found.push(Found { slot, index: NO_CELL, ids });
-        }
-        Ok(())
-    }
-
-    /// The index of a slot's cell, as far as is known.
-    #[inline(always)]
-    fn index_in(&self, slot: u32) -> u32 {
-        self.index_of.get(slot as usize).copied().unwrap_or(NO_CELL)
-    }
-
-    /// Whether a slot still holds the finite cell of an index; lists it if it has been turned over.
-    #[inline(always)]
-    fn is_still(&mut self, index: u32, slot: u32, ids: &G::Corners, turned: &mut Vec<u32>) -> Result<bool> {
-        let row = &self.corners[index as usize];
-        if row != ids && !are_same(row, ids) {
-            return Ok(false);
-        }
-        let row = *row;
-        self.order(index, slot, ids, &row, turned)?;
-        Ok(true)
-    }
-
-    /// Notes how a row lists the corners of a slot, and the slot if the cell has been turned over.
-    #[inline(always)]
-    fn order(
-        &mut self,
-        index: u32,
-        slot: u32,
-        ids: &G::Corners,
-        row: &G::Corners,
-        turned: &mut Vec<u32>,
-    ) -> Result<()> {
-        let ordering = Ordering::of(ids, row);
-        if ordering != Ordering::SAME && ordering.is_odd() {
-            memory::push(turned, slot)?;
-        }
-        self.orderings[index as usize] = ordering;
-        Ok(())
-    }
-
-    /// Lists what is lost and found in all slots; makes `index_of` from `slots`.
-    fn compare_all(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Corners>) -> Result<()> {
-        let n_slots = kernel.complex().n_slots();
-        self.index_of.clear();
-        memory::reserve(&mut self.index_of, n_slots)?;
-        self.index_of.resize(n_slots, NO_CELL);
-        memory::reserve(&mut scratch.lost, self.corners.len())?;
-        for (&slot, index) in self.slots.iter().zip(0..) {
-            match self.index_of.get_mut(slot as usize) {
-                Some(there) if *there == NO_CELL => *there = index,
-                _ => scratch.lost.push(index),
-            }
-        }
-        let (mut n_compared, mut goes_on) = (0, true);
-        for slot in 0..n_slots as u32 {
-            prefetch(&self.corners, self.index_in(slot + AHEAD as u32) as usize);
-            let index = self.index_of[slot as usize];
-            if index == NO_CELL {
-                continue;
-            }
-            n_compared += 1;
-            goes_on &= n_compared != SAMPLE || 2 * scratch.lost.len() <= SAMPLE;
-            let is_there = goes_on && is_finite(kernel, slot);
-            if !(is_there && self.is_still(index, slot, &ids_of(kernel, slot), &mut scratch.turned)?) {
-                self.index_of[slot as usize] = NO_CELL;
-                scratch.lost.push(index);
-            }
-        }
-        if kernel.complex().n_finite() + scratch.lost.len() == self.corners.len() {
-            return Ok(());
-        }
-        let Scratch { lost, found, matcher, turned, .. } = scratch;
-        matcher.list(&self.corners, lost)?;
-        let mut slots = kernel.complex().finite();
-        loop {
-            // What is new stays listed.
-            let n_new = found.len();
-            memory::reserve(found, BLOCK)?;
-            let unknown = slots.by_ref().filter(|&slot| self.index_of[slot as usize] == NO_CELL);
-            found.extend(unknown.take(BLOCK).map(|slot| Found {
-                slot,
-                index: NO_CELL,
-                ids: ids_of(kernel, slot),
-            }));
-            if found.len() == n_new {
-                return Ok(());
-            }
-            self.find_lost(matcher, &mut found[n_new..], turned)?;
-            let mut end = n_new;
-            for k in n_new..found.len() {
-                let Found { slot, index, .. } = found[k];
-                if index == NO_CELL {
-                    found.swap(k, end);
-                    end += 1;
-                } else {
-                    (self.slots[index as usize], self.index_of[slot as usize]) = (slot, index);
-                }
-            }
-            found.truncate(end);
-        }
-    }
-
-    /// Finds lost cells in other slots.
-    fn find_lost(
-        &mut self,
-        matcher: &Matcher<G::Corners>,
-        found: &mut [Found<G::Corners>],
-        turned: &mut Vec<u32>,
-    ) -> Result<()> {
-        for k in 0..found.len() {
-            if let Some(next) = found.get(k + AHEAD) {
-                matcher.prefetch_place(&next.ids);
-            }
-            if let Some(next) = found.get(k + AHEAD / 2) {
-                matcher.prefetch_entries(&next.ids);
-            }
-            let Found { slot, ids, .. } = found[k];
-            if let Some((index, row)) = matcher.find(&ids) {
-                self.order(index, slot, &ids, &row, turned)?;
-                self.is_settled.insert(index);
-                found[k].index = index;
-            }
         }
         Ok(())
     }
@@ -507,106 +323,6 @@ impl<G: Dimension> Cells<G> {
         neighbours.truncate(n);
         slots.truncate(n);
         tell(&|tracker| tracker.truncate(n));
-    }
-
-    /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours' sides.
-    fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Marks, moved: &[u32]) {
-        let complex = kernel.complex();
-        let last = complex.n_slots() as u32 - 1;
-        for (k, &slot) in dirty.as_slice().iter().chain(moved).enumerate() {
-            if let Some(&next) = dirty.as_slice().get(k + 3 * AHEAD / 2) {
-                prefetch(complex.cells(), next as usize);
-            }
-            if let Some(&next) = dirty.as_slice().get(k + AHEAD) {
-                let cell = complex.cell(next.min(last));
-                (0..G::Corners::N).for_each(|i| prefetch(&self.index_of, cell.neighbour(i).cell() as usize));
-            }
-            if let Some(&next) = dirty.as_slice().get(k + AHEAD / 2) {
-                let cell = complex.cell(next.min(last));
-                for i in 0..G::Corners::N {
-                    let index = self.index_in(cell.neighbour(i).cell()) as usize;
-                    prefetch(&self.neighbours, index);
-                    prefetch(&self.orderings, index);
-                }
-            }
-            if !complex.is_live(slot) {
-                continue;
-            }
-            let cell = complex.cell(slot);
-            if cell.is_ghost() {
-                let behind = cell.neighbour(G::D);
-                if !dirty.has(behind.cell()) {
-                    let index = self.index_of[behind.cell() as usize] as usize;
-                    self.neighbours[index][self.orderings[index].place(behind.index())] = NO_CELL;
-                }
-                continue;
-            }
-            let index = self.index_of[slot as usize];
-            let mut across = cell.corners;
-            for i in 0..G::Corners::N {
-                let out = cell.neighbour(i);
-                across[i] = self.index_of[out.cell() as usize];
-                if across[i] != NO_CELL && !dirty.has(out.cell()) {
-                    let place = self.orderings[across[i] as usize].place(out.index());
-                    self.neighbours[across[i] as usize][place] = index;
-                }
-            }
-            self.neighbours[index as usize] = self.orderings[index as usize].arrange(across);
-        }
-    }
-
-    /// Writes the neighbours of all cells, on several threads where that pays.
-    fn glue_all(&mut self, kernel: &Delaunay<G>) {
-        let (slots, orderings, index_of) = (&self.slots[..], &self.orderings[..], &self.index_of[..]);
-        let n_threads = kernel.threads().for_work(slots.len(), GLUED_AT_LEAST, 256);
-        for_parts(&mut self.neighbours, 0, n_threads, &|first, rows: &mut [G::Corners]| {
-            for (index, row) in (first..).zip(rows) {
-                if let Some(&next) = slots.get(index + AHEAD) {
-                    prefetch(kernel.complex().cells(), next as usize);
-                }
-                let cell = kernel.complex().cell(slots[index]);
-                let mut across = cell.corners;
-                for i in 0..G::Corners::N {
-                    across[i] = index_of[cell.neighbour(i).cell() as usize];
-                }
-                *row = orderings[index].arrange(across);
-            }
-        });
-    }
-
-    /// Makes the arrays of all cells, of which there are none yet.
-    fn fill(&mut self, kernel: &Delaunay<G>) -> Result<()> {
-        let (n, n_slots) = (kernel.complex().n_finite(), kernel.complex().n_slots());
-        let Cells { corners, neighbours, index_of, slots, orderings, .. } = self;
-        memory::reserve(corners, n)?;
-        memory::reserve(neighbours, n)?;
-        memory::reserve(slots, n)?;
-        let more_orderings = n.saturating_sub(orderings.len());
-        memory::reserve(orderings, more_orderings)?;
-        index_of.clear();
-        memory::reserve(index_of, n_slots)?;
-        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
-            tracker.reserve(0, 0, n, n)?;
-        }
-        // From here on nothing fails.
-        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
-            (0..n as u32).for_each(|index| tracker.create(index));
-        }
-        index_of.resize(n_slots, NO_CELL);
-        for (slot, index) in kernel.complex().finite().zip(0..) {
-            slots.push(slot);
-            index_of[slot as usize] = index;
-        }
-        orderings.clear();
-        orderings.resize(n, Ordering::SAME);
-        neighbours.resize(n, G::Corners::filled(NONE));
-        corners.resize(n, G::Corners::filled(NONE));
-        let (slots, n_threads) = (&slots[..], kernel.threads().for_work(n, GLUED_AT_LEAST, 256));
-        for_parts(corners, 0, n_threads, &|first, rows: &mut [G::Corners]| {
-            rows.iter_mut().zip(&slots[first..]).for_each(|(row, &slot)| *row = ids_of(kernel, slot));
-        });
-        self.glue_all(kernel);
-        Ok(())
     }
 
     /// The index, in the complex, of a corner of a cell.

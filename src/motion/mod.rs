@@ -53,6 +53,7 @@ mod switching;
 mod tolerance;
 mod transaction;
 mod views;
+mod visibility;
 mod watch;
 mod watched;
 

@@ -10,8 +10,9 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::MovingTriangulation;
 use super::cells::{Cells, MOST};
-use super::changes::{Tracker, Visibility};
+use super::changes::Tracker;
 use super::marks::Marks;
+use super::visibility::Visibility;
 use crate::complex::{NONE, memory};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};

@@ -1,0 +1,115 @@
+//! The neighbours of the cells.
+
+use super::{AHEAD, Cells, NO_CELL, ids_of};
+use crate::complex::{Corners, NONE, memory};
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::motion::marks::Marks;
+use crate::motion::ordering::Ordering;
+use crate::prefetch::prefetch;
+use crate::threads;
+
+/// Rows that take as long to write as it takes to start a thread for them.
+const GLUED_AT_LEAST: usize = 1 << 13;
+
+impl<G: Dimension> Cells<G> {
+    /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours' sides.
+    pub(super) fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Marks, moved: &[u32]) {
+        let complex = kernel.complex();
+        let last = complex.n_slots() as u32 - 1;
+        for (k, &slot) in dirty.as_slice().iter().chain(moved).enumerate() {
+            if let Some(&next) = dirty.as_slice().get(k + 3 * AHEAD / 2) {
+                prefetch(complex.cells(), next as usize);
+            }
+            if let Some(&next) = dirty.as_slice().get(k + AHEAD) {
+                let cell = complex.cell(next.min(last));
+                (0..G::Corners::N).for_each(|i| prefetch(&self.index_of, cell.neighbour(i).cell() as usize));
+            }
+            if let Some(&next) = dirty.as_slice().get(k + AHEAD / 2) {
+                let cell = complex.cell(next.min(last));
+                for i in 0..G::Corners::N {
+                    let index = self.index_in(cell.neighbour(i).cell()) as usize;
+                    prefetch(&self.neighbours, index);
+                    prefetch(&self.orderings, index);
+                }
+            }
+            if !complex.is_live(slot) {
+                continue;
+            }
+            let cell = complex.cell(slot);
+            if cell.is_ghost() {
+                let behind = cell.neighbour(G::D);
+                if !dirty.has(behind.cell()) {
+                    let index = self.index_of[behind.cell() as usize] as usize;
+                    self.neighbours[index][self.orderings[index].place(behind.index())] = NO_CELL;
+                }
+                continue;
+            }
+            let index = self.index_of[slot as usize];
+            let mut across = cell.corners;
+            for i in 0..G::Corners::N {
+                let out = cell.neighbour(i);
+                across[i] = self.index_of[out.cell() as usize];
+                if across[i] != NO_CELL && !dirty.has(out.cell()) {
+                    let place = self.orderings[across[i] as usize].place(out.index());
+                    self.neighbours[across[i] as usize][place] = index;
+                }
+            }
+            self.neighbours[index as usize] = self.orderings[index as usize].arrange(across);
+        }
+    }
+
+    /// Writes the neighbours of all cells, on several threads where that pays.
+    pub(super) fn glue_all(&mut self, kernel: &Delaunay<G>) {
+        let (slots, orderings, index_of) = (&self.slots[..], &self.orderings[..], &self.index_of[..]);
+        let n_threads = kernel.threads().for_work(slots.len(), GLUED_AT_LEAST, 256);
+        threads::for_parts(&mut self.neighbours, 0, n_threads, &|first, rows: &mut [G::Corners]| {
+            for (index, row) in (first..).zip(rows) {
+                if let Some(&next) = slots.get(index + AHEAD) {
+                    prefetch(kernel.complex().cells(), next as usize);
+                }
+                let cell = kernel.complex().cell(slots[index]);
+                let mut across = cell.corners;
+                for i in 0..G::Corners::N {
+                    across[i] = index_of[cell.neighbour(i).cell() as usize];
+                }
+                *row = orderings[index].arrange(across);
+            }
+        });
+    }
+
+    /// Makes the arrays of all cells, of which there are none yet.
+    pub(super) fn fill(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        let (n, n_slots) = (kernel.complex().n_finite(), kernel.complex().n_slots());
+        let Cells { corners, neighbours, index_of, slots, orderings, .. } = self;
+        memory::reserve(corners, n)?;
+        memory::reserve(neighbours, n)?;
+        memory::reserve(slots, n)?;
+        let more_orderings = n.saturating_sub(orderings.len());
+        memory::reserve(orderings, more_orderings)?;
+        index_of.clear();
+        memory::reserve(index_of, n_slots)?;
+        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
+            tracker.reserve(0, 0, n, n)?;
+        }
+        // From here on nothing fails.
+        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
+            (0..n as u32).for_each(|index| tracker.create(index));
+        }
+        index_of.resize(n_slots, NO_CELL);
+        for (slot, index) in kernel.complex().finite().zip(0..) {
+            slots.push(slot);
+            index_of[slot as usize] = index;
+        }
+        orderings.clear();
+        orderings.resize(n, Ordering::SAME);
+        neighbours.resize(n, G::Corners::filled(NONE));
+        corners.resize(n, G::Corners::filled(NONE));
+        let (slots, n_threads) = (&slots[..], kernel.threads().for_work(n, GLUED_AT_LEAST, 256));
+        threads::for_parts(corners, 0, n_threads, &|first, rows: &mut [G::Corners]| {
+            rows.iter_mut().zip(&slots[first..]).for_each(|(row, &slot)| *row = ids_of(kernel, slot));
+        });
+        self.glue_all(kernel);
+        Ok(())
+    }
+}
