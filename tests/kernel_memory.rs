@@ -2,11 +2,15 @@
 //! what it says to have left alone is as it was.
 #![allow(unsafe_code)] // An allocator that fails has no other way to be one.
 
+#[path = "common/random.rs"]
+mod random;
+
 use deldrift::Error;
 use deldrift::internals::{Delaunay, Insertion, Shortcut};
 use deldrift::motion::Level;
 use deldrift::motion::{MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
+use random::Rng;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::ptr::null_mut;
@@ -72,20 +76,15 @@ fn without_each<T>(
     unreachable!()
 }
 
-fn unit(state: &mut u64) -> f64 {
-    *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-    (*state >> 11) as f64 / (1u64 << 53) as f64
-}
-
-fn point<G: Dimension>(state: &mut u64) -> G::Point {
+fn point<G: Dimension>(rng: &mut Rng) -> G::Point {
     let mut p = G::Point::default();
-    (0..G::D).for_each(|k| p[k] = unit(state) - 0.5);
+    (0..G::D).for_each(|k| p[k] = rng.unit() - 0.5);
     p
 }
 
 fn random<G: Dimension>(n: usize) -> Vec<G::Point> {
-    let mut state = 1;
-    (0..n).map(|_| point::<G>(&mut state)).collect()
+    let rng = &mut Rng::new(1);
+    (0..n).map(|_| point::<G>(rng)).collect()
 }
 
 /// A vertex in the middle of so many that all are its neighbours.

@@ -231,7 +231,7 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
     }
 
     fn check_families(&self, families: &[(Family, usize)]) {
-        let mut random = Random(2_010 + N as u64);
+        let mut random = Random::new(2_010 + N as u64);
         let mut total = Tally::default();
         for &(family, n_cases) in families {
             let mut tally = Tally::default();
@@ -254,7 +254,7 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
 
     /// Errors of any points, and the largest to be found by climbing from points in a cube's corners.
     fn check_bound(&self) {
-        let mut random = Random(6_750 + N as u64);
+        let mut random = Random::new(6_750 + N as u64);
         let mut largest = 0f64;
         for family in [Uniform, Corners, Flat, Sphere, LeastBits, Extreme, ExtremeDegenerate] {
             for _ in 0..10_000 {
@@ -447,7 +447,7 @@ impl<const D: usize, const N: usize> Perturbed<D, N> {
 
     fn check(&self, n_cases: usize, every_nth_by_numbers: usize) {
         let f = (self.filter)([-1e6; D], [1e6; D]);
-        let mut random = Random(20_100_910 + N as u64);
+        let mut random = Random::new(20_100_910 + N as u64);
         let (mut tally, mut cases, mut by_numbers) = (Tally::default(), 0, 0);
         while cases < n_cases {
             let Some(integers) = self.points(&f, &mut random) else { continue };
@@ -505,7 +505,7 @@ fn insphere_perturbed_is_the_sign_of_the_raised_determinant() {
 fn perturbed_circles_triangulate_a_grid() {
     let points: Vec<[f64; 2]> = (0..25).map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect();
     let f = StaticFilter::plane([0.0; 2], [4.0; 2]);
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let mut ids: Vec<u32> = (0..25).collect();
     for _ in 0..20 {
         random.shuffle(&mut ids);
@@ -532,7 +532,7 @@ fn perturbed_spheres_triangulate_a_grid() {
     let points: Vec<[f64; 3]> =
         (0..27).map(|i| [f64::from(i % 3), f64::from(i / 3 % 3), f64::from(i / 9)]).collect();
     let f = StaticFilter::space([0.0; 3], [2.0; 3]);
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     let mut ids: Vec<u32> = (0..27).collect();
     let quadruples = || {
         (0..27usize).flat_map(|i| {
@@ -584,7 +584,7 @@ fn compare_distance_is_exact() {
         (LeastBits, 100_000),
         (ExtremeDegenerate, 50_000),
     ];
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let mut total = Tally::default();
     for (family, n_cases) in families {
         for tally in [
@@ -610,7 +610,7 @@ fn is_collinear3_is_exact() {
         (LeastBits, 150_000),
         (ExtremeDegenerate, 50_000),
     ];
-    let mut random = Random(13);
+    let mut random = Random::new(13);
     let mut total = Tally::default();
     for (family, n_cases) in families {
         for _ in 0..n_cases {

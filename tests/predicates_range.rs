@@ -161,7 +161,7 @@ struct Prepared<const D: usize, const N: usize> {
 impl<const D: usize, const N: usize> Prepared<D, N> {
     /// Answers above the bound have the exact sign, and errors are below the bound.
     fn check(&self) {
-        let mut random = Random(1_986 + N as u64);
+        let mut random = Random::new(1_986 + N as u64);
         let mut tally = Tally::default();
         let (mut n_certain, mut largest) = (0, 0f64);
         for family in FAMILIES {
@@ -199,7 +199,7 @@ const N_CASES: usize = 15_000;
 impl<const D: usize, const N: usize> Predicate<D, N> {
     /// The tightest filter, one that decides next to nothing, a swap; and the rounding error.
     fn check(&self) {
-        let mut random = Random(1_985 + N as u64);
+        let mut random = Random::new(1_985 + N as u64);
         let mut total = Tally::default();
         let everything = StaticFilter { orient: -1.0, in_sphere: -1.0, prepared: 0.0, largest_square: 0.0 };
         let wide = (self.filter)([-MAX_MAGNITUDE; D], [MAX_MAGNITUDE; D]);
@@ -243,7 +243,7 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
     /// Points of a grid whose spacing is next to the least for which determinants are evaluated in integers of fixed
     /// width, some of them a little off: what is left of a tie there is close to underflow.
     fn check_fine_grids(&self) {
-        let mut random = Random(206);
+        let mut random = Random::new(206);
         let mut tally = Tally::default();
         for case in 0..40_000 {
             let spacing = power_of_two(-175 - case % 40);
@@ -325,7 +325,7 @@ fn check_perturbed<const D: usize, const N: usize, const M: usize>(
     is_inside: fn(&StaticFilter, &[[f64; D]; N], [u32; N]) -> bool,
     filter: fn([f64; D], [f64; D]) -> StaticFilter,
 ) {
-    let mut random = Random(2_010 + N as u64);
+    let mut random = Random::new(2_010 + N as u64);
     let (mut tally, mut n_cases) = (Tally::default(), 0);
     for family in FAMILIES.into_iter().cycle() {
         if n_cases >= 100_000 {
@@ -391,14 +391,14 @@ fn check_compare_distance<const D: usize>(random: &mut Random) {
 
 #[test]
 fn compare_distance_is_exact() {
-    let mut random = Random(17);
+    let mut random = Random::new(17);
     check_compare_distance::<2>(&mut random);
     check_compare_distance::<3>(&mut random);
 }
 
 #[test]
 fn is_collinear3_is_exact() {
-    let mut random = Random(19);
+    let mut random = Random::new(19);
     let mut tally = Tally::default();
     for family in FAMILIES {
         for _ in 0..N_CASES {

@@ -212,12 +212,7 @@ pub(super) fn drop_outside_sphere(
 mod tests {
     use super::*;
     use crate::delaunay::Failures;
-
-    /// In [0, 1).
-    fn unit(state: &mut u64) -> f64 {
-        *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-        (*state >> 11) as f64 / (1u64 << 53) as f64
-    }
+    use crate::random::Rng;
 
     fn point<G: Dimension>(mut coordinate: impl FnMut() -> f64) -> G::Point {
         let mut p = G::Point::default();
@@ -226,10 +221,10 @@ mod tests {
     }
 
     /// Random points, points of a small grid, or points on a sphere, so that there are very many ghosts.
-    fn points<G: Dimension>(kind: usize, n: usize, state: &mut u64) -> Vec<G::Point> {
+    fn points<G: Dimension>(kind: usize, n: usize, rng: &mut Rng) -> Vec<G::Point> {
         let mut points: Vec<G::Point> = (0..n)
             .map(|_| {
-                point::<G>(|| if kind == 1 { (unit(state) * 7.0).floor() } else { unit(state) * 6.0 - 3.0 })
+                point::<G>(|| if kind == 1 { (rng.unit() * 7.0).floor() } else { rng.unit() * 6.0 - 3.0 })
             })
             .collect();
         if kind == 2 {
@@ -242,13 +237,13 @@ mod tests {
     }
 
     /// Moves one site in so many by up to `size` along each axis.
-    fn move_sites<G: Dimension>(t: &mut Delaunay<G>, one_in: f64, size: f64, state: &mut u64) {
+    fn move_sites<G: Dimension>(t: &mut Delaunay<G>, one_in: f64, size: f64, rng: &mut Rng) {
         let (mut lower, mut upper) = (t.lower(), t.upper());
         for s in t.live_sites().collect::<Vec<_>>() {
-            if unit(state) * one_in < 1.0 {
+            if rng.unit() * one_in < 1.0 {
                 let mut q = t.site(s).point;
                 for k in 0..G::D {
-                    q[k] += size * (2.0 * unit(state) - 1.0);
+                    q[k] += size * (2.0 * rng.unit() - 1.0);
                     (lower[k], upper[k]) = (lower[k].min(q[k]), upper[k].max(q[k]));
                 }
                 t.set_point(s, q);
@@ -293,24 +288,24 @@ mod tests {
 
     /// All screens lead to the failures that a look at all cells finds.
     fn all_agree<G: Dimension>() {
-        let mut state = 3;
+        let rng = &mut Rng::new(3);
         for kind in 0..3 {
             let mut total = [0; 3];
             for round in 0..40 {
                 let mut t = Delaunay::<G>::default();
-                let n = G::D + 1 + (unit(&mut state) * [20.0, 400.0][round % 2]) as usize;
-                t.add_sites(&points::<G>(kind, n, &mut state)).expect("room for it");
+                let n = G::D + 1 + (rng.unit() * [20.0, 400.0][round % 2]) as usize;
+                t.add_sites(&points::<G>(kind, n, rng)).expect("room for it");
                 t.rebuild(&mut |_| true).expect("room for it");
                 // Leaves free cells among the others.
                 for s in t.live_sites().collect::<Vec<_>>() {
-                    if unit(&mut state) < 0.05 && t.has_cells() {
+                    if rng.unit() < 0.05 && t.has_cells() {
                         t.remove_site(s).expect("room for it");
                     }
                 }
                 let mut n_failed = agree(&t, &format!("{n} points of kind {kind}, at rest"));
                 assert_eq!(n_failed[..2], [0, 0]);
                 for (one_in, size) in [(20.0, 0.01), (1.0, 1e-9), (20.0, 3.0), (1.0, 0.05), (1.0, 1.0)] {
-                    move_sites(&mut t, one_in, size, &mut state);
+                    move_sites(&mut t, one_in, size, rng);
                     let context = format!("{n} points of kind {kind}, moved by {size}");
                     let more = agree(&t, &context);
                     (0..3).for_each(|k| n_failed[k] += more[k]);
@@ -338,7 +333,7 @@ mod tests {
     fn cells_at_rest_pass() {
         fn n_open<G: Dimension>() -> usize {
             let mut t = Delaunay::<G>::default();
-            t.add_sites(&points::<G>(0, 1000, &mut 5)).expect("room for it");
+            t.add_sites(&points::<G>(0, 1000, &mut Rng::new(5))).expect("room for it");
             t.rebuild(&mut |_| true).expect("room for it");
             agree(&t, "at rest")[2]
         }
@@ -370,12 +365,12 @@ mod tests {
     /// all that a bound for all says nothing.
     fn facets_are_certain<G: Dimension>() {
         let Some(avx2) = Avx2::new() else { return };
-        let mut state = 11;
+        let rng = &mut Rng::new(11);
         let mut n_failed = 0;
         for round in 0..40 {
             // Scaled so, the points of the grid are next to cocircular, or cospherical, by rounding.
             let (kind, scale) = [(0, 1.0), (0, 1e-9), (1, 0.1), (1, 1e-9)][round % 4];
-            let mut points = points::<G>(kind, 300, &mut state);
+            let mut points = points::<G>(kind, 300, rng);
             points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] *= scale));
             let mut t = Delaunay::<G>::default();
             t.add_sites(&points).expect("room for it");
@@ -384,7 +379,7 @@ mod tests {
             let [n, n_certain] = certain_of(avx2, &t, "at rest");
             assert!(kind == 1 || 1000 * n_certain > 995 * n, "{n_certain} of {n}, scale {scale}");
             for size in [1e-16, 1e-9, 0.05, 1.0] {
-                move_sites(&mut t, 1.0, scale * size, &mut state);
+                move_sites(&mut t, 1.0, scale * size, rng);
                 n_failed += n - certain_of(avx2, &t, &format!("moved by {size}"))[0];
             }
         }
@@ -405,18 +400,17 @@ mod tests {
     #[test]
     fn sites_outside_are_dropped() {
         let Some(avx2) = Avx2::new() else { return };
-        let mut state = 13;
+        let rng = &mut Rng::new(13);
         let (mut n_outside, mut n_dropped) = (0, 0);
         for round in 0..60 {
             let mut t = Delaunay::<Space>::default();
-            let n = 5 + (unit(&mut state) * 59.0) as usize;
-            t.add_sites(&points::<Space>(round % 2, n, &mut state)).expect("room for it");
+            let n = 5 + (rng.unit() * 59.0) as usize;
+            t.add_sites(&points::<Space>(round % 2, n, rng)).expect("room for it");
             t.rebuild(&mut |_| true).expect("room for it");
             let sites: Vec<u32> = t.live_sites().collect();
             for c in t.complex.finite().take(20) {
                 let corners = t.complex.cell(c).corners;
-                let any =
-                    (unit(&mut state) * 2f64.powi(53)) as u64 * 2048 + (unit(&mut state) * 2048.0) as u64;
+                let any = (rng.unit() * 2f64.powi(53)) as u64 * 2048 + (rng.unit() * 2048.0) as u64;
                 let set = any & (u64::MAX >> (64 - sites.len()));
                 let left = avx2.run(|| drop_outside_sphere(avx2, &t, &corners, &sites, set));
                 assert_eq!(left & !set, 0);
@@ -438,9 +432,9 @@ mod tests {
     #[test]
     fn looks_end_the_screen() {
         let mut t = Delaunay::<Plane>::default();
-        t.add_sites(&points::<Plane>(0, 500, &mut 7)).expect("room for it");
+        t.add_sites(&points::<Plane>(0, 500, &mut Rng::new(7))).expect("room for it");
         t.rebuild(&mut |_| true).expect("room for it");
-        move_sites(&mut t, 1.0, 1.0, &mut 9);
+        move_sites(&mut t, 1.0, 1.0, &mut Rng::new(9));
         for most in [1, 2, 5, 100] {
             let mut n = 0;
             let all = 0..t.complex.n_slots() as u32;

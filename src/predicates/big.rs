@@ -299,6 +299,7 @@ impl Mul for Integer<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Rng;
 
     #[test]
     fn numbers_decode_to_themselves() {
@@ -312,14 +313,8 @@ mod tests {
 
     #[test]
     fn integers_are_those_of_num_bigint() {
-        let mut state = 1u64;
-        let mut random = || {
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = state;
-            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-            z ^ z >> 31
-        };
+        let rng = &mut Rng::new(1);
+        let mut random = || rng.next();
         // Differences: random, or with long runs of equal bits, so that carries go far.
         fn difference<'r>(room: &'r Room, random: &mut impl FnMut() -> u64) -> Integer<'r> {
             let n_bits = random() as usize % 1266;
@@ -386,15 +381,14 @@ mod tests {
             assert_ne!(insphere(1.0, points.each_ref()), 0.0);
             assert_eq!(insphere(1.0, [p(k), p(k ^ 1), p(k ^ 2), p(k ^ 4), p(k ^ 7)].each_ref()), 0.0);
         }
-        let mut state = 1u64;
+        let rng = &mut Rng::new(1);
         for _ in 0..10_000 {
             // Any coordinates, very large and very small ones in turn.
             let points: [[f64; 3]; 5] = std::array::from_fn(|_| {
                 std::array::from_fn(|_| {
-                    state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-                    let large =
-                        (state >> 11) as f64 / (1u64 << 53) as f64 * corner[(state >> 8 & 1) as usize];
-                    if state >> 63 == 0 { large } else { f64::from_bits(state >> 60 & 7) }
+                    let bits = rng.next();
+                    let large = (bits >> 11) as f64 / (1u64 << 53) as f64 * corner[(bits >> 8 & 1) as usize];
+                    if bits >> 63 == 0 { large } else { f64::from_bits(bits >> 60 & 7) }
                 })
             });
             let [a, b, c, d, e] = points.each_ref();

@@ -41,16 +41,14 @@ pub fn side_of_seen_circle([u, v, w]: [&Lifted; 3], [uv, vw, wu]: [f64; 3]) -> f
 mod tests {
     use super::*;
     use crate::predicates::{StaticFilter, incircle};
+    use crate::random::Rng;
 
     /// A certain answer is that of the exact predicate, on random
     /// points and on points a few ulps from a circle.
     #[test]
     fn certain_answers_are_exact() {
-        let mut state = 5u64;
-        let mut below = |n: f64| {
-            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-            (state >> 11) as f64 / (1u64 << 53) as f64 * n
-        };
+        let rng = &mut Rng::new(5);
+        let mut below = |n: f64| rng.unit() * n;
         let f = StaticFilter::plane([-6.0; 2], [6.0; 2]);
         let (mut n_certain, mut n_open) = (0, 0);
         for round in 0..200_000 {

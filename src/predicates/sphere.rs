@@ -160,27 +160,22 @@ fn dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
 mod tests {
     use super::*;
     use crate::predicates::{incircle, insphere, orient2d, orient3d};
+    use crate::random::Rng;
 
     fn certain(f: &StaticFilter, value: f64) -> Option<bool> {
         (value.abs() > f.prepared).then_some(value > 0.0)
-    }
-
-    fn unit(state: &mut u64) -> f64 {
-        *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-        (*state >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// A certain answer is that of the exact predicate, on random points and on points a few ulps from a
     /// sphere.
     #[test]
     fn certain_answers_are_exact() {
-        let mut state = 5;
+        let rng = &mut Rng::new(5);
         let (mut n_certain, mut n_open) = (0, 0);
         for round in 0..200_000 {
             // Every other round has integer points around a sphere of radius 5, shaken by a last bit or not
             // at all.
-            let shaken =
-                |state: &mut u64, x: f64| x + [0.0, 0.0, 1e-15, -1e-15][(unit(state) * 4.0) as usize];
+            let shaken = |rng: &mut Rng, x: f64| x + [0.0, 0.0, 1e-15, -1e-15][(rng.unit() * 4.0) as usize];
             let on_sphere = [
                 [3., 4., 0.],
                 [5., 0., 0.],
@@ -192,9 +187,9 @@ mod tests {
             ];
             let p: [[f64; 3]; 5] = std::array::from_fn(|_| {
                 if round % 2 == 0 {
-                    std::array::from_fn(|_| unit(&mut state) * 10.0 - 5.0)
+                    std::array::from_fn(|_| rng.unit() * 10.0 - 5.0)
                 } else {
-                    on_sphere[(unit(&mut state) * 7.0) as usize].map(|x| shaken(&mut state, x))
+                    on_sphere[(rng.unit() * 7.0) as usize].map(|x| shaken(rng, x))
                 }
             });
             let f = StaticFilter::space([-6.0; 3], [6.0; 3]);
@@ -218,13 +213,13 @@ mod tests {
     /// A box that is said to be outside has no point inside, and most that are outside are said to be.
     #[test]
     fn boxes_outside_are_outside() {
-        let mut state = 9;
+        let rng = &mut Rng::new(9);
         let f = StaticFilter::space([-6.0; 3], [6.0; 3]);
         let g = StaticFilter::plane([-6.0; 2], [6.0; 2]);
         let (mut n_outside, mut n_seen) = (0, 0);
         for _ in 0..20_000 {
             let p: [[f64; 3]; 7] =
-                std::array::from_fn(|_| std::array::from_fn(|_| (unit(&mut state) * 12.0).round() - 6.0));
+                std::array::from_fn(|_| std::array::from_fn(|_| (rng.unit() * 12.0).round() - 6.0));
             let [a, b, c, d, l, u, _] = &p;
             let lower: [f64; 3] = std::array::from_fn(|k| l[k].min(u[k]));
             let upper: [f64; 3] = std::array::from_fn(|k| l[k].max(u[k]));

@@ -144,19 +144,23 @@ pub fn lift<T: Integer>(rows: &mut [Vec<T>]) {
 // ---------------------------------------------------------------------------------------------- random
 // numbers
 
-/// Steele, Lea and Flood's splitmix64.
-pub struct Random(pub u64);
+#[path = "../common/random.rs"]
+mod random;
+
+/// Random numbers as the predicates' tests need them.
+pub struct Random(random::Rng);
 
 impl Random {
+    pub fn new(seed: u64) -> Self {
+        Random(random::Rng::new(seed))
+    }
+
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
+        self.0.next()
     }
 
     pub fn below(&mut self, n: usize) -> usize {
-        ((u128::from(self.next()) * n as u128) >> 64) as usize
+        self.0.below(n)
     }
 
     /// Integer in -n..=n.
@@ -166,7 +170,7 @@ impl Random {
 
     /// In [-1, 1).
     pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
+        2.0 * self.0.unit() - 1.0
     }
 
     pub fn sign(&mut self) -> f64 {
@@ -174,9 +178,7 @@ impl Random {
     }
 
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
-        for i in (1..items.len()).rev() {
-            items.swap(i, self.below(i + 1));
-        }
+        self.0.shuffle(items);
     }
 }
 

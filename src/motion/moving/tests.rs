@@ -6,15 +6,12 @@ use crate::error::Error;
 use crate::motion::Options;
 use crate::motion::regions::Filter;
 use crate::motion::{Algorithm, CommitReport, Level};
+use crate::random::Rng;
 
 /// Small whole numbers, and the same ones again.
-fn points<G: Dimension>(n: usize, state: &mut u64) -> Vec<G::Point> {
-    let mut number = || {
-        *state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-        (*state >> 40) as f64
-    };
+fn points<G: Dimension>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
     let mut points = vec![G::Point::default(); n];
-    points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = number()));
+    points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = (rng.next() >> 40) as f64));
     points
 }
 
@@ -28,17 +25,17 @@ fn positions<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
 fn staged<G: Dimension>(
     n: usize,
     at_once: bool,
-    state: &mut u64,
+    rng: &mut Rng,
 ) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<u32>) {
-    let mut t = MovingTriangulation::<G>::new(&points::<G>(n, state), Options::default()).expect("room");
+    let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
     let elsewhere = t.staging.positions.clone();
     t.regions
         .compute(&mut t.kernel, n, Filter::Tolerance, &elsewhere, &mut CommitReport::default())
         .expect("room");
     let mut places = positions(&t);
-    let far = points::<G>(n, state);
-    for (v, (p, far)) in places.iter_mut().zip(far).enumerate() {
-        match (*state >> 20).wrapping_add(v as u64 * 7) % 5 {
+    let far = points::<G>(n, rng);
+    for (p, far) in places.iter_mut().zip(far) {
+        match rng.below(5) {
             0 => {}
             1 => *p = far,
             2 => p[0] = p[0].next_up(),
@@ -60,11 +57,11 @@ fn given_unless<G: Dimension>(at_once: bool, places: &[G::Point]) -> Given<'_, G
 }
 
 fn agree<G: Dimension>() {
-    let mut state = 5;
+    let rng = &mut Rng::new(5);
     let (mut n_beyond, mut n_moved) = (0, 0);
     // More than a block of them as well.
     for (n, at_once) in (G::D + 1..60).chain([2 * BLOCK + 3]).flat_map(|n| [(n, true), (n, false)]) {
-        let (mut t, places, beyond) = staged::<G>(n, at_once, &mut state);
+        let (mut t, places, beyond) = staged::<G>(n, at_once, rng);
         let before = positions(&t);
         let is_beyond = |v: usize| beyond.contains(&(v as u32));
         let differ = |v: &usize| before[*v] != places[*v];
@@ -89,7 +86,7 @@ fn agree<G: Dimension>() {
         }
 
         for moved_by in 0..3 {
-            let (mut t, places, beyond) = staged::<G>(n, at_once, &mut state);
+            let (mut t, places, beyond) = staged::<G>(n, at_once, rng);
             let given = &mut given_unless(at_once, &places);
             let before = positions(&t);
             let n_moved = (0..n).filter(|&v| before[v] != places[v]).count() as u64;
@@ -126,7 +123,8 @@ fn vertices_of_space_go_where_they_are_told() {
 fn threads_share_the_moves() {
     for threads in 1..5 {
         let options = || Options { threads, algorithm: Algorithm::Repair, ..Options::default() };
-        let (first, second) = (points::<Space>(2_000, &mut 1), points::<Space>(2_000, &mut 2));
+        let (first, second) =
+            (points::<Space>(2_000, &mut Rng::new(1)), points::<Space>(2_000, &mut Rng::new(2)));
         let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
         t.move_all(&second).expect("good places");
         assert_eq!(t.move_all_staged(&mut Given::nothing()).expect("good places"), 2_000);
@@ -137,7 +135,7 @@ fn threads_share_the_moves() {
 /// Wherever a bad position is, all commits say so, and nothing changes.
 fn bad_positions_are_refused<G: Dimension>() {
     let n = 5_000;
-    let points = points::<G>(n, &mut 3);
+    let points = points::<G>(n, &mut Rng::new(3));
     let algorithms = [
         Algorithm::Auto,
         Algorithm::Tolerance,
