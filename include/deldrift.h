@@ -189,8 +189,8 @@ enum deldrift_algorithm
     /// Builds the triangulation again from all positions (RR-6750, section 1).
     DELDRIFT_REBUILDING = 1,
     /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
-    /// the cells of the star stay positively oriented, flips repair it (in 3D they are taken back where they lead
-    /// nowhere); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
+    /// the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are then
+    /// undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
     /// that move far.
     DELDRIFT_PLACEMENT_FLIPS = 2,
     /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
@@ -199,7 +199,7 @@ enum deldrift_algorithm
     /// within, and for schemes that converge. All tolerances are computed by the first commit, and by the first
     /// one after another algorithm's.
     DELDRIFT_TOLERANCE = 3,
-    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and
+    /// All vertices move at once, every certificate is checked, and what fails is repaired by flips and
     /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 4,
     /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report

@@ -1,6 +1,7 @@
-// Calls for which there is no memory: of the requests of a call, one is refused, alone, or with all that follow, or with
-// those that follow and would have as much held; which one is a matter of turns. The call gives DELDRIFT_OUT_OF_MEMORY, or does without; after a failure all is as it was, and the same call
-// then gives what it would have given. Nothing is printed, and what has been asked for is given back in the end.
+// Calls for which there is no memory. One request for memory of a call is refused: alone, with all later ones, or with
+// those later ones that would have as much held; the three take turns. The call gives DELDRIFT_OUT_OF_MEMORY, or does
+// without. After a failure everything is as before, and the same call then gives what it would have given. Nothing is
+// printed, and all memory is given back in the end.
 //
 // DELDRIFT_SOAK multiplies the number of faults; below 1 some calls are left out.
 #include "scenes.h"
@@ -8,7 +9,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-// Of the requests of a call, so many are refused from the first one on, and so many more at even distances.
+// Of the requests of a call, the first `FIRST` are refused in turn, and `SPREAD` more at even distances.
 enum { FIRST = 6, SPREAD = 4 };
 
 typedef struct {
@@ -141,8 +142,9 @@ static void faults_of(uint32_t dimension, call call, size_t which, double share,
         if (k >= c.n_requests) break;
         later too = (later)((round + turn) % 3);
         bool has_failed = false;
-        snprintf(place, sizeof place, "%s, %uD, algorithm %u, goal %d, setting %zu: request %zu of %zu%s", NAMES[call.kind],
-                 dimension, call.algorithm, call.goal, which, k, c.n_requests, (const char *[]){"", " and all later ones", " and all beyond it"}[too]);
+        const char *others = (const char *[]){"", " and all later ones", " and all beyond it"}[too];
+        snprintf(place, sizeof place, "%s, %uD, algorithm %u, goal %d, setting %zu: request %zu of %zu%s",
+                 NAMES[call.kind], dimension, call.algorithm, call.goal, which, k, c.n_requests, others);
         size_t blocks_before = n_blocks;
         scene s = make_scene(dimension, call, setting);
         const char *wrong = fault(&s, &c, k, too, (round + turn) % 2 == 0, &has_failed);
@@ -210,12 +212,56 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     end_scene(&s);
 }
 
+// The first cells of a flat set are created in the change list and among the changed cells, or, without the memory for
+// that, in neither: when fewer cells are there at the next call, only these are listed.
+static void first_cells_are_listed_once(void) {
+    enum { COUNT = 40 };
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.threads = 1;
+    options.track_changes = 1;
+    bool has_failed = true;
+    for (size_t k = 0; has_failed; k++) {
+        double positions[2 * COUNT];
+        for (size_t i = 0; i < COUNT; i++) {
+            positions[2 * i] = (double)i;
+            positions[2 * i + 1] = 0;
+        }
+        deldrift_triangulation *t = create(2, positions, COUNT, &options);
+        deldrift_changes changes;
+        deldrift_cells_view view;
+        deldrift_indices_view changed;
+        OK(deldrift_take_changes(t, &changes));
+        CHECK(changes.created_count == 0);
+        for (size_t i = 0; i < COUNT; i++) positions[2 * i + 1] = (double)(i * 7 % 11);
+        OK(deldrift_move_vertices(t, NULL, positions, COUNT));
+        OK(deldrift_commit_timestamp(t, NULL));
+        count_requests(k, NONE_LATER);
+        deldrift_status status = deldrift_take_changes(t, &changes);
+        stop_counting();
+        has_failed = status == DELDRIFT_OUT_OF_MEMORY;
+        if (has_failed) {
+            for (uint32_t v = 0; v < COUNT / 2; v++) OK(deldrift_remove_vertex(t, v));
+            OK(deldrift_take_changes(t, &changes));
+        } else {
+            CHECK(status == DELDRIFT_OK && n_refused == 0 && k >= 5);
+        }
+        OK(deldrift_cells(t, &view));
+        CHECK(view.count > 0 && changes.created_count == view.count && changes.removed_count == 0);
+        OK(deldrift_changed_cells(t, &changed));
+        CHECK(changed.count == view.count);
+        for (size_t c = 0; c < view.count; c++) CHECK(changes.created[c] == c && changed.indices[c] == c);
+        deldrift_destroy(t);
+    }
+}
+
 int main(void) {
     static const deldrift_algorithm all[] = ALL_ALGORITHMS;
     struct sigaction action = {.sa_handler = tell_where};
     sigaction(SIGABRT, &action, NULL);
     double factor = soak();
     the_first_calls_need_no_more_than_others();
+    first_cells_are_listed_once();
     size_t turn = 0;
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
         other_functions_ask_for_nothing(dimension);

@@ -28,7 +28,7 @@ pub enum Commits {
     Rebuild,
     /// Vertices are relocated one after the other.
     OneByOne,
-    /// all vertices move at once; then what fails is repaired.
+    /// All vertices move at once; then what fails is repaired.
     Together,
     /// By one of the other algorithms.
     ByOthers,
@@ -137,8 +137,8 @@ algorithms! {
     }
 
     /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
-    /// the cells of the star stay positively oriented, flips repair it (in 3D they are taken back where they lead
-    /// nowhere); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
+    /// the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are then
+    /// undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
     /// that move far.
     PlacementFlips = 2 {
         name: "placement_flips",
@@ -161,7 +161,7 @@ algorithms! {
         by: commit_by_filter(Filter::Tolerance),
     }
 
-    /// All vertices move at once, every certificate is checked, and what fails is mended by flips and
+    /// All vertices move at once, every certificate is checked, and what fails is repaired by flips and
     /// placements. Rebuilds where too much fails.
     Repair = 4 {
         name: "repair",

@@ -10,8 +10,8 @@
 //!
 //! **Looking at everything or not.** Few flips in the last commits announce that most bi-cells have tolerance left. To
 //! compute that of all costs eight sweeps. What is recomputed after that, and watched, is counted and weighed by
-//! measured costs ([`Costs`]): when it has cost a quarter of a computation of all more than the more expensive way would have, that
-//! is taken, and the cheaper one tried ever more rarely. In space the way down is repair, slack, watching, without
+//! measured costs ([`Costs`]). When it has cost more than the expensive way would have, by a quarter of a computation of all
+//! tolerances, the expensive way is taken, and the cheaper one is tried more and more rarely. In space the way down is repair, slack, watching, without
 //! slack where almost nothing changes; in the plane a sweep is so cheap that slack would seldom pay. Before watching
 //! a sample of the vertices is checked. When what is watched or what is recomputed has cost more than the other
 //! by half a computation of all, all tolerances are computed again, so that what is watched follows from how far the
@@ -111,7 +111,7 @@ const REBUILT: u32 = 15;
 #[derive(Debug, Default)]
 pub(super) struct Auto {
     look: Look,
-    /// What that has cost more than the more expensive way would have, and what the watched bi-cells have cost more than the
+    /// By how much that has cost more than the expensive way would have, and what the watched bi-cells have cost more than the
     /// vertices beyond, in nanoseconds.
     excess: f64,
     imbalance: f64,

@@ -1,7 +1,7 @@
 //! Cells that are in another slot than before, found by their corners.
 //!
-//! Few are found by a hash. Many are listed by their lowest corner: cells with the same one are near to each other in both
-//! orders, where what a hash touches is anywhere.
+//! Few are found by a hash table. Many are listed by their lowest corner: cells with the same lowest corner are close
+//! together in memory, before and after, while the entries of a hash table are scattered, and each is a cache miss.
 
 use crate::complex::{Corners, NONE, memory};
 use crate::error::Result;

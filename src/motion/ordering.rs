@@ -1,4 +1,4 @@
-//! How the row of a cell lists the corners that its slot has in an order of its own.
+//! The order of a cell's corners in its row, compared with the order in its slot.
 
 use crate::complex::Corners;
 
