@@ -128,8 +128,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut widths, cells.corners.len() * G::Corners::N)?;
         for index in 0..cells.corners.len() as u32 {
             for corner in 0..G::Corners::N {
-                let delimiter =
-                    BiCell::of(&self.kernel, cells.facet(&self.kernel, index, corner)).delimiter();
+                let delimiter = BiCell::of(&self.kernel, cells.facet(index, corner)).delimiter();
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
             }
         }
@@ -146,6 +145,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         if cell as usize >= cells.corners.len() || corner as usize > G::D {
             return Ok(None);
         }
-        Ok(BiCell::of(&self.kernel, cells.facet(&self.kernel, cell, corner as usize)).delimiter())
+        Ok(BiCell::of(&self.kernel, cells.facet(cell, corner as usize)).delimiter())
     }
 }

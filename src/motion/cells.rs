@@ -121,15 +121,6 @@ fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> G::Corners {
     ids
 }
 
-/// The index of the corner of this id, which is where it is expected as a rule.
-#[inline(always)]
-pub(super) fn position_of<C: Corners>(row: &C, expected: usize, id: u32) -> usize {
-    if row[expected] == id {
-        return expected;
-    }
-    (0..C::N).find(|&i| row[i] == id).expect("a corner of the cell")
-}
-
 /// Whether a slot holds a finite cell.
 #[inline(always)]
 fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> bool {
@@ -326,10 +317,11 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// The index, in the complex, of a corner of a cell.
-    pub(super) fn facet(&self, kernel: &Delaunay<G>, index: u32, corner: usize) -> Facet {
-        let slot = self.slots[index as usize];
-        let ids = ids_of(kernel, slot);
-        Facet::new(slot, position_of(&ids, corner, self.corners[index as usize][corner]))
+    pub(super) fn facet(&self, index: u32, corner: usize) -> Facet {
+        let ordering = self.orderings[index as usize];
+        let in_slot =
+            (0..G::Corners::N).find(|&i| ordering.place(i) == corner).expect("every place is taken");
+        Facet::new(self.slots[index as usize], in_slot)
     }
 
     /// A copy of arrays that are up to date, in which vertices have other ids and cells other slots, `n_slots` in all:

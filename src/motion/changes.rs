@@ -180,11 +180,19 @@ impl<C: Corners> Tracker<C> {
     pub(super) fn list_created(&self, corners: &[C], created: &mut Vec<u32>) -> Result<()> {
         let removed = self.sorted_removed()?;
         *created = self.touched.sorted()?;
-        created.retain(|&index| {
-            self.origin.get(index as usize) == Some(&NONE)
-                && find(&removed, &sorted(corners[index as usize])).is_none()
-        });
+        created.retain(|&index| self.origin_of(index, corners, &removed) == Some((NONE, None)));
         Ok(())
+    }
+
+    /// The index at the base of a cell, [`NONE`] if it is new, and which of the removed ones it is if it has come back;
+    /// nothing beyond the end.
+    fn origin_of(&self, index: u32, corners: &[C], removed: &[(C, u32)]) -> Option<(u32, Option<u32>)> {
+        let origin = *self.origin.get(index as usize)?;
+        if origin != NONE || removed.is_empty() {
+            return Some((origin, None));
+        }
+        let returned = find(removed, &sorted(corners[index as usize]));
+        Some((returned.map_or(NONE, |k| self.removed[k as usize].0), returned))
     }
 
     /// The removed cells that may have come back, by their sorted corners, each with its position in the list.
@@ -321,14 +329,9 @@ impl<C: Corners> Taken<C> {
         has_returned.resize(by_corners.len(), false);
         tracker.touched.sort();
         for &index in tracker.touched.as_slice() {
-            let Some(&(mut origin)) = tracker.origin.get(index as usize) else { break };
-            if origin == NONE
-                && !by_corners.is_empty()
-                && let Some(k) = find(&by_corners, &sorted(corners[index as usize]))
-            {
-                // It was removed, and is there again.
+            let Some((origin, returned)) = tracker.origin_of(index, corners, &by_corners) else { break };
+            if let Some(k) = returned {
                 has_returned[k as usize] = true;
-                origin = tracker.removed[k as usize].0;
             }
             if origin == NONE {
                 self.created.push(index);

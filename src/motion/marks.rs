@@ -97,30 +97,28 @@ impl Marks {
         &self.list
     }
 
-    fn is_sparse(&self) -> bool {
-        SPARSE * self.list.len() < 64 * self.bits.0.len()
+    /// Puts a list of all the numbers in ascending order.
+    fn put_in_order(&self, list: &mut Vec<u32>) {
+        if SPARSE * list.len() < 64 * self.bits.0.len() {
+            list.sort_unstable();
+        } else {
+            list.clear();
+            list.extend(self.bits.iter());
+        }
     }
 
     /// Puts the numbers in ascending order.
     pub(super) fn sort(&mut self) {
-        if self.is_sparse() {
-            self.list.sort_unstable();
-        } else {
-            self.list.clear();
-            self.list.extend(self.bits.iter());
-        }
+        let mut list = std::mem::take(&mut self.list);
+        self.put_in_order(&mut list);
+        self.list = list;
     }
 
     /// The numbers, ascending.
     pub(super) fn sorted(&self) -> Result<Vec<u32>> {
-        let mut sorted = memory::copy_of(&self.list)?;
-        if self.is_sparse() {
-            sorted.sort_unstable();
-        } else {
-            sorted.clear();
-            sorted.extend(self.bits.iter());
-        }
-        Ok(sorted)
+        let mut list = memory::copy_of(&self.list)?;
+        self.put_in_order(&mut list);
+        Ok(list)
     }
 
     pub(super) fn clear(&mut self) {
