@@ -7,8 +7,8 @@ use super::motion::{deldrift_commit_report, point_for};
 use super::pointers;
 use super::status::{Failure, deldrift_status};
 use super::triangulation::{deldrift_triangulation, dimension_of, in_its_dimension, tell};
-use crate::delaunay::Dimension;
-use crate::motion::{CellsView, Level, Location, MovingTriangulation, NO_CELL};
+use crate::delaunay::{Dimension, IndexSet};
+use crate::motion::{CellsView, Level, Location, MovingTriangulation, NO_CELL, cells_at};
 
 /// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
 /// an empty triangulation.
@@ -305,11 +305,12 @@ pub unsafe extern "C" fn deldrift_star(
     // SAFETY: the header's conditions on pointers.
     unsafe {
         fence::read(t, |kernel| {
-            let star = in_its_dimension!(kernel, t => t.star_of(vertex))?;
-            let needed = star.cells().count();
+            let mut slots = IndexSet::new();
+            let index_of = in_its_dimension!(kernel, t => t.list_star(vertex, &mut slots))?;
+            let needed = cells_at(&slots, index_of).count();
             copy_out(Room { capacity, count }, needed, &[("cells", cells.cast())], || {
                 let places = pointers::buffer("cells", cells, needed)?;
-                for (place, cell) in places.iter_mut().zip(star.cells()) {
+                for (place, cell) in places.iter_mut().zip(cells_at(&slots, index_of)) {
                     place.write(cell);
                 }
                 Ok(())

@@ -1,7 +1,8 @@
 //! Room for large arrays.
 //!
 //! An array of many megabytes that is written once in storage order costs a page fault every few kilobytes: a
-//! fifth of a 2D build of a million sites. Where the system has large pages for those who ask, ask.
+//! fifth of a 2D build of a million sites; one that is read out of order, a search for the page at most of the reads.
+//! Where the system has large pages for those who ask, ask.
 
 #![allow(unsafe_code)]
 
@@ -19,10 +20,14 @@ const LARGE: usize = 4 << 20;
 /// Makes room for exactly `more` more entries.
 pub(crate) fn reserve_exact<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve_exact(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })?;
-    if array.capacity() * size_of::<T>() >= LARGE {
-        advise_large_pages(array.as_mut_ptr().cast(), array.capacity() * size_of::<T>());
-    }
+    advise_if_large(array);
     Ok(())
+}
+
+fn advise_if_large<T>(array: &mut Vec<T>) {
+    if bytes_of(array) >= LARGE {
+        advise_large_pages(array.as_mut_ptr().cast(), bytes_of(array));
+    }
 }
 
 /// Makes room for `more` more entries at least; where more follow, in constant time each.
@@ -34,7 +39,18 @@ pub(crate) fn reserve<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
 #[cold]
 #[inline(never)]
 fn grow<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
-    array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })
+    array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })?;
+    advise_if_large(array);
+    Ok(())
+}
+
+/// As [`reserve`], but where the array has to grow, it is by an eighth: for large arrays, of which half must not stay empty.
+pub(crate) fn reserve_sparingly<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
+    if array.capacity() - array.len() >= more {
+        return Ok(());
+    }
+    let eighth = array.len() / 8;
+    reserve_exact(array, more.max(eighth))
 }
 
 /// Makes room for `more` more entries at least of a map from which none has been removed, so that they can be inserted

@@ -212,6 +212,12 @@ impl<C: Corners> Complex<C> {
         unsafe { *self.cells.as_ptr().cast::<u32>().add(at) }
     }
 
+    /// Asks for a cell.
+    #[inline(always)]
+    pub(crate) fn prefetch(&self, cell: u32) {
+        prefetch(&self.cells, cell as usize);
+    }
+
     /// Asks for the neighbours of a cell, which may be free.
     #[inline(always)]
     pub(crate) fn prefetch_neighbours(&self, cell: u32) {

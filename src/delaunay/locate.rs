@@ -6,7 +6,7 @@
 //! ghost cell whose facet has the point strictly beyond it.
 
 use super::{Delaunay, Dimension, IndexSet};
-use crate::complex::{Corners, NONE};
+use crate::complex::{Complex, Corners, NONE};
 use crate::error::Result;
 use crate::predicates::StaticFilter;
 
@@ -91,30 +91,67 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Calls `visit` for each cell around a site, ghost cells included, with the index of the site in it.
     pub fn for_star(&self, s: u32, mut visit: impl FnMut(u32, usize)) -> Result<()> {
-        for &cell in self.star_of(s)?.as_slice() {
+        let mut star = IndexSet::new();
+        self.list_star(s, &mut star, |_| {})?;
+        for &cell in star.as_slice() {
             visit(cell, self.complex.cell(cell).index_of(s));
         }
         Ok(())
     }
 
-    /// The cells around a site, ghost cells included.
-    pub(crate) fn star_of(&self, s: u32) -> Result<IndexSet> {
-        let mut star = IndexSet::new();
+    /// Enters the cells around a site, ghost cells included, into an empty set. Calls `found` as soon as the index of a
+    /// cell is known, for some of them more than once.
+    #[inline(always)]
+    pub(crate) fn list_star(&self, s: u32, star: &mut IndexSet, found: impl FnMut(u32)) -> Result<()> {
         if !self.has_cells() {
-            return Ok(star);
+            return Ok(());
         }
-        star.insert(self.site(s).cell)?;
-        let mut next = 0;
-        while let Some(&cell) = star.as_slice().get(next) {
-            next += 1;
-            let c = self.complex.cell(cell);
-            let at = c.index_of(s);
-            for i in 0..G::Corners::N {
-                if i != at {
-                    star.insert(c.neighbour(i).cell())?;
-                }
-            }
-        }
-        Ok(star)
+        list_star(&self.complex, self.site(s).cell, s, star, found)
     }
+}
+
+/// As [`Delaunay::list_star`], of the site `s`, around which the cell `first` is.
+#[inline(always)]
+pub(super) fn list_star<C: Corners>(
+    complex: &Complex<C>,
+    first: u32,
+    s: u32,
+    star: &mut IndexSet,
+    mut found: impl FnMut(u32),
+) -> Result<()> {
+    found(first);
+    if C::N == 3 {
+        // A ring: both ways around at once, so that the processor waits for two cells together.
+        let across = |cell: u32, from: usize| {
+            let c = complex.cell(cell);
+            c.neighbour((c.index_of(s) + from) % C::N).cell()
+        };
+        star.push(first)?;
+        let (mut left, mut right) = (first, first);
+        loop {
+            left = across(left, 1);
+            if left == right {
+                return Ok(());
+            }
+            found(left);
+            star.push(left)?;
+            right = across(right, 2);
+            if right == left {
+                return Ok(());
+            }
+            found(right);
+            star.push(right)?;
+        }
+    }
+    star.spread(first, |cell| {
+        let c = complex.cell(cell);
+        let at = c.index_of(s);
+        // All facets but the one opposite the site. No branch depends on where that is.
+        [1, 2, 3].map(|from| {
+            let other = c.neighbour((at + from) % C::N).cell();
+            complex.prefetch(other);
+            found(other);
+            other
+        })
+    })
 }

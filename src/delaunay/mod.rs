@@ -97,6 +97,8 @@ pub struct Delaunay<G: Dimension> {
     recent: u32,
     cavity: Cavity<G>,
     hole: Hole<G>,
+    /// The cells of the star gathered last.
+    around: IndexSet,
     flips: AllFlips<G>,
     log: undo::Log<G>,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
@@ -134,6 +136,7 @@ impl<G: Dimension> Delaunay<G> {
             recent: 0,
             cavity: Cavity::default(),
             hole: Hole::default(),
+            around: IndexSet::new(),
             flips: AllFlips::default(),
             log: undo::Log::default(),
             changed: None,
@@ -448,6 +451,7 @@ impl<G: Dimension> Delaunay<G> {
             + self.flat.memory_bytes()
             + self.cavity.memory_bytes()
             + self.hole.memory_bytes()
+            + self.around.memory_bytes()
             + self.flips.memory_bytes()
             + self.log.memory_bytes()
             + self.changed.as_ref().map_or(0, memory::bytes_of)

@@ -11,9 +11,11 @@
 //!
 //! Invariant: the complex is not touched before the whole filling is known.
 
+use super::locate::list_star;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE, memory};
 use crate::error::Result;
+use crate::prefetch::prefetch;
 
 /// Link sites that the bit masks of facets can tell apart, the ghost vertex included.
 pub(super) const MAX_LINK: usize = 64;
@@ -73,59 +75,31 @@ impl<G: Dimension> Hole<G> {
 const NEW: u32 = MAX_CELLS as u32;
 
 impl<G: Dimension> Delaunay<G> {
-    /// Collects the star of a site and its link.
+    /// Collects the star of a site and its link. What a relocation reads next is asked for on the way: the sites of the
+    /// link and those beyond its facets.
     pub(crate) fn gather_star(&mut self, s: u32) -> Result<()> {
-        let gathered = self.mark_star(s);
-        for &(c, _) in &self.hole.star {
-            self.complex.set_mark(c, 0);
-        }
-        gathered
-    }
-
-    /// Likewise; the cells of the star that are listed have marks.
-    #[inline(always)]
-    fn mark_star(&mut self, s: u32) -> Result<()> {
+        self.around.clear();
+        list_star(&self.complex, self.sites[s as usize].cell, s, &mut self.around, |_| {})?;
         let Hole { star, link, .. } = &mut self.hole;
         star.clear();
         link.clear();
-        let first = self.sites[s as usize].cell;
-        memory::push(star, (first, self.complex.cell(first).index_of(s) as u8))?;
-        self.complex.set_mark(first, 1);
-        // What is written is counted here first: relocations spend much of their time in this loop.
-        let (mut next, mut n_star, mut n_link) = (0, 1, 0);
-        let mut gathered = Ok(());
-        while next < n_star {
-            if star.capacity() < n_star + G::D || link.capacity() < n_link + 1 {
-                // SAFETY: that many have been written.
-                unsafe { (star.set_len(n_star), link.set_len(n_link)) };
-                gathered = memory::reserve(star, G::D).and_then(|()| memory::reserve(link, 1));
-                if gathered.is_err() {
-                    break;
-                }
-            }
-            // SAFETY: one of those that have been written.
-            let (c, at) = unsafe { *star.as_ptr().add(next) };
-            let at = at as usize;
-            next += 1;
-            let cell = *self.complex.cell(c);
+        memory::reserve(star, self.around.as_slice().len())?;
+        memory::reserve(link, self.around.as_slice().len())?;
+        for &c in self.around.as_slice() {
+            let cell = self.complex.cell(c);
+            let at = cell.index_of(s);
+            let out = cell.neighbour(at);
+            self.complex.prefetch(out.cell());
             for i in 0..G::Corners::N {
-                let out = cell.neighbour(i);
-                if i == at {
-                    // SAFETY: there is room for one, which is for this facet.
-                    unsafe { link.as_mut_ptr().add(n_link).write(Gap { corners: cell.corners, at, out }) };
-                    n_link += 1;
-                } else if self.complex.mark(out.cell()) == 0 {
-                    self.complex.set_mark(out.cell(), 1);
-                    let at = self.complex.cell(out.cell()).index_of(s) as u8;
-                    // SAFETY: there is room for one beyond each of the other `D` facets.
-                    unsafe { star.as_mut_ptr().add(n_star).write((out.cell(), at)) };
-                    n_star += 1;
-                }
+                prefetch(&self.sites, cell.corners[i] as usize);
             }
+            star.push((c, at as u8));
+            link.push(Gap { corners: cell.corners, at, out });
         }
-        // SAFETY: that many have been written.
-        unsafe { (star.set_len(n_star), link.set_len(n_link)) };
-        gathered
+        for gap in link {
+            prefetch(&self.sites, self.complex.apex(gap.out) as usize);
+        }
+        Ok(())
     }
 
     /// Cells of the star gathered last, and the index of its site in each.

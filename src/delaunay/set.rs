@@ -3,17 +3,18 @@
 use crate::complex::memory;
 use crate::error::Result;
 
-/// Up to this number, indices need no memory of their own.
-const FEW: usize = 64;
-/// Places where to look for them: a power of two, four times as many, so that hardly any two meet.
-const PLACES: usize = 4 * FEW;
+/// Up to this number, indices need no memory of their own: a power of two, less one.
+const FEW: usize = 63;
+/// Places where to look for them: a power of two, four times as many and more, so that hardly any two meet.
+const PLACES: usize = 1 << u8::BITS;
 
 /// A set of indices, in the order in which they came.
 #[derive(Debug)]
 pub(crate) struct IndexSet {
     n: usize,
-    few: [u32; FEW],
-    /// One above the position in `few` of each, at its hash or behind; 0 where there is none.
+    /// From 1 on.
+    few: [u32; FEW + 1],
+    /// The position in `few` of each, at its hash or behind; 0 where there is none.
     places: [u8; PLACES],
     /// All of them, once they are more.
     all: Vec<u32>,
@@ -22,38 +23,133 @@ pub(crate) struct IndexSet {
     table: Vec<u32>,
 }
 
+/// The upper bits of multiples of it, the golden ratio of 2^32, spread well.
+const GOLDEN: u32 = 0x9e37_79b9;
+
+/// Where to look for one of few.
 #[inline(always)]
-fn hash(index: u32) -> usize {
-    (u64::from(index).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize
+fn place_of(index: u32) -> usize {
+    usize::from((index.wrapping_mul(GOLDEN) >> 24) as u8)
 }
 
 impl IndexSet {
     pub(crate) fn new() -> Self {
-        IndexSet { n: 0, few: [0; FEW], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
+        IndexSet { n: 0, few: [0; FEW + 1], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
     }
 
     /// The indices.
     #[inline(always)]
     pub(crate) fn as_slice(&self) -> &[u32] {
-        if self.all.is_empty() { &self.few[..self.n] } else { &self.all }
+        if self.all.is_empty() { &self.few[1..=self.n] } else { &self.all }
     }
 
     /// Takes all out; keeps the memory.
+    #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.n = 0;
         self.places = [0; PLACES];
         self.all.clear();
     }
 
+    pub(crate) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.all) + memory::bytes_of(&self.table)
+    }
+
     /// Enters an index; whether it was not there. After an error it is not.
     #[inline(always)]
     pub(crate) fn insert(&mut self, index: u32) -> Result<bool> {
+        let n = self.n;
+        let mut n_after = n;
+        if n < FEW && self.is_entered(index, &mut n_after) {
+            self.n = n_after;
+            return Ok(n_after > n);
+        }
+        self.insert_elsewhere(index)
+    }
+
+    /// Enters an index into an empty set, and all that are reached from it: `around` tells which are next to an index.
+    #[inline(always)]
+    pub(crate) fn spread<const N: usize>(
+        &mut self,
+        first: u32,
+        mut around: impl FnMut(u32) -> [u32; N],
+    ) -> Result<()> {
+        self.insert(first)?;
+        // The number is not kept in memory meanwhile: each entry would wait for that of the one before.
+        let (mut n, mut next) = (self.n, 1);
+        while next <= n && n + N <= FEW {
+            for other in around(self.few[next & FEW]) {
+                if !self.is_entered(other, &mut n) {
+                    self.n = n;
+                    self.insert_elsewhere(other)?;
+                    n = self.n;
+                }
+            }
+            next += 1;
+        }
+        self.n = n;
+        while let Some(&index) = self.as_slice().get(next - 1) {
+            for other in around(index) {
+                self.insert(other)?;
+            }
+            next += 1;
+        }
+        Ok(())
+    }
+
+    /// Enters an index, if it is not there, into the few, of which there are `n`, with room for one more. Returns whether
+    /// that could be done: not if another index is in its place.
+    #[inline(always)]
+    fn is_entered(&mut self, index: u32, n: &mut usize) -> bool {
+        let at = place_of(index);
+        let position = self.places[at];
+        // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its place.
+        let difference = self.few[usize::from(position) & FEW] ^ index;
+        if u64::from(position) * u64::from(difference) != 0 {
+            return false;
+        }
+        let n_new = u8::from(position == 0);
+        // Where nothing is new, what is behind the last entry is written.
+        self.few[(*n + 1) & FEW] = index;
+        *n += usize::from(n_new);
+        self.places[at] = position | (*n as u8 & n_new.wrapping_neg());
+        true
+    }
+
+    /// Enters an index that is known not to be there. No [`insert`](Self::insert) may follow until the set has been
+    /// cleared.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, index: u32) -> Result<()> {
+        if self.n < FEW {
+            self.n += 1;
+            self.few[self.n & FEW] = index;
+            return Ok(());
+        }
+        self.push_beyond(index)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn push_beyond(&mut self, index: u32) -> Result<()> {
+        if self.all.is_empty() {
+            memory::reserve(&mut self.all, FEW + 1)?;
+            self.all.extend_from_slice(&self.few[1..]);
+        }
+        memory::push(&mut self.all, index)?;
+        self.n += 1;
+        Ok(())
+    }
+
+    /// As [`insert`](Self::insert), if another index is in its place, or there are many.
+    #[cold]
+    #[inline(never)]
+    fn insert_elsewhere(&mut self, index: u32) -> Result<bool> {
         if self.n > FEW {
             return self.insert_into_table(index);
         }
-        let mut at = hash(index) % PLACES;
-        while let Some(position) = usize::from(self.places[at]).checked_sub(1) {
-            if self.few[position] == index {
+        let mut at = place_of(index);
+        while self.places[at] != 0 {
+            if self.few[usize::from(self.places[at])] == index {
                 return Ok(false);
             }
             at = (at + 1) % PLACES;
@@ -61,7 +157,7 @@ impl IndexSet {
         if self.n == FEW {
             self.spill(index)?;
         } else {
-            self.few[self.n] = index;
+            self.few[self.n + 1] = index;
             self.places[at] = self.n as u8 + 1;
         }
         self.n += 1;
@@ -71,26 +167,22 @@ impl IndexSet {
     /// Where the index is, or its entry would be.
     fn find(&self, index: u32) -> usize {
         let mask = self.table.len() - 1;
-        let mut at = hash(index) & mask;
+        let mut at = ((u64::from(index.wrapping_mul(GOLDEN)) * self.table.len() as u64) >> 32) as usize;
         while self.table[at] != 0 && self.all[self.table[at] as usize - 1] != index {
             at = (at + 1) & mask;
         }
         at
     }
 
-    #[cold]
-    #[inline(never)]
     fn spill(&mut self, index: u32) -> Result<()> {
         memory::reserve(&mut self.all, FEW + 1)?;
-        self.make_table(4 * FEW)?;
-        self.all.extend_from_slice(&self.few);
+        self.make_table(4 * (FEW + 1))?;
+        self.all.extend_from_slice(&self.few[1..]);
         self.all.push(index);
         self.fill_table();
         Ok(())
     }
 
-    #[cold]
-    #[inline(never)]
     fn insert_into_table(&mut self, index: u32) -> Result<bool> {
         let at = self.find(index);
         if self.table[at] != 0 {
@@ -139,7 +231,7 @@ mod tests {
             set.clear();
             let mut expected = HashSet::new();
             let mut order = Vec::new();
-            for _ in 0..[3, 64, 65, 66, 130, 1000][round % 6] {
+            for _ in 0..[3, 63, 64, 65, 130, 1000][round % 6] {
                 let index = rng.next() as u32 >> [24, 20, 0][round / 6 % 3];
                 let is_new = expected.insert(index);
                 assert_eq!(set.insert(index), Ok(is_new));
@@ -148,6 +240,37 @@ mod tests {
                 }
                 assert_eq!(set.as_slice(), order);
             }
+        }
+    }
+
+    #[test]
+    fn sets_spread_to_all_that_is_reached() {
+        let rng = &mut Rng::new(2);
+        for n in [1, 2, 20, 60, 61, 62, 63, 64, 65, 100, 1000] {
+            for _ in 0..20 {
+                let next: Vec<[u32; 3]> = (0..n).map(|_| [0; 3].map(|_| rng.next() as u32 % n)).collect();
+                // Indices that few places have to do for, or that are far apart.
+                let scale = [1, 256, 0x9e37][rng.next() as usize % 3];
+                let mut set = IndexSet::new();
+                set.spread(0, |at| next[(at / scale) as usize].map(|to| to * scale)).unwrap();
+                let mut reached = HashSet::from([0]);
+                let mut open = vec![0];
+                while let Some(at) = open.pop() {
+                    open.extend(next[at as usize].into_iter().filter(|&to| reached.insert(to)));
+                }
+                assert_eq!(set.as_slice().len(), reached.len());
+                assert_eq!(set.as_slice().iter().map(|at| at / scale).collect::<HashSet<_>>(), reached);
+            }
+        }
+    }
+
+    #[test]
+    fn sets_keep_what_is_pushed() {
+        let mut set = IndexSet::new();
+        for n in [0, 1, 62, 63, 64, 65, 1000] {
+            set.clear();
+            (0..n).for_each(|index| set.push(index).unwrap());
+            assert!(set.as_slice().iter().copied().eq(0..n));
         }
     }
 }

@@ -180,15 +180,15 @@ impl<G: Dimension> Cells<G> {
     fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Corners>) -> Result<()> {
         let n = kernel.complex().n_finite();
         let more = n.saturating_sub(self.corners.len());
-        memory::reserve(&mut self.corners, more)?;
-        memory::reserve(&mut self.neighbours, more)?;
-        memory::reserve(&mut self.slots, more)?;
+        memory::reserve_sparingly(&mut self.corners, more)?;
+        memory::reserve_sparingly(&mut self.neighbours, more)?;
+        memory::reserve_sparingly(&mut self.slots, more)?;
         let n_orderings = n.max(self.orderings.len());
         let more_orderings = n_orderings - self.orderings.len();
-        memory::reserve(&mut self.orderings, more_orderings)?;
+        memory::reserve_sparingly(&mut self.orderings, more_orderings)?;
         self.orderings.resize(n_orderings, Ordering::SAME);
         let more_slots = kernel.complex().n_slots().saturating_sub(self.index_of.len());
-        memory::reserve(&mut self.index_of, more_slots)?;
+        memory::reserve_sparingly(&mut self.index_of, more_slots)?;
         let (n_lost, n_found) = (scratch.lost.len(), scratch.found.len());
         memory::reserve(&mut scratch.moved, n_lost)?;
         for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {

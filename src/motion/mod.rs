@@ -63,6 +63,7 @@ pub use cells::NO_CELL;
 pub use changes::{Changes, NO_VERTEX};
 pub use options::{CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
 pub use query::Location;
+pub(crate) use query::cells_at;
 pub use views::CellsView;
 
 use crate::complex::{NONE, memory};

@@ -7,6 +7,7 @@ use super::{Algorithm, CommitReport, Level, MovingTriangulation, Violation};
 use crate::complex::{INFINITE, NONE, memory};
 use crate::delaunay::{Dimension, IndexSet, Place};
 use crate::error::Result;
+use crate::prefetch::prefetch;
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,18 +22,9 @@ pub enum Location {
     NoCells,
 }
 
-/// The cells around a place.
-pub(crate) struct Star<'t> {
-    slots: IndexSet,
-    index_of: &'t [u32],
-}
-
-impl Star<'_> {
-    /// Indices of the finite ones.
-    pub(crate) fn cells(&self) -> impl Iterator<Item = u32> + '_ {
-        let indices = self.slots.as_slice().iter().map(|&slot| self.index_of[slot as usize]);
-        indices.filter(|&index| index != NONE)
-    }
+/// Indices of the finite cells in some slots.
+pub(crate) fn cells_at(slots: &IndexSet, index_of: &[u32]) -> impl Iterator<Item = u32> {
+    slots.as_slice().iter().map(|&slot| index_of[slot as usize]).filter(|&index| index != NONE)
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -83,16 +75,24 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
-        let star = self.star_of(vertex)?;
+        let mut slots = IndexSet::new();
+        let index_of = self.list_star(vertex, &mut slots)?;
         out.clear();
-        memory::collect(out, star.cells())
+        memory::collect(out, cells_at(&slots, index_of))
     }
 
-    /// The star of a vertex.
-    pub(crate) fn star_of(&self, vertex: u32) -> Result<Star<'_>> {
+    /// Enters the slots of the cells around the place of a vertex into an empty set; returns the index of the cell in
+    /// each slot, for [`cells_at`].
+    pub(crate) fn list_star(&self, vertex: u32, slots: &mut IndexSet) -> Result<&[u32]> {
         let s = self.present_site("vertex", 0, vertex)?;
-        let index_of = &self.cell_arrays()?.index_of;
-        Ok(Star { slots: self.kernel.star_of(s)?, index_of })
+        let cells = self.cell_arrays()?;
+        let index_of = &cells.index_of;
+        self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot as usize))?;
+        // Whoever asks for a star goes on to read the rows of its cells.
+        for &slot in slots.as_slice() {
+            prefetch(&cells.corners, index_of[slot as usize] as usize);
+        }
+        Ok(index_of)
     }
 
     /// Where a point lies.
