@@ -284,7 +284,7 @@ std::vector<Target> measure_targets(const TargetSizes &sizes, std::uint64_t seed
 
 void run_targets(const Options &options) {
     const TargetSizes whole = {10'000, 24, 100'000, 1'000'000, 7, {1'000, 10'000, 100'000, 1'000'000},
-                               {10'000, 100'000, 1'000'000}, 100'000, 1};
+                               {10'000, 100'000, 1'000'000}, 100'000, 2};
     const TargetSizes smoke = {1'000, 4, 1'000, 2'000, 3, {1'000}, {1'000, 2'000}, 1'000, 0.1};
     keep_memory();
     Progress progress;

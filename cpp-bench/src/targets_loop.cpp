@@ -23,8 +23,9 @@ constexpr double wanted_of_loops[] = {1 / 0.3, 1 / 0.1};
 constexpr double wanted_of_growth = 1.0 / 8;
 
 constexpr std::size_t most_warm = 64;
-constexpr std::size_t n_turns = 4;
-constexpr std::size_t most_visits_at_a_turn = 5'000;
+constexpr std::size_t n_turns = 3;
+/// Enough for the caches, which the other engine has filled meanwhile, to matter little: a program has one engine.
+constexpr std::size_t most_visits_at_a_turn = 20'000;
 constexpr std::size_t most_calls = 1'000;
 
 /// Cells of larger inputs are not compared.

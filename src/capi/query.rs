@@ -306,8 +306,7 @@ pub unsafe extern "C" fn deldrift_star(
     unsafe {
         fence::read(t, |kernel| {
             let mut slots = IndexSet::new();
-            let index_of = in_its_dimension!(kernel, t => t.list_star(vertex, &mut slots))?;
-            let needed = cells_at(&slots, index_of).count();
+            let (index_of, needed) = in_its_dimension!(kernel, t => t.list_star(vertex, &mut slots))?;
             copy_out(Room { capacity, count }, needed, &[("cells", cells.cast())], || {
                 let places = pointers::buffer("cells", cells, needed)?;
                 for (place, cell) in places.iter_mut().zip(cells_at(&slots, index_of)) {

@@ -9,6 +9,7 @@ use super::{Delaunay, Dimension, IndexSet};
 use crate::complex::{Complex, Corners, NONE};
 use crate::error::Result;
 use crate::predicates::StaticFilter;
+use crate::prefetch::{FAR, prefetch};
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,6 +98,27 @@ impl<G: Dimension> Delaunay<G> {
             visit(cell, self.complex.cell(cell).index_of(s));
         }
         Ok(())
+    }
+
+    /// Whether sites and cells are too many to stay in a cache near the processor.
+    #[inline(always)]
+    pub(super) fn is_far(&self) -> bool {
+        size_of_val(&*self.sites) > FAR
+    }
+
+    /// Asks for what a relocation of a site reads first, besides its star: the sites of the link and the cells beyond it.
+    #[inline(always)]
+    pub(crate) fn prefetch_around(&self, s: u32, star: &IndexSet) {
+        if !self.is_far() {
+            return;
+        }
+        for &c in star.as_slice() {
+            let cell = self.complex.cell(c);
+            self.complex.prefetch(cell.neighbour(cell.index_of(s)).cell());
+            for &corner in cell.corners.as_ref() {
+                prefetch(&self.sites, corner as usize);
+            }
+        }
     }
 
     /// Enters the cells around a site, ghost cells included, into an empty set. Calls `found` as soon as the index of a

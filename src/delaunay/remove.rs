@@ -80,24 +80,23 @@ impl<G: Dimension> Delaunay<G> {
     pub(crate) fn gather_star(&mut self, s: u32) -> Result<()> {
         self.around.clear();
         list_star(&self.complex, self.sites[s as usize].cell, s, &mut self.around, |_| {})?;
+        self.prefetch_around(s, &self.around);
+        let is_far = self.is_far();
         let Hole { star, link, .. } = &mut self.hole;
         star.clear();
         link.clear();
         memory::reserve(star, self.around.as_slice().len())?;
         memory::reserve(link, self.around.as_slice().len())?;
-        for &c in self.around.as_slice() {
-            let cell = self.complex.cell(c);
-            let at = cell.index_of(s);
-            let out = cell.neighbour(at);
-            self.complex.prefetch(out.cell());
-            for i in 0..G::Corners::N {
-                prefetch(&self.sites, cell.corners[i] as usize);
+        let (complex, sites) = (&self.complex, &self.sites);
+        star.extend(self.around.as_slice().iter().map(|&c| (c, complex.cell(c).index_of(s) as u8)));
+        link.extend(star.iter().map(|&(c, at)| {
+            let (corners, at) = (complex.cell(c).corners, usize::from(at));
+            Gap { corners, at, out: complex.cell(c).neighbour(at) }
+        }));
+        if is_far {
+            for gap in link {
+                prefetch(sites, complex.apex(gap.out) as usize);
             }
-            star.push((c, at as u8));
-            link.push(Gap { corners: cell.corners, at, out });
-        }
-        for gap in link {
-            prefetch(&self.sites, self.complex.apex(gap.out) as usize);
         }
         Ok(())
     }

@@ -76,23 +76,23 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
         let mut slots = IndexSet::new();
-        let index_of = self.list_star(vertex, &mut slots)?;
+        let (index_of, _) = self.list_star(vertex, &mut slots)?;
         out.clear();
         memory::collect(out, cells_at(&slots, index_of))
     }
 
     /// Enters the slots of the cells around the place of a vertex into an empty set; returns the index of the cell in
-    /// each slot, for [`cells_at`].
-    pub(crate) fn list_star(&self, vertex: u32, slots: &mut IndexSet) -> Result<&[u32]> {
+    /// each slot, for [`cells_at`], and the number of those that are finite.
+    pub(crate) fn list_star(&self, vertex: u32, slots: &mut IndexSet) -> Result<(&[u32], usize)> {
         let s = self.present_site("vertex", 0, vertex)?;
         let cells = self.cell_arrays()?;
         let index_of = &cells.index_of;
         self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot as usize))?;
         // Whoever asks for a star goes on to read the rows of its cells.
-        for &slot in slots.as_slice() {
-            prefetch(&cells.corners, index_of[slot as usize] as usize);
-        }
-        Ok(index_of)
+        let asked = cells_at(slots, index_of).inspect(|&index| prefetch(&cells.corners, index as usize));
+        let n = asked.count();
+        self.kernel.prefetch_around(s, slots);
+        Ok((index_of, n))
     }
 
     /// Where a point lies.
