@@ -14,7 +14,7 @@
 
 use std::fmt;
 
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Dimension, order};
 use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
 
 /// How much is checked; each level includes the ones before.
@@ -26,6 +26,17 @@ pub enum Level {
     Embedding,
     /// Empty spheres: the triangulation is the Delaunay triangulation.
     Delaunay,
+}
+
+/// A point of a box, drawn by a fixed rule.
+fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point, attempt: u32) -> G::Point {
+    let mut aim = G::Point::default();
+    for k in 0..G::D {
+        let hash = (u64::from(attempt) * 3 + k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
+        let share = hash as f64 / (1u64 << 53) as f64;
+        aim[k] = lower[k] + share * (upper[k] - lower[k]);
+    }
+    aim
 }
 
 /// The first thing found wrong.
@@ -295,35 +306,28 @@ impl<G: Dimension> Delaunay<G> {
 
     /// How many of the ghosts' facets a ray from `o` that meets no ridge crosses, and a point on it.
     fn crossings_of(&self, ghosts: impl Iterator<Item = u32> + Clone, o: &G::Point) -> (usize, G::Point) {
-        (0..1024).find_map(|attempt| self.crossings(ghosts.clone(), o, attempt)).unwrap_or((0, *o))
+        // The box of the hull: that of the filter may be far wider.
+        let corners = ghosts.clone().map(|g| &self.complex.cell(g).corners.as_ref()[..Self::LAST]);
+        let places = corners.flatten().map(|&s| &self.site(s).point);
+        let (lower, upper) = order::bounding_box::<G>(places).unwrap_or_default();
+        let aims = (0..1024).map(|attempt| aim_in::<G>(&lower, &upper, attempt));
+        aims.filter_map(|aim| Some((self.crossings(ghosts.clone(), o, &aim)?, aim))).next().unwrap_or((0, *o))
     }
 
-    /// How many facets the ray from `o` through a far point crosses, and that point; `None` if it meets a ridge.
-    fn crossings(
-        &self,
-        ghosts: impl Iterator<Item = u32>,
-        o: &G::Point,
-        attempt: u32,
-    ) -> Option<(usize, G::Point)> {
-        // The aim is a point near the box's surface, drawn by a fixed rule: any direction serves as well.
-        let mut aim = G::Point::default();
-        for k in 0..G::D {
-            let hash = (u64::from(attempt) * 3 + k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
-            let share = hash as f64 / (1u64 << 53) as f64;
-            aim[k] = self.lower[k] + share * (self.upper[k] - self.lower[k]);
-        }
-        if (0..G::D).any(|k| !crate::predicates::is_in_range(aim[k])) || aim == *o {
+    /// How many facets the ray from `o` through `aim` crosses; `None` if it meets a ridge.
+    fn crossings(&self, ghosts: impl Iterator<Item = u32>, o: &G::Point, aim: &G::Point) -> Option<usize> {
+        if (0..G::D).any(|k| !crate::predicates::is_in_range(aim[k])) || aim == o {
             return None;
         }
         let mut crossings = 0;
         for c in ghosts {
-            match G::is_crossed(&self.filter, self.view(), &self.complex.cell(c).corners, o, &aim) {
+            match G::is_crossed(&self.filter, self.view(), &self.complex.cell(c).corners, o, aim) {
                 Some(true) => crossings += 1,
                 Some(false) => {}
                 None => return None,
             }
         }
-        Some((crossings, aim))
+        Some(crossings)
     }
 
     fn check_spheres(&self) -> Check {

@@ -85,6 +85,10 @@ use views::Views;
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
 
+/// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex it is
+/// fitted to the points again, which takes as long as a small part of one commit.
+const MOVED: u64 = 64;
+
 /// A Delaunay triangulation whose vertices move.
 #[derive(Debug)]
 pub struct MovingTriangulation<G: Dimension> {
@@ -101,6 +105,8 @@ pub struct MovingTriangulation<G: Dimension> {
     auto: Auto,
     options: Options,
     statistics: CommitReport,
+    /// Moves and insertions since the kernel's static filter was made as sharp as possible.
+    n_moved: u64,
     /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
     sorted_stride: f64,
     transaction: Transaction<G>,
@@ -133,6 +139,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             auto: Auto::default(),
             options,
             statistics: CommitReport::default(),
+            n_moved: 0,
             sorted_stride: 0.0,
             transaction: Transaction::default(),
             views: Views::default(),
@@ -320,5 +327,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.certificates += report.certificates;
         sum.exact_calls += report.exact_calls;
         sum.coincident = self.hidden.count() as u64;
+        self.n_moved += report.moved + report.inserted;
+        if self.n_moved > MOVED * self.n_present as u64 {
+            self.n_moved = 0;
+            self.regions.tighten_filter(&mut self.kernel);
+        }
     }
 }

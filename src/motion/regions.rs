@@ -216,6 +216,7 @@ impl<G: Dimension> Regions<G> {
         self.reach.clear();
         self.delimiters.clear();
         self.watched.clear();
+        kernel.tighten_filter();
         let (lower, upper) = (kernel.lower(), kernel.upper());
         self.most = (0..G::D).map(|axis| upper[axis] - lower[axis]).fold(f64::INFINITY, f64::min) / CAPPED;
         kernel.cover_around(&lower, &upper, self.most);
@@ -247,9 +248,17 @@ impl<G: Dimension> Regions<G> {
     pub(super) fn follow_motion(&mut self, kernel: &mut Delaunay<G>, distance: f64) {
         self.room = (self.room - distance).next_down();
         if self.room < 0.0 {
-            kernel.tighten_filter();
+            self.tighten_filter(kernel);
+        }
+    }
+
+    /// Makes the kernel's static filter as sharp as what the regions, if they are kept, may let pass allows.
+    pub(super) fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
+        kernel.tighten_filter();
+        if self.valid_for.is_some() {
+            // A vertex is within its tolerance of where it was fixed, and may go as far to the other side of that.
             let (lower, upper) = (kernel.lower(), kernel.upper());
-            kernel.cover_around(&lower, &upper, self.most);
+            kernel.cover_around(&lower, &upper, 2.0 * self.most);
             self.room = self.most;
         }
     }

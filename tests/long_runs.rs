@@ -1,0 +1,90 @@
+//! Runs of thousands of commits: whatever is kept from commit to commit stays as it is after the first ones.
+
+mod common;
+
+use common::{Rng, assert_same_cells, cell_set, fresh_cells};
+use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space};
+
+const COMMITS: usize = 10_000;
+
+/// How the vertices go on, all at once.
+type Motion<G> = fn(&mut Vec<<G as Dimension>::Point>, &mut Rng);
+
+/// A step so long that nearly all tolerances have to be computed in each commit.
+fn shake<G: Dimension>(points: &mut Vec<G::Point>, rng: &mut Rng) {
+    for p in points {
+        for k in 0..G::D {
+            p[k] = (p[k] + 0.1 * rng.unit() - 0.05).clamp(0.0, 1.0);
+        }
+    }
+}
+
+/// A hundredth of the cloud's extent along the first axis, and a little on their own.
+fn drift<G: Dimension>(points: &mut Vec<G::Point>, rng: &mut Rng) {
+    for p in points {
+        p[0] += 0.01;
+        for k in 0..G::D {
+            p[k] += 0.001 * (rng.unit() - 0.5);
+        }
+    }
+}
+
+/// The exact evaluations of the first commits after the warm-up and of the last ones, as many.
+fn run<G: Dimension>(algorithm: Algorithm, n: usize, motion: Motion<G>) -> (u64, u64) {
+    let rng = &mut Rng::new(7);
+    let mut points = vec![G::Point::default(); n];
+    for p in &mut points {
+        (0..G::D).for_each(|k| p[k] = rng.unit());
+    }
+    let options = Options { algorithm, ..Options::default() };
+    let mut t = MovingTriangulation::<G>::new(&points, options).expect("points");
+    let mut exact = Vec::new();
+    for step in 1..=COMMITS {
+        motion(&mut points, rng);
+        exact.push(t.commit_positions(&points).expect("a commit").exact_calls);
+        if step % (COMMITS / 20) == 0 || step == COMMITS {
+            t.validate(Level::Delaunay)
+                .unwrap_or_else(|wrong| panic!("{algorithm:?}, commit {step}: {wrong}"));
+            let now: Vec<_> = points.iter().copied().map(Some).collect();
+            assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&now), || {
+                format!("{algorithm:?}, commit {step}")
+            });
+        }
+    }
+    let tenth = COMMITS / 10;
+    (exact[..tenth].iter().sum(), exact[COMMITS - tenth..].iter().sum())
+}
+
+/// Exact evaluations do not become more frequent: the bounds of the filters are as sharp as at first.
+fn stays_as_it_is<G: Dimension>(algorithm: Algorithm, n: usize, motion: Motion<G>) {
+    let (first, last) = run::<G>(algorithm, n, motion);
+    assert!(
+        last <= 2 * first + COMMITS as u64 / 100,
+        "{algorithm:?}: {first} exact evaluations, then {last}"
+    );
+}
+
+#[test]
+fn ten_thousand_commits_with_tolerances_in_the_plane() {
+    stays_as_it_is::<Plane>(Algorithm::Tolerance, 40, shake::<Plane>);
+}
+
+#[test]
+fn ten_thousand_commits_with_tolerances_in_space() {
+    stays_as_it_is::<Space>(Algorithm::Tolerance, 40, shake::<Space>);
+}
+
+#[test]
+fn ten_thousand_commits_of_a_drifting_cloud_in_the_plane() {
+    for algorithm in [Algorithm::Auto, Algorithm::Repair, Algorithm::Tolerance, Algorithm::PlacementFlips] {
+        stays_as_it_is::<Plane>(algorithm, 40, drift::<Plane>);
+    }
+}
+
+#[test]
+fn ten_thousand_commits_of_a_drifting_cloud_in_space() {
+    for algorithm in [Algorithm::Auto, Algorithm::Repair, Algorithm::Tolerance, Algorithm::PlacementFlips] {
+        stays_as_it_is::<Space>(algorithm, 40, drift::<Space>);
+    }
+}
