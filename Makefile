@@ -8,6 +8,9 @@ PREFIX ?= /usr/local
 # make report ARGS="--scenario man"
 ARGS ?=
 
+# Debian packages that the benchmark is built with.
+BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev
+
 # Tests of code that uses AVX2: they also run without it.
 SCALAR_TOO := maintenance oracle repair threads tolerances
 
@@ -26,7 +29,7 @@ help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
 
 test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
-	@.ci/packages cmake g++ libcgal-dev pkg-config python3 valgrind
+	@.ci/packages $(BENCHMARK_NEEDS) pkg-config python3 valgrind
 	-@.ci/packages chromium
 	cargo test
 	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
@@ -83,7 +86,7 @@ library: ## the library alone: libdeldrift.so and libdeldrift.a in target/releas
 	cargo build --release --lib
 
 benchmark: library
-	@.ci/packages cmake g++ libcgal-dev
+	@.ci/packages $(BENCHMARK_NEEDS)
 	@echo "building cpp-bench"
 	@cpp-bench/run --help >/dev/null
 

@@ -22,7 +22,7 @@ std::string joined(int n_arguments, char **arguments) {
 int perform(const bench::Options &options, const std::string &command) {
     std::string environment = "environment";
     switch (options.task) {
-        case bench::Task::help: std::fputs(bench::usage, stdout); return 0;
+        case bench::Task::help: std::fputs(options.help.c_str(), stdout); return 0;
         case bench::Task::self_test: return bench::run_self_test() ? 0 : 1;
         case bench::Task::report: bench::run_report(options); environment += "_report"; break;
         case bench::Task::memory: bench::run_memory(options); environment += "_memory"; break;

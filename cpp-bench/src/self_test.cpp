@@ -411,17 +411,28 @@ void test_options(Tests &tests) {
     tests.expect(parse({"--series", "x.npy"}).scenarios.empty(), "options: a series alone");
     tests.expect(parse({"--repeat", "7", "--preset", "full"}).preset.n_repeats == 7,
                  "options: the order of arguments does not matter");
-    tests.expect_error([&] { parse({"--engine", "cgal/magic"}); }, "unknown name cgal/magic",
+    tests.expect(parse({"--preset", "full", "--preset", "smoke"}).preset.name == "smoke", "options: the last one counts");
+    tests.expect(parse({"--engine", "cgal", "--engine", "deldrift/auto"}).engines.size() == 2,
+                 "options: an option that may be repeated");
+    const std::vector<SeriesFile> series =
+        parse({"--series", "a", "--steps", "3", "--displacement", "d", "--series", "b"}).series;
+    tests.expect(series.size() == 2 && series[0].displacement_path == "d" && series[0].n_steps == 3 &&
+                     series[1].path == "b" && series[1].n_steps == 0,
+                 "options: displacements belong to the series before them");
+    tests.expect(parse({"--help"}).help.find("--series FILE.npy") != std::string::npos, "options: help lists them");
+    tests.expect_error([&] { parse({"--memory", "--large"}); }, "--report,--memory,--large", "options: two tasks");
+    tests.expect_error([&] { parse({"--engine", "cgal/magic"}); }, "--engine: cgal/magic not in",
                        "options: unknown engine");
-    tests.expect_error([&] { parse({"--scenario", "x"}); }, "unknown name x", "options: unknown scenario");
-    tests.expect_error([&] { parse({"--repeat", "0"}); }, "at least 1", "options: no repeats");
-    tests.expect_error([&] { parse({"--seed", "1x"}); }, "wants a number", "options: not a number");
-    tests.expect_error([&] { parse({"--snap", "-1"}); }, "between 0 and 1", "options: a negative magnitude");
-    tests.expect_error([&] { parse({"--seed"}); }, "wants a value", "options: a missing value");
+    tests.expect_error([&] { parse({"--scenario", "x"}); }, "--scenario: x not in", "options: unknown scenario");
+    tests.expect_error([&] { parse({"--repeat", "0"}); }, "--repeat: Value 0 not in range 1", "options: no repeats");
+    tests.expect_error([&] { parse({"--seed", "-1"}); }, "--seed: Value -1 not in range", "options: a negative number");
+    tests.expect_error([&] { parse({"--seed", "1x"}); }, "--seed: Value 1x not in range", "options: not a number");
+    tests.expect_error([&] { parse({"--snap", "-1"}); }, "--snap: Value -1 not in range", "options: a negative magnitude");
+    tests.expect_error([&] { parse({"--seed"}); }, "--seed: 1 required", "options: a missing value");
     tests.expect_error([&] { parse({"--displacement", "d.npy"}); }, "wants a --series",
                        "options: no series to displace");
     tests.expect_error([&] { parse({"--series", "x.npy", "--steps", "3"}); }, "go together", "options: steps alone");
-    tests.expect_error([&] { parse({"--sead", "3"}); }, "unknown argument --sead", "options: a misspelt argument");
+    tests.expect_error([&] { parse({"--sead", "3"}); }, "not expected: 3 --sead", "options: a misspelt argument");
 }
 
 }  // namespace
