@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 ARGS ?=
 
 # Debian packages that the benchmark is built with.
-BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev doctest-dev
+BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev
 
 # Tests of code that uses AVX2: they also run without it.
 SCALAR_TOO := maintenance oracle repair threads tolerances

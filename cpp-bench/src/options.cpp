@@ -4,6 +4,7 @@
 #include "engine.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -59,7 +60,7 @@ public:
 
 private:
     template <typename Value>
-    CLI::Option *add(const char *name, const char *placeholder, Value &value, const char *description) {
+    CLI::Option *add(const char *name, const char *placeholder, Value &value, const std::string &description) {
         return app_.add_option(name, value, description)->option_text(placeholder)->allow_extra_args(false);
     }
 
@@ -78,8 +79,7 @@ private:
 
     void add_inputs() {
         add("--scenario", "NAME", options_.scenarios,
-            "only this one; may be repeated\n"
-            "lloyd_2d_uniform, walk_3d, static_2d, static_3d, step_2d, step_3d")
+            fmt::format("only this one; may be repeated\n{}", fmt::join(scenario_names, ", ")))
             ->take_all()
             ->check(CLI::IsMember(all_scenario_names()));
         add_in_order<std::string>(
@@ -170,8 +170,8 @@ private:
             options_.task == Task::report ? report_scenario_names() : scenario_names;
         for (const std::string &scenario : options_.scenarios)
             if (std::find(known.begin(), known.end(), scenario) == known.end())
-                throw std::runtime_error("the scenario " + scenario + " is for runs " +
-                                         (options_.task == Task::report ? "without" : "with") + " --report");
+                throw std::runtime_error(fmt::format("the scenario {} is for runs {} --report", scenario,
+                                                     options_.task == Task::report ? "without" : "with"));
         if (options_.scenarios.empty() && options_.series.empty()) options_.scenarios = known;
     }
 

@@ -5,6 +5,7 @@
 #include "series.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -20,7 +21,7 @@ using doctest::Contains;
 /// A folder that goes with the object.
 class Folder {
 public:
-    Folder() : path_(std::filesystem::temp_directory_path() / ("deldrift-self-test-" + std::to_string(getpid()))) {
+    Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("deldrift-self-test-{}", getpid())) {
         std::filesystem::create_directories(path_);
     }
     ~Folder() {
