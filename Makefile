@@ -12,7 +12,7 @@ ARGS ?=
 BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev
 
 # ... and the page of the report.
-PAGE_NEEDS := python3-jinja2
+PAGE_NEEDS := python3-jinja2 python3-matplotlib
 
 # Tests of code that uses AVX2: they also run without it.
 SCALAR_TOO := maintenance oracle repair threads tolerances
