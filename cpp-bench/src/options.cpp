@@ -122,7 +122,7 @@ private:
                    "instead of the preset's; series files: all");
         add_number("--large-points-2d", options_.large_points_2d, 0,
                    "other sizes for --large; 0 leaves the dimension out");
-        add_number("--large-points-3d", options_.large_points_3d, 0, "");
+        add_number("--large-points-3d", options_.large_points_3d, 0, "the same in 3D");
     }
 
     void add_outputs() {
