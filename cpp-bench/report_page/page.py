@@ -5,8 +5,8 @@ has measured.
 
     cpp-bench/report_page/page.py [RESULTS]
 
-Writes RESULTS/report/index.html and RESULTS/report/figure_N.svg. The page needs nothing but a browser. Debian's
-Python is named above because Debian's packages of Python are what is installed.
+Writes RESULTS/report/index.html and RESULTS/report/figure_N.svg. The page needs nothing but a browser. The
+interpreter is Debian's, as Debian's packages of Jinja2 and matplotlib are for that one alone.
 """
 
 import os

@@ -107,7 +107,8 @@ REPLACEMENTS = (
 
 
 class Sheet:
-    """A figure of panels. Lengths are in px, from its upper left corner."""
+    """A figure of panels. Lengths are in px, from its upper left corner. Panels are not left to matplotlib's layout,
+    which settles their places last: labels at the ends of curves must know them."""
 
     def __init__(self, width, height, description):
         self.width, self.height, self.description = width, height, description
