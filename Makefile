@@ -8,6 +8,12 @@ PREFIX ?= /usr/local
 # make report ARGS="--scenario man"
 ARGS ?=
 
+# Debian packages that the benchmark is built with.
+BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev
+
+# ... and the page of the report.
+PAGE_NEEDS := python3-jinja2 python3-matplotlib
+
 # Tests of code that uses AVX2: they also run without it.
 SCALAR_TOO := maintenance oracle repair threads tolerances
 
@@ -26,7 +32,7 @@ help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
 
 test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
-	@.ci/packages cmake g++ libcgal-dev pkg-config python3 valgrind
+	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) pkg-config valgrind
 	-@.ci/packages chromium
 	cargo test
 	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
@@ -39,7 +45,7 @@ bench: benchmark ## deldrift beside CGAL: a table, and cpp-bench/results/bench.c
 	cpp-bench/run --preset $(PRESET) $(ARGS)
 
 report: benchmark ## the experiments of RR-6750, beside CGAL: cpp-bench/results/report/index.html (PRESET=quick or full)
-	@.ci/packages python3
+	@.ci/packages $(PAGE_NEEDS)
 	-@cpp-bench/fetch_man
 	cpp-bench/run --report --preset $(PRESET) $(ARGS)
 	cpp-bench/report_page/page.py
@@ -83,7 +89,7 @@ library: ## the library alone: libdeldrift.so and libdeldrift.a in target/releas
 	cargo build --release --lib
 
 benchmark: library
-	@.ci/packages cmake g++ libcgal-dev
+	@.ci/packages $(BENCHMARK_NEEDS)
 	@echo "building cpp-bench"
 	@cpp-bench/run --help >/dev/null
 

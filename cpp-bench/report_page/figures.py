@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures 3 to 10, each as (SVG, what the report saw, what is seen here)."""
 
+import matplotlib
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+
 from engines import CGAL, COLOURS, DELDRIFT, NAMES
-from plot import Plot, figure, limits
+from plot import Sheet, colour, limits, line
 from published import FIGURE_7, INPUT_TITLES, INPUTS
 from words import count, crossing, listed, percent, span, times
 
@@ -14,59 +20,37 @@ def iterations(results, scenario):
     return [t for t in results.shown(scenario) if t > 0][:4]
 
 
-def frame(x, y, size):
-    return f'<rect class="frame" x="{x}" y="{y}" width="{size}" height="{size}"/>'
-
-
 def figure_3(results):
     scenarios = [s for s in PLANE if iterations(results, s)]
     if not scenarios:
         return None
     rows = iterations(results, scenarios[0])
     size, left, top, gap = 240, 56, 28, 14
-    width, height = left + 4 * (size + gap), top + len(rows) * (size + gap) + 34
     points = {}
     for r in results.points:
         points.setdefault((r["scenario"], int(r["timestamp"])), []).append((float(r["x"]), float(r["y"])))
     reach = max(abs(c) for p in points.values() for xy in p for c in xy) * 1.04
     tick = 15 if reach > 16 else max(1, int(0.8 * reach))
-    parts = []
+    sheet = Sheet(
+        left + 4 * (size + gap),
+        top + len(rows) * (size + gap) + 34,
+        "Points at several iterations of Lloyd's method, for four densities",
+    )
     for column, scenario in enumerate(scenarios):
-        x = left + column * (size + gap)
-        parts.append(f'<text class="panel-title" x="{x}" y="17">{INPUT_TITLES[scenario]}</text>')
         for row, timestamp in enumerate(iterations(results, scenario)):
-            y = top + row * (size + gap)
-            parts.append(frame(x, y, size))
-            scale = size / 2 / reach
-            dots = "".join(
-                f"M{x + size / 2 + px * scale:.1f} {y + size / 2 - py * scale:.1f}h0"
-                for px, py in points.get((scenario, timestamp), [])
-            )
-            parts.append(
-                f'<path d="{dots}"'
-                ' style="stroke:var(--ink);stroke-width:2.5;stroke-linecap:round;fill:none"/>'
-            )
-        bottom = top + len(rows) * (size + gap)
-        for value in (-tick, 0, tick):
-            at = x + size / 2 + value * size / 2 / reach
-            parts.append(
-                f'<text class="tick" x="{at:.1f}" y="{bottom + 4}" text-anchor="middle">{value}</text>'
-            )
-        parts.append(
-            f'<text class="axis-label" x="{x + size / 2}" y="{bottom + 24}" text-anchor="middle">'
-            "x, in spacings</text>"
-        )
-    for row, timestamp in enumerate(rows):
-        middle = top + row * (size + gap) + size / 2
-        parts.append(
-            f'<text class="axis-label" transform="translate(14 {middle}) rotate(-90)" '
-            f'text-anchor="middle">iteration {timestamp}: y, in spacings</text>'
-        )
-        for value in (-tick, 0, tick):
-            at = middle - value * size / 2 / reach
-            parts.append(
-                f'<text class="tick" x="{left - 5}" y="{at + 3.6:.1f}" text-anchor="end">{value}</text>'
-            )
+            axes = sheet.axes(left + column * (size + gap), top + row * (size + gap), size, size)
+            axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xticks=(-tick, 0, tick), yticks=(-tick, 0, tick))
+            axes.grid(False)
+            axes.spines[:].set_visible(True)
+            axes.spines[:].set_color(colour("rule"))
+            axes.tick_params(length=0, labelleft=column == 0, labelbottom=row == len(rows) - 1)
+            axes.add_patch(dots(points[scenario, timestamp]))
+            if row == 0:
+                axes.set_title(INPUT_TITLES[scenario])
+            if row == len(rows) - 1:
+                axes.set_xlabel("x, in spacings")
+            if column == 0:
+                axes.set_ylabel(f"iteration {timestamp}: y, in spacings")
     then = "1,000 points come to rest in an arrangement that follows the density."
     changes = [f"{INPUT_TITLES[s]}: {movement(results, s)}" for s in scenarios]
     now = (
@@ -74,11 +58,13 @@ def figure_3(results):
         + "; ".join(changes)
         + "."
     )
-    return (
-        figure(width, height, parts, "Points at several iterations of Lloyd's method, for four densities"),
-        then,
-        now,
-    )
+    return sheet.svg(), then, now
+
+
+def dots(points):
+    """One path of round dots: as markers, which have an element each, they would take five times as much room."""
+    path = Path([p for p in points for _ in (0, 1)], [Path.MOVETO, Path.LINETO] * len(points))
+    return PathPatch(path, fill=False, ec=colour("ink"), lw=2.5, capstyle="round")
 
 
 def movement(results, scenario):
@@ -86,79 +72,75 @@ def movement(results, scenario):
     return f"{series[0][1]:.3g} and {series[-1][1]:.2g} spacings" if series else "not measured"
 
 
-def averages(results, scenario, width, height, title, x_column="timestamp"):
-    w = [p for p in results.statistic(scenario, "mean_width", x_column) if p[0] > 0]
-    e = [p for p in results.statistic(scenario, "mean_tolerance", x_column) if p[0] > 0]
-    if x_column == "timestamp":
-        label, ticks = "iteration", [1, 10, 100, 1000]
-    else:
-        label, ticks = "mean displacement, in spacings", None
-    w, e = sorted(w), sorted(e)
-    xs = [p[0] for p in w]
-    plot = Plot(
-        width,
-        height,
-        limits(xs, True) if ticks is None else (min(xs), max(xs)),
-        limits([p[1] for p in w]),
-        label,
-        "spacings",
-        title,
-        x_log=True,
-        x_ticks=ticks,
+def averages(results, scenario, sheet, box, x_column):
+    w = sorted(p for p in results.statistic(scenario, "mean_width", x_column) if p[0] > 0)
+    e = sorted(p for p in results.statistic(scenario, "mean_tolerance", x_column) if p[0] > 0)
+    xs = [x for x, _ in w]
+    axes = sheet.panel(
+        *box,
         right=70,
+        title=INPUT_TITLES[scenario],
+        xlabel="iteration" if x_column == "timestamp" else "mean displacement, in spacings",
+        ylabel="spacings",
+        xscale="log",
+        xlim=(min(xs), max(xs)),
+        ylim=limits([y for _, y in w]),
     )
-    plot.line(w, "tolerance", "avg(W)")
-    plot.line(e, "safe", "avg(ε(V))")
+    line(axes, w, "tolerance", "avg(W)")
+    line(axes, e, "safe", "avg(ε(V))")
     if x_column != "timestamp":
-        mark_iterations(results, scenario, plot)
-    return plot
+        mark_iterations(results, scenario, axes)
 
 
-def mark_iterations(results, scenario, plot):
+def mark_iterations(results, scenario, axes):
     by_timestamp = {int(float(r["timestamp"])): r for r in results.statistics if r["scenario"] == scenario}
     for timestamp in (1, 10, 100):
         row = by_timestamp.get(timestamp)
         if row and row["mean_displacement"]:
-            x, y = float(row["mean_displacement"]), float(row["mean_width"])
-            plot.parts.append(
-                f'<circle style="fill:var(--tolerance)" cx="{plot.x(x):.1f}" cy="{plot.y(y):.1f}" r="3"/>'
+            place = float(row["mean_displacement"]), float(row["mean_width"])
+            axes.plot(*place, "o", color=colour("tolerance"))
+            axes.annotate(
+                f"it. {timestamp}", place, xytext=(0, 8), textcoords="offset points", ha="center", fontsize=10.5
             )
-            plot.annotate(x, y, f"it. {timestamp}", dx=0, dy=-8, anchor="middle")
 
 
-def distributions(results, scenario, quantity, width, height, title, end):
-    shown = iterations(results, scenario)
-    bins = {t: results.distribution(scenario, t, quantity) for t in shown}
-    label = "width of the annulus, in spacings" if quantity == "width" else "tolerance ε, in spacings"
-    highest = sorted(share for b in bins.values() for _, _, share in b)[-1]
-    plot = Plot(
-        width,
-        height,
-        (0, end),
-        (0, highest * 1.1),
-        label,
-        f"share per {bins[shown[0]][0][1]:.3g}",
-        title,
-        tick_text=lambda v: f"{100 * v:g} %",
+def shares(sheet, box, bins, end, **properties):
+    """Axes for histograms."""
+    axes = sheet.panel(*box, xlim=(0, end), ylabel=f"share per {bins[0][1]:.3g}", **properties)
+    axes.yaxis.set_major_formatter(lambda share, _: f"{100 * share:g}\u00a0%")
+    return axes
+
+
+def outline(axes, bins, name, label=None):
+    axes.stairs([share for _, _, share in bins], [bins[0][0]] + [b[1] for b in bins], color=colour(name), label=label)
+
+
+def distributions(results, scenario, quantity, sheet, box, end):
+    bins = {t: results.distribution(scenario, t, quantity) for t in iterations(results, scenario)}
+    axes = shares(
+        sheet,
+        box,
+        next(iter(bins.values())),
+        end,
+        title="W" if quantity == "width" else "ε(V)",
+        xlabel="width of the annulus, in spacings" if quantity == "width" else "tolerance ε, in spacings",
+        ylim=(0, 1.1 * max(share for b in bins.values() for _, _, share in b)),
     )
-    for timestamp, colour in zip(shown, ITERATION_COLOURS):
-        plot.steps([b for b in bins[timestamp] if b[1] <= end * 1.0001], colour)
-    plot.key([(f"iteration {t}", c) for t, c in zip(shown, ITERATION_COLOURS)])
-    return plot
+    for timestamp, name in zip(bins, ITERATION_COLOURS):
+        outline(axes, [b for b in bins[timestamp] if b[1] <= end * 1.0001], name, f"iteration {timestamp}")
+    for handle in axes.legend(loc="upper right", prop={"weight": "semibold"}).legendHandles:
+        handle.set_visible(False)
 
 
 def grid_of_tolerances(results, scenarios, x_column, description):
     width, height = 352, 214
-    parts = []
+    sheet = Sheet(3 * width + 12, len(scenarios) * (height + 12), description)
     for row, scenario in enumerate(scenarios):
-        plane = scenario in PLANE
-        panels = [
-            averages(results, scenario, width, height, INPUT_TITLES[scenario], x_column),
-            distributions(results, scenario, "width", width, height, "W", 0.98),
-            distributions(results, scenario, "tolerance", width, height, "ε(V)", 0.245 if plane else 0.048),
-        ]
-        parts += [panel.svg(column * (width + 6), row * (height + 12)) for column, panel in enumerate(panels)]
-    return figure(3 * width + 12, len(scenarios) * (height + 12), parts, description)
+        boxes = [(column * (width + 6), row * (height + 12), width, height) for column in range(3)]
+        averages(results, scenario, sheet, boxes[0], x_column)
+        distributions(results, scenario, "width", sheet, boxes[1], 0.98)
+        distributions(results, scenario, "tolerance", sheet, boxes[2], 0.245 if scenario in PLANE else 0.048)
+    return sheet.svg()
 
 
 def last(results, scenario, column):
@@ -186,70 +168,14 @@ def figure_4(results):
 def figure_5(results):
     sections = {}
     for r in results.sections:
+        corners = [float(c) for c in r["polygon"].split()]
         sections.setdefault(int(r["timestamp"]), []).append(
-            (float(r["radius_ratio"]), [float(c) for c in r["polygon"].split()])
+            (float(r["radius_ratio"]), list(zip(corners[::2], corners[1::2])))
         )
     if not sections:
         return None
     shown = sorted(sections)
-    xs = [c for section in sections.values() for _, p in section for c in p[::2]]
-    zs = [c for section in sections.values() for _, p in section for c in p[1::2]]
-    low_x, high_x, low_z, high_z = min(xs), max(xs), min(zs), max(zs)
-    gap, left, top = 18, 48, 28
     shown = shown[:1] + [t for t in shown if t >= 10][-3:]
-    panel = (1070 - left - gap * (len(shown) - 1)) / len(shown)
-    scale = min(panel / (high_x - low_x), 560 / (high_z - low_z))
-    panel, tall = scale * (high_x - low_x), scale * (high_z - low_z)
-    gap = min(60, (1070 - left - panel * len(shown)) / max(len(shown) - 1, 1))
-    parts = []
-    for column, timestamp in enumerate(shown):
-        x0 = left + column * (panel + gap)
-        title = "initially" if timestamp == 0 else f"iteration {timestamp}"
-        parts.append(f'<text class="panel-title" x="{x0:.0f}" y="16">{title}</text>')
-        for level in range(len(QUALITY)):
-            path = ""
-            for quality, polygon in sections[timestamp]:
-                if min(int(quality * len(QUALITY)), len(QUALITY) - 1) != level:
-                    continue
-                corners = [
-                    f"{x0 + (polygon[i] - low_x) * scale:.1f} {top + (high_z - polygon[i + 1]) * scale:.1f}"
-                    for i in range(0, len(polygon), 2)
-                ]
-                path += "M" + "L".join(corners) + "Z"
-            if path:
-                parts.append(
-                    f'<path d="{path}" style="fill:{QUALITY[level]};stroke:#14181d;stroke-width:.35;'
-                    'stroke-linejoin:round"/>'
-                )
-        parts.append(
-            f'<text class="axis-label" x="{x0 + panel / 2:.0f}" y="{top + tall + 36:.0f}" '
-            'text-anchor="middle">across, in spacings</text>'
-        )
-        for value in (round(low_x * 0.9), 0, round(high_x * 0.9)):
-            parts.append(
-                f'<text class="tick" x="{x0 + (value - low_x) * scale:.1f}" y="{top + tall + 18:.0f}" '
-                f'text-anchor="middle">{value}</text>'
-            )
-    for value in (low_z * 0.95, 0, high_z * 0.95):
-        parts.append(
-            f'<text class="tick" x="{left - 6}" y="{top + (high_z - value) * scale + 3:.1f}" '
-            f'text-anchor="end">{value:.0f}</text>'
-        )
-    parts.append(
-        f'<text class="axis-label" transform="translate(14 {top + tall / 2:.0f}) rotate(-90)" '
-        'text-anchor="middle">upwards, in spacings</text>'
-    )
-    y = top + tall + 58
-    parts.append(
-        f'<text class="axis-label" x="{left}" y="{y + 10:.0f}">radius ratio of the cell: 0 (flat)</text>'
-    )
-    for level, colour in enumerate(QUALITY):
-        parts.append(
-            f'<rect x="{left + 190 + 26 * level}" y="{y:.0f}" width="26" height="13" style="fill:{colour}"/>'
-        )
-    parts.append(
-        f'<text class="axis-label" x="{left + 198 + 26 * len(QUALITY)}" y="{y + 10:.0f}">1 (regular)</text>'
-    )
     poor = [(t, sum(q < 0.2 for q, _ in sections[t]) / len(sections[t])) for t in shown]
     mean = [(t, sum(q for q, _ in sections[t]) / len(sections[t])) for t in shown]
     then = (
@@ -260,14 +186,51 @@ def figure_5(results):
         + listed(f"{m:.2f} at iteration {t}" for t, m in mean)
         + "; "
         + listed(f"{percent(p, 1)} at {t}" for t, p in poor)
-        + " of the cells are below 0.2."
+        + f" of the cells are below 0.2. The body: {body_of(results)}."
     )
-    now += f" The body: {body_of(results)}."
-    return (
-        figure(1080, round(y + 26), parts, "A section through the body man at several iterations"),
-        then,
-        now,
+    return draw_sections([(t, sections[t]) for t in shown]), then, now
+
+
+def draw_sections(sections):
+    corners = [corner for _, cells in sections for _, polygon in cells for corner in polygon]
+    (low_x, high_x), (low_z, high_z) = ((min(c), max(c)) for c in zip(*corners))
+    left, top, n = 48, 28, len(sections)
+    scale = min((1022 / n - 18) / (high_x - low_x), 560 / (high_z - low_z))
+    width, height = scale * (high_x - low_x), scale * (high_z - low_z)
+    gap = min(60, (1022 - width * n) / max(n - 1, 1))
+    sheet = Sheet(1080, round(top + height + 110), "A section through the body man at several iterations")
+    cividis = matplotlib.colormaps["cividis"].resampled(10)  # reads the same with colour deficiencies
+    levels = BoundaryNorm([i / 10 for i in range(11)], 10)
+    for column, (timestamp, cells) in enumerate(sections):
+        axes = sheet.axes(left + column * (width + gap), top, width, height)
+        axes.set(
+            title="initially" if timestamp == 0 else f"iteration {timestamp}",
+            xlabel="across, in spacings",
+            xlim=(low_x, high_x),
+            ylim=(low_z, high_z),
+            xticks=(round(low_x * 0.9), 0, round(high_x * 0.9)),
+            yticks=(round(low_z * 0.95), 0, round(high_z * 0.95)),
+        )
+        axes.grid(False)
+        axes.spines[:].set_visible(False)
+        axes.tick_params(length=0, labelleft=column == 0)
+        if column == 0:
+            axes.set_ylabel("upwards, in spacings")
+        for level in range(10):
+            paths = [Path(p + p[:1], closed=True) for q, p in cells if min(int(10 * q), 9) == level]
+            if paths:
+                path = Path.make_compound_path(*paths)
+                axes.add_patch(PathPatch(path, fc=cividis(level), ec="#14181d", lw=0.35, clip_on=False))
+    bar = sheet.figure.colorbar(
+        ScalarMappable(levels, cividis),
+        cax=sheet.axes(left, top + height + 58, 260, 13),
+        orientation="horizontal",
+        ticks=(0, 1),
     )
+    bar.set_label("radius ratio of the cell")
+    bar.outline.set_visible(False)
+    bar.ax.set_xticklabels(["0 (flat)", "1 (regular)"])
+    return sheet.svg()
 
 
 def body_of(results):
@@ -278,21 +241,6 @@ def body_of(results):
         )
         or "unknown"
     )
-
-
-# Cividis, which reads the same with and without colour deficiencies, in ten steps.
-QUALITY = [
-    "#00224e",
-    "#123570",
-    "#3b496c",
-    "#575d6d",
-    "#707173",
-    "#8a8678",
-    "#a59c74",
-    "#c3b369",
-    "#e1cc55",
-    "#fee838",
-]
 
 
 def figure_6(results):
@@ -323,27 +271,29 @@ def figure_7(results):
     if not scenarios:
         return None
     width, height = 535, 230
-    parts = []
+    sheet = Sheet(
+        2 * width + 10,
+        len(scenarios) * (height + 10),
+        "Distributions of widths and tolerances of random points",
+    )
     for row, scenario in enumerate(scenarios):
         name = "Two" if scenario.endswith("2d") else "Three"
-        for column, (quantity, label, colour) in enumerate(
+        for column, (quantity, label, of_quantity) in enumerate(
             (("width", "W", "tolerance"), ("tolerance", "ε(V)", "safe"))
         ):
             bins = results.distribution(scenario, 0, quantity)[:-1]
             if quantity == "tolerance":
                 bins = [b for b in bins if b[1] <= (0.101 if name == "Two" else 0.031)]
-            plot = Plot(
-                width,
-                height,
-                (0, bins[-1][1]),
-                (0, max(share for _, _, share in bins) * 1.1),
-                ("width of the annulus" if quantity == "width" else "tolerance ε") + ", in spacings",
-                f"share per {bins[0][1]:.3g}",
-                f"{name} dimensions, {count(results.size(scenario))} points: {label}",
-                tick_text=lambda v: f"{100 * v:g} %",
+            axes = shares(
+                sheet,
+                (column * (width + 10), row * (height + 10), width, height),
+                bins,
+                bins[-1][1],
+                title=f"{name} dimensions, {count(results.size(scenario))} points: {label}",
+                xlabel=("width of the annulus" if quantity == "width" else "tolerance ε") + ", in spacings",
+                ylim=(0, max(share for _, _, share in bins) * 1.1),
             )
-            plot.steps(bins, colour)
-            parts.append(plot.svg(column * (width + 10), row * (height + 10)))
+            outline(axes, bins, of_quantity)
     then = (
         "; ".join(
             f"{name} {two:g} in the plane and {three:g} in space"
@@ -371,71 +321,57 @@ def figure_7(results):
         " counted. The report's avg(W) is that of the least annuli, which are narrower where the opposing"
         " vertices' line misses the facet."
     )
-    return (
-        figure(
-            2 * width + 10,
-            len(scenarios) * (height + 10),
-            parts,
-            "Distributions of widths and tolerances of random points",
-        ),
-        then,
-        now,
-    )
+    return sheet.svg(), then, now
 
 
-def comparison(results, scenario, x_column, x_label, x, x_scale=1.0, x_log=False, ticks=None):
-    """Two panels side by side with the same axes: the report's algorithms on CGAL, deldrift's."""
-    width, height = 535, 300
-    curves = {
-        (engine, a): [(px * x_scale, py) for px, py in results.sweep(scenario, engine, a, x_column)]
+def curves_of(curve_of):
+    """The curve of every engine and algorithm."""
+    return {
+        (engine, a): curve_of(engine, a)
         for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT))
         for a in algorithms
     }
-    values = [py for points in curves.values() for _, py in points]
-    if not values:
-        return []
-    panels = []
-    for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT)):
-        dimension = "the plane" if scenario.endswith("2d") else "space"
-        title = f"{'On CGAL' if engine == 'cgal' else 'deldrift'}, in {dimension}"
-        plot = Plot(
-            width,
-            height,
-            x,
-            limits(values, True),
-            x_label,
-            "ns per vertex and timestamp",
-            title,
-            y_log=True,
-            x_log=x_log,
-            x_ticks=ticks,
-            right=110,
-        )
-        for a in algorithms:
-            plot.line(curves[engine, a], COLOURS[a], NAMES[a], marks=True)
-        if engine == "deldrift":
-            plot.line(curves["cgal", "rebuilding"], "muted", "CGAL rebuilding", "dashed")
-        panels.append(plot)
-    return panels
 
 
-def two_by_two(panels, description):
-    parts = [panel.svg((i % 2) * 545, (i // 2) * 310) for i, panel in enumerate(panels)]
-    return figure(1080, 310 * ((len(panels) + 1) // 2), parts, description)
+def comparison(inputs, description, marker=None, **properties):
+    """For each input (titles, curves, range of x) two panels side by side with the same axes: the report's algorithms
+    on CGAL, deldrift's."""
+    inputs = [each for each in inputs if any(each[1].values())]
+    if not inputs:
+        return None
+    sheet = Sheet(1080, 310 * len(inputs), description)
+    for row, (titles, curves, xlim) in enumerate(inputs):
+        ylim = limits([y for points in curves.values() for _, y in points], True)
+        properties.update(xlim=xlim, ylim=ylim, yscale="log")
+        for column, (engine, algorithms) in enumerate((("cgal", CGAL), ("deldrift", DELDRIFT))):
+            axes = sheet.panel(545 * column, 310 * row, 535, 300, right=110, title=titles[column], **properties)
+            for a in algorithms:
+                line(axes, curves[engine, a], COLOURS[a], NAMES[a], marker=marker)
+        line(axes, curves["cgal", "rebuilding"], "muted", "CGAL rebuilding", linestyle="--")
+    return sheet.svg()
+
+
+def sweeps(results, kind, x_column, xlim):
+    """The inputs of segments of a kind, x being a column of report_segments.csv, in %."""
+
+    def curve_of(engine, algorithm):
+        return [(100 * x, y) for x, y in results.sweep(scenario, engine, algorithm, x_column)]
+
+    inputs = []
+    for scenario, where in ((f"{kind}_2d", "the plane"), (f"{kind}_3d", "space")):
+        inputs.append(((f"On CGAL, in {where}", f"deldrift, in {where}"), curves_of(curve_of), xlim))
+    return inputs
 
 
 def figure_8(results):
-    panels = []
-    for scenario in ("share_2d", "share_3d"):
-        panels += comparison(
-            results,
-            scenario,
-            "share_within_tolerance",
-            "share of vertices within tolerance, in %",
-            (0, 100),
-            100,
-        )
-    if not panels:
+    svg = comparison(
+        sweeps(results, "share", "share_within_tolerance", (0, 100)),
+        "Time against the share of vertices within tolerance",
+        marker="o",
+        xlabel="share of vertices within tolerance, in %",
+        ylabel="ns per vertex and timestamp",
+    )
+    if not svg:
         return None
     then = (
         "T equalled rebuilding when about 25 % of the vertices in the plane, 55 % in space, were beyond their"
@@ -465,7 +401,7 @@ def figure_8(results):
             if s:
                 text += f", and S takes {times(s[-1][1] / t[-1][1])} times as long where all are within"
             now.append(text)
-    return two_by_two(panels, "Time against the share of vertices within tolerance"), then, sentence(now)
+    return svg, then, sentence(now)
 
 
 def sentence(parts):
@@ -474,19 +410,15 @@ def sentence(parts):
 
 
 def figure_9(results):
-    panels = []
-    for scenario in ("walk_2d", "walk_3d"):
-        panels += comparison(
-            results,
-            scenario,
-            "displacement_per_tolerance",
-            "displacement, in % of avg(ε(V))",
-            (1.7, 360),
-            100,
-            True,
-            [2, 5, 10, 20, 50, 100, 200],
-        )
-    if not panels:
+    svg = comparison(
+        sweeps(results, "walk", "displacement_per_tolerance", (1.7, 360)),
+        "Time against the displacement in a random walk",
+        marker="o",
+        xlabel="displacement, in % of avg(ε(V))",
+        ylabel="ns per vertex and timestamp",
+        xscale="log",
+    )
+    if not svg:
         return None
     then = (
         "With displacements of 20 % of avg(ε(V)), T still outperformed rebuilding, in the plane and in space;"
@@ -514,42 +446,27 @@ def figure_9(results):
     near = [(abs(x - 1), dict(p)[x] / y) for x, y in t if x in dict(p)]
     if near:
         now.append(f"at 100 % in space, T on CGAL is {times(min(near)[1])} times as fast as CGAL's placement")
-    return two_by_two(panels, "Time against the displacement in a random walk"), then, sentence(now)
+    return svg, then, sentence(now)
 
 
 def figure_10(results):
-    panels = []
-    for scenario in INPUTS:
-        curves = {
-            (engine, a): results.curve(scenario, engine, a)
-            for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT))
-            for a in algorithms
-        }
-        values = [y for points in curves.values() for _, y in points]
-        if not values:
-            continue
-        end = results.range(scenario, 0)[1]
-        for engine, algorithms in (("cgal", CGAL), ("deldrift", DELDRIFT)):
-            title = f"{INPUT_TITLES[scenario]}: {'on CGAL' if engine == 'cgal' else 'deldrift'}"
-            plot = Plot(
-                535,
-                300,
-                (0.9, end * 1.1),
-                limits(values, True),
-                "iteration",
-                "ns per vertex and iteration",
-                title,
-                x_log=True,
-                y_log=True,
-                x_ticks=[1, 3, 10, 30, 100, 300, 1000],
-                right=110,
-            )
-            for a in algorithms:
-                plot.line(curves[engine, a], COLOURS[a], NAMES[a])
-            if engine == "deldrift":
-                plot.line(curves["cgal", "rebuilding"], "muted", "CGAL rebuilding", "dashed")
-            panels.append(plot)
-    if not panels:
+    inputs = [
+        (
+            (f"{INPUT_TITLES[s]}: on CGAL", f"{INPUT_TITLES[s]}: deldrift"),
+            curves_of(lambda engine, algorithm, scenario=s: results.curve(scenario, engine, algorithm)),
+            (0.9, results.range(s, 0)[1] * 1.1),
+        )
+        for s in INPUTS
+        if results.range(s, 0)
+    ]
+    svg = comparison(
+        inputs,
+        "Time of an iteration, for every input and algorithm",
+        xlabel="iteration",
+        ylabel="ns per vertex and iteration",
+        xscale="log",
+    )
+    if not svg:
         return None
     then = (
         "In the plane S, T, S+T and rebuilding+T all outperformed rebuilding and placement; in space T did"
@@ -570,7 +487,7 @@ def figure_10(results):
                     for a, f in faster.items()
                 )
             )
-    return two_by_two(panels, "Time of an iteration, for every input and algorithm"), then, sentence(now)
+    return svg, then, sentence(now)
 
 
 FIGURES = [

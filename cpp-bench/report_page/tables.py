@@ -2,67 +2,48 @@
 """Tables 1 and 2: the report's figures, its algorithms on CGAL here, deldrift."""
 
 from engines import LONG_NAMES, TABLE_CGAL, TABLE_DELDRIFT
-from html import escape
 from plot import short
-from published import INPUT_TITLES, INPUTS, MAN_PLACEMENT_NOTE, TABLE_1, TABLE_2
-from words import count, listed, span, times
-
-
-def cell(value, note=""):
-    if value is None:
-        return f'<td class="none">{note or "–"}</td>'
-    return f'<td{" class=faster" if value > 1.005 else ""}>{times(value)}{note}</td>'
-
-
-def group(title, rows, cells_of):
-    body = f'<tr class="group"><th colspan="{len(INPUTS) + 1}">{title}</th></tr>'
-    for algorithm in rows:
-        body += f"<tr><td>{escape(LONG_NAMES[algorithm])}</td>{cells_of(algorithm)}</tr>"
-    return body
+from published import INPUT_TITLES, INPUTS, TABLE_1, TABLE_2
+from words import listed, span
 
 
 def table(results, which):
+    """What page.html shows of the whole inputs (`which` 0) or of their second halves (1)."""
+    then, now = sentences(results, which)
     published = (TABLE_1, TABLE_2)[which]
-    ranges = [results.range(scenario, which) for scenario in INPUTS]
-    heads = "".join(
-        f'<th>{escape(INPUT_TITLES[s])}<br><span class="small">'
-        + (f"{count(results.size(s))} points<br>{r[0]}–{r[1]}" if r else "not measured")
-        + "</span></th>"
-        for s, r in zip(INPUTS, ranges)
-    )
 
-    def measured(engine):
-        def cells(algorithm):
-            html = ""
-            for scenario in INPUTS:
-                row = results.row(scenario, engine, algorithm, which)
-                whole = results.row(scenario, "cgal", "rebuilding", which)
-                is_sample = row and whole and row["timestamps"] != whole["timestamps"]
-                html += cell(results.speedup(scenario, engine, algorithm, which), "*" if is_sample else "")
-            return html
+    def measured(engine, algorithms):
+        return [
+            (LONG_NAMES[a], [measurement(results, s, engine, a, which) for s in INPUTS]) for a in algorithms
+        ]
 
-        return cells
+    return {
+        "part": ("all iterations", "the second half of the iterations")[which],
+        "iterations": ("from the first to the last", "from the middle to the last")[which],
+        "then": then,
+        "now": now,
+        "inputs": [(INPUT_TITLES[s], results.size(s), results.range(s, which)) for s in INPUTS],
+        "groups": [
+            (
+                "Report, 2008 (Pentium 4, CGAL 3.3.1)",
+                [(LONG_NAMES[a], [(v, "†" if v is None else "") for v in published[a]]) for a in published],
+            ),
+            ("Here: CGAL, and the report's algorithms on CGAL", measured("cgal", TABLE_CGAL)),
+            ("Here: deldrift", measured("deldrift", TABLE_DELDRIFT)),
+            (
+                "Here: deldrift's step over CGAL's (the update, both arrays of the cells read, the changes taken)",
+                [(LONG_NAMES["auto"], [(results.step_speedup(s, which), "") for s in INPUTS])],
+            ),
+        ],
+    }
 
-    body = group(
-        "Report, 2008 (Pentium 4, CGAL 3.3.1)",
-        list(published),
-        lambda a: "".join(cell(v, "†" if v is None else "") for v in published[a]),
-    )
-    body += group("Here: CGAL, and the report's algorithms on CGAL", TABLE_CGAL, measured("cgal"))
-    body += group("Here: deldrift", TABLE_DELDRIFT, measured("deldrift"))
-    body += group(
-        "Here: deldrift's step over CGAL's (the update, both arrays of the cells read, the changes taken)",
-        ["auto"],
-        lambda _: "".join(cell(results.step_speedup(s, which)) for s in INPUTS),
-    )
-    first = ("from the first to the last", "from the middle to the last")[which]
-    return (
-        f'<div class="scroll"><table id="table-{which + 1}"><caption>Speed-up over CGAL\'s rebuilding,'
-        f" {first} of the "
-        "iterations named. Above 1 is bold. * timed at a sample of the iterations. †"
-        f" {MAN_PLACEMENT_NOTE}</caption>"
-        f"<thead><tr><th></th>{heads}</tr></thead><tbody>{body}</tbody></table></div>"
-    )
+
+def measurement(results, scenario, engine, algorithm, which):
+    """A speed-up and its note."""
+    row = results.row(scenario, engine, algorithm, which)
+    whole = results.row(scenario, "cgal", "rebuilding", which)
+    is_sample = row and whole and row["timestamps"] != whole["timestamps"]
+    return results.speedup(scenario, engine, algorithm, which), "*" if is_sample else ""
 
 
 def sentences(results, which):

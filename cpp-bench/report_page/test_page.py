@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures small inputs, makes the page and opens it in headless Chromium.
 
@@ -117,6 +117,9 @@ def check_page(failures, chromium, path):
         not re.search(r'(?:src|href)="(?!#|data:|https://inria\.hal\.science/)', html),
         "the page refers to nothing beside it",
     )
+    ids = re.findall(r'\bid="([^"]*)"', html)
+    failures.expect(len(ids) == len(set(ids)), "every id is there once")
+    failures.expect(not re.search(r"#0000[0-9a-f]{2}\b", html), "every colour is a variable of the style")
     with tempfile.TemporaryDirectory() as folder:
         probed = os.path.join(folder, "page.html")
         with open(probed, "w", encoding="utf-8") as file:

@@ -5,9 +5,10 @@
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -38,8 +39,8 @@ public:
                     if (vertex == cell[corner]) continue;
                     const int side = side_of_sphere(cell, vertex) * orientation;
                     if (side > 0)
-                        return "has its neighbours' vertex " + std::to_string(vertex) +
-                               " strictly inside its sphere: " + describe(cell) + ", " + describe(vertex);
+                        return fmt::format("has its neighbours' vertex {} strictly inside its sphere: {}, {}", vertex,
+                                           describe(cell), describe(vertex));
                     touches = touches || side == 0;
                 }
             }
@@ -90,13 +91,9 @@ private:
     }
 
     std::string describe(std::uint32_t vertex) const {
-        std::string text = std::to_string(vertex) + " at (";
-        for (unsigned axis = 0; axis < dimension; ++axis) {
-            char number[40];
-            std::snprintf(number, sizeof number, "%s%.17g", axis ? ", " : "", coordinate(vertex, axis));
-            text += number;
-        }
-        return text + ")";
+        std::array<double, dimension> place;
+        for (unsigned axis = 0; axis < dimension; ++axis) place[axis] = coordinate(vertex, axis);
+        return fmt::format("{} at ({:.17g})", vertex, fmt::join(place, ", "));
     }
 
     static Facet facet(const Cell &cell, unsigned opposite_corner) {

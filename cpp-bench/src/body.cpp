@@ -3,6 +3,8 @@
 
 #include "random.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -107,8 +109,8 @@ void Body::require_closed() const {
         }
     for (const auto &[edge, balance] : edges)
         if (balance != 0)
-            throw std::runtime_error(name_ + " is not closed at the edge " + std::to_string(edge.first) +
-                                     ", " + std::to_string(edge.second));
+            throw std::runtime_error(
+                fmt::format("{} is not closed at the edge {}, {}", name_, edge.first, edge.second));
 }
 
 double Body::volume() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cells.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -37,8 +39,7 @@ CellSet canonical(unsigned dimension, const std::vector<std::uint32_t> &flat_cel
         for (std::size_t corner = 0; corner < n_corners; ++corner) {
             const std::uint32_t id = flat_cells[c * n_corners + corner];
             if (id >= representatives.size())
-                throw std::runtime_error("a cell has vertex " + std::to_string(id) + " of " +
-                                         std::to_string(representatives.size()));
+                throw std::runtime_error(fmt::format("a cell has vertex {} of {}", id, representatives.size()));
             cell[corner] = representatives[id];
         }
         std::sort(cell.begin(), cell.begin() + n_corners);
@@ -58,12 +59,8 @@ CellSet difference(const CellSet &a, const CellSet &b) {
 }
 
 std::string to_string(const Cell &cell) {
-    std::string text = "(";
-    for (const std::uint32_t vertex : cell) {
-        if (vertex == no_vertex) break;
-        text += (text.size() > 1 ? ", " : "") + std::to_string(vertex);
-    }
-    return text + ")";
+    const auto end = std::find(cell.begin(), cell.end(), no_vertex);
+    return fmt::format("({})", fmt::join(cell.begin(), end, ", "));
 }
 
 }  // namespace bench

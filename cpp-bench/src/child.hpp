@@ -2,10 +2,12 @@
 // Work in a process of its own, so that its memory is counted from a clean start.
 #pragma once
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstddef>
 #include <exception>
@@ -39,7 +41,7 @@ auto run_in_child(Work work) -> ChildOutcome<decltype(work())> {
             const Result result = work();
             status = write(ends[1], &result, sizeof result) == static_cast<ssize_t>(sizeof result) ? 0 : 1;
         } catch (const std::exception &error) {
-            std::fprintf(stderr, "\nerror: %s\n", error.what());
+            fmt::print(stderr, "\nerror: {}\n", error.what());
         }
         std::fflush(nullptr);
         _exit(status);
@@ -53,8 +55,8 @@ auto run_in_child(Work work) -> ChildOutcome<decltype(work())> {
     rusage usage{};
     if (wait4(child, &status, 0, &usage) != child) throw std::runtime_error("the child process was lost");
     if (WIFSIGNALED(status))
-        throw std::runtime_error("the child process was killed by signal " + std::to_string(WTERMSIG(status)) +
-                                 (WTERMSIG(status) == 9 ? " (out of memory?)" : ""));
+        throw std::runtime_error(fmt::format("the child process was killed by signal {}{}", WTERMSIG(status),
+                                             WTERMSIG(status) == SIGKILL ? " (out of memory?)" : ""));
     if (!has_result || WEXITSTATUS(status) != 0) throw std::runtime_error("the child process failed");
     outcome.peak_resident_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
     return outcome;

@@ -3,13 +3,13 @@
 
 #include <CGAL/version.h>
 #include <deldrift.h>
+#include <fmt/chrono.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace bench {
@@ -30,10 +30,7 @@ std::string operating_system() {
 
 std::string memory() {
     const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-    std::ostringstream text;
-    text.precision(3);
-    text << bytes / (1 << 30) << " GiB";
-    return text.str();
+    return fmt::format("{:.3g} GiB", bytes / (1 << 30));
 }
 
 std::string compiler() {
@@ -52,18 +49,11 @@ std::string from_wrapper(const char *variable) {
     return value && *value ? value : "unknown";
 }
 
-std::string today() {
-    const std::time_t now = std::time(nullptr);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
-    return text;
-}
-
 }  // namespace
 
 void write_environment(const std::string &path, const std::string &command) {
     std::ofstream file(path);
-    file << "date: " << today() << '\n'
+    file << "date: " << fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))) << '\n'
          << "command: " << command << '\n'
          << "processor: " << processor() << ", " << sysconf(_SC_NPROCESSORS_ONLN) << " online\n"
          << "memory: " << memory() << '\n'

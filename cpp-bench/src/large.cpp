@@ -32,7 +32,7 @@ class LargeRun {
 public:
     LargeRun(unsigned dimension, std::size_t n_points, unsigned n_threads, std::uint64_t seed)
         : dimension_(dimension), n_threads_(n_threads), seed_(seed),
-          title_(std::to_string(n_points) + " points in " + std::to_string(dimension) + "D: "),
+          title_(fmt::format("{} points in {}D: ", n_points, dimension)),
           series_(uniform_points(dimension, n_points, seed)) {}
     ~LargeRun() { deldrift_destroy(triangulation_); }
     LargeRun(const LargeRun &) = delete;
@@ -113,12 +113,11 @@ void run_large(const Options &options) {
             const auto outcome =
                 run_in_child([&] { return LargeRun(dimension, n_points, n_threads, options.seed).run(); });
             const Timings &timings = outcome.result;
-            lines.push_back({std::to_string(dimension), std::to_string(n_points), std::to_string(n_threads),
-                             std::to_string(static_cast<std::size_t>(timings.n_cells)), significant(timings.build, 4),
-                             significant(timings.validate, 4), significant(timings.commit, 4),
-                             significant(timings.validate_again, 4),
-                             significant(timings.reported_bytes / static_cast<double>(n_points), 4),
-                             significant(gib(outcome.peak_resident_bytes), 4)});
+            lines.push_back(line_of(dimension, n_points, n_threads, static_cast<std::size_t>(timings.n_cells),
+                                    significant(timings.build, 4), significant(timings.validate, 4),
+                                    significant(timings.commit, 4), significant(timings.validate_again, 4),
+                                    significant(timings.reported_bytes / static_cast<double>(n_points), 4),
+                                    significant(gib(outcome.peak_resident_bytes), 4)));
         }
     }
     publish(options.results, "large.csv", lines);

@@ -7,7 +7,8 @@
 #include "self_test.hpp"
 #include "targets.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <exception>
 #include <string>
 
@@ -22,7 +23,7 @@ std::string joined(int n_arguments, char **arguments) {
 int perform(const bench::Options &options, const std::string &command) {
     std::string environment = "environment";
     switch (options.task) {
-        case bench::Task::help: std::fputs(bench::usage, stdout); return 0;
+        case bench::Task::help: fmt::print("{}", options.help); return 0;
         case bench::Task::self_test: return bench::run_self_test() ? 0 : 1;
         case bench::Task::report: bench::run_report(options); environment += "_report"; break;
         case bench::Task::memory: bench::run_memory(options); environment += "_memory"; break;
@@ -40,7 +41,7 @@ int main(int n_arguments, char **arguments) {
     try {
         return perform(bench::parse_options(n_arguments, arguments), joined(n_arguments, arguments));
     } catch (const std::exception &error) {
-        std::fprintf(stderr, "error: %s\n", error.what());
+        fmt::print(stderr, "error: {}\n", error.what());
         return 1;
     }
 }

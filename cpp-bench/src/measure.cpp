@@ -3,6 +3,8 @@
 
 #include "replay.hpp"
 
+#include <fmt/format.h>
+
 namespace bench {
 namespace {
 
@@ -14,7 +16,7 @@ void run_once(const Series &series, std::vector<Lane> &lanes, std::size_t first_
         const std::size_t last = std::min(first + block_length(series) - 1, series.n_timestamps());
         for (std::size_t turn = 0; turn < lanes.size(); ++turn)
             replay.run_block(lanes[(first_lane + first + turn) % lanes.size()], first, last, [](std::size_t) {});
-        progress.step("timestamp " + std::to_string(last));
+        progress.step(fmt::format("timestamp {}", last));
     }
 }
 
@@ -57,8 +59,8 @@ std::vector<Row> rows_of(const Series &series, const std::vector<Lane> &lanes) {
 std::vector<Row> measure(const Series &series, const std::vector<Entrant> &entrants, unsigned n_repeats,
                          Progress &progress) {
     std::vector<Lane> lanes = lanes_of(entrants);
-    progress.begin(series.name + ": timing " + std::to_string(series.n_timestamps()) + " timestamps, " +
-                       std::to_string(n_repeats) + " times over",
+    progress.begin(fmt::format("{}: timing {} timestamps, {} times over", series.name, series.n_timestamps(),
+                               n_repeats),
                    n_repeats * n_blocks(series));
     for (unsigned repeat = 0; repeat < n_repeats; ++repeat) run_once(series, lanes, repeat, progress);
     return rows_of(series, lanes);
@@ -67,8 +69,8 @@ std::vector<Row> measure(const Series &series, const std::vector<Entrant> &entra
 std::vector<Row> measure_build(const Series &series, const std::vector<Entrant> &entrants, unsigned n_repeats,
                                Progress &progress) {
     std::vector<Lane> lanes = lanes_of(entrants);
-    progress.begin(series.name + ": timing the build of " + std::to_string(series.n_points) + " points, " +
-                       std::to_string(n_repeats) + " times over",
+    progress.begin(fmt::format("{}: timing the build of {} points, {} times over", series.name, series.n_points,
+                               n_repeats),
                    n_repeats);
     for (unsigned repeat = 0; repeat < n_repeats; ++repeat) {
         for (Lane &lane : lanes) {

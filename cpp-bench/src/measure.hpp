@@ -12,7 +12,8 @@
 namespace bench {
 
 /// Times every entrant at its timestamps, `n_repeats` times over, and keeps the median of each timestamp. The
-/// first entrant is the baseline, and of steps the first one among them; it must take part in every timestamp that another one takes part in.
+/// first entrant is the baseline, and of steps the first one among them; it must take part in every timestamp that
+/// another one takes part in.
 std::vector<Row> measure(const Series &series, const std::vector<Entrant> &entrants, unsigned n_repeats,
                          Progress &progress);
 

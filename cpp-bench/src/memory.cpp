@@ -102,10 +102,11 @@ void run_memory(const Options &options) {
             const auto outcome =
                 run_in_child([&] { return usage_of(kind, dimension, options.seed, one.state); });
             const Usage &usage = outcome.result;
-            lines.push_back({std::to_string(dimension), std::to_string(n_points), kind.engine, kind.algorithm,
-                             state_names[static_cast<std::size_t>(one.state)], per_vertex(usage.allocated),
-                             usage.reported > 0 ? per_vertex(usage.reported) : "",
-                             per_vertex(static_cast<double>(outcome.peak_resident_bytes) - usage.resident_before)});
+            lines.push_back(line_of(dimension, n_points, kind.engine, kind.algorithm,
+                                    state_names[static_cast<std::size_t>(one.state)], per_vertex(usage.allocated),
+                                    usage.reported > 0 ? per_vertex(usage.reported) : "",
+                                    per_vertex(static_cast<double>(outcome.peak_resident_bytes) -
+                                               usage.resident_before)));
             progress.step(kind.name());
         }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "npy.hpp"
 
+#include <fmt/format.h>
+
 #include <cctype>
 #include <cstdint>
 #include <cstring>
@@ -33,8 +35,8 @@ public:
         const Header header = parse_header();
         const std::size_t count = element_count(header);
         if (count > (bytes_.size() - header.data_offset) / header.item_size)
-            fail("is truncated: " + std::to_string(count) + " numbers announced, " +
-                 std::to_string((bytes_.size() - header.data_offset) / header.item_size) + " present");
+            fail(fmt::format("is truncated: {} numbers announced, {} present", count,
+                             (bytes_.size() - header.data_offset) / header.item_size));
         NpyArray array;
         array.shape = header.shape;
         array.values.resize(count);
@@ -58,7 +60,7 @@ private:
         if (bytes_.size() < magic_length + 4 || std::memcmp(bytes_.data(), magic, magic_length) != 0)
             fail("is not a .npy file");
         const unsigned major = byte(magic_length);
-        if (major < 1 || major > 3) fail("has .npy version " + std::to_string(major) + ", known are 1 to 3");
+        if (major < 1 || major > 3) fail(fmt::format("has .npy version {}, known are 1 to 3", major));
         const std::size_t n_length_bytes = major == 1 ? 2 : 4;
         const std::size_t text_offset = magic_length + 2 + n_length_bytes;
         if (bytes_.size() < text_offset) fail("is truncated inside its header");
@@ -132,9 +134,8 @@ private:
 NpyArray read_npy(const std::string &path) { return Reader(path).array(); }
 
 void write_npy(const std::string &path, const NpyArray &array) {
-    std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (";
-    for (const std::size_t extent : array.shape) text += std::to_string(extent) + ", ";
-    text += "), }";
+    std::string text =
+        fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, ), }}", fmt::join(array.shape, ", "));
     const std::size_t prefix = magic_length + 4;
     while ((prefix + text.size() + 1) % 64 != 0) text += ' ';
     text += '\n';

@@ -31,6 +31,7 @@ enum class Task { run, report, memory, large, targets, self_test, help };
 
 struct Options {
     Task task = Task::run;
+    std::string help;  // what Task::help prints
     Preset preset;
     std::vector<std::string> scenarios;
     std::vector<std::string> engines;  // empty: all
@@ -53,7 +54,5 @@ Options parse_options(int n_arguments, char **arguments);
 
 /// The inputs of the report, in the order of its tables and figures.
 const std::vector<std::string> &report_scenario_names();
-
-extern const char *const usage;
 
 }  // namespace bench

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "progress.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace bench {
@@ -22,8 +24,8 @@ double seconds_since(std::chrono::steady_clock::time_point time) {
 std::string time_left(double fraction, double seconds) {
     if (fraction < 0.05 || fraction >= 1 || seconds < 3) return {};
     const double left = seconds * (1 - fraction) / fraction;
-    return ", about " + (left < 90 ? std::to_string(static_cast<int>(left) + 1) + " s"
-                                   : std::to_string(static_cast<int>(left / 60 + 0.5)) + " min") + " left";
+    return left < 90 ? fmt::format(", about {:.0f} s left", std::ceil(left))
+                     : fmt::format(", about {:.0f} min left", left / 60);
 }
 
 }  // namespace
@@ -41,7 +43,7 @@ void Progress::begin(const std::string &what, std::size_t n_steps) {
     if (output_ == Output::silent || is_terminal_)
         show({});
     else
-        std::fprintf(stderr, "%s\n", what.c_str());
+        fmt::print(stderr, "{}\n", what);
 }
 
 void Progress::step(const std::string &detail) {
@@ -60,13 +62,11 @@ void Progress::show(const std::string &detail) {
     if (is_terminal_) {
         if (done_ > 0 && done_ < n_steps_ && seconds_since(shown_at_) < seconds_between_updates) return;
         shown_at_ = std::chrono::steady_clock::now();
-        char percent[16];
-        std::snprintf(percent, sizeof percent, "%3.0f %%  ", 100 * fraction);
-        std::string line = percent + what_ + time_left(fraction, seconds_since(begun_)) +
-                           (detail.empty() ? "" : "  " + detail);
+        std::string line = fmt::format("{:3.0f} %  {}{}  {}", 100 * fraction, what_,
+                                       time_left(fraction, seconds_since(begun_)), detail);
         line.resize(std::min(line.size(), greatest_length));
         wipe();
-        std::fprintf(stderr, "\r%s", line.c_str());
+        fmt::print(stderr, "\r{}", line);
         std::fflush(stderr);
         shown_length_ = line.size();
         return;
@@ -74,14 +74,13 @@ void Progress::show(const std::string &detail) {
     const int tenths = static_cast<int>(10 * fraction);
     if (tenths > shown_tenths_ && tenths < 10 && seconds_since(begun_) > seconds_before_plain_tenths) {
         shown_tenths_ = tenths;
-        std::fprintf(stderr, "%s: %d %%%s\n", what_.c_str(), 10 * tenths,
-                     time_left(fraction, seconds_since(begun_)).c_str());
+        fmt::print(stderr, "{}: {} %{}\n", what_, 10 * tenths, time_left(fraction, seconds_since(begun_)));
     }
 }
 
 void Progress::wipe() {
     if (shown_length_ == 0) return;
-    std::fprintf(stderr, "\r%*s\r", static_cast<int>(shown_length_), "");
+    fmt::print(stderr, "\r{:{}}\r", "", shown_length_);
     std::fflush(stderr);
     shown_length_ = 0;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reading.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
@@ -10,7 +12,7 @@ namespace bench {
 namespace {
 
 [[noreturn]] void complain(const std::string &what, std::size_t index) {
-    throw std::runtime_error(what + " " + std::to_string(index));
+    throw std::runtime_error(fmt::format("{} {}", what, index));
 }
 
 /// The corners of a cell without one of them, in ascending order.

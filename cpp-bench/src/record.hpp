@@ -6,6 +6,8 @@
 #include "random.hpp"
 #include "series.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -29,7 +31,7 @@ Series record(const std::string &name, unsigned dimension, const std::vector<dou
     series.positions.reserve((n_timestamps + 1) * start.size());
     series.positions = start;
     series.positions.resize((n_timestamps + 1) * start.size());
-    progress.begin(name + ": recording " + std::to_string(n_timestamps) + " timestamps", n_timestamps);
+    progress.begin(fmt::format("{}: recording {} timestamps", name, n_timestamps), n_timestamps);
     for (std::size_t timestamp = 1; timestamp <= n_timestamps; ++timestamp) {
         advance(series.frame(timestamp - 1), series.positions.data() + timestamp * series.frame_length());
         progress.step();

@@ -3,6 +3,8 @@
 
 #include "arbiter.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace bench {
@@ -58,9 +60,8 @@ void Referee::require_equal(const CellSet &cells, const std::string &name) {
     if (cells == deldrift_) return;
     const CellSet extra = difference(cells, deldrift_);
     const CellSet missing = difference(deldrift_, cells);
-    fail(name + " has " + std::to_string(extra.size()) +
-         " cells that a fresh deldrift build has not, and lacks " + std::to_string(missing.size()) +
-         ", beginning with " + to_string(extra.empty() ? missing.front() : extra.front()));
+    fail(fmt::format("{} has {} cells that a fresh deldrift build has not, and lacks {}, beginning with {}", name,
+                     extra.size(), missing.size(), to_string(extra.empty() ? missing.front() : extra.front())));
 }
 
 std::size_t Referee::require_equivalent(const CellSet &cells, const std::string &name) {
@@ -71,7 +72,7 @@ std::size_t Referee::require_equivalent(const CellSet &cells, const std::string 
 }
 
 void Referee::fail(const std::string &what) const {
-    throw Mismatch(series_.name + ", timestamp " + std::to_string(timestamp_) + ": " + what, timestamp_);
+    throw Mismatch(fmt::format("{}, timestamp {}: {}", series_.name, timestamp_, what), timestamp_);
 }
 
 }  // namespace bench

@@ -9,7 +9,8 @@ namespace bench {
 namespace {
 
 constexpr std::size_t most_blocks = 20;
-/// An engine that takes a few microseconds for a timestamp needs many of them until what it finds in the caches is its own.
+/// An engine that takes a few microseconds for a timestamp needs many of them until what it finds in the caches is its
+/// own.
 constexpr std::size_t least_moves = 200'000;
 
 }  // namespace

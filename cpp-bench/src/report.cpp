@@ -10,6 +10,8 @@
 #include "report_steps.hpp"
 #include "table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -137,21 +139,21 @@ private:
     /// Figures of different commits, presets or seeds do not go together.
     void begin_anew_if_needed() {
         const char *commit = std::getenv("DELDRIFT_BENCH_COMMIT");
-        std::ostringstream state;
-        state << "commit: " << (commit ? commit : "unknown") << "\npreset: " << options_.preset.name
-              << "\nseed: " << options_.seed << "\ntimestamps: " << options_.report_timestamps << '\n';
+        const std::string state =
+            fmt::format("commit: {}\npreset: {}\nseed: {}\ntimestamps: {}\n", commit ? commit : "unknown",
+                        options_.preset.name, options_.seed, options_.report_timestamps);
         const std::string path = options_.results + "/report_state.txt";
         std::ifstream file(path);
         std::ostringstream old;
         old << file.rdbuf();
-        if (old.str() == state.str()) return;
+        if (old.str() == state) return;
         if (!old.str().empty())
             std::cerr << "starting over: commit, preset or seed differ from last time\n";
         for (const auto &entry : fs::directory_iterator(options_.results))
             if (entry.path().filename().string().rfind("report", 0) == 0 &&
                 entry.path().extension() == ".csv")
                 fs::remove(entry.path());
-        std::ofstream(path) << state.str();
+        std::ofstream(path) << state;
     }
 
     double cost(const std::string &scenario) const {
@@ -165,15 +167,11 @@ private:
     void announce(const std::string &scenario, double cost_done, double cost_left) const {
         const double seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
-        std::cerr << "[" << scenario;
-        if (cost_done > 0) {
-            const double left = seconds * cost_left / cost_done;
-            if (left < 90)
-                std::cerr << "; less than two minutes left in all";
-            else
-                std::cerr << "; about " << std::lround(left / 60) << " min left in all";
-        }
-        std::cerr << "]\n";
+        const double left = cost_done > 0 ? seconds * cost_left / cost_done : 0;
+        const std::string remark = cost_done == 0 ? ""
+                                   : left < 90    ? "; less than two minutes left in all"
+                                                  : fmt::format("; about {:.0f} min left in all", left / 60);
+        fmt::print(stderr, "[{}{}]\n", scenario, remark);
     }
 
     bool is_wanted(const EngineKind &kind) const {
@@ -243,9 +241,8 @@ private:
         for (std::size_t i = 0; i < kinds.size(); ++i) {
             add_rows(series, *kinds[i], times[i], baseline);
             add_curve(series, *kinds[i], times[i]);
-            checks_->add({series.name, kinds[i]->engine, kinds[i]->algorithm,
-                          std::to_string(checks.n_timestamps),
-                          std::to_string(checks.n_unproved[kinds[i]->name()])});
+            checks_->add(line_of(series.name, kinds[i]->engine, kinds[i]->algorithm, checks.n_timestamps,
+                                 checks.n_unproved[kinds[i]->name()]));
         }
         checks_->save();
         curves_->save();
@@ -260,10 +257,9 @@ private:
         for (const auto &range : ranges_of(series)) {
             const Sum sum = sum_over(steps.deldrift, cgal, range);
             const double scale = 1e9 / static_cast<double>(sum.n * series.n_points);
-            steps_->add({series.name, std::to_string(series.dimension), std::to_string(series.n_points),
-                         std::to_string(sum.n), "deldrift", "auto", significant(scale * sum.seconds, 5),
-                         significant(scale * sum.baseline, 5), significant(sum.baseline / sum.seconds, 5),
-                         std::to_string(range.first), std::to_string(range.second)});
+            steps_->add(line_of(series.name, series.dimension, series.n_points, sum.n, "deldrift", "auto",
+                                significant(scale * sum.seconds, 5), significant(scale * sum.baseline, 5),
+                                significant(sum.baseline / sum.seconds, 5), range.first, range.second));
         }
         steps_->save();
     }
@@ -288,7 +284,7 @@ private:
     void save_times(const Series &series, const EngineKind &kind, const UpdateTimes &times) const {
         std::vector<std::vector<std::string>> lines = {{"timestamp", "seconds"}};
         for (const auto &[timestamp, seconds] : times)
-            lines.push_back({std::to_string(timestamp), significant(seconds, 9)});
+            lines.push_back(line_of(timestamp, significant(seconds, 9)));
         write_csv(times_path(series.name, kind), lines);
     }
 
@@ -305,11 +301,9 @@ private:
             const Sum sum = sum_over(times, baseline, range);
             if (sum.n == 0) continue;
             const double ns = 1e9 * sum.seconds / static_cast<double>(sum.n * series.n_points);
-            report_->add({series.name, std::to_string(series.dimension), std::to_string(series.n_points),
-                          std::to_string(sum.n), kind.engine, kind.algorithm, "1",
-                          significant(sum.seconds, 6), significant(ns, 5),
-                          significant(sum.baseline / sum.seconds, 5), std::to_string(range.first),
-                          std::to_string(range.second)});
+            report_->add(line_of(series.name, series.dimension, series.n_points, sum.n, kind.engine, kind.algorithm, 1,
+                                 significant(sum.seconds, 6), significant(ns, 5),
+                                 significant(sum.baseline / sum.seconds, 5), range.first, range.second));
         }
     }
 
@@ -318,9 +312,9 @@ private:
         for (const auto &bin : bins_of(series.n_timestamps())) {
             const Sum sum = sum_over(times, times, bin);
             if (sum.n == 0) continue;
-            curves_->add({series.name, kind.engine, kind.algorithm, std::to_string(bin.first),
-                          std::to_string(bin.second), std::to_string(sum.n),
-                          significant(1e9 * sum.seconds / static_cast<double>(sum.n * series.n_points), 5)});
+            const double ns = 1e9 * sum.seconds / static_cast<double>(sum.n * series.n_points);
+            curves_->add(line_of(series.name, kind.engine, kind.algorithm, bin.first, bin.second, sum.n,
+                                 significant(ns, 5)));
         }
     }
 

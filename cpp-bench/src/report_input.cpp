@@ -5,6 +5,8 @@
 #include "scenarios.hpp"
 #include "report_statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -118,10 +120,8 @@ ReportInput report_input(const std::string &scenario, const Options &options, Pr
     if (scenario == "man") input.body = load_body(options.data);
 
     const std::string body = input.body ? (input.body->name() == "man.off" ? "_man_off" : "_generated") : "";
-    const std::string path = options.results + "/series/" + scenario + body + "_" +
-                             std::to_string(effort.n_points) + "_" + std::to_string(effort.n_timestamps) +
-                             "_seed_" + std::to_string(options.seed) + "_v" +
-                             std::to_string(recording_version) + ".npy";
+    const std::string path = fmt::format("{}/series/{}{}_{}_{}_seed_{}_v{}.npy", options.results, scenario, body,
+                                         effort.n_points, effort.n_timestamps, options.seed, recording_version);
     if (!is_segmented(scenario) && std::filesystem::exists(path)) {
         input.series = load_series(path);
         input.series.name = scenario;

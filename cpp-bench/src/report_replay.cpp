@@ -4,6 +4,8 @@
 #include "referee.hpp"
 #include "replay.hpp"
 
+#include <fmt/format.h>
+
 namespace bench {
 namespace {
 
@@ -40,7 +42,7 @@ void run_once(const Series &series, std::vector<Lane> &lanes, Examination *exami
             replay.run_block(lane, first, last, [&](std::size_t timestamp) {
                 if (examination) examination->look_at(lane, timestamp);
             });
-            progress.step("timestamp " + std::to_string(last) + ", " + lane.entrant->name());
+            progress.step(fmt::format("timestamp {}, {}", last, lane.entrant->name()));
         }
         if (examination) examination->go_on();
     }
@@ -73,8 +75,8 @@ std::vector<UpdateTimes> replay_report(const Series &series, const std::vector<E
                                        const std::vector<std::size_t> &check_timestamps, unsigned n_repeats,
                                        Checks &checks, Progress &progress) {
     std::vector<Lane> lanes = lanes_of(entrants);
-    progress.begin(series.name + ": timing " + std::to_string(series.n_timestamps()) + " timestamps, " +
-                       std::to_string(entrants.size()) + " engines",
+    progress.begin(fmt::format("{}: timing {} timestamps, {} engines", series.name, series.n_timestamps(),
+                               entrants.size()),
                    n_repeats * n_blocks(series) * lanes.size());
     Examination examination(series, check_timestamps, checks);
     for (unsigned repeat = 0; repeat < n_repeats; ++repeat)

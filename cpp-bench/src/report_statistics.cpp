@@ -270,11 +270,10 @@ private:
             displacement_text = text(sum / static_cast<double>(series_.n_points));
             share_text = text(static_cast<double>(n_within) / static_cast<double>(series_.n_points));
         }
-        statistics_.add({series_.name, std::to_string(timestamp), std::to_string(series_.n_points),
-                         text(mean(measured.widths())), text(mean(measured.tolerances())),
-                         text(measured.mean_certified_tolerance()), text(mean(measured.widest())),
-                         text(measured.bicells_per_vertex()), displacement_text, share_text,
-                         text(measured.share_uncertain()), series_.remark});
+        statistics_.add(line_of(series_.name, timestamp, series_.n_points, text(mean(measured.widths())),
+                                text(mean(measured.tolerances())), text(measured.mean_certified_tolerance()),
+                                text(mean(measured.widest())), text(measured.bicells_per_vertex()), displacement_text,
+                                share_text, text(measured.share_uncertain()), series_.remark));
     }
 
     /// All segments begin at the frame that was measured.
@@ -283,9 +282,9 @@ private:
         for (const Segment &segment : series_.segments) {
             std::size_t n_within = 0;
             for (const double tolerance : measured.tolerances()) n_within += segment.displacement < tolerance;
-            segments_.add({series_.name, std::to_string(segment.first), std::to_string(segment.last),
-                           text(segment.displacement), text(segment.displacement / average),
-                           text(static_cast<double>(n_within) / static_cast<double>(series_.n_points))});
+            segments_.add(line_of(series_.name, segment.first, segment.last, text(segment.displacement),
+                                  text(segment.displacement / average),
+                                  text(static_cast<double>(n_within) / static_cast<double>(series_.n_points))));
         }
     }
 
@@ -307,17 +306,15 @@ private:
             ++n;
         }
         for (std::size_t bin = 0; bin < n_bins; ++bin)
-            distributions_.add({series_.name, std::to_string(timestamp), quantity,
-                                text(end * static_cast<double>(bin) / n_bins),
-                                text(end * static_cast<double>(bin + 1) / n_bins),
-                                text(static_cast<double>(counts[bin]) / static_cast<double>(n))});
+            distributions_.add(line_of(series_.name, timestamp, quantity, text(end * static_cast<double>(bin) / n_bins),
+                                       text(end * static_cast<double>(bin + 1) / n_bins),
+                                       text(static_cast<double>(counts[bin]) / static_cast<double>(n))));
     }
 
     void add_points(std::size_t timestamp) {
         for (std::size_t id = 0; id < series_.n_points; ++id) {
             const double *p = series_.frame(timestamp) + 2 * id;
-            points_.add(
-                {series_.name, std::to_string(timestamp), significant(p[0], 5), significant(p[1], 5)});
+            points_.add(line_of(series_.name, timestamp, significant(p[0], 5), significant(p[1], 5)));
         }
     }
 
@@ -337,8 +334,7 @@ private:
             std::string text;
             for (const Vector3 &p : polygon)
                 text += (text.empty() ? "" : " ") + significant(p[0], 4) + " " + significant(p[1], 4);
-            sections_.add(
-                {series_.name, std::to_string(timestamp), significant(radius_ratio(corner), 3), text});
+            sections_.add(line_of(series_.name, timestamp, significant(radius_ratio(corner), 3), text));
         }
     }
 

@@ -12,6 +12,8 @@
 #include "table.hpp"
 #include "verify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -163,7 +165,7 @@ private:
         array.values.assign(series.frame(first), series.frame(timestamp) + series.frame_length());
         std::filesystem::create_directories(options_.keep_failures);
         const std::string path =
-            options_.keep_failures + "/" + series.name + "_at_" + std::to_string(timestamp) + ".npy";
+            fmt::format("{}/{}_at_{}.npy", options_.keep_failures, series.name, timestamp);
         write_npy(path, array);
         std::cerr << "positions kept: " << path << '\n';
     }

@@ -2,6 +2,8 @@
 #include "npy.hpp"
 #include "scenarios.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -18,17 +20,15 @@ std::string stem(const std::string &path) {
 }
 
 std::string shape_text(const NpyArray &array) {
-    std::string text;
-    for (const std::size_t extent : array.shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
-    return text.empty() ? "a single number" : text;
+    return array.shape.empty() ? "a single number" : fmt::format("{}", fmt::join(array.shape, " x "));
 }
 
 void require_finite(const Series &series, const std::string &path) {
     for (std::size_t i = 0; i < series.positions.size(); ++i)
         if (!std::isfinite(series.positions[i]))
-            throw std::runtime_error(path + " holds a coordinate that is not finite: frame " +
-                                     std::to_string(i / series.frame_length()) + ", point " +
-                                     std::to_string(i % series.frame_length() / series.dimension));
+            throw std::runtime_error(fmt::format("{} holds a coordinate that is not finite: frame {}, point {}", path,
+                                                 i / series.frame_length(),
+                                                 i % series.frame_length() / series.dimension));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "record.hpp"
 #include "scenarios.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace bench {
@@ -66,7 +68,7 @@ Series record_segments(const std::string &name, unsigned dimension, std::size_t 
     Random random(seed);
     const std::vector<double> start = points_in_ball(dimension, n_points, random);
 
-    progress.begin(name + ": recording " + std::to_string(displacements.size()) + " displacements",
+    progress.begin(fmt::format("{}: recording {} displacements", name, displacements.size()),
                    displacements.size());
     for (const double displacement : displacements) {
         series.positions.insert(series.positions.end(), start.begin(), start.end());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "self_test.hpp"
+#define DOCTEST_CONFIG_IMPLEMENT
+#include "tests.hpp"
 
 #include "arbiter.hpp"
 #include "cells.hpp"
@@ -11,43 +12,18 @@
 #include "random.hpp"
 #include "record.hpp"
 #include "scenarios.hpp"
+#include "self_test.hpp"
 #include "table.hpp"
 #include "targets.hpp"
-#include "tests.hpp"
 #include "verify.hpp"
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 namespace bench {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A folder that goes with the object.
-class Folder {
-public:
-    Folder() : path_(fs::temp_directory_path() / ("deldrift-self-test-" + std::to_string(getpid()))) {
-        fs::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder &) = delete;
-    Folder &operator=(const Folder &) = delete;
-
-    std::string file(const std::string &name) const { return (path_ / name).string(); }
-
-private:
-    fs::path path_;
-};
 
 std::string contents(const std::string &path) {
     std::ifstream file(path, std::ios::binary);
@@ -62,112 +38,125 @@ std::string replaced(std::string text, const std::string &from, const std::strin
     return text.replace(text.find(from), from.size(), to);
 }
 
-void test_npy(Tests &tests) {
+TEST_CASE("npy") {
     const Folder folder;
     const std::string path = folder.file("series.npy");
     const NpyArray array{{2, 3, 2}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 1.0 / 3}};
     write_npy(path, array);
     const NpyArray read = read_npy(path);
-    tests.expect(read.shape == array.shape && read.values == array.values, "npy: what is written is read");
+    // What is written is read.
+    CHECK(read.shape == array.shape);
+    CHECK(read.values == array.values);
     const std::string bytes = contents(path);
-    tests.expect((bytes.size() - 12 * 8) % 64 == 0, "npy: data are aligned as the format asks");
+    CHECK_MESSAGE((bytes.size() - 12 * 8) % 64 == 0, "data are aligned as the format asks");
 
     put(path, bytes.substr(0, bytes.size() - 1));
-    tests.expect_error([&] { read_npy(path); }, "truncated: 12 numbers announced, 11 present", "npy: truncated data");
+    CHECK_THROWS_WITH(read_npy(path), Contains("truncated: 12 numbers announced, 11 present"));
     put(path, bytes.substr(0, 40));
-    tests.expect_error([&] { read_npy(path); }, "truncated inside its header", "npy: truncated header");
+    CHECK_THROWS_WITH(read_npy(path), Contains("truncated inside its header"));
     put(path, "PK" + bytes.substr(2));
-    tests.expect_error([&] { read_npy(path); }, "not a .npy file", "npy: wrong magic");
+    CHECK_THROWS_WITH(read_npy(path), Contains("not a .npy file"));
     put(path, replaced(bytes, "False", "True "));
-    tests.expect_error([&] { read_npy(path); }, "not in C order", "npy: Fortran order");
+    CHECK_THROWS_WITH(read_npy(path), Contains("not in C order"));
     put(path, replaced(bytes, "<f8", "<i8"));
-    tests.expect_error([&] { read_npy(path); }, "only '<f8' and '<f4'", "npy: integers");
+    CHECK_THROWS_WITH(read_npy(path), Contains("only '<f8' and '<f4'"));
     put(path, replaced(bytes, "<f8", ">f8"));
-    tests.expect_error([&] { read_npy(path); }, "only '<f8' and '<f4'", "npy: big-endian numbers");
-    tests.expect_error([&] { read_npy(folder.file("none.npy")); }, "cannot be opened", "npy: missing file");
+    CHECK_THROWS_WITH(read_npy(path), Contains("only '<f8' and '<f4'"));
+    CHECK_THROWS_WITH(read_npy(folder.file("none.npy")), Contains("cannot be opened"));
 
     const float narrow[12] = {0.5f, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -0.1f};
     put(path, replaced(bytes.substr(0, bytes.size() - 96), "<f8", "<f4") +
                   std::string(reinterpret_cast<const char *>(narrow), sizeof narrow));
     const NpyArray widened = read_npy(path);
-    tests.expect(std::equal(widened.values.begin(), widened.values.end(), narrow, narrow + 12), "npy: f32 is widened");
+    CHECK_MESSAGE(std::equal(widened.values.begin(), widened.values.end(), narrow, narrow + 12), "f32 is widened");
 }
 
-void test_series_files(Tests &tests) {
+TEST_CASE("series files") {
     const Folder folder;
     const std::string path = folder.file("frames.npy");
     write_npy(path, {{2, 3, 2}, {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 2}});
     const Series series = load_series(path);
-    tests.expect(series.name == "frames" && series.dimension == 2 && series.n_points == 3 &&
-                     series.n_timestamps() == 1 && series.frame(1)[5] == 2,
-                 "series: frames, points and dimension come from the shape, the name from the file");
+    // Frames, points and dimension come from the shape, the name from the file.
+    CHECK(series.name == "frames");
+    CHECK(series.dimension == 2);
+    CHECK(series.n_points == 3);
+    CHECK(series.n_timestamps() == 1);
+    CHECK(series.frame(1)[5] == 2);
     write_npy(path, {{3, 4}, std::vector<double>(12, 0.0)});
-    tests.expect_error([&] { load_series(path); }, "has shape 3 x 4", "series: four dimensions");
+    CHECK_THROWS_WITH(load_series(path), Contains("has shape 3 x 4"));
     write_npy(path, {{2, 0, 2}, {}});
-    tests.expect_error([&] { load_series(path); }, "has shape 2 x 0 x 2", "series: no points");
+    CHECK_THROWS_WITH(load_series(path), Contains("has shape 2 x 0 x 2"));
     write_npy(path, {{1, 2, 2}, {0, 0, 1, std::nan("")}});
-    tests.expect_error([&] { load_series(path); }, "frame 0, point 1", "series: a coordinate that is not a number");
+    CHECK_THROWS_WITH(load_series(path), Contains("frame 0, point 1"));
 
     const std::string displacement_path = folder.file("displacement.npy");
     write_npy(path, {{2, 3}, {0, 0, 0, 1, 1, 1}});
     write_npy(displacement_path, {{2, 3}, {4, 0, 0, 0, 0, -4}});
     const Series displaced = load_displacement(path, displacement_path, 4);
-    tests.expect(displaced.n_frames() == 5 && displaced.frame(1)[0] == 1 && displaced.frame(4)[5] == -3,
-                 "series: displacements are applied in equal steps");
+    // Displacements are applied in equal steps.
+    CHECK(displaced.n_frames() == 5);
+    CHECK(displaced.frame(1)[0] == 1);
+    CHECK(displaced.frame(4)[5] == -3);
     Series tiny = displaced;
     tiny.positions[0] = -1e-64;
     tiny.positions[1] = 1e-42;
-    tests.expect(snap(tiny, 1e-42) == 1 && tiny.positions[0] == 0 && tiny.positions[1] == 1e-42,
-                 "series: coordinates below a magnitude become 0");
+    // Coordinates below a magnitude become 0.
+    CHECK(snap(tiny, 1e-42) == 1);
+    CHECK(tiny.positions[0] == 0);
+    CHECK(tiny.positions[1] == 1e-42);
     write_npy(displacement_path, {{3, 2}, std::vector<double>(6, 0.0)});
-    tests.expect_error([&] { load_displacement(path, displacement_path, 4); }, "differ in shape",
-                       "series: displacements of another shape");
+    CHECK_THROWS_WITH(load_displacement(path, displacement_path, 4), Contains("differ in shape"));
 }
 
-void test_cells(Tests &tests) {
+TEST_CASE("cells") {
     const std::vector<double> places = {0, 0, 1, 0, 0, 1, 1, 0, -0.0, 0};
     const std::vector<std::uint32_t> lowest = representatives(2, places.data(), 5);
-    tests.expect(lowest == std::vector<std::uint32_t>({0, 1, 2, 1, 0}),
-                 "cells: coincident points have one representative");
-    tests.expect(canonical(2, {2, 4, 3}, lowest) == CellSet{{0, 1, 2, no_vertex}}, "cells: canonical form");
-    tests.expect_error([&] { canonical(2, {0, 1, 2, 4, 3, 2}, lowest); }, "comes twice", "cells: one cell twice");
-    tests.expect_error([&] { canonical(2, {0, 1, 3}, lowest); }, "has a vertex twice", "cells: a vertex twice");
-    tests.expect_error([&] { canonical(2, {0, 1, 7}, lowest); }, "vertex 7 of 5", "cells: an id out of range");
-    tests.expect_error([&] { canonical(2, {0, 1}, lowest); }, "incomplete", "cells: an incomplete cell");
+    CHECK_MESSAGE(lowest == std::vector<std::uint32_t>({0, 1, 2, 1, 0}), "coincident points have one representative");
+    CHECK(canonical(2, {2, 4, 3}, lowest) == CellSet{{0, 1, 2, no_vertex}});
+    CHECK_THROWS_WITH(canonical(2, {0, 1, 2, 4, 3, 2}, lowest), Contains("comes twice"));
+    CHECK_THROWS_WITH(canonical(2, {0, 1, 3}, lowest), Contains("has a vertex twice"));
+    CHECK_THROWS_WITH(canonical(2, {0, 1, 7}, lowest), Contains("vertex 7 of 5"));
+    CHECK_THROWS_WITH(canonical(2, {0, 1}, lowest), Contains("incomplete"));
 }
 
-void test_arbiter(Tests &tests) {
+TEST_CASE("arbiter") {
     const CellSet diagonal_02 = {{0, 1, 2, no_vertex}, {0, 2, 3, no_vertex}};
     const CellSet diagonal_13 = {{0, 1, 3, no_vertex}, {1, 2, 3, no_vertex}};
 
     const std::vector<double> square = {0, 0, 1, 0, 1, 1, 0, 1};
     Verdict verdict = compare(2, square.data(), diagonal_02, "a", diagonal_13, "b");
-    tests.expect(verdict.is_accepted && verdict.n_degenerate == 2, "arbiter: both diagonals of a square are right");
+    // Both diagonals of a square are right.
+    CHECK(verdict.is_accepted);
+    CHECK(verdict.n_degenerate == 2);
     verdict = compare(2, square.data(), diagonal_02, "a", {{0, 1, 2, no_vertex}}, "b");
-    tests.expect(!verdict.is_accepted, "arbiter: half of a square is not the square");
+    CHECK_MESSAGE(!verdict.is_accepted, "half of a square is not the square");
 
     std::vector<double> nearly = square;
     nearly[4] = std::nextafter(1.0, 2.0);
     verdict = compare(2, nearly.data(), diagonal_02, "a", diagonal_13, "b");
-    tests.expect(!verdict.is_accepted && verdict.complaint.find("inside") != std::string::npos,
-                 "arbiter: one unit in the last place decides the diagonal");
+    // One unit in the last place decides the diagonal.
+    CHECK(!verdict.is_accepted);
+    CHECK(verdict.complaint.find("inside") != std::string::npos);
 
     const std::vector<double> grid = {0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1};
     const CellSet whole = {{0, 1, 2, no_vertex}, {0, 2, 3, no_vertex}, {1, 2, 4, no_vertex}, {2, 4, 5, no_vertex}};
     const CellSet holed = {{0, 1, 3, no_vertex}, {1, 2, 3, no_vertex}, {1, 4, 5, no_vertex}};
     verdict = compare(2, grid.data(), holed, "a", whole, "b");
-    tests.expect(!verdict.is_accepted, "arbiter: a hole among cocircular points is found");
+    CHECK_MESSAGE(!verdict.is_accepted, "a hole among cocircular points is found");
 
     const std::vector<double> cube = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
     const CellSet five = {{0, 1, 2, 5}, {0, 2, 3, 7}, {0, 2, 5, 7}, {0, 4, 5, 7}, {2, 5, 6, 7}};
     const CellSet other_five = {{0, 1, 3, 4}, {1, 2, 3, 6}, {1, 3, 4, 6}, {1, 4, 5, 6}, {3, 4, 6, 7}};
     verdict = compare(3, cube.data(), five, "a", other_five, "b");
-    tests.expect(verdict.is_accepted && verdict.n_degenerate == 5, "arbiter: a cube has more than one triangulation");
+    // A cube has more than one triangulation.
+    CHECK(verdict.is_accepted);
+    CHECK(verdict.n_degenerate == 5);
     CellSet with_flat = other_five;
     with_flat.insert(with_flat.begin(), {0, 1, 2, 3});
     verdict = compare(3, cube.data(), five, "a", with_flat, "b");
-    tests.expect(!verdict.is_accepted && verdict.complaint.find("flat") != std::string::npos,
-                 "arbiter: a flat cell is not excused");
+    // A flat cell is not excused.
+    CHECK(!verdict.is_accepted);
+    CHECK(verdict.complaint.find("flat") != std::string::npos);
 }
 
 Series random_series(unsigned dimension, std::size_t n_points, std::size_t n_timestamps) {
@@ -185,33 +174,23 @@ Series grid_series(unsigned dimension, std::size_t n_points, std::size_t n_times
     return series;
 }
 
-std::vector<std::size_t> every_timestamp(const Series &series) {
-    std::vector<std::size_t> timestamps;
-    for (std::size_t timestamp = 1; timestamp <= series.n_timestamps(); ++timestamp) timestamps.push_back(timestamp);
-    return timestamps;
-}
-
-void test_engines_agree(Tests &tests) {
+TEST_CASE("engines agree") {
     for (const unsigned dimension : {2u, 3u})
         for (const bool is_grid : {false, true}) {
             const Series series = is_grid ? grid_series(dimension, 120, 12) : random_series(dimension, 120, 12);
-            const std::string what = series.name + (is_grid ? ", grid" : ", random");
+            CAPTURE(dimension);
+            CAPTURE(is_grid);
             std::vector<Entrant> entrants;
             // The report's algorithms know no coincident points.
             for (const EngineKind &kind : engine_kinds())
                 if (!is_grid || !kind.is_reproduction) entrants.push_back({&kind, 1, every_timestamp(series)});
             Progress progress(Progress::Output::silent);
-            tests.expect_no_error(
-                [&] {
-                    const Checks checks = verify(series, entrants, every_timestamp(series), progress);
-                    tests.expect(checks.n_timestamps == 12 && checks.n_comparisons == 12 * entrants.size(),
-                                 what + ": every engine is compared at every timestamp");
-                    tests.expect((checks.n_degenerate > 0) == is_grid,
-                                 what + ": degenerate cells are on the grid only");
-                    tests.expect((checks.n_coincident > 0) == is_grid, what + ": coincident points too");
-                    tests.expect(checks.n_cells > 12, what + ": there are cells");
-                },
-                what);
+            const Checks checks = verify(series, entrants, every_timestamp(series), progress);
+            CHECK(checks.n_timestamps == 12);
+            CHECK(checks.n_comparisons == 12 * entrants.size());
+            CHECK((checks.n_degenerate > 0) == is_grid);
+            CHECK((checks.n_coincident > 0) == is_grid);
+            CHECK(checks.n_cells > 12);
         }
 }
 
@@ -258,47 +237,47 @@ private:
     unsigned n_advances_ = 0;
 };
 
-template <Fault fault>
-void test_fault(Tests &tests, const std::string &what) {
+TEST_CASE_TEMPLATE("faults are found", FaultyEngine, Faulty<Fault::wrong_corner>, Faulty<Fault::missing_cell>,
+                   Faulty<Fault::stale_positions>, Faulty<Fault::failing_validation>) {
     std::vector<EngineKind> kinds = {engine_kind("cgal/rebuilding"), engine_kind("deldrift/rebuilding")};
     for (EngineKind &kind : kinds) {
         kind.is_stateless = false;
         kind.make = [make = kind.make](unsigned dimension, unsigned n_threads) {
-            return std::make_unique<Faulty<fault>>(make(dimension, n_threads));
+            return std::make_unique<FaultyEngine>(make(dimension, n_threads));
         };
     }
     const Series series = random_series(2, 100, 4);
     for (const EngineKind &kind : kinds) {
+        CAPTURE(kind.engine);
         const std::vector<Entrant> entrants = {{&kind, 1, every_timestamp(series)}};
         Progress progress(Progress::Output::silent);
-        tests.expect_error([&] { verify(series, entrants, every_timestamp(series), progress); },
-                           "static_2d, timestamp 3: ", "a faulty " + kind.engine + " engine, " + what);
-        tests.expect_no_error([&] { verify(series, entrants, {1, 2}, progress); },
-                              "the same engine before its fault, " + what);
+        CHECK_THROWS_WITH(verify(series, entrants, every_timestamp(series), progress),
+                          Contains("static_2d, timestamp 3: "));
+        CHECK_NOTHROW(verify(series, entrants, {1, 2}, progress));
     }
 }
 
-void test_faults_are_found(Tests &tests) {
-    test_fault<Fault::wrong_corner>(tests, "a wrong corner");
-    test_fault<Fault::missing_cell>(tests, "a missing cell");
-    test_fault<Fault::stale_positions>(tests, "stale positions");
-    test_fault<Fault::failing_validation>(tests, "a failing validation");
-}
-
-void test_disk_cells(Tests &tests) {
-    const auto near = [](double a, double b) { return std::fabs(a - b) < 1e-12; };
+TEST_CASE("disk cells") {
+    const auto near = [](double value) { return doctest::Approx(value).epsilon(1e-12); };
     const double pi = std::acos(-1.0);
     AreaAndCentroid cell = intersect_disk(square(0.5), 1);
-    tests.expect(near(cell.area, 1) && near(cell.centroid[0], 0), "disk: a square inside is itself");
+    // A square inside is itself.
+    CHECK(cell.area == near(1));
+    CHECK(cell.centroid[0] == near(0));
     cell = intersect_disk(square(3), 2);
-    tests.expect(near(cell.area, 4 * pi) && near(cell.centroid[1], 0), "disk: a square around it gives the disk");
+    // A square around it gives the disk.
+    CHECK(cell.area == near(4 * pi));
+    CHECK(cell.centroid[1] == near(0));
 
     Polygon half = square(3);
     clip_to_bisector(half, {1, 0}, {-1, 0});
     cell = intersect_disk(half, 2);
-    tests.expect(near(cell.area, 2 * pi) && near(cell.centroid[0], 8 / (3 * pi)) && near(cell.centroid[1], 0),
-                 "disk: the centroid of half a disk");
-    tests.expect(near(intersect_disk({{5, 5}, {6, 5}, {6, 6}}, 2).area, 0), "disk: a triangle outside has no area");
+    // The centroid of half a disk.
+    CHECK(cell.area == near(2 * pi));
+    CHECK(cell.centroid[0] == near(8 / (3 * pi)));
+    CHECK(cell.centroid[1] == near(0));
+    // A triangle outside has no area.
+    CHECK(intersect_disk({{5, 5}, {6, 5}, {6, 6}}, 2).area == near(0));
 
     Random random(3);
     std::vector<Point2> sites(20);
@@ -313,11 +292,13 @@ void test_disk_cells(Tests &tests) {
         area += cell.area;
         for (const int axis : {0, 1}) moment[axis] += cell.area * cell.centroid[axis];
     }
-    tests.expect(near(area, 4 * pi) && near(moment[0], 0) && near(moment[1], 0),
-                 "disk: Voronoi cells add up to the disk, their moments to its centre");
+    // Voronoi cells add up to the disk, their moments to its centre.
+    CHECK(area == near(4 * pi));
+    CHECK(moment[0] == near(0));
+    CHECK(moment[1] == near(0));
 }
 
-void test_generated_series(Tests &tests) {
+TEST_CASE("generated series") {
     Progress progress(Progress::Output::silent);
     const Series lloyd = record_lloyd_2d_uniform(200, 30, 5, progress);
     const auto path_length = [&](std::size_t timestamp) {
@@ -326,13 +307,13 @@ void test_generated_series(Tests &tests) {
             sum += std::fabs(lloyd.frame(timestamp)[i] - lloyd.frame(timestamp - 1)[i]);
         return sum;
     };
-    tests.expect(path_length(30) < path_length(1) / 4, "lloyd: the points come to rest");
+    CHECK_MESSAGE(path_length(30) < path_length(1) / 4, "the points come to rest");
     const Series again = record_lloyd_2d_uniform(200, 30, 5, progress);
     const Series other = record_lloyd_2d_uniform(200, 30, 6, progress);
-    tests.expect(again.positions == lloyd.positions, "lloyd: the same seed gives the same positions");
-    tests.expect(other.positions != lloyd.positions, "lloyd: another seed gives others");
+    CHECK_MESSAGE(again.positions == lloyd.positions, "the same seed gives the same positions");
+    CHECK_MESSAGE(other.positions != lloyd.positions, "another seed gives others");
     const Series alone = record_lloyd_2d_uniform(1, 1, 5, progress);
-    tests.expect(std::hypot(alone.frame(1)[0], alone.frame(1)[1]) < 1e-12, "lloyd: a single point goes to the centre");
+    CHECK_MESSAGE(std::hypot(alone.frame(1)[0], alone.frame(1)[1]) < 1e-12, "a single point goes to the centre");
 
     const Series walk = record_walk_3d(100, 20, 5, progress);
     const double radius = unit_density_radius(3, 100);
@@ -344,35 +325,42 @@ void test_generated_series(Tests &tests) {
         shortest = std::min(shortest, length);
         farthest = std::max(farthest, std::hypot(to[0], to[1], to[2]));
     }
-    tests.expect(longest < walk_step * (1 + 1e-9) && shortest > walk_step * (1 - 1e-9) && farthest <= radius,
-                 "walk: every step has its length and stays in the ball");
+    // Every step has its length and stays in the ball.
+    CHECK(longest < walk_step * (1 + 1e-9));
+    CHECK(shortest > walk_step * (1 - 1e-9));
+    CHECK(farthest <= radius);
 }
 
-void test_measure(Tests &tests) {
+TEST_CASE("measure") {
     const Series series = random_series(2, 200, 10);
     const std::vector<Entrant> entrants = {{&engine_kind("cgal/rebuilding"), 1, every_timestamp(series)},
                                            {&engine_kind("cgal/move"), 1, {5, 10}}};
     Progress progress(Progress::Output::silent);
     const std::vector<Row> rows = measure(series, entrants, 2, progress);
-    tests.expect(rows.size() == 2 && rows[0].timestamps == 10 && rows[1].timestamps == 2 && rows[0].seconds > 0 &&
-                     rows[1].seconds > 0 && rows[0].speedup == 1 && rows[1].speedup > 0,
-                 "measure: a row per engine, over the timestamps it was timed at");
+    // A row per engine, over the timestamps it was timed at.
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].timestamps == 10);
+    CHECK(rows[1].timestamps == 2);
+    CHECK(rows[0].seconds > 0);
+    CHECK(rows[1].seconds > 0);
+    CHECK(rows[0].speedup == 1);
+    CHECK(rows[1].speedup > 0);
 
     const Folder folder;
     write_csv(folder.file("bench.csv"), rows);
     const std::string csv = contents(folder.file("bench.csv"));
-    tests.expect(csv.rfind("scenario,dimension,n,timestamps,engine,algorithm,threads,seconds,"
-                           "ns_per_vertex_timestamp,speedup_vs_cgal_rebuild,timed\nstatic_2d,2,200,10,cgal,rebuilding,1,",
-                           0) == 0,
-                 "csv: header and first row");
-    tests.expect_error([&] { write_csv(folder.file("none/bench.csv"), rows); }, "cannot be written",
-                       "csv: a folder that is not there");
-    tests.expect(significant(0.012345, 3) == "0.0123" && significant(12345, 3) == "12345" &&
-                     significant(0, 3) == "0.00",
-                 "table: significant digits");
+    CHECK(csv.rfind("scenario,dimension,n,timestamps,engine,algorithm,threads,seconds,"
+                    "ns_per_vertex_timestamp,speedup_vs_cgal_rebuild,timed\n"
+                    "static_2d,2,200,10,cgal,rebuilding,1,",
+                    0) == 0);
+    CHECK_THROWS_WITH(write_csv(folder.file("none/bench.csv"), rows), Contains("cannot be written"));
+    // Significant digits.
+    CHECK(significant(0.012345, 3) == "0.0123");
+    CHECK(significant(12345, 3) == "12345");
+    CHECK(significant(0, 3) == "0.00");
 }
 
-void test_targets(Tests &tests) {
+TEST_CASE("targets") {
     Progress progress(Progress::Output::silent);
     std::vector<Checks> checks;
     const std::vector<Target> targets = 
@@ -380,68 +368,65 @@ void test_targets(Tests &tests) {
     const auto is_measured = [](const Target &target) {
         return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted >= 0.125;
     };
-    tests.expect(targets.size() == 58 && std::all_of(targets.begin(), targets.end(), is_measured),
-                 "targets: all are measured");
+    // All are measured.
+    CHECK(targets.size() == 58);
+    CHECK(std::all_of(targets.begin(), targets.end(), is_measured));
     std::size_t n_comparisons = 0;
     for (const Checks &check : checks) n_comparisons += check.n_comparisons;
-    tests.expect(n_comparisons == 74, "targets: the cells of all engines are compared");
+    CHECK_MESSAGE(n_comparisons == 74, "the cells of all engines are compared");
     const auto is_swept_in_vain = [](const Target &target) { return target.what == "swept" && target.n_changes > 0; };
-    tests.expect(std::none_of(targets.begin(), targets.end(), is_swept_in_vain),
-                 "targets: every certificate that is swept holds");
+    CHECK_MESSAGE(std::none_of(targets.begin(), targets.end(), is_swept_in_vain),
+                  "every certificate that is swept holds");
     const auto is_within_as_named = [](const Target &target) {
         return (target.what != "tolerance_test" || target.within == 1) &&
                (target.what != "half_within" || (target.within > 0.4 && target.within < 0.7));
     };
-    tests.expect(std::all_of(targets.begin(), targets.end(), is_within_as_named),
-                 "targets: all vertices, or half of them, are within tolerance");
+    CHECK_MESSAGE(std::all_of(targets.begin(), targets.end(), is_within_as_named),
+                  "all vertices, or half of them, are within tolerance");
     Target target = {"", 2, 1, "", "", 30, 10, 3, 0, 0};
-    tests.expect(target.verdict() == std::string("pass"), "targets: reached");
+    CHECK_MESSAGE(target.verdict() == std::string("pass"), "reached");
     target.contender_ns = 10.1;
-    tests.expect(target.verdict() == std::string("missed"), "targets: missed by little");
+    CHECK_MESSAGE(target.verdict() == std::string("missed"), "missed by little");
 }
 
-void test_options(Tests &tests) {
+TEST_CASE("options") {
     const auto parse = [](std::vector<std::string> words) {
         words.insert(words.begin(), "run");
         std::vector<char *> pointers;
         for (std::string &word : words) pointers.push_back(&word[0]);
         return parse_options(static_cast<int>(pointers.size()), pointers.data());
     };
-    tests.expect(parse({}).scenarios.size() == 6, "options: all scenarios by default");
-    tests.expect(parse({"--series", "x.npy"}).scenarios.empty(), "options: a series alone");
-    tests.expect(parse({"--repeat", "7", "--preset", "full"}).preset.n_repeats == 7,
-                 "options: the order of arguments does not matter");
-    tests.expect_error([&] { parse({"--engine", "cgal/magic"}); }, "unknown name cgal/magic",
-                       "options: unknown engine");
-    tests.expect_error([&] { parse({"--scenario", "x"}); }, "unknown name x", "options: unknown scenario");
-    tests.expect_error([&] { parse({"--repeat", "0"}); }, "at least 1", "options: no repeats");
-    tests.expect_error([&] { parse({"--seed", "1x"}); }, "wants a number", "options: not a number");
-    tests.expect_error([&] { parse({"--snap", "-1"}); }, "between 0 and 1", "options: a negative magnitude");
-    tests.expect_error([&] { parse({"--seed"}); }, "wants a value", "options: a missing value");
-    tests.expect_error([&] { parse({"--displacement", "d.npy"}); }, "wants a --series",
-                       "options: no series to displace");
-    tests.expect_error([&] { parse({"--series", "x.npy", "--steps", "3"}); }, "go together", "options: steps alone");
-    tests.expect_error([&] { parse({"--sead", "3"}); }, "unknown argument --sead", "options: a misspelt argument");
+    CHECK_MESSAGE(parse({}).scenarios.size() == 6, "all scenarios by default");
+    CHECK_MESSAGE(parse({"--series", "x.npy"}).scenarios.empty(), "a series alone");
+    CHECK_MESSAGE(parse({"--repeat", "7", "--preset", "full"}).preset.n_repeats == 7,
+                  "the order of arguments does not matter");
+    CHECK_MESSAGE(parse({"--preset", "full", "--preset", "smoke"}).preset.name == "smoke", "the last one counts");
+    CHECK_MESSAGE(parse({"--engine", "cgal", "--engine", "deldrift/auto"}).engines.size() == 2,
+                  "an option that may be repeated");
+    const std::vector<SeriesFile> series =
+        parse({"--series", "a", "--steps", "3", "--displacement", "d", "--series", "b"}).series;
+    // Displacements belong to the series before them.
+    REQUIRE(series.size() == 2);
+    CHECK(series[0].displacement_path == "d");
+    CHECK(series[0].n_steps == 3);
+    CHECK(series[1].path == "b");
+    CHECK(series[1].n_steps == 0);
+    CHECK_MESSAGE(parse({"--help"}).help.find("--series FILE.npy") != std::string::npos, "help lists them");
+    CHECK_THROWS_WITH(parse({"--memory", "--large"}), Contains("--report,--memory,--large"));
+    CHECK_THROWS_WITH(parse({"--engine", "cgal/magic"}), Contains("--engine: cgal/magic not in"));
+    CHECK_THROWS_WITH(parse({"--scenario", "x"}), Contains("--scenario: x not in"));
+    CHECK_THROWS_WITH(parse({"--repeat", "0"}), Contains("--repeat: Value 0 not in range 1"));
+    CHECK_THROWS_WITH(parse({"--seed", "-1"}), Contains("--seed: Value -1 not in range"));
+    CHECK_THROWS_WITH(parse({"--seed", "1x"}), Contains("--seed: Value 1x not in range"));
+    CHECK_THROWS_WITH(parse({"--snap", "-1"}), Contains("--snap: Value -1 not in range"));
+    CHECK_THROWS_WITH(parse({"--seed"}), Contains("--seed: 1 required"));
+    CHECK_THROWS_WITH(parse({"--displacement", "d.npy"}), Contains("wants a --series"));
+    CHECK_THROWS_WITH(parse({"--series", "x.npy", "--steps", "3"}), Contains("go together"));
+    CHECK_THROWS_WITH(parse({"--sead", "3"}), Contains("not expected: 3 --sead"));
 }
 
 }  // namespace
 
-bool run_self_test() {
-    Tests tests;
-    test_npy(tests);
-    test_series_files(tests);
-    test_cells(tests);
-    test_arbiter(tests);
-    test_disk_cells(tests);
-    test_generated_series(tests);
-    test_options(tests);
-    test_measure(tests);
-    test_targets(tests);
-    test_engines_agree(tests);
-    test_faults_are_found(tests);
-    test_steps(tests);
-    test_report(tests);
-    return tests.close();
-}
+bool run_self_test() { return doctest::Context().run() == 0; }
 
 }  // namespace bench

@@ -15,17 +15,13 @@
 #include "tests.hpp"
 #include "verify.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
+#include <type_traits>
 
 namespace bench {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Centroid of a density over the part of a disk that is nearest to one site, by a fine lattice.
 Point2 brute_force_centroid(const std::vector<Point2> &sites, std::size_t which, double radius,
@@ -50,7 +46,7 @@ Point2 brute_force_centroid(const std::vector<Point2> &sites, std::size_t which,
     return {x / mass, y / mass};
 }
 
-void test_densities(Tests &tests) {
+TEST_CASE("densities") {
     constexpr double radius = 3;
     Random random(11);
     std::vector<Point2> sites(9);
@@ -62,30 +58,31 @@ void test_densities(Tests &tests) {
                 if (other != which) clip_to_bisector(cell, sites[which], sites[other]);
             const AreaAndCentroid found = intersect_disk(cell, radius, sites[which], density.value);
             const Point2 wanted = brute_force_centroid(sites, which, radius, density);
-            tests.expect(std::hypot(found.centroid[0] - wanted[0], found.centroid[1] - wanted[1]) < 3e-3,
-                         density.name + ": the centroid of a clipped cell is that of a fine lattice");
+            CAPTURE(density.name);
+            CHECK(std::hypot(found.centroid[0] - wanted[0], found.centroid[1] - wanted[1]) < 3e-3);
         }
     const auto one = [](double, double) { return 1.0; };
     Polygon half = square(6);
     clip_to_bisector(half, {1, 0}, {-1, 0});
     const AreaAndCentroid exact = intersect_disk(half, 3);
     const AreaAndCentroid found = intersect_disk(half, 3, {1, 0.5}, one);
-    tests.expect(
-        std::fabs(found.area - exact.area) < 1e-9 && std::fabs(found.centroid[0] - exact.centroid[0]) < 1e-9,
-        "density 1: quadrature gives the closed form");
+    // For density 1, quadrature gives the closed form.
+    CHECK(std::fabs(found.area - exact.area) < 1e-9);
+    CHECK(std::fabs(found.centroid[0] - exact.centroid[0]) < 1e-9);
 }
 
-void test_ball_cells(Tests &tests) {
+TEST_CASE("ball cells") {
     BallCells cells(2, 20'000);
     const double pi = std::acos(-1.0);
     const double centre[3] = {0.5, 0.1, -0.2}, mirrored[3] = {-0.5, 0.1, -0.2};
     VolumeAndCentroid cell = cells.cell(centre, {});
-    tests.expect(std::fabs(cell.volume / (32 * pi / 3) - 1) < 1e-3 && std::fabs(cell.centroid[0]) < 1e-3,
-                 "ball: a single cell is the ball");
+    // A single cell is the ball.
+    CHECK(std::fabs(cell.volume / (32 * pi / 3) - 1) < 1e-3);
+    CHECK(std::fabs(cell.centroid[0]) < 1e-3);
     cell = cells.cell(centre, {mirrored});
-    tests.expect(
-        std::fabs(cell.volume / (16 * pi / 3) - 1) < 1e-3 && std::fabs(cell.centroid[0] - 0.75) < 2e-3,
-        "ball: the centroid of half a ball");
+    // The centroid of half a ball.
+    CHECK(std::fabs(cell.volume / (16 * pi / 3) - 1) < 1e-3);
+    CHECK(std::fabs(cell.centroid[0] - 0.75) < 2e-3);
 }
 
 /// The mean of circumcentres weighted by volumes, term by term.
@@ -103,7 +100,7 @@ Vector3 direct_odt(const Vector3 &vertex, const std::vector<const double *> &sta
     return (1 / volume) * sum;
 }
 
-void test_odt(Tests &tests) {
+TEST_CASE("odt") {
     // A regular octahedron's corners around a vertex: its mean is the centre.
     const double corners[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     std::vector<const double *> star;
@@ -112,18 +109,14 @@ void test_odt(Tests &tests) {
             for (const int z : {4, 5}) star.insert(star.end(), {corners[x], corners[y], corners[z]});
     const double off_centre[3] = {0.2, -0.1, 0.15};
     double place[3];
-    tests.expect(odt_place(off_centre, star, place), "odt: a star with volume has a place");
+    CHECK_MESSAGE(odt_place(off_centre, star, place), "a star with volume has a place");
     const Vector3 direct = direct_odt(vector(off_centre), star);
-    tests.expect(
-        std::fabs(place[0] - direct[0]) + std::fabs(place[1] - direct[1]) + std::fabs(place[2] - direct[2]) <
-            1e-12,
-        "odt: the place is the direct formula's");
+    for (const int axis : {0, 1, 2}) CHECK(std::fabs(place[axis] - direct[axis]) < 1e-12);
     const double centre[3] = {0, 0, 0};
     odt_place(centre, star, place);
-    tests.expect(std::fabs(place[0]) + std::fabs(place[1]) + std::fabs(place[2]) < 1e-12,
-                 "odt: the centre of a symmetric star stays");
+    for (const int axis : {0, 1, 2}) CHECK(std::fabs(place[axis]) < 1e-12);
     const double flat[3] = {2, 2, 2};
-    tests.expect(!odt_place(flat, {flat, flat, flat}, place), "odt: a star without volume has none");
+    CHECK_MESSAGE(!odt_place(flat, {flat, flat, flat}, place), "a star without volume has none");
 }
 
 double path_length(const Series &series, std::size_t timestamp) {
@@ -133,41 +126,42 @@ double path_length(const Series &series, std::size_t timestamp) {
     return sum;
 }
 
-void test_recordings(Tests &tests) {
+TEST_CASE("recorded points come to rest and stay inside") {
     Progress progress(Progress::Output::silent);
     const Series slloyd = record_slloyd(300, 15, 5, progress);
-    tests.expect(path_length(slloyd, 15) < path_length(slloyd, 1) / 3, "slloyd: the points come to rest");
+    CHECK(path_length(slloyd, 15) < path_length(slloyd, 1) / 3);
     const Series snodt = record_snodt(300, 15, 5, progress);
-    tests.expect(path_length(snodt, 15) < path_length(snodt, 1) / 3, "snodt: the points come to rest");
-    tests.expect(snodt.is_sequential, "snodt: vertices move one after another");
-    tests.expect(record_snodt(300, 3, 5, progress).frame(3)[299] == snodt.frame(3)[299],
-                 "snodt: the same seed gives the same positions");
+    CHECK(path_length(snodt, 15) < path_length(snodt, 1) / 3);
+    CHECK_MESSAGE(snodt.is_sequential, "vertices move one after another");
+    CHECK_MESSAGE(record_snodt(300, 3, 5, progress).frame(3)[299] == snodt.frame(3)[299],
+                  "the same seed gives the same positions");
     const double radius = unit_density_radius(3, 300);
     double farthest = 0;
     for (std::size_t i = 0; i < snodt.positions.size(); i += 3)
         farthest = std::max(farthest,
                             std::hypot(snodt.positions[i], snodt.positions[i + 1], snodt.positions[i + 2]));
-    tests.expect(farthest < radius * (1 + 1e-12), "snodt: no point leaves the ball");
+    CHECK_MESSAGE(farthest < radius * (1 + 1e-12), "no point leaves the ball");
 
     const Series walk = record_segments("walk_2d", 2, 200, {0.01, 0.02}, 3, 5, progress);
-    tests.expect(walk.segments.size() == 2 && walk.segments[1].begin == 8 && walk.segments[1].first == 11 &&
-                     walk.segments[1].last == 13 && std::equal(walk.frame(0), walk.frame(1), walk.frame(7)),
-                 "segments: all begin at the same points");
-    tests.expect(
-        std::fabs(std::hypot(walk.frame(8)[0] - walk.frame(7)[0], walk.frame(8)[1] - walk.frame(7)[1]) -
-                  0.02) < 1e-12,
-        "segments: every step has its length");
+    // All begin at the same points.
+    REQUIRE(walk.segments.size() == 2);
+    CHECK(walk.segments[1].begin == 8);
+    CHECK(walk.segments[1].first == 11);
+    CHECK(walk.segments[1].last == 13);
+    CHECK(std::equal(walk.frame(0), walk.frame(1), walk.frame(7)));
+    const double *from = walk.frame(7), *to = walk.frame(8);
+    CHECK(std::fabs(std::hypot(to[0] - from[0], to[1] - from[1]) - 0.02) < 1e-12);
     for (const Density &density : lloyd_densities()) {
         const Series lloyd = record_lloyd_2d(density, 150, 20, 5, progress);
-        tests.expect(path_length(lloyd, 20) < path_length(lloyd, 1) / 3,
-                     density.name + ": the points come to rest");
+        CAPTURE(density.name);
+        CHECK(path_length(lloyd, 20) < path_length(lloyd, 1) / 3);
     }
 }
 
-void test_body(Tests &tests) {
+TEST_CASE("body") {
     Body body = Body::generate();
     body.scale_to_volume(500);
-    tests.expect(std::fabs(body.volume() - 500) < 1e-9, "body: it has the volume it was given");
+    CHECK_MESSAGE(std::fabs(body.volume() - 500) < 1e-9, "it has the volume it was given");
     Random random(3);
     std::size_t n_inside = 0, n = 0;
     double least[3] = {0, 0, 0}, greatest[3] = {0, 0, 0};
@@ -183,28 +177,28 @@ void test_body(Tests &tests) {
         n_inside += body.contains(p);
     }
     const double box = (greatest[0] - least[0]) * (greatest[1] - least[1]) * (greatest[2] - least[2]);
-    tests.expect(std::fabs(box * static_cast<double>(n_inside) / static_cast<double>(n) / 500 - 1) < 0.05,
-                 "body: the share of a box inside is its volume");
+    CHECK_MESSAGE(std::fabs(box * static_cast<double>(n_inside) / static_cast<double>(n) / 500 - 1) < 0.05,
+                  "the share of a box inside is its volume");
 
-    const std::string path =
-        (fs::temp_directory_path() / ("deldrift-body-" + std::to_string(getpid()) + ".off")).string();
+    const Folder folder;
+    const std::string path = folder.file("body.off");
     const std::string tetrahedron = "OFF # a comment\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
     std::ofstream(path) << tetrahedron << "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
     const Body small = Body::load(path);
     const double inside[3] = {0.2, 0.2, 0.2}, outside[3] = {0.5, 0.5, 0.5};
-    tests.expect(
-        std::fabs(small.volume() - 1.0 / 6) < 1e-15 && small.contains(inside) && !small.contains(outside),
-        "body: a tetrahedron from a file");
+    // A tetrahedron from a file.
+    CHECK(std::fabs(small.volume() - 1.0 / 6) < 1e-15);
+    CHECK(small.contains(inside));
+    CHECK(!small.contains(outside));
     std::ofstream(path) << tetrahedron << "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 2 1\n";
-    tests.expect_error([&] { Body::load(path); }, "not closed", "body: a surface with a hole");
+    CHECK_THROWS_WITH(Body::load(path), Contains("not closed"));
     std::ofstream(path) << tetrahedron << "3 0 2 1\n";
-    tests.expect_error([&] { Body::load(path); }, "cut short", "body: a file that ends early");
-    fs::remove(path);
-    tests.expect_error([&] { Body::load(path); }, "cannot be opened", "body: a missing file");
+    CHECK_THROWS_WITH(Body::load(path), Contains("cut short"));
+    CHECK_THROWS_WITH(Body::load(folder.file("none.off")), Contains("cannot be opened"));
 }
 
-template <unsigned dimension>
-void test_tolerances(Tests &tests) {
+TEST_CASE_TEMPLATE("tolerances", Dimension, std::integral_constant<unsigned, 2>, std::integral_constant<unsigned, 3>) {
+    constexpr unsigned dimension = Dimension::value;
     Random random(5);
     const CoordinateBound bound(8);
     double greatest_excess = 0;
@@ -235,29 +229,27 @@ void test_tolerances(Tests &tests) {
         greatest_excess =
             std::max(greatest_excess, static_cast<double>(std::sqrt(static_cast<long double>(lower)) - half));
     }
-    const std::string in = " in " + std::to_string(dimension) + "D";
-    tests.expect(greatest_excess <= 0, "tolerance: a lower bound of half the width" + in);
-    tests.expect(n_certain > n_wide * 9 / 10, "tolerance: nearly every wide annulus is certain" + in);
+    CHECK_MESSAGE(greatest_excess <= 0, "a lower bound of half the width");
+    CHECK_MESSAGE(n_certain > n_wide * 9 / 10, "nearly every wide annulus is certain");
 }
 
-void test_simplex_widths(Tests &tests) {
+TEST_CASE("simplex widths") {
     const CoordinateBound bound(2);
     const double triangle = squared_half_simplex_width<2>({{{0, 0}, {1, 0}, {0.5, 0.3}}}, bound);
-    tests.expect(std::fabs(std::sqrt(triangle) - 0.15) < 1e-9, "hull: half the least height of a triangle");
+    CHECK_MESSAGE(std::fabs(std::sqrt(triangle) - 0.15) < 1e-9, "half the least height of a triangle");
     const double flat =
         squared_half_simplex_width<3>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.1}}}, bound);
-    tests.expect(std::fabs(std::sqrt(flat) - 0.05) < 1e-9, "hull: half the least height of a tetrahedron");
+    CHECK_MESSAGE(std::fabs(std::sqrt(flat) - 0.05) < 1e-9, "half the least height of a tetrahedron");
     // Two crossing edges, one above the other: nearer to each other than any corner to its facet.
     const double sliver =
         squared_half_simplex_width<3>({{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0.1}, {0, 1, 0.1}}}, bound);
-    tests.expect(std::fabs(std::sqrt(sliver) - 0.05) < 1e-9, "hull: half the distance of opposite edges");
-    tests.expect(squared_half_simplex_width<2>({{{0, 0}, {1, 1}, {2, 2}}}, bound) == 0,
-                 "hull: a flat triangle has none");
+    CHECK_MESSAGE(std::fabs(std::sqrt(sliver) - 0.05) < 1e-9, "half the distance of opposite edges");
+    CHECK_MESSAGE(squared_half_simplex_width<2>({{{0, 0}, {1, 1}, {2, 2}}}, bound) == 0, "a flat triangle has none");
 }
 
 /// Proposition 1's gap: five points, three cells around the edge of the first two, which is not Delaunay
 /// where the others are far enough in.
-void test_gap(Tests &tests) {
+TEST_CASE("gap") {
     std::vector<double> places = {0, 0, 1, 0, 0, -1};
     for (int i = 0; i < 3; ++i) {
         const double angle = 2 * std::acos(-1.0) * i / 3;
@@ -265,14 +257,14 @@ void test_gap(Tests &tests) {
     }
     const CellSet around_edge = {{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 3, 4}};
     const CellSet delaunay = {{0, 2, 3, 4}, {1, 2, 3, 4}};
-    tests.expect(gap_cells(places.data(), around_edge, delaunay).is_explained &&
-                     gap_cells(places.data(), around_edge, delaunay).n_cells == 3,
-                 "gap: three cells around an edge that should not be there are explained");
+    // Three cells around an edge that should not be there are explained.
+    CHECK(gap_cells(places.data(), around_edge, delaunay).is_explained);
+    CHECK(gap_cells(places.data(), around_edge, delaunay).n_cells == 3);
     for (std::size_t i = 6; i < places.size(); ++i) places[i] *= 1.3;
-    tests.expect(!gap_cells(places.data(), delaunay, around_edge).is_explained,
-                 "gap: a facet that the opposing vertices see through is not");
-    tests.expect(!gap_cells(places.data(), {around_edge[0], around_edge[1]}, around_edge).is_explained,
-                 "gap: a missing cell is not");
+    CHECK_MESSAGE(!gap_cells(places.data(), delaunay, around_edge).is_explained,
+                  "a facet that the opposing vertices see through is not");
+    CHECK_MESSAGE(!gap_cells(places.data(), {around_edge[0], around_edge[1]}, around_edge).is_explained,
+                  "a missing cell is not");
 }
 
 std::vector<std::size_t> timestamps_of(const Series &series) {
@@ -285,7 +277,7 @@ std::vector<std::size_t> timestamps_of(const Series &series) {
 }
 
 /// Every engine has CGAL's cells at every timestamp of every kind of input.
-void test_replay(Tests &tests) {
+TEST_CASE("replay") {
     Progress progress(Progress::Output::silent);
     const Series inputs[] = {
         record_lloyd_2d_uniform(200, 40, 5, progress),
@@ -300,48 +292,29 @@ void test_replay(Tests &tests) {
         std::vector<Entrant> entrants;
         for (const EngineKind &kind : engine_kinds()) entrants.push_back({&kind, 1, all});
         Checks checks;
-        tests.expect_no_error(
-            [&] {
-                const std::vector<UpdateTimes> times =
-                    replay_report(series, entrants, all, 1, checks, progress);
-                tests.expect(times.size() == entrants.size() && times[3].size() == all.size(),
-                             series.name + ": every update is timed");
-                tests.expect(checks.n_comparisons == all.size() * entrants.size(),
-                             series.name + ": every engine is compared at every timestamp");
-            },
-            series.name);
+        CAPTURE(series.name);
+        const std::vector<UpdateTimes> times = replay_report(series, entrants, all, 1, checks, progress);
+        CHECK(times.size() == entrants.size());
+        CHECK(times.at(3).size() == all.size());
+        CHECK(checks.n_comparisons == all.size() * entrants.size());
     }
 }
 
 /// A file that grows.
-void test_csv(Tests &tests) {
-    const std::string path =
-        (fs::temp_directory_path() / ("deldrift-csv-" + std::to_string(getpid()) + ".csv")).string();
+TEST_CASE("csv") {
+    const Folder folder;
+    const std::string path = folder.file("growing.csv");
     CsvFile file(path, {"a", "b"});
     file.add({"x", ""});
     file.save();
     const CsvFile again(path, {"a", "b"});
-    tests.expect(
-        again.lines() == std::vector<CsvFile::Line>{{"x", ""}} && again.has({"x"}) && !again.has({"y"}),
-        "csv: what is saved is read");
-    tests.expect(CsvFile(path, {"a", "c"}).lines().empty(), "csv: other columns are another file");
-    fs::remove(path);
+    // What is saved is read.
+    CHECK(again.lines() == std::vector<CsvFile::Line>{{"x", ""}});
+    CHECK(again.has({"x"}));
+    CHECK(!again.has({"y"}));
+    CHECK_MESSAGE(CsvFile(path, {"a", "c"}).lines().empty(), "other columns are another file");
 }
 
 }  // namespace
-
-void test_report(Tests &tests) {
-    test_densities(tests);
-    test_ball_cells(tests);
-    test_odt(tests);
-    test_recordings(tests);
-    test_body(tests);
-    test_tolerances<2>(tests);
-    test_tolerances<3>(tests);
-    test_simplex_widths(tests);
-    test_gap(tests);
-    test_csv(tests);
-    test_replay(tests);
-}
 
 }  // namespace bench

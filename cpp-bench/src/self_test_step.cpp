@@ -29,36 +29,25 @@ Series wandering_points(unsigned dimension, bool is_grid, double length) {
     return series;
 }
 
-std::vector<std::size_t> every_timestamp(const Series &series) {
-    std::vector<std::size_t> timestamps;
-    for (std::size_t timestamp = 1; timestamp <= series.n_timestamps(); ++timestamp) timestamps.push_back(timestamp);
-    return timestamps;
-}
-
 /// Every engine's arrays describe CGAL's cells, and what changes say leads from one reading to the next.
-void test_readings(Tests &tests) {
+TEST_CASE("readings") {
     for (const unsigned dimension : {2u, 3u})
         for (const bool is_grid : {false, true})
             for (const double length : {0.0, 0.001, 0.1}) {
                 const Series series = wandering_points(dimension, is_grid, length);
-                const std::string what = "steps: " + series.name + (is_grid ? ", grid, " : ", random, ") +
-                                         displacement_name(length);
+                CAPTURE(dimension);
+                CAPTURE(is_grid);
+                CAPTURE(length);
                 std::vector<EngineKind> kinds;
                 for (const EngineKind &kind : engine_kinds())
                     if (!kind.is_reproduction) kinds.push_back(step_of(kind));
                 std::vector<Entrant> entrants;
                 for (const EngineKind &kind : kinds) entrants.push_back({&kind, 1, every_timestamp(series)});
                 Progress progress(Progress::Output::silent);
-                tests.expect_no_error(
-                    [&] {
-                        const Checks checks = verify(series, entrants, every_timestamp(series), progress);
-                        tests.expect(checks.n_comparisons == entrants.size() * series.n_timestamps(),
-                                     what + ": every reading is compared");
-                    },
-                    what);
+                const Checks checks = verify(series, entrants, every_timestamp(series), progress);
+                CHECK(checks.n_comparisons == entrants.size() * series.n_timestamps());
             }
-    tests.expect_error([] { engine_kind("cgal/tolerance").make(2, 1)->read(); }, "no readings",
-                       "steps: the report's algorithms have none");
+    CHECK_THROWS_WITH(engine_kind("cgal/tolerance").make(2, 1)->read(), Contains("no readings"));
 }
 
 /// A square of two triangles.
@@ -71,23 +60,23 @@ struct Square {
     }
 };
 
-void test_consistency(Tests &tests) {
-    tests.expect_no_error([] { require_consistent(2, Square().reading()); }, "reading: a square is consistent");
-    const auto expect = [&](std::size_t entry, std::uint32_t value, const char *message, const char *what) {
+TEST_CASE("consistency") {
+    CHECK_NOTHROW(require_consistent(2, Square().reading()));
+    const auto expect = [&](std::size_t entry, std::uint32_t value, const char *message) {
         Square square;
         square.neighbours[entry] = value;
-        tests.expect_error([&] { require_consistent(2, square.reading()); }, message, std::string("reading: ") + what);
+        CHECK_THROWS_WITH(require_consistent(2, square.reading()), Contains(message));
     };
-    expect(1, 2, "no such neighbour", "a neighbour that does not exist");
-    expect(0, 1, "has not the facet", "a neighbour across another facet");
-    expect(5, DELDRIFT_NONE, "does not know", "a neighbour on one side only");
+    expect(1, 2, "no such neighbour");
+    expect(0, 1, "has not the facet");
+    expect(5, DELDRIFT_NONE, "does not know");
     Square torn;
     torn.neighbours.assign(6, DELDRIFT_NONE);
-    tests.expect_error([&] { require_consistent(2, torn.reading()); }, "same facet", "reading: torn cells");
+    CHECK_THROWS_WITH(require_consistent(2, torn.reading()), Contains("same facet"));
 }
 
 /// The diagonal of a square is flipped, and one cell more is renumbered by the way; then one of the changes is wrong.
-void test_carried_data(Tests &tests) {
+TEST_CASE("carried data") {
     struct Change {
         std::vector<std::uint32_t> created = {0, 2}, removed = {0, 1}, removed_vertices = {0, 1, 2, 0, 2, 3},
                                    from = {2}, to = {1}, stars = {0, 1, 2, 3}, hidden, shown;
@@ -113,9 +102,10 @@ void test_carried_data(Tests &tests) {
         data.begin(2, {3, before.data(), nullptr, nullptr});
         data.follow({3, after.data(), nullptr, &changes});
     };
-    tests.expect_no_error([&] { follow([](Change &) {}); }, "changes: a flip and a cell that is renumbered");
+    CHECK_NOTHROW(follow([](Change &) {}));
     const auto expect = [&](const char *message, const char *what, const std::function<void(Change &)> &spoil) {
-        tests.expect_error([&] { follow(spoil); }, message, std::string("changes: ") + what);
+        CAPTURE(what);
+        CHECK_THROWS_WITH(follow(spoil), Contains(message));
     };
     expect("nothing is said of cell", "a created cell is missing", [](Change &c) { c.created.pop_back(); });
     expect("there is no, or already a, cell", "a cell is created twice", [](Change &c) { c.created.push_back(0); });
@@ -171,7 +161,7 @@ private:
     std::vector<std::uint32_t> neighbours_;
 };
 
-void test_misleading_engines(Tests &tests) {
+TEST_CASE("misleading engines") {
     const Series series = wandering_points(2, false, 0.1);
     for (const bool tells_wrong_changes : {false, true}) {
         EngineKind kind = engine_kind("deldrift/auto");
@@ -181,18 +171,19 @@ void test_misleading_engines(Tests &tests) {
         const EngineKind step = step_of(kind);
         const std::vector<Entrant> entrants = {{&step, 1, every_timestamp(series)}};
         Progress progress(Progress::Output::silent);
-        const std::string what = tells_wrong_changes ? "steps: wrong changes" : "steps: wrong neighbours";
-        tests.expect_no_error([&] { verify(series, entrants, {1, 2}, progress); }, what + ", before");
-        tests.expect_error([&] { verify(series, entrants, {3}, progress); }, "static_2d, timestamp 3: ", what);
+        CAPTURE(tells_wrong_changes);
+        CHECK_NOTHROW(verify(series, entrants, {1, 2}, progress));
+        CHECK_THROWS_WITH(verify(series, entrants, {3}, progress), Contains("static_2d, timestamp 3: "));
         if (tells_wrong_changes)
-            tests.expect_error([&] { verify(series, entrants, {5}, progress); }, "nothing is said of cell",
-                               what + ", found later");
+            CHECK_THROWS_WITH(verify(series, entrants, {5}, progress),
+                              Contains("nothing is said of cell"));
     }
 }
 
 /// Engines read the same stars, vertex by vertex, and are at the same cells afterwards.
-void test_visits(Tests &tests) {
+TEST_CASE("visits") {
     for (const unsigned dimension : {2u, 3u}) {
+        CAPTURE(dimension);
         const Series series = wandering_points(dimension, false, 0.1);
         const auto cgal = engine_kind("cgal/move").make(dimension, 1);
         const auto placement = engine_kind("cgal/placement").make(dimension, 1);
@@ -206,44 +197,38 @@ void test_visits(Tests &tests) {
             for (Engine *engine : {placement.get(), deldrift.get()})
                 agree = agree && std::fabs(engine->visit(id, place) - sum) < 1e-9 * (1 + std::fabs(sum));
         }
-        tests.expect(agree, "visits: the same stars are read in " + series.name);
+        CHECK_MESSAGE(agree, "the same stars are read");
         const auto ids = representatives(dimension, series.frame(1), series.n_points);
-        tests.expect(canonical(dimension, cgal->cells(), ids) == canonical(dimension, deldrift->cells(), ids),
-                     "visits: the cells are the same afterwards in " + series.name);
+        CHECK_MESSAGE(canonical(dimension, cgal->cells(), ids) == canonical(dimension, deldrift->cells(), ids),
+                      "the cells are the same afterwards");
     }
     const double place[] = {0, 0};
-    tests.expect_error([&] { engine_kind("cgal/rebuilding").make(2, 1)->visit(0, place); }, "relocates no vertex",
-                       "visits: rebuilding has none");
+    CHECK_THROWS_WITH(engine_kind("cgal/rebuilding").make(2, 1)->visit(0, place), Contains("relocates no vertex"));
 }
 
-void test_step_table(Tests &tests) {
+TEST_CASE("step table") {
     Progress progress(Progress::Output::silent);
     Checks checks;
     const std::vector<StepLine> lines = measure_steps(2, 300, 1, 1, checks, progress);
-    tests.expect(lines.size() == 4 && lines[0].displacement == 0 && lines[3].displacement == 1e-2 &&
-                     std::all_of(lines.begin(), lines.end(),
-                                 [](const StepLine &l) { return l.cgal_step > 0 && l.commit > 0 && l.step > 0; }),
-                 "step table: all is measured");
-    tests.expect(checks.n_comparisons == 12, "step table: every engine is compared after every displacement");
+    REQUIRE(lines.size() == 4);
+    CHECK(lines[0].displacement == 0);
+    CHECK(lines[3].displacement == 1e-2);
+    for (const StepLine &line : lines) CHECK(std::min({line.cgal_step, line.commit, line.step}) > 0);
+    CHECK_MESSAGE(checks.n_comparisons == 12, "every engine is compared after every displacement");
     const std::vector<Row> rows = rows_of({3, 1'000, 1e-3, 10, 400, 10, 20});
-    tests.expect(rows.size() == 3 && rows[0].scenario == "step_3d_1e-3" && rows[0].is_step && rows[0].speedup == 1 &&
-                     !rows[1].is_step && rows[1].speedup == 0 && rows[2].speedup == 20 &&
-                     std::fabs(rows[2].ns_per_vertex_timestamp() - 20) < 1e-9,
-                 "step table: its rows");
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[0].scenario == "step_3d_1e-3");
+    CHECK(rows[0].is_step);
+    CHECK(rows[0].speedup == 1);
+    CHECK(!rows[1].is_step);
+    CHECK(rows[1].speedup == 0);
+    CHECK(rows[2].speedup == 20);
+    CHECK(std::fabs(rows[2].ns_per_vertex_timestamp() - 20) < 1e-9);
     std::ostringstream text;
     print_steps(text, lines);
-    tests.expect(text.str().find("step / commit") != std::string::npos, "step table: it is printed");
+    CHECK_MESSAGE(text.str().find("step / commit") != std::string::npos, "it is printed");
 }
 
 }  // namespace
-
-void test_steps(Tests &tests) {
-    test_readings(tests);
-    test_consistency(tests);
-    test_carried_data(tests);
-    test_misleading_engines(tests);
-    test_visits(tests);
-    test_step_table(tests);
-}
 
 }  // namespace bench

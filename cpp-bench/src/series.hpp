@@ -8,8 +8,9 @@
 
 namespace bench {
 
-/// A part of a series that starts from a build: engines are built at frame `begin` - 1, and timestamps `begin` to `last` follow.
-/// What they do before `first` is not on the clock. Frames between segments are where the next one begins.
+/// A part of a series that starts from a build: engines are built at frame `begin` - 1, and timestamps `begin` to
+/// `last` follow. What they do before `first` is not on the clock. Frames between segments are where the next one
+/// begins.
 struct Segment {
     std::size_t begin;
     std::size_t first;

@@ -6,6 +6,8 @@
 #include "scenarios.hpp"
 #include "step.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -80,7 +82,7 @@ std::vector<StepLine> measure_steps(unsigned dimension, std::size_t n_points, un
 }
 
 std::string displacement_name(double displacement) {
-    return displacement == 0 ? "0" : "1e-" + std::to_string(std::lround(-std::log10(displacement)));
+    return displacement == 0 ? "0" : fmt::format("1e-{}", std::lround(-std::log10(displacement)));
 }
 
 std::vector<Row> rows_of(const StepLine &line) {
@@ -107,9 +109,9 @@ void print_steps(std::ostream &out, const std::vector<StepLine> &lines) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const StepLine &line = lines[i];
         if (i == 0 || line.dimension != lines[i - 1].dimension || line.n != lines[i - 1].n) table.add({});
-        table.add({std::to_string(line.dimension), std::to_string(line.n), displacement_name(line.displacement),
-                   significant(line.cgal_step, 3), significant(line.commit, 3), significant(line.step, 3),
-                   significant(line.step / line.commit, 3), significant(line.cgal_step / line.step, 3)});
+        table.add(line_of(line.dimension, line.n, displacement_name(line.displacement), significant(line.cgal_step, 3),
+                          significant(line.commit, 3), significant(line.step, 3),
+                          significant(line.step / line.commit, 3), significant(line.cgal_step / line.step, 3)));
     }
     table.print(out);
 }

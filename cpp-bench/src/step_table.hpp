@@ -29,8 +29,9 @@ struct StepLine {
 std::size_t step_timestamps(std::size_t n_points);
 
 /// One engine beside others, by displacement: random points in a disk or ball at unit density, from which every
-/// displacement starts from a build. For each displacement and kind the median over the timestamps, in ns per vertex. Cells
-/// are compared after the last timestamp of a displacement, of large inputs only after that of the last displacement.
+/// displacement starts from a build. For each displacement and kind the median over the timestamps, in ns per vertex.
+/// Cells are compared after the last timestamp of a displacement, of large inputs only after that of the last
+/// displacement.
 std::vector<std::vector<double>> replay_displacements(const std::string &name, unsigned dimension,
                                                       std::size_t n_points, const std::vector<double> &displacements,
                                                       const std::vector<const EngineKind *> &kinds,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "table.hpp"
 
+#include <fmt/ostream.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -25,16 +26,14 @@ std::string speedup(const Row &row, int digits) {
 
 }  // namespace
 
+// fmt's {:#.3g} takes to exponents as soon as a number has more digits, and ends in a point where it has as many.
 std::string significant(double value, int digits) {
     const int magnitude = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::fabs(value))));
-    char text[64];
-    if (magnitude < -6 || magnitude > 15)
-        std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
-    else
-        std::snprintf(text, sizeof text, "%.*f", std::max(0, digits - 1 - magnitude), value);
-    return text;
+    if (magnitude < -6 || magnitude > 15) return fmt::format("{:.{}e}", value, digits - 1);
+    return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - magnitude));
 }
 
+// fmt pads entries; which width they are padded to, and to which side, it leaves to us.
 void TextTable::print(std::ostream &out) const {
     const std::size_t n_columns = lines_.front().size();
     std::vector<std::size_t> widths(n_columns, 0);
@@ -46,18 +45,16 @@ void TextTable::print(std::ostream &out) const {
 
     for (std::size_t i = 0; i < lines_.size(); ++i) {
         if (lines_[i].empty()) {
-            out << std::string(total, '-') << '\n';
+            fmt::print(out, "{:-<{}}\n", "", total);
             continue;
         }
         std::string text;
         for (std::size_t column = 0; column < n_columns; ++column) {
-            const std::string &entry = lines_[i][column];
-            const std::string padding(widths[column] - entry.size(), ' ');
             const bool right = lines_.size() > 1 && begins_like_a_number(lines_[lines_[1].empty() ? 2 : 1][column]);
-            text += (column ? "  " : "") + (right ? padding + entry : entry + padding);
+            text += fmt::format(right ? "{:>{}}  " : "{:<{}}  ", lines_[i][column], widths[column]);
         }
         text.erase(text.find_last_not_of(' ') + 1);
-        out << text << '\n';
+        fmt::print(out, "{}\n", text);
     }
 }
 
@@ -67,9 +64,9 @@ void print_rows(std::ostream &out, const std::vector<Row> &rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row &row = rows[i];
         if (i == 0 || row.scenario != rows[i - 1].scenario || row.n != rows[i - 1].n) table.add({});
-        table.add({row.scenario, std::to_string(row.n), std::to_string(row.timestamps), row.engine, row.algorithm,
-                   timed(row), std::to_string(row.threads), significant(row.seconds, 3),
-                   significant(row.ns_per_vertex_timestamp(), 3), speedup(row, 3)});
+        table.add(line_of(row.scenario, row.n, row.timestamps, row.engine, row.algorithm, timed(row), row.threads,
+                          significant(row.seconds, 3), significant(row.ns_per_vertex_timestamp(), 3),
+                          speedup(row, 3)));
     }
     table.print(out);
 }
@@ -78,9 +75,8 @@ void print_checks(std::ostream &out, const std::vector<Checks> &checks) {
     TextTable table({"cells checked", "n", "timestamps", "comparisons", "cells", "unlike CGAL, degenerate",
                      "coincident points"});
     for (const Checks &check : checks)
-        table.add({check.scenario, std::to_string(check.n_points), std::to_string(check.n_timestamps),
-                   std::to_string(check.n_comparisons), std::to_string(check.n_cells),
-                   std::to_string(check.n_degenerate), std::to_string(check.n_coincident)});
+        table.add(line_of(check.scenario, check.n_points, check.n_timestamps, check.n_comparisons, check.n_cells,
+                          check.n_degenerate, check.n_coincident));
     table.print(out);
 }
 
@@ -89,19 +85,15 @@ void write_csv(const std::string &path, const std::vector<Row> &rows) {
                                                     "threads", "seconds", "ns_per_vertex_timestamp",
                                                     "speedup_vs_cgal_rebuild", "timed"}};
     for (const Row &row : rows)
-        lines.push_back({row.scenario, std::to_string(row.dimension), std::to_string(row.n),
-                         std::to_string(row.timestamps), row.engine, row.algorithm, std::to_string(row.threads),
-                         significant(row.seconds, 6), significant(row.ns_per_vertex_timestamp(), 5),
-                         speedup(row, 5), timed(row)});
+        lines.push_back(line_of(row.scenario, row.dimension, row.n, row.timestamps, row.engine, row.algorithm,
+                                row.threads, significant(row.seconds, 6),
+                                significant(row.ns_per_vertex_timestamp(), 5), speedup(row, 5), timed(row)));
     write_csv(path, lines);
 }
 
 void write_csv(const std::string &path, const std::vector<std::vector<std::string>> &lines) {
     std::ofstream file(path);
-    for (const auto &line : lines) {
-        for (std::size_t column = 0; column < line.size(); ++column) file << (column ? "," : "") << line[column];
-        file << '\n';
-    }
+    for (const auto &line : lines) fmt::print(file, "{}\n", fmt::join(line, ","));
     if (!file.flush()) throw std::runtime_error(path + " cannot be written");
 }
 

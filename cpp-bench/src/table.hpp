@@ -4,6 +4,8 @@
 
 #include "verify.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <iosfwd>
 #include <string>
@@ -40,6 +42,12 @@ public:
 private:
     std::vector<std::vector<std::string>> lines_;
 };
+
+/// The values as text.
+template <typename... Values>
+std::vector<std::string> line_of(const Values &...values) {
+    return {fmt::to_string(values)...};
+}
 
 void print_rows(std::ostream &out, const std::vector<Row> &rows);
 void print_checks(std::ostream &out, const std::vector<Checks> &checks);

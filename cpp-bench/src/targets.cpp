@@ -8,6 +8,8 @@
 #include "scenarios.hpp"
 #include "table.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <iostream>
 #include <numeric>
@@ -94,7 +96,7 @@ std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &en
     Replay replay(series);
     std::vector<Lane> lanes = lanes_of(entrants);
     std::vector<Counts> before;
-    progress.begin(series.name + ": timing " + std::to_string(last - n_warm) + " updates", last - n_warm);
+    progress.begin(fmt::format("{}: timing {} updates", series.name, last - n_warm), last - n_warm);
     for (Lane &lane : lanes) {
         lane.restart(series.dimension);
         replay.run_block(lane, 1, n_warm, go_on);
@@ -104,7 +106,7 @@ std::vector<Outcome> replay(const Series &series, const std::vector<Entrant> &en
     for (std::size_t first = n_warm + 1; first <= last; first += turn) {
         for (std::size_t i = 0; i < lanes.size(); ++i)
             replay.run_block(lanes[(first + i) % lanes.size()], first, std::min(first + turn - 1, last), go_on);
-        progress.step("timestamp " + std::to_string(first));
+        progress.step(fmt::format("timestamp {}", first));
     }
 
     progress.begin(series.name + ": checking cells", lanes.size() + 1);
@@ -230,7 +232,7 @@ private:
 
     void leap(unsigned dimension, unsigned displacement) {
         const std::size_t last = n_warm + sizes_.n_rounds;
-        const std::string name = "leap_" + std::to_string(displacement);
+        const std::string name = fmt::format("leap_{}", displacement);
         const Series series = moving_points(name, dimension, sizes_.n_relocated, From::where_they_began,
                                             displacement, last, seed_);
         auto done = replay(series,
@@ -296,11 +298,11 @@ void run_targets(const Options &options) {
                                                     "contender", "contender_ns", "ratio", "wanted", "verdict",
                                                     "changes", "within"}};
     for (const Target &target : targets)
-        lines.push_back({std::to_string(target.dimension), target.what, std::to_string(target.n),
-                         target.reference, significant(target.reference_ns, 4), target.contender,
-                         significant(target.contender_ns, 4), significant(target.ratio(), 3),
-                         significant(target.wanted, 3), target.verdict(), significant(target.n_changes, 3),
-                         significant(target.within, 3)});
+        lines.push_back(line_of(target.dimension, target.what, target.n, target.reference,
+                                significant(target.reference_ns, 4), target.contender,
+                                significant(target.contender_ns, 4), significant(target.ratio(), 3),
+                                significant(target.wanted, 3), target.verdict(), significant(target.n_changes, 3),
+                                significant(target.within, 3)));
     print_checks(std::cout, checks);
     std::cout << '\n';
     publish(options.results, "targets.csv", lines);

@@ -7,6 +7,8 @@
 #include "scenarios.hpp"
 #include "targets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -130,7 +132,7 @@ Target loop(unsigned dimension, std::size_t n_points, const TargetSizes &sizes, 
     walk.series().name = dimension == 2 ? "loop_2d" : "loop_3d";
     const std::vector<Entrant> entrants = {{&engine_kind("cgal/move"), 1, {1}},
                                            {&engine_kind("deldrift/auto"), 1, {1}}};
-    progress.begin(walk.series().name + ": visiting vertices of " + std::to_string(n_points), n_turns + 2);
+    progress.begin(fmt::format("{}: visiting vertices of {}", walk.series().name, n_points), n_turns + 2);
     std::vector<Looping> all(entrants.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         all[i].engine = entrants[i].make(dimension);
@@ -229,7 +231,7 @@ std::vector<Target> growth_targets(unsigned dimension, const TargetSizes &sizes,
                                    Progress &progress) {
     const std::vector<std::string> names = {"cells", "star", "relocate_vertex", "commit_one"};
     std::vector<std::vector<double>> ns(names.size());
-    progress.begin("single calls, " + std::to_string(dimension) + "D", sizes.grown.size() * names.size());
+    progress.begin(fmt::format("single calls, {}D", dimension), sizes.grown.size() * names.size());
     for (const std::size_t n_points : sizes.grown) {
         Calls calls(dimension, n_points, seed, sizes.seconds);
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -241,7 +243,7 @@ std::vector<Target> growth_targets(unsigned dimension, const TargetSizes &sizes,
     for (std::size_t i = 0; i < names.size(); ++i)
         for (std::size_t size = 1; size < sizes.grown.size(); ++size)
             targets.push_back({"grown_" + names[i], dimension, sizes.grown[size],
-                               "deldrift/auto at " + std::to_string(sizes.grown[0]), "deldrift/auto", ns[i][0],
+                               fmt::format("deldrift/auto at {}", sizes.grown[0]), "deldrift/auto", ns[i][0],
                                ns[i][size], wanted_of_growth, 0, 0});
     return targets;
 }

@@ -1,56 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a test needs.
+// What the files of tests have in common.
 #pragma once
 
-#include <cstdio>
-#include <exception>
+#include "series.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <numeric>
 #include <string>
+#include <system_error>
+#include <vector>
 
 namespace bench {
 
-class Tests {
+using doctest::Contains;
+
+/// A folder that goes with the object.
+class Folder {
 public:
-    void expect(bool holds, const std::string &what) {
-        ++(holds ? n_passed_ : n_failed_);
-        if (!holds) std::printf("FAILED: %s\n", what.c_str());
+    Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("deldrift-self-test-{}", getpid())) {
+        std::filesystem::create_directories(path_);
     }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Folder(const Folder &) = delete;
+    Folder &operator=(const Folder &) = delete;
 
-    /// `action` must throw an error whose message contains `part`.
-    template <typename Action>
-    void expect_error(Action action, const std::string &part, const std::string &what) {
-        try {
-            action();
-            expect(false, what + ": no error");
-        } catch (const std::exception &error) {
-            const std::string message = error.what();
-            expect(message.find(part) != std::string::npos, what + ": the error is \"" + message + "\"");
-        }
-    }
-
-    template <typename Action>
-    void expect_no_error(Action action, const std::string &what) {
-        try {
-            action();
-            expect(true, what);
-        } catch (const std::exception &error) {
-            expect(false, what + ": " + error.what());
-        }
-    }
-
-    bool close() const {
-        std::printf("%u passed, %u failed\n", n_passed_, n_failed_);
-        return n_failed_ == 0 && n_passed_ > 0;
-    }
+    std::string file(const std::string &name) const { return (path_ / name).string(); }
 
 private:
-    unsigned n_passed_ = 0;
-    unsigned n_failed_ = 0;
+    std::filesystem::path path_;
 };
 
-/// The part that concerns readings and steps.
-void test_steps(Tests &tests);
-
-/// The part that concerns the report RR-6750: its inputs, and its algorithms on CGAL.
-void test_report(Tests &tests);
+inline std::vector<std::size_t> every_timestamp(const Series &series) {
+    std::vector<std::size_t> timestamps(series.n_timestamps());
+    std::iota(timestamps.begin(), timestamps.end(), 1);
+    return timestamps;
+}
 
 }  // namespace bench

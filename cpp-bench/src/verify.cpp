@@ -3,6 +3,8 @@
 
 #include "referee.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace bench {
@@ -43,7 +45,7 @@ bool must_live_through(const Entrant &entrant, const Series &series) {
 }  // namespace
 
 std::string Entrant::name() const {
-    return kind->name() + (n_threads > 1 ? " on " + std::to_string(n_threads) + " threads" : "");
+    return kind->name() + (n_threads > 1 ? fmt::format(" on {} threads", n_threads) : "");
 }
 
 Checks verify(const Series &series, const std::vector<Entrant> &entrants,
@@ -58,8 +60,8 @@ Checks verify(const Series &series, const std::vector<Entrant> &entrants,
         runners.back().engine->be_examined();
     }
 
-    progress.begin(series.name + ": checking cells at " + std::to_string(check_timestamps.size()) + " of " +
-                       std::to_string(series.n_timestamps()) + " timestamps",
+    progress.begin(fmt::format("{}: checking cells at {} of {} timestamps", series.name, check_timestamps.size(),
+                               series.n_timestamps()),
                    series.n_timestamps());
     for (std::size_t timestamp = 1; timestamp <= series.n_timestamps(); ++timestamp) {
         const bool is_checked = contains(check_timestamps, timestamp);
@@ -71,7 +73,7 @@ Checks verify(const Series &series, const std::vector<Entrant> &entrants,
             runner.bring_to(series, timestamp);
             if (is_checked) referee->judge(*runner.entrant, *runner.engine);
         }
-        progress.step("timestamp " + std::to_string(timestamp));
+        progress.step(fmt::format("timestamp {}", timestamp));
     }
     return checks;
 }
@@ -80,7 +82,7 @@ Checks verify_build(const Series &series, Progress &progress) {
     Checks checks;
     checks.scenario = series.name;
     checks.n_points = series.n_points;
-    progress.begin(series.name + ": checking the cells of " + std::to_string(series.n_points) + " points", 1);
+    progress.begin(fmt::format("{}: checking the cells of {} points", series.name, series.n_points), 1);
     const Referee referee(series, 0, checks);
     checks.n_comparisons = 1;
     return checks;
