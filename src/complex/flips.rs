@@ -13,9 +13,10 @@
 //! and a 3-2 flip the other way round. A 4-4 flip is both in a row, by way of a cell whose corners are in one plane: it
 //! changes the diagonal of a quadrilateral that has two cells on each side, which on one side may be ghosts.
 
-use super::{Cell, Complex, Corners, Facet, NONE, Row, memory};
+use super::{Cell, Complex, Corners, Facet, NONE, Row};
 use crate::error::Result;
-use crate::threads;
+use crate::machine::memory;
+use crate::machine::threads;
 use std::sync::Mutex;
 
 /// Why a facet was not flipped.

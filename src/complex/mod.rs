@@ -19,7 +19,6 @@
 
 mod corners;
 mod flips;
-pub(crate) mod memory;
 mod record;
 
 use std::fmt;
@@ -29,7 +28,8 @@ pub use flips::{Obstacle, Stretch};
 pub use record::Row;
 
 use crate::error::{Error, Result};
-use crate::prefetch::prefetch;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 use record::Record;
 
 /// The ghost vertex: index 0 of the sites.

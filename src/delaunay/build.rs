@@ -7,8 +7,9 @@
 use super::cavity::Cavity;
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, INFINITE, NONE, memory};
+use crate::complex::{Corners, INFINITE, NONE};
 use crate::error::{Error, Result};
+use crate::machine::memory;
 
 /// A vertex that is hidden by one of a lower id at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,8 +10,9 @@
 //! for each deleted cell and each rim facet.
 
 use super::{Delaunay, Dimension};
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// What an insertion found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,8 +12,9 @@
 
 use super::cavity::Cavity;
 use super::{Delaunay, Dimension, Plane};
-use crate::complex::{Facet, INFINITE, memory};
+use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
+use crate::machine::memory;
 use crate::predicates::{Lifted, side_of_seen_circle};
 
 /// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.

@@ -11,8 +11,9 @@
 use super::cavity::Cavity;
 use super::spheres::Spheres;
 use super::{Delaunay, Space};
-use crate::complex::{Facet, memory};
+use crate::complex::Facet;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
 const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);

@@ -9,17 +9,18 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::{Delaunay, Dimension, Plane, Space};
-use crate::complex::{Cell, Corners, Facet, INFINITE, memory};
+use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::Result;
+use crate::machine::memory;
+use crate::machine::threads;
 use crate::predicates;
 use crate::simd::{Avx2, LANES};
-use crate::threads;
 
 /// A sweep of so many cells takes as long as to start a thread for them.
 const SWEPT_AT_LEAST: usize = 1 << 14;
 
 /// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order at
-/// all ([`prefetch::FAR`](crate::prefetch)), as most neighbours are stored close by.
+/// all ([`prefetch::FAR`](crate::machine::prefetch)), as most neighbours are stored close by.
 const FAR: usize = 4 << 20;
 
 /// What does not hold.

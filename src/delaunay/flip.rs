@@ -17,10 +17,11 @@
 
 use super::site::Sites;
 use super::{Delaunay, Dimension, Plane, Space};
-use crate::complex::{Corners, Facet, INFINITE, Obstacle, Row, Stretch, memory};
+use crate::complex::{Corners, Facet, INFINITE, Obstacle, Row, Stretch};
 use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::predicates::StaticFilter;
-use crate::prefetch::{AHEAD, prefetch};
 
 /// Failing facets for each thread that take longer to flip than the thread to start; and as many if the number of threads
 /// is the caller's choice.
@@ -445,8 +446,8 @@ impl<G: Dimension> Delaunay<G> {
 mod tests {
     use super::*;
     use crate::delaunay::{Failures, Level};
+    use crate::machine::threads::Threads;
     use crate::random::Rng;
-    use crate::threads::Threads;
 
     /// A triangulation whose sites have moved by up to `size` along each axis, and the facets that fail; no cell is
     /// inverted.

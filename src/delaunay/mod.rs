@@ -64,11 +64,12 @@ pub(crate) use set::IndexSet;
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, Corners, Facet, INFINITE, memory};
+use crate::complex::{Complex, Corners, Facet, INFINITE};
 use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::machine::threads::Threads;
 use crate::predicates::StaticFilter;
-use crate::prefetch::prefetch;
-use crate::threads::Threads;
 use cavity::Cavity;
 use flat::Flat;
 use flip::AllFlips;

@@ -12,8 +12,9 @@
 //! Invariant: the complex is not touched before the whole filling is known.
 
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE, memory};
+use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE};
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Link sites that the bit masks of facets can tell apart, the ghost vertex included.
 pub(super) const MAX_LINK: usize = 64;

@@ -7,8 +7,8 @@
 
 use super::{Delaunay, Dimension, Plane, Space};
 use crate::complex::{Corners, Facet, INFINITE};
+use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::predicates;
-use crate::prefetch::{AHEAD, prefetch};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 /// Most cells of a block.

@@ -15,7 +15,8 @@
 use std::fmt;
 
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
+use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::machine::memory;
 
 /// How much is checked; each level includes the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,9 +1,10 @@
 //! Bi-cells: two cells and the facet between them (report, section 2.2).
 
 use super::MovingTriangulation;
-use crate::complex::{Corners, Facet, INFINITE, memory};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::machine::memory;
 use crate::predicates::Delimiter;
 
 /// The corners of a bi-cell that are not the ghost vertex.

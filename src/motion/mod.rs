@@ -65,11 +65,12 @@ pub use options::{CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRu
 pub use query::Location;
 pub use views::CellsView;
 
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::machine::threads::Threads;
 use crate::predicates::exact_calls;
-use crate::threads::Threads;
 use auto::Auto;
 use changes::Taken;
 use coincidence::Hidden;

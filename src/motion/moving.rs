@@ -17,12 +17,12 @@ use std::ops::ControlFlow;
 use super::MovingTriangulation;
 use super::regions::Fixed;
 use super::staging::{Given, first_bad, stage_block};
-use crate::complex::memory;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
-use crate::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
+use crate::machine::threads;
 use crate::simd::{ALL, Avx2, LANES};
-use crate::threads;
 
 /// Moves of so many vertices take as long as to start a thread for them.
 const MOVED_AT_LEAST: usize = 1 << 14;

@@ -4,9 +4,10 @@ use std::cmp::Ordering;
 
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, Level, MovingTriangulation, Violation};
-use crate::complex::{INFINITE, NONE, memory};
+use crate::complex::{INFINITE, NONE};
 use crate::delaunay::{Dimension, IndexSet, Place};
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -27,9 +27,10 @@ use super::bicell::BiCell;
 use super::slacks::Slacks;
 use super::watched::Watched;
 use super::{CommitReport, MovingTriangulation};
-use crate::complex::{Corners, Facet, memory};
+use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::{Error, Result};
+use crate::machine::memory;
 use crate::predicates::{LANES, displacement_limit};
 
 /// Tolerances are capped at this fraction (one over `CAPPED`) of the least extent.

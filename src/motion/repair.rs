@@ -22,10 +22,11 @@
 
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
-use crate::complex::{Corners, Facet, INFINITE, memory};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Dimension, Failures, Shortcut};
 use crate::error::{Error, Result};
-use crate::prefetch::{AHEAD, prefetch};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
 /// vertex rebuilt, and flips are never stuck there.)

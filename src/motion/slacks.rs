@@ -21,11 +21,12 @@
 #![allow(unsafe_code)]
 
 use super::bicell::BiCell;
-use crate::complex::{Cell, Complex, Corners, Facet, NONE, memory};
+use crate::complex::{Cell, Complex, Corners, Facet, NONE};
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 use crate::predicates::LANES;
-use crate::prefetch::prefetch;
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;

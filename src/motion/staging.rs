@@ -1,9 +1,10 @@
 //! Positions that wait for the next commit.
 
 use super::MovingTriangulation;
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
+use crate::machine::memory;
 use crate::predicates::is_in_range;
 
 /// Staged positions by vertex id. During and after a commit the entries of its vertices hold the positions

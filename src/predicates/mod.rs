@@ -84,9 +84,9 @@ mod plane;
 mod separator;
 mod space;
 mod sphere;
-mod tally;
 mod tolerance;
 
+pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
@@ -106,8 +106,6 @@ pub use sphere::{
     Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, side_of_circle, side_of_sphere,
     sphere,
 };
-pub(crate) use tally::add_exact_calls;
-pub use tally::exact_calls;
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,

@@ -3,7 +3,7 @@
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
 use super::integer::{Scaled, Wide};
-use super::tally;
+use crate::machine::tally;
 use robust::Coord;
 
 /// Twice the signed area of the triangle `abc`: positive when counter-clockwise, zero when collinear.

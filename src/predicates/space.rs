@@ -6,7 +6,7 @@
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
 use super::integer::{Scaled, Wide};
-use super::tally;
+use crate::machine::tally;
 use robust::Coord3D;
 
 /// Six times the signed volume of the tetrahedron `abcd`, the determinant of `b − a`, `c − a`, `d − a`; zero
