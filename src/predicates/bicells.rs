@@ -6,7 +6,7 @@
 use super::StaticFilter;
 use super::filter::{semi_static_bounds_2d, semi_static_bounds_3d};
 use super::lanes::BiCells;
-use super::tolerance::{cross, dot};
+use super::vectors::{cross, dot, minor, minus};
 use crate::simd::{Avx2, LANES, Real};
 
 /// For each lane, whether both triangles, of the edge `ab` with `c` and `d`, surely are positively oriented, the second
@@ -72,18 +72,11 @@ pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T
 #[inline(always)]
 fn differences<T: Real, const D: usize, const P: usize, const N: usize>(points: &[[T; D]; P]) -> [[T; D]; N] {
     const { assert!(N + 1 == P) };
-    let mut differences = [[points[0][0]; D]; N];
+    let mut differences = [points[0]; N];
     for k in 0..N {
-        for axis in 0..D {
-            differences[k][axis] = points[k + 1][axis] - points[0][axis];
-        }
+        differences[k] = minus(&points[k + 1], &points[0]);
     }
     differences
-}
-
-#[inline(always)]
-fn square<T: Real>(p: &[T; 2]) -> T {
-    p[0] * p[0] + p[1] * p[1]
 }
 
 /// The greatest magnitude along each axis.
@@ -108,11 +101,10 @@ struct Certificates<T> {
 impl<T: Real> Certificates<T> {
     #[inline(always)]
     fn in_plane([u, v, s]: &[[T; 2]; 3]) -> Self {
-        let (uu, vv, ss) = (square(u), square(v), square(s));
+        let (uu, vv, ss) = (dot(u, u), dot(v, v), dot(s, s));
         let n = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
-        let volume = u[0] * v[1] - u[1] * v[0];
-        let beyond = s[0] * u[1] - s[1] * u[0];
-        Certificates { volume, beyond, side: (s[0] * n[0] + s[1] * n[1]) - ss * volume }
+        let volume = minor(u, v);
+        Certificates { volume, beyond: minor(s, u), side: dot(s, &n) - ss * volume }
     }
 
     #[inline(always)]

@@ -2,10 +2,11 @@
 
 use super::big::{self, has_room};
 use super::filter::UNDERFLOW;
+use super::tolerance::squared_distance;
 use robust::Coord;
 use std::cmp::Ordering;
 
-/// Compares the distances of `a` and of `b` from `q`, exactly, in dimension 1 to 3.
+/// Compares the distances of `a` and of `b` from `q`, exactly.
 #[inline(always)]
 pub fn compare_distance<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
     let (to_a, to_b) = (squared_distance(q, a), squared_distance(q, b));
@@ -33,16 +34,6 @@ pub fn is_collinear3(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> bool {
         let [a, b, c] = [a, b, c].map(|p| Coord { x: p[x], y: p[y] });
         robust::orient2d(a, b, c) == 0.0
     })
-}
-
-#[inline(always)]
-fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
-    let mut sum = 0.0;
-    for axis in 0..D {
-        let difference = p[axis] - q[axis];
-        sum += difference * difference;
-    }
-    sum
 }
 
 /// The sign of |q − a|² − |q − b|² = Σ a² − b² − 2qa + 2qb, every product being a sum of two doubles.

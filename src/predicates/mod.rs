@@ -85,6 +85,7 @@ mod separator;
 mod space;
 mod sphere;
 mod tolerance;
+mod vectors;
 
 pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;

@@ -107,6 +107,7 @@
 
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
+use super::vectors::{cross, dot, minor, minus, plus};
 use crate::simd::{Avx2, LANES, Real};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
@@ -164,11 +165,8 @@ pub fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
 /// The same for any [`Real`].
 #[inline(always)]
 pub(super) fn square_between<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
-    let mut sum = (p[0] - q[0]) * (p[0] - q[0]);
-    for axis in 1..D {
-        sum = sum + (p[axis] - q[axis]) * (p[axis] - q[axis]);
-    }
-    sum
+    let difference = minus(p, q);
+    dot(&difference, &difference)
 }
 
 /// Upper bound of the distance.
@@ -269,11 +267,10 @@ pub fn tolerances2d(bicells: &BiCells<2, 4>) -> [f64; LANES] {
 /// Centre, radius and half-width of the standard delimiter of a facet and two opposing vertices.
 #[inline(always)]
 fn annulus2d<T: Real>([o, f, c, d]: &[[T; 2]; 4]) -> ([T; 2], T, T) {
-    let (u, w) = ([f[0] - o[0], f[1] - o[1]], [c[0] - d[0], c[1] - d[1]]);
-    let s = [(c[0] - o[0]) + (d[0] - o[0]), (c[1] - o[1]) + (d[1] - o[1])];
+    let (u, w, s) = (minus(f, o), minus(c, d), plus(&minus(c, o), &minus(d, o)));
     // u·x = |u|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
-    let (uu, ws) = (u[0] * u[0] + u[1] * u[1], w[0] * s[0] + w[1] * s[1]);
-    let scale = o[0].splat(0.5) / (u[0] * w[1] - u[1] * w[0]);
+    let (uu, ws) = (dot(&u, &u), dot(&w, &s));
+    let scale = o[0].splat(0.5) / minor(&u, &w);
     let centre = [o[0] + (uu * w[1] - ws * u[1]) * scale, o[1] + (ws * u[0] - uu * w[0]) * scale];
     let inner = square_between(&centre, o).max(square_between(&centre, f));
     let outer = square_between(&centre, c).min(square_between(&centre, d));
@@ -297,8 +294,7 @@ pub(super) fn middle<T: Real, const D: usize>(inner: T, outer: T) -> (T, T) {
 /// the triangle is certainly positive.
 #[inline]
 pub fn orientation_tolerance2d([a, b, c]: [&[f64; 2]; 3]) -> f64 {
-    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-    let volume = u[0] * v[1] - u[1] * v[0];
+    let volume = minor(&minus(b, a), &minus(c, a));
     let [x, y] = extents([a, b, c]);
     let bound = ORIENT_2D * (x * y) + LEAST_DETERMINANT;
     let square = Real::max(Real::max(squared_distance(a, b), squared_distance(a, c)), squared_distance(b, c));
@@ -314,7 +310,6 @@ pub fn orientation_tolerance3d([a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
     let volume = dot(&w, &uv);
     let extents = extents([a, b, c, d]);
     let bound = ORIENT_3D * (extents[0] * extents[1] * extents[2]) + LEAST_DETERMINANT;
-    let plus = |p: &[f64; 3], q: &[f64; 3]| [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
     let sum = plus(&uv, &vw);
     let normals = [uv, vw, wu, sum, plus(&vw, &wu), plus(&wu, &uv), plus(&sum, &wu)];
     let square = normals.iter().fold(0.0, |square, n| Real::max(square, dot(n, n)));
@@ -326,21 +321,6 @@ pub fn orientation_tolerance3d([a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
 #[inline(always)]
 fn non_negative(x: f64) -> f64 {
     if x > 0.0 && x < f64::INFINITY { x } else { 0.0 }
-}
-
-#[inline(always)]
-pub(super) fn minus<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-#[inline(always)]
-pub(super) fn dot<T: Real>(p: &[T; 3], q: &[T; 3]) -> T {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-}
-
-#[inline(always)]
-pub(super) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
-    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
 #[cfg(test)]
