@@ -27,8 +27,9 @@ mod predicates;
 mod random;
 mod simd;
 
-pub use delaunay::{Coordinates, Dimension, Plane, Space};
+pub use delaunay::{Dimension, Plane, Space};
 pub use error::{Error, Result};
+pub use predicates::Coordinates;
 
 /// The parts below [`motion`], for the crate's own tests and benchmarks. They trust their arguments, wrong indices are
 /// undefined behaviour, and any version may change them.

@@ -10,6 +10,7 @@ use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE, NONE};
 use crate::error::{Error, Result};
 use crate::machine::memory;
+use crate::predicates::distance_above;
 
 /// A vertex that is hidden by one of a lower id at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -304,7 +305,7 @@ impl<G: Dimension> Delaunay<G> {
         let step = (sites.len() / STRIDES).max(1);
         let (mut sum, mut n) = (0.0, 0.0);
         for pair in sites.windows(2).step_by(step).filter(|pair| pair.iter().all(Site::is_live)) {
-            sum += G::distance_above(&pair[0].point, &pair[1].point);
+            sum += distance_above(&pair[0].point, &pair[1].point);
             n += 1.0;
         }
         if n > 0.0 { sum / n } else { 0.0 }

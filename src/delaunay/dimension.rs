@@ -4,9 +4,7 @@
 //! coordinates, a cell an array of `D + 1` corners, and the two signs that decide everything are the
 //! orientation of `D + 1` points and the position of a point against the sphere through them.
 
-use std::cmp::Ordering;
 use std::fmt::Debug;
-use std::ops::{Index, IndexMut};
 
 use super::cavity::Cavity;
 use super::flip::{Flipper, Flips};
@@ -15,16 +13,8 @@ use super::site::{self, Site, Sites};
 use super::{Delaunay, cavity_plane, cavity_space, certify};
 use crate::complex::{Corners, Facet, INFINITE, Obstacle};
 use crate::error::Result;
-use crate::predicates::{self, Delimiter, StaticFilter};
+use crate::predicates::{self, Coordinates, Delimiter, StaticFilter};
 use crate::simd::{Avx2, LANES};
-
-/// Coordinates of one point: `[f64; D]`.
-pub trait Coordinates:
-    Copy + Debug + Default + PartialEq + Index<usize, Output = f64> + IndexMut<usize> + AsRef<[f64]> + Send + Sync
-{
-}
-impl Coordinates for [f64; 2] {}
-impl Coordinates for [f64; 3] {}
 
 /// A dimension: its arrays and its predicates.
 ///
@@ -43,10 +33,6 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     type Scratch: Debug + Default + Send + Sync;
     /// Bi-cells whose tolerances are computed together.
     type BiCells: Debug + Default;
-    /// The coordinates of points, one after the other.
-    fn coordinates(points: &[Self::Point]) -> &[f64];
-    /// The same, to write.
-    fn coordinates_mut(points: &mut [Self::Point]) -> &mut [f64];
     /// Error bounds for points inside the box.
     fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
     /// Sign of the orientation of the cell: positive in a valid finite cell.
@@ -82,8 +68,6 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         o: &Self::Point,
         aim: &Self::Point,
     ) -> Option<bool>;
-    /// Compares the distances from `q` to `a` and to `b`, exactly.
-    fn compare_distance(q: &Self::Point, a: &Self::Point, b: &Self::Point) -> Ordering;
     /// Gets ready to insert very many sites: after that, and until [`end_build`](Self::end_build), `BUILD` is true.
     fn begin_build(t: &mut Delaunay<Self>) -> Result<()>;
     /// Frees what [`begin_build`](Self::begin_build) made.
@@ -110,15 +94,6 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
     /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
     fn orientation_tolerance(points: &[&Self::Point]) -> f64;
-    /// As `predicates::squared_distance`.
-    fn squared_distance(p: &Self::Point, q: &Self::Point) -> f64;
-    /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
-    fn are_within(
-        avx2: Avx2,
-        fixed: [&Self::Point; LANES],
-        tolerances: &[f64; LANES],
-        places: [&Self::Point; LANES],
-    ) -> u32;
     /// Exchanges places with those of sites, by index; returns how many differ, bit by bit.
     fn exchange(
         avx2: Avx2,
@@ -126,17 +101,6 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         sites: &mut [Site<Self>],
         sites_of: &[u32; LANES],
     ) -> u64;
-    /// As `predicates::distance_above`.
-    fn distance_above(p: &Self::Point, q: &Self::Point) -> f64;
-    /// As `predicates::is_certainly_inside`.
-    fn is_certainly_inside(centre: &Self::Point, radius: f64, p: &Self::Point) -> bool;
-    /// As `predicates::is_path_certainly_outside`.
-    fn is_path_certainly_outside(
-        centre: &Self::Point,
-        radius: f64,
-        from: &Self::Point,
-        to: &Self::Point,
-    ) -> bool;
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<Self>, cell: u32) -> bool;
     /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each.
@@ -169,14 +133,6 @@ impl Dimension for Plane {
     type Corners = [u32; 3];
     type Scratch = cavity_plane::Scratch;
     type BiCells = predicates::BiCells<2, 4>;
-
-    fn coordinates(points: &[[f64; 2]]) -> &[f64] {
-        points.as_flattened()
-    }
-
-    fn coordinates_mut(points: &mut [[f64; 2]]) -> &mut [f64] {
-        points.as_flattened_mut()
-    }
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
@@ -256,21 +212,6 @@ impl Dimension for Plane {
     }
 
     #[inline(always)]
-    fn squared_distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
-        predicates::squared_distance(p, q)
-    }
-
-    #[inline(always)]
-    fn are_within(
-        avx2: Avx2,
-        fixed: [&[f64; 2]; LANES],
-        tolerances: &[f64; LANES],
-        places: [&[f64; 2]; LANES],
-    ) -> u32 {
-        predicates::are_within2d(avx2, fixed, tolerances, places)
-    }
-
-    #[inline(always)]
     fn exchange(
         avx2: Avx2,
         places: &mut [[f64; 2]; LANES],
@@ -278,25 +219,6 @@ impl Dimension for Plane {
         sites_of: &[u32; LANES],
     ) -> u64 {
         site::exchange_in_plane(avx2, places, sites, sites_of)
-    }
-
-    #[inline(always)]
-    fn distance_above(p: &[f64; 2], q: &[f64; 2]) -> f64 {
-        predicates::distance_above(p, q)
-    }
-
-    #[inline(always)]
-    fn is_certainly_inside(centre: &[f64; 2], radius: f64, p: &[f64; 2]) -> bool {
-        predicates::is_certainly_inside(centre, radius, p)
-    }
-
-    #[inline(always)]
-    fn is_path_certainly_outside(centre: &[f64; 2], radius: f64, from: &[f64; 2], to: &[f64; 2]) -> bool {
-        predicates::is_path_certainly_outside(centre, radius, from, to)
-    }
-
-    fn compare_distance(q: &[f64; 2], a: &[f64; 2], b: &[f64; 2]) -> Ordering {
-        predicates::compare_distance(q, a, b)
     }
 
     fn begin_build(_: &mut Delaunay<Self>) -> Result<()> {
@@ -374,14 +296,6 @@ impl Dimension for Space {
     type Corners = [u32; 4];
     type Scratch = cavity_space::Scratch;
     type BiCells = predicates::BiCells<3, 5>;
-
-    fn coordinates(points: &[[f64; 3]]) -> &[f64] {
-        points.as_flattened()
-    }
-
-    fn coordinates_mut(points: &mut [[f64; 3]]) -> &mut [f64] {
-        points.as_flattened_mut()
-    }
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
         StaticFilter::space(*lower, *upper)
@@ -462,21 +376,6 @@ impl Dimension for Space {
     }
 
     #[inline(always)]
-    fn squared_distance(p: &[f64; 3], q: &[f64; 3]) -> f64 {
-        predicates::squared_distance(p, q)
-    }
-
-    #[inline(always)]
-    fn are_within(
-        avx2: Avx2,
-        fixed: [&[f64; 3]; LANES],
-        tolerances: &[f64; LANES],
-        places: [&[f64; 3]; LANES],
-    ) -> u32 {
-        predicates::are_within3d(avx2, fixed, tolerances, places)
-    }
-
-    #[inline(always)]
     fn exchange(
         avx2: Avx2,
         places: &mut [[f64; 3]; LANES],
@@ -484,25 +383,6 @@ impl Dimension for Space {
         sites_of: &[u32; LANES],
     ) -> u64 {
         site::exchange_in_space(avx2, places, sites, sites_of)
-    }
-
-    #[inline(always)]
-    fn distance_above(p: &[f64; 3], q: &[f64; 3]) -> f64 {
-        predicates::distance_above(p, q)
-    }
-
-    #[inline(always)]
-    fn is_certainly_inside(centre: &[f64; 3], radius: f64, p: &[f64; 3]) -> bool {
-        predicates::is_certainly_inside(centre, radius, p)
-    }
-
-    #[inline(always)]
-    fn is_path_certainly_outside(centre: &[f64; 3], radius: f64, from: &[f64; 3], to: &[f64; 3]) -> bool {
-        predicates::is_path_certainly_outside(centre, radius, from, to)
-    }
-
-    fn compare_distance(q: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> Ordering {
-        predicates::compare_distance(q, a, b)
     }
 
     fn begin_build(t: &mut Delaunay<Self>) -> Result<()> {

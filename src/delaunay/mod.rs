@@ -57,7 +57,7 @@ pub use build::Merge;
 pub use cavity::Insertion;
 pub use certify::Failures;
 pub(crate) use certify::Waiting;
-pub use dimension::{Coordinates, Dimension, Plane, Space};
+pub use dimension::{Dimension, Plane, Space};
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
 pub(crate) use set::IndexSet;

@@ -31,7 +31,10 @@ use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::{Error, Result};
 use crate::machine::memory;
-use crate::predicates::{LANES, displacement_limit};
+use crate::predicates::{
+    LANES, displacement_limit, distance_above, is_certainly_inside, is_path_certainly_outside,
+    squared_distance,
+};
 
 /// Tolerances are capped at this fraction (one over `CAPPED`) of the least extent.
 const CAPPED: f64 = 16.0;
@@ -75,7 +78,7 @@ impl<G: Dimension> Fixed<G> {
     /// Whether `p` is certainly within tolerance.
     #[inline(always)]
     pub(super) fn holds(&self, p: &G::Point) -> bool {
-        G::squared_distance(&self.point, p) < displacement_limit(self.tolerance)
+        squared_distance(&self.point, p) < displacement_limit(self.tolerance)
     }
 }
 
@@ -271,7 +274,7 @@ impl<G: Dimension> Regions<G> {
     pub(super) fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: u32, p: &G::Point) -> bool {
         let &Site { point: here, id, .. } = kernel.site(s);
         let from = &self.fixed[id as usize].point;
-        if G::squared_distance(from, p) >= displacement_limit(self.reach[id as usize]) {
+        if squared_distance(from, p) >= displacement_limit(self.reach[id as usize]) {
             return false;
         }
         // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
@@ -287,9 +290,9 @@ impl<G: Dimension> Regions<G> {
                 }
                 let (centre, radius) = &self.delimiters[facet.code().min(across.code()) as usize];
                 if i == at as usize {
-                    G::is_path_certainly_outside(centre, *radius, &here, p)
+                    is_path_certainly_outside(centre, *radius, &here, p)
                 } else {
-                    G::is_certainly_inside(centre, *radius, p)
+                    is_certainly_inside(centre, *radius, p)
                 }
             })
         })
@@ -398,9 +401,9 @@ impl<G: Dimension> Regions<G> {
     /// proportion to u h.
     fn is_soon_beyond(&self, vertices: &[u32], tolerance: f64, elsewhere: &[G::Point]) -> bool {
         let here = |v: u32| &self.fixed[v as usize].point;
-        let step = |&v: &u32| elsewhere.get(v as usize).map_or(0.0, |p| G::squared_distance(here(v), p));
+        let step = |&v: &u32| elsewhere.get(v as usize).map_or(0.0, |p| squared_distance(here(v), p));
         let steps = vertices.iter().map(step).fold(0.0, f64::max);
-        let square = G::squared_distance(here(vertices[1]), here(vertices[2]));
+        let square = squared_distance(here(vertices[1]), here(vertices[2]));
         let t = tolerance * tolerance;
         t * t <= watched_share::<G>() * steps * square
     }
@@ -420,7 +423,7 @@ impl<G: Dimension> Regions<G> {
     fn fix_anew(&mut self, &Site { point, id, .. }: &Site<G>, filter: Filter) {
         let fixed = &mut self.fixed[id as usize];
         if fixed.point != point {
-            let moved = G::distance_above(&fixed.point, &point);
+            let moved = distance_above(&fixed.point, &point);
             fixed.tolerance = (fixed.tolerance - moved).next_down().max(0.0);
             fixed.point = point;
             if filter.keeps_delimiters() {

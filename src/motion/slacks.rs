@@ -26,7 +26,7 @@ use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
-use crate::predicates::LANES;
+use crate::predicates::{LANES, distance_above};
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;
@@ -214,7 +214,7 @@ impl<G: Dimension> Slacks<G> {
         let (mut sum, mut n) = (0.0, 0.0);
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
             let there = elsewhere.get(site.id as usize);
-            sum += there.map_or(0.0, |p| G::distance_above(&site.point, p));
+            sum += there.map_or(0.0, |p| distance_above(&site.point, p));
             n += 1.0;
         }
         // Of no use, but no error either, where nothing moves. A power of two that is no number any more would make

@@ -73,6 +73,7 @@
 
 mod bicells;
 mod big;
+mod coordinates;
 mod distance;
 mod filter;
 mod integer;
@@ -94,6 +95,7 @@ pub(crate) use bicells::{
     bicells_surely_hold3d,
 };
 pub use bicells::{bicells_hold2d, bicells_hold3d};
+pub use coordinates::{Array, Coordinates};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::BiCells;
@@ -107,12 +109,12 @@ pub use sphere::{
     Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, side_of_circle, side_of_sphere,
     sphere,
 };
+pub(crate) use tolerance::are_within;
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
     tolerances2d,
 };
-pub(crate) use tolerance::{are_within2d, are_within3d};
 
 /// Largest magnitude of an accepted coordinate.
 pub const MAX_MAGNITUDE: f64 = 1e57;

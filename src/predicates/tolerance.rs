@@ -105,6 +105,7 @@
 //! [`separator3d`]: super::separator3d
 //! [`tolerances3d`]: super::tolerances3d
 
+use super::coordinates::Array;
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
 use super::vectors::{cross, dot, minor, minus, plus};
@@ -158,20 +159,23 @@ const HALF: f64 = 0.5 - 4.0 * UNIT;
 
 /// Squared distance, in the order of operations that the thresholds of this module certify.
 #[inline(always)]
-pub fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
-    square_between(p, q)
+pub fn squared_distance<P: AsRef<[f64]>>(p: &P, q: &P) -> f64 {
+    square_between(p.as_ref(), q.as_ref())
 }
 
 /// The same for any [`Real`].
 #[inline(always)]
-pub(super) fn square_between<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
-    let difference = minus(p, q);
-    dot(&difference, &difference)
+pub(super) fn square_between<T: Real>(p: &[T], q: &[T]) -> T {
+    let mut sum = (p[0] - q[0]) * (p[0] - q[0]);
+    for axis in 1..p.len() {
+        sum = sum + (p[axis] - q[axis]) * (p[axis] - q[axis]);
+    }
+    sum
 }
 
 /// Upper bound of the distance.
 #[inline(always)]
-pub fn distance_above<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
+pub fn distance_above<P: AsRef<[f64]> + PartialEq>(p: &P, q: &P) -> f64 {
     let square = squared_distance(p, q);
     if square < LEAST * LEAST {
         return if p == q { 0.0 } else { LEAST * ABOVE };
@@ -199,31 +203,19 @@ fn limit<T: Real>(tolerance: T) -> T {
 
 /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
 #[inline(always)]
-pub(crate) fn are_within2d(
+pub(crate) fn are_within<P: Array>(
     avx2: Avx2,
-    fixed: [&[f64; 2]; LANES],
+    fixed: [&P; LANES],
     tolerances: &[f64; LANES],
-    places: [&[f64; 2]; LANES],
+    places: [&P; LANES],
 ) -> u32 {
-    let square = square_between(&avx2.pairs(fixed), &avx2.pairs(places));
-    square.is_less(limit(avx2.load(tolerances))).bits()
-}
-
-/// Likewise in space.
-#[inline(always)]
-pub(crate) fn are_within3d(
-    avx2: Avx2,
-    fixed: [&[f64; 3]; LANES],
-    tolerances: &[f64; LANES],
-    places: [&[f64; 3]; LANES],
-) -> u32 {
-    let square = square_between(&avx2.triples(fixed), &avx2.triples(places));
-    square.is_less(limit(avx2.load(tolerances))).bits()
+    let (fixed, places) = (P::in_lanes(avx2, fixed), P::in_lanes(avx2, places));
+    square_between(fixed.as_ref(), places.as_ref()).is_less(limit(avx2.load(tolerances))).bits()
 }
 
 /// Whether `p` is certainly strictly inside the sphere.
 #[inline(always)]
-pub fn is_certainly_inside<const D: usize>(centre: &[f64; D], radius: f64, p: &[f64; D]) -> bool {
+pub fn is_certainly_inside<P: AsRef<[f64]>>(centre: &P, radius: f64, p: &P) -> bool {
     squared_distance(centre, p) < displacement_limit(radius)
 }
 
@@ -233,12 +225,7 @@ pub fn is_certainly_inside<const D: usize>(centre: &[f64; D], radius: f64, p: &[
 /// By Stewart's theorem the middle of a segment is nowhere nearer, in squares, than the nearer end less a
 /// quarter of the squared length.
 #[inline(always)]
-pub fn is_path_certainly_outside<const D: usize>(
-    centre: &[f64; D],
-    radius: f64,
-    from: &[f64; D],
-    to: &[f64; D],
-) -> bool {
+pub fn is_path_certainly_outside<P: AsRef<[f64]>>(centre: &P, radius: f64, from: &P, to: &P) -> bool {
     let square = Real::min(squared_distance(centre, from), squared_distance(centre, to));
     // (1 ± u)⁵ twice and three roundings.
     let limit = (radius * radius + 0.25 * squared_distance(from, to)) * (1.0 + 16.0 * UNIT);
@@ -336,8 +323,8 @@ mod tests {
         let plane = |points: &[[f64; 3]; LANES]| points.map(|[x, y, _]| [x, y]);
         let (fixed2d, places2d) = (plane(fixed), plane(places));
         [
-            avx2.run(|| are_within2d(avx2, fixed2d.each_ref(), tolerances, places2d.each_ref())),
-            avx2.run(|| are_within3d(avx2, fixed.each_ref(), tolerances, places.each_ref())),
+            avx2.run(|| are_within(avx2, fixed2d.each_ref(), tolerances, places2d.each_ref())),
+            avx2.run(|| are_within(avx2, fixed.each_ref(), tolerances, places.each_ref())),
         ]
     }
 
