@@ -13,7 +13,7 @@ use super::site::{self, Site, Sites};
 use super::{Delaunay, cavity_plane, cavity_space, certify};
 use crate::complex::{Corners, Facet, INFINITE, Obstacle};
 use crate::error::Result;
-use crate::predicates::{self, Coordinates, Delimiter, StaticFilter};
+use crate::predicates::{self, Coordinates, StaticFilter};
 use crate::simd::{Avx2, LANES};
 
 /// A dimension: its arrays and its predicates.
@@ -31,8 +31,6 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
     type Corners: Corners;
     /// Scratch memory of insertions.
     type Scratch: Debug + Default + Send + Sync;
-    /// Bi-cells whose tolerances are computed together.
-    type BiCells: Debug + Default;
     /// Error bounds for points inside the box.
     fn filter(lower: &Self::Point, upper: &Self::Point) -> StaticFilter;
     /// Sign of the orientation of the cell: positive in a valid finite cell.
@@ -82,18 +80,6 @@ pub trait Dimension: Copy + Debug + Default + Send + Sync + 'static {
         start: u32,
         s: u32,
     ) -> Result<()>;
-    /// Standard delimiter of a bi-cell: its `D + 2` corners, the opposing vertices first and last.
-    fn delimiter(points: &[&Self::Point]) -> Delimiter<Self::Point>;
-    /// Certified lower bound of the tolerance of such a bi-cell; it need not be sharp if it is `enough`.
-    fn tolerance(points: &[&Self::Point], enough: f64) -> f64;
-    /// Sets a bi-cell, given likewise, of those whose tolerances are computed together.
-    fn set_bicell(bicells: &mut Self::BiCells, lane: usize, points: &[&Self::Point]);
-    /// As [`tolerance`](Self::tolerance), of all of them.
-    fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES];
-    /// For each lane, whether the bi-cell surely has two positive cells and passes the empty-sphere test.
-    fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
-    /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 if that is not certainly positive.
-    fn orientation_tolerance(points: &[&Self::Point]) -> f64;
     /// Exchanges places with those of sites, by index; returns how many differ, bit by bit.
     fn exchange(
         avx2: Avx2,
@@ -132,7 +118,6 @@ impl Dimension for Plane {
     type Point = [f64; 2];
     type Corners = [u32; 3];
     type Scratch = cavity_plane::Scratch;
-    type BiCells = predicates::BiCells<2, 4>;
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
@@ -177,38 +162,6 @@ impl Dimension for Plane {
             [a, b, c] => predicates::orient2d(f, a, b, c) == 0.0,
             _ => true,
         }
-    }
-
-    #[inline(always)]
-    fn delimiter(points: &[&[f64; 2]]) -> Delimiter<[f64; 2]> {
-        let &[c, a, b, d] = points else { unreachable!("two cells") };
-        predicates::delimiter2d(c, [a, b], d)
-    }
-
-    #[inline(always)]
-    fn tolerance(points: &[&[f64; 2]], _: f64) -> f64 {
-        Self::delimiter(points).tolerance
-    }
-
-    #[inline(always)]
-    fn set_bicell(bicells: &mut Self::BiCells, lane: usize, points: &[&[f64; 2]]) {
-        let &[c, a, b, d] = points else { unreachable!("two cells") };
-        bicells.set(lane, [a, b, c, d]);
-    }
-
-    #[inline(always)]
-    fn tolerances(bicells: &Self::BiCells, _: [f64; LANES]) -> [f64; LANES] {
-        predicates::tolerances2d(bicells)
-    }
-
-    #[inline(always)]
-    fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES] {
-        predicates::bicells_hold2d(f, bicells)
-    }
-
-    #[inline(always)]
-    fn orientation_tolerance(points: &[&[f64; 2]]) -> f64 {
-        predicates::orientation_tolerance2d(points.try_into().expect("one cell"))
     }
 
     #[inline(always)]
@@ -295,7 +248,6 @@ impl Dimension for Space {
     type Point = [f64; 3];
     type Corners = [u32; 4];
     type Scratch = cavity_space::Scratch;
-    type BiCells = predicates::BiCells<3, 5>;
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
         StaticFilter::space(*lower, *upper)
@@ -340,39 +292,6 @@ impl Dimension for Space {
             [a, b, c, d] => predicates::orient3d(f, a, b, c, d) == 0.0,
             _ => true,
         }
-    }
-
-    #[inline(always)]
-    fn delimiter(points: &[&[f64; 3]]) -> Delimiter<[f64; 3]> {
-        let &[d, a, b, c, e] = points else { unreachable!("two cells") };
-        predicates::delimiter3d(d, [a, b, c], e)
-    }
-
-    #[inline(always)]
-    fn tolerance(points: &[&[f64; 3]], enough: f64) -> f64 {
-        let &[d, a, b, c, e] = points else { unreachable!("two cells") };
-        predicates::separator3d(d, [a, b, c], e, enough).delimiter.tolerance
-    }
-
-    #[inline(always)]
-    fn set_bicell(bicells: &mut Self::BiCells, lane: usize, points: &[&[f64; 3]]) {
-        let &[d, a, b, c, e] = points else { unreachable!("two cells") };
-        bicells.set(lane, [a, b, c, d, e]);
-    }
-
-    #[inline(always)]
-    fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES] {
-        predicates::tolerances3d(bicells, enough)
-    }
-
-    #[inline(always)]
-    fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES] {
-        predicates::bicells_hold3d(f, bicells)
-    }
-
-    #[inline(always)]
-    fn orientation_tolerance(points: &[&[f64; 3]]) -> f64 {
-        predicates::orientation_tolerance3d(points.try_into().expect("one cell"))
     }
 
     #[inline(always)]

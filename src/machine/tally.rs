@@ -1,5 +1,5 @@
-//! How often each thread has needed exact arithmetic. What [`join`](super::threads::join) has done on another thread counts
-//! for the calling one.
+//! How often each thread has needed exact arithmetic. What [`join`](super::threads::join) has done on another thread
+//! counts for the calling one.
 
 use std::cell::Cell;
 

@@ -32,7 +32,7 @@ use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::predicates::{
-    LANES, displacement_limit, distance_above, is_certainly_inside, is_path_certainly_outside,
+    LANES, Tolerances, displacement_limit, distance_above, is_certainly_inside, is_path_certainly_outside,
     squared_distance,
 };
 
@@ -85,7 +85,7 @@ impl<G: Dimension> Fixed<G> {
 /// Bi-cells whose tolerances are to be computed together.
 #[derive(Debug, Default)]
 struct Batch<G: Dimension> {
-    bicells: G::BiCells,
+    bicells: <G::Point as Tolerances>::BiCells,
     facets: [[u32; 2]; LANES],
     vertices: [[u32; 5]; LANES],
     n: usize,
@@ -94,7 +94,7 @@ struct Batch<G: Dimension> {
 impl<G: Dimension> Batch<G> {
     #[inline(always)]
     fn push(&mut self, facets: [Facet; 2], vertices: [u32; 5], points: &[&G::Point]) {
-        G::set_bicell(&mut self.bicells, self.n, points);
+        G::Point::set_bicell(&mut self.bicells, self.n, points);
         self.facets[self.n] = facets.map(Facet::code);
         self.vertices[self.n] = vertices;
         self.n += 1;
@@ -368,7 +368,7 @@ impl<G: Dimension> Regions<G> {
                 *enough = self.fixed[v as usize].tolerance.max(*enough);
             }
         }
-        let tolerances = G::tolerances(&batch.bicells, enough);
+        let tolerances = G::Point::tolerances(&batch.bicells, enough);
         for (k, tolerance) in tolerances.into_iter().enumerate().take(batch.n) {
             let facets = batch.facets[k].map(Facet::from_code);
             self.lower_or_watch(filter, facets, &batch.vertices[k][..G::D + 2], tolerance, elsewhere);

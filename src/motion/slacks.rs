@@ -26,7 +26,7 @@ use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
-use crate::predicates::{LANES, distance_above};
+use crate::predicates::{LANES, Tolerances, distance_above};
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;
@@ -47,7 +47,7 @@ const BLOCK: usize = 64;
 /// Bi-cells whose tolerances are to be computed together.
 #[derive(Debug, Default)]
 struct Batch<G: Dimension> {
-    bicells: G::BiCells,
+    bicells: <G::Point as Tolerances>::BiCells,
     facets: [[u32; 2]; LANES],
     n: usize,
 }
@@ -361,7 +361,7 @@ impl<G: Dimension> Slacks<G> {
             return;
         };
         let batch = &mut self.batch;
-        G::set_bicell(&mut batch.bicells, batch.n, points);
+        G::Point::set_bicell(&mut batch.bicells, batch.n, points);
         batch.facets[batch.n] = [facet, across].map(Facet::code);
         batch.n += 1;
         if batch.n == LANES {
@@ -390,10 +390,10 @@ impl<G: Dimension> Slacks<G> {
             return;
         }
         let hold = match check {
-            Check::Moved(..) => G::bicells_hold(kernel.filter(), &self.batch.bicells),
+            Check::Moved(..) => G::Point::bicells_hold(kernel.filter(), &self.batch.bicells),
             Check::Not => [true; LANES],
         };
-        let tolerances = G::tolerances(&self.batch.bicells, [self.enough; LANES]);
+        let tolerances = G::Point::tolerances(&self.batch.bicells, [self.enough; LANES]);
         for k in 0..n {
             let sides = self.batch.facets[k].map(Facet::from_code);
             let holds = hold[k] || check.holds(kernel, sides[0]);

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
+use super::bicells::Tolerances;
 use crate::simd::{Avx2, LANES, Lanes};
 
 /// Coordinates of one point: `[f64; D]`.
@@ -15,6 +16,7 @@ pub trait Coordinates:
     + IndexMut<usize>
     + AsRef<[f64]>
     + Array
+    + Tolerances
     + Send
     + Sync
 {

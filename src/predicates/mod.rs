@@ -90,11 +90,11 @@ mod vectors;
 
 pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
+pub use bicells::Tolerances;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
     bicells_surely_hold3d,
 };
-pub use bicells::{bicells_hold2d, bicells_hold3d};
 pub use coordinates::{Array, Coordinates};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
