@@ -13,7 +13,8 @@
 //! 4. A call that fails has no effect.
 //!
 //! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `delaunay` → `complex` → `predicates` →
-//! `machine`. What is public in the last four is so for the layers above: it trusts its arguments, so none of it leaves the crate.
+//! `machine`. What is public in the last four is so for the layers above: it trusts its arguments, so none of it leaves
+//! the crate.
 
 pub mod capi;
 mod complex;

@@ -4,7 +4,7 @@
 //! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean distance of
 //! sites that are next to each other in storage tells when to sort again.
 
-use super::cavity::Cavity;
+use super::cavity::{Cavity, Insert};
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE, NONE};
@@ -153,9 +153,9 @@ impl<G: Dimension> Delaunay<G> {
         order: &[u32],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(u32, u32)>> {
-        G::begin_build(self)?;
+        self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;
         let inserted = self.insert_while_begun(order, monitor);
-        G::end_build(self);
+        self.cavity.scratch.end_build();
         inserted
     }
 

@@ -8,12 +8,11 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use super::{Delaunay, Dimension, Plane, Space};
-use crate::complex::{Cell, Corners, Facet, INFINITE};
+use super::{Delaunay, Dimension};
+use crate::complex::{Cell, Corners, Facet};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::threads;
-use crate::predicates;
 use crate::simd::{Avx2, LANES};
 
 /// A sweep of so many cells takes as long as to start a thread for them.
@@ -467,73 +466,10 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-/// Whether a finite triangle surely is positively oriented and has no other corner of a neighbour in its circle.
-#[inline(always)]
-pub(super) fn triangle_holds(t: &Delaunay<Plane>, c: u32) -> bool {
-    let cell = t.complex.cell(c);
-    let [a, b, d] = cell.corners.map(|s| t.view().point(s));
-    let circle = predicates::circle(a, b, d);
-    let side = |i| {
-        let apex = t.complex.apex(cell.neighbour(i));
-        let side = predicates::side_of_circle(&circle, a, t.view().point(apex));
-        if apex == INFINITE { f64::NEG_INFINITY } else { side }
-    };
-    let greatest = max(max(side(0), side(1)), side(2));
-    circle[2] > t.filter.orient && greatest < -t.filter.prepared
-}
-
-/// Likewise for a tetrahedron.
-#[inline(always)]
-pub(super) fn tetrahedron_holds(t: &Delaunay<Space>, c: u32) -> bool {
-    let cell = t.complex.cell(c);
-    let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
-    let sphere = predicates::sphere(a, b, d, e);
-    let side = |i| {
-        let apex = t.complex.apex(cell.neighbour(i));
-        let side = predicates::side_of_sphere(&sphere, a, t.view().point(apex));
-        if apex == INFINITE { f64::NEG_INFINITY } else { side }
-    };
-    let greatest = max(max(side(0), side(1)), max(side(2), side(3)));
-    sphere[3] > t.filter.orient && greatest < -t.filter.prepared
-}
-
-/// Whether the bi-cell of an edge between finite triangles surely passes [`Delaunay::check_bicell`].
-#[inline(always)]
-pub(super) fn bicell_holds_in_plane(t: &Delaunay<Plane>, edge: Facet) -> bool {
-    let cell = t.complex.cell(edge.cell());
-    let across = cell.neighbour(edge.index());
-    let corners = t.complex.cell(across.cell()).corners;
-    let [a, b, d] = cell.corners.map(|s| t.view().point(s));
-    let circle = predicates::circle(a, b, d);
-    let side = predicates::side_of_circle(&circle, a, t.view().point(corners[across.index()]));
-    let [a, b, d] = corners.map(|s| t.view().point(s));
-    let beyond = predicates::circle(a, b, d);
-    circle[2] > t.filter.orient && beyond[2] > t.filter.orient && side < -t.filter.prepared
-}
-
-/// Likewise for a facet between finite tetrahedra.
-#[inline(always)]
-pub(super) fn bicell_holds_in_space(t: &Delaunay<Space>, facet: Facet) -> bool {
-    let cell = t.complex.cell(facet.cell());
-    let across = cell.neighbour(facet.index());
-    let corners = t.complex.cell(across.cell()).corners;
-    let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
-    let sphere = predicates::sphere(a, b, d, e);
-    let side = predicates::side_of_sphere(&sphere, a, t.view().point(corners[across.index()]));
-    let beyond = corners.map(|s| t.view().point(s));
-    let volume = predicates::sphere(beyond[0], beyond[1], beyond[2], beyond[3])[3];
-    sphere[3] > t.filter.orient && volume > t.filter.orient && side < -t.filter.prepared
-}
-
-/// The greater one, in one instruction.
-#[inline(always)]
-fn max(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::delaunay::Space;
 
     /// Whether the hull of a pyramid is convex at the diagonal of its base after one vertex of that, not on the diagonal,
     /// has gone to a place.

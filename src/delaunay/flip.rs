@@ -16,7 +16,7 @@
 //! later. Sites keep their old cells until no flip will be taken back.
 
 use super::site::Sites;
-use super::{Delaunay, Dimension, Plane, Space};
+use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE, Obstacle, Row, Stretch};
 use crate::error::{Error, Result};
 use crate::machine::memory;
@@ -49,7 +49,7 @@ pub struct Flips<G: Dimension> {
     /// Of each flip, two cells that have all its sites as corners.
     changed: Vec<u32>,
     /// The third cell of flips that have made one.
-    made: Vec<u32>,
+    pub(super) made: Vec<u32>,
     /// For undoing: the rows that each flip has changed.
     journal: Vec<Row<G::Corners>>,
     n_flips: u64,
@@ -113,7 +113,7 @@ impl<G: Dimension> Flips<G> {
 
     /// Enters a flip: facets on its boundary, of two cells that have all its sites, and the rows before.
     #[inline(always)]
-    fn enter<const N: usize, const ROWS: usize>(
+    pub(super) fn enter<const N: usize, const ROWS: usize>(
         &mut self,
         (outer, rows): ([Facet; N], [Row<G::Corners>; ROWS]),
     ) {
@@ -170,9 +170,9 @@ impl<G: Dimension> AllFlips<G> {
 
 /// Flips cells of a stretch.
 pub struct Flipper<'t, 's, G: Dimension> {
-    filter: &'t StaticFilter,
-    sites: Sites<'t, G>,
-    cells: &'t mut Stretch<'s, G::Corners>,
+    pub(super) filter: &'t StaticFilter,
+    pub(super) sites: Sites<'t, G>,
+    pub(super) cells: &'t mut Stretch<'s, G::Corners>,
 }
 
 impl<G: Dimension> Flipper<'_, '_, G> {
@@ -216,42 +216,6 @@ impl<G: Dimension> Flipper<'_, '_, G> {
         flips.reserve()?;
         G::flip(self, facet, flips)?;
         flips.n_flips += 1;
-        Ok(())
-    }
-}
-
-impl Flipper<'_, '_, Plane> {
-    pub(super) fn flip_edge(&mut self, edge: Facet, flips: &mut Flips<Plane>) -> Result<(), Obstacle> {
-        flips.enter(self.cells.flip_2_2(edge)?);
-        Ok(())
-    }
-}
-
-impl Flipper<'_, '_, Space> {
-    /// Flips if that makes positive cells.
-    pub(super) fn flip_face(&mut self, face: Facet, flips: &mut Flips<Space>) -> Result<(), Obstacle> {
-        let i = face.index();
-        let cell = self.cells.cell(face.cell())?;
-        let q = self.sites.point(self.cells.apex(cell.neighbour(i))?);
-        let others = [(i + 1) % 4, (i + 2) % 4, (i + 3) % 4];
-        // The orientation of the cell with q in place of each corner of the facet.
-        let signs = others.map(|k| Space::orientation_with(self.filter, self.sites, &cell.corners, k, q));
-        let mut not_positive = (0..3).filter(|&k| signs[k] <= 0.0);
-        match (not_positive.next(), not_positive.next()) {
-            (None, _) => {
-                let flipped = self.cells.flip_2_3(face)?;
-                flips.made.push(flipped.0[4].cell());
-                flips.enter(flipped);
-            }
-            // The segment between the opposing vertices meets the edge opposite one corner: beyond it, or in it.
-            (Some(k), None) if signs[k] < 0.0 => flips.enter(self.cells.flip_3_2(face, others[k])?),
-            (Some(k), None) => {
-                let flipped = self.cells.flip_4_4(face, others[k])?;
-                flips.made.push(flipped[0].0[4].cell());
-                flipped.into_iter().for_each(|flipped| flips.enter(flipped));
-            }
-            _ => return Err(Obstacle::Shape),
-        }
         Ok(())
     }
 }
@@ -445,7 +409,7 @@ impl<G: Dimension> Delaunay<G> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::{Failures, Level};
+    use crate::delaunay::{Failures, Level, Plane, Space};
     use crate::machine::threads::Threads;
     use crate::random::Rng;
 

@@ -6,6 +6,8 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `dimension` | the two dimensions, as types |
+//! | `kernel`, `plane`, `space` | predicates of sites, and what else differs between the dimensions |
 //! | `order` | Hilbert curve and insertion rounds |
 //! | `build` | all sites at once |
 //! | `parts`, `parallel`, `unite` | the same on several threads |
@@ -38,15 +40,18 @@ mod dimension;
 mod flat;
 mod flip;
 mod hub;
+mod kernel;
 mod locate;
 pub mod order;
 mod parallel;
 mod parts;
+mod plane;
 mod relocate;
 mod remove;
 mod screen;
 mod set;
 pub mod site;
+mod space;
 mod spheres;
 mod successor;
 mod undo;

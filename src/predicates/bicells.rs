@@ -28,7 +28,7 @@ pub trait Tolerances: Sized {
     fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES];
     /// For each lane, whether the bi-cell surely has two positive cells and passes the empty-sphere test.
     fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
-    /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 unless that is certainly positive.
+    /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 unless it is certainly positive.
     fn orientation_tolerance(cell: &[&Self]) -> f64;
 }
 
