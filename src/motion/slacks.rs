@@ -18,10 +18,11 @@
 //! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these. Memory:
 //! as many bytes for a cell, and 2 for a site.
 
-#![allow(unsafe_code)]
+mod entries;
 
+use self::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
 use super::bicell::BiCell;
-use crate::complex::{Cell, Complex, Corners, Facet, NONE};
+use crate::complex::{Complex, Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::machine::memory;
@@ -41,9 +42,6 @@ const UNFIT: u32 = 32;
 const ENOUGH: f64 = 64.0;
 /// How many cells or bi-cells in advance to ask for.
 const AHEAD: usize = 8;
-/// Cells looked at in one go.
-const BLOCK: usize = 64;
-
 /// Bi-cells whose tolerances are to be computed together.
 #[derive(Debug, Default)]
 struct Batch<G: Dimension> {
@@ -115,54 +113,6 @@ impl<G: Dimension> Check<'_, G> {
             }
         }
     }
-}
-
-fn deadline(entry: u32) -> u16 {
-    entry as u16
-}
-
-fn slack(entry: u32) -> i16 {
-    (entry >> 16) as i16
-}
-
-fn entry(deadline: u16, slack: i16) -> u32 {
-    u32::from(deadline) | u32::from(slack as u16) << 16
-}
-
-/// The least slack of a cell.
-#[inline(always)]
-fn least<C: Corners>(entries: &C) -> i16 {
-    let mut least = slack(entries[0]);
-    for i in 1..C::N {
-        least = least.min(slack(entries[i]));
-    }
-    least
-}
-
-/// Lists those of at most [`BLOCK`] cells of which a corner has passed its deadline, by a loop without branches: they cannot
-/// be predicted. The corners must be indices of odometers.
-#[inline(never)]
-fn list_expired_of<'l, C: Corners>(
-    cells: &[Cell<C>],
-    entries: &[C],
-    travelled: &[u16],
-    listed: &'l mut [u32; BLOCK],
-) -> &'l [u32] {
-    let mut n = 0;
-    for (k, (cell, entries)) in cells.iter().zip(entries).enumerate() {
-        if cell.corners[0] == NONE {
-            continue;
-        }
-        let mut differences = 0;
-        for i in 0..C::N {
-            // SAFETY: the caller's promise; a free cell, which has no corners, is not here.
-            let travelled = unsafe { *travelled.get_unchecked(cell.corners[i] as usize) };
-            differences |= entries[i].wrapping_sub(u32::from(travelled));
-        }
-        listed[n % BLOCK] = k as u32;
-        n += (differences >> 15 & 1) as usize;
-    }
-    &listed[..n]
 }
 
 impl<G: Dimension> Slacks<G> {
