@@ -10,7 +10,7 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 6] = ["status", "options", "triangulation", "motion", "changes", "query"];
+const SOURCES: [&str; 7] = ["status", "options", "triangulation", "motion", "changes", "state", "query"];
 
 /// With `DELDRIFT_UPDATE_HEADER=1` the files are written instead.
 #[test]

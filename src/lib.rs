@@ -12,25 +12,25 @@
 //!    Whatever the algorithm and the history, they are the cells that rebuilding gives.
 //! 4. A call that fails has no effect.
 //!
-//! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `delaunay` → `complex` → `predicates`.
-//! What is public in the last three is so for the layers above: it trusts its arguments, so none of it leaves the crate.
+//! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `delaunay` → `complex` → `predicates` →
+//! `machine`. What is public in the last four is so for the layers above: it trusts its arguments, so none of it leaves
+//! the crate.
 
 pub mod capi;
 mod complex;
 mod delaunay;
 mod error;
+mod machine;
 pub mod motion;
 mod predicates;
-mod prefetch;
-mod processors;
 #[cfg(test)]
 #[path = "../tests/common/random.rs"]
 mod random;
 mod simd;
-mod threads;
 
-pub use delaunay::{Coordinates, Dimension, Plane, Space};
+pub use delaunay::{Dimension, Plane, Space};
 pub use error::{Error, Result};
+pub use predicates::Coordinates;
 
 /// The parts below [`motion`], for the crate's own tests and benchmarks. They trust their arguments, wrong indices are
 /// undefined behaviour, and any version may change them.

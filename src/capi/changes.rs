@@ -1,8 +1,7 @@
 //! The change list: what a program has to know that keeps something for each cell.
 
 use super::fence;
-use super::pointers;
-use super::query::start_of;
+use super::pointers::{self, start_of};
 use super::status::deldrift_status;
 use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::motion::Changes;

@@ -18,7 +18,7 @@ use std::sync::{Once, OnceLock};
 use super::pointers;
 use super::status::{Failure, deldrift_status};
 use super::triangulation::{Kernel, deldrift_triangulation};
-use crate::threads;
+use crate::machine::threads;
 
 /// Runs the body of an entry.
 pub(super) fn enter(body: impl FnOnce() -> Result<(), Failure>) -> deldrift_status {

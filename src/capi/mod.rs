@@ -41,6 +41,7 @@ mod motion;
 mod options;
 mod pointers;
 mod query;
+mod state;
 mod status;
 mod triangulation;
 
@@ -48,5 +49,6 @@ pub use changes::*;
 pub use motion::*;
 pub use options::*;
 pub use query::*;
+pub use state::*;
 pub use status::*;
 pub use triangulation::*;

@@ -6,7 +6,7 @@ use std::ptr;
 
 use super::pointers;
 use super::status::Failure;
-use crate::complex::memory;
+use crate::machine::memory;
 use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRule};
 
 /// What happens when vertices come to lie at the same place.

@@ -4,7 +4,7 @@
 //! of them as it is told, for as long as the call lasts; outputs may be uninitialised.
 
 use std::mem::MaybeUninit;
-use std::slice;
+use std::{ptr, slice};
 
 use super::status::Failure;
 
@@ -66,6 +66,44 @@ pub(super) unsafe fn fill<T: Copy>(
     for (place, &value) in places.iter_mut().zip(values) {
         place.write(value);
     }
+    Ok(())
+}
+
+/// Where a list begins, NULL if it is empty: an empty slice of Rust begins at an address that means
+/// nothing to C.
+pub(super) fn start_of<T>(list: &[T]) -> *const T {
+    if list.is_empty() { ptr::null() } else { list.as_ptr() }
+}
+
+/// What the caller has provided for a copy.
+pub(super) struct Room {
+    pub(super) capacity: usize,
+    pub(super) count: *mut usize,
+}
+
+/// Copies `needed` entries to the buffers that are not NULL, if they are large enough, and tells the count.
+///
+/// # Safety
+/// `room.count` is NULL, misaligned or a place for a count.
+pub(super) unsafe fn copy_out(
+    room: Room,
+    needed: usize,
+    buffers: &[(&'static str, *mut u8)],
+    copy: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    // SAFETY: the caller's promise.
+    let count = unsafe { output("count", room.count) }?;
+    if buffers.iter().all(|(_, buffer)| buffer.is_null()) {
+        if room.capacity > 0 {
+            return Err(Failure::Null { argument: buffers[0].0 });
+        }
+    } else if room.capacity < needed {
+        count.write(needed);
+        return Err(Failure::BufferTooSmall { argument: "capacity", capacity: room.capacity, needed });
+    } else {
+        copy()?;
+    }
+    count.write(needed);
     Ok(())
 }
 

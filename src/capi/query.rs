@@ -1,10 +1,9 @@
-//! Queries: counts, positions, cells, and what is where. None changes the triangulation.
-
-use std::ptr;
+//! Queries: cells, and what is where. None changes the triangulation.
 
 use super::fence;
-use super::motion::{deldrift_commit_report, point_for};
-use super::pointers;
+use super::motion::point_for;
+use super::pointers::{self, Room, copy_out, start_of};
+use super::state::pointer_for;
 use super::status::{Failure, deldrift_status};
 use super::triangulation::{deldrift_triangulation, dimension_of, in_its_dimension, tell};
 use crate::delaunay::{Dimension, IndexSet};
@@ -77,157 +76,6 @@ impl From<Location> for deldrift_location {
             Location::NoCells => (deldrift_location_kind::DELDRIFT_LOCATION_NO_CELLS, DELDRIFT_NONE),
         };
         Self { kind, index }
-    }
-}
-
-/// How many vertices are present, hidden ones included and removed ones not, to *count.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_vertex_count(
-    t: *const deldrift_triangulation,
-    count: *mut usize,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.vertex_count()) }
-}
-
-/// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
-/// ids are below it, those of removed vertices too.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_id_count(
-    t: *const deldrift_triangulation,
-    count: *mut usize,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.id_count()) }
-}
-
-/// How many cells there are, to *count.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_cell_count(
-    t: *const deldrift_triangulation,
-    count: *mut usize,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.cell_count()) }
-}
-
-/// How many moves are staged for the next timestamp, to *count.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_staged_count(
-    t: *const deldrift_triangulation,
-    count: *mut usize,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.staged_count()) }
-}
-
-/// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
-/// for later calls included, and without what the system's allocator adds to each of its arrays.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_memory_bytes(
-    t: *const deldrift_triangulation,
-    bytes: *mut usize,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, bytes, t => size_of::<deldrift_triangulation>() + t.memory_bytes()) }
-}
-
-/// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_timestamp(
-    t: *const deldrift_triangulation,
-    timestamp: *mut u64,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, timestamp, t => t.timestamp()) }
-}
-
-/// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
-/// coincident are those of now.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_statistics(
-    t: *const deldrift_triangulation,
-    report: *mut deldrift_commit_report,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, report, t => t.statistics().into()) }
-}
-
-/// Whether a vertex of this id is present, to *present: false if it has been removed or never was.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_is_present(
-    t: *const deldrift_triangulation,
-    vertex: u32,
-    present: *mut bool,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, present, t => t.is_present(vertex)) }
-}
-
-/// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX. Constant time.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_position(
-    t: *const deldrift_triangulation,
-    vertex: u32,
-    position: *mut f64,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let place = pointers::output("position", pointer_for(t, position))?;
-                place.write(t.position(vertex)?);
-            });
-            Ok(())
-        })
-    }
-}
-
-/// The positions of all ids, in their order, 2 or 3 numbers each; those of removed vertices are NaN.
-///
-/// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
-/// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_copy_positions(
-    t: *const deldrift_triangulation,
-    positions: *mut f64,
-    capacity: usize,
-    count: *mut usize,
-) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let (positions, needed) = (pointer_for(t, positions), t.id_count());
-                copy_out(Room { capacity, count }, needed, &[("positions", positions.cast())], || {
-                    let places = pointers::buffer("positions", positions, needed)?;
-                    for (vertex, place) in (0..).zip(places) {
-                        place.write(position_or_nan(t, vertex));
-                    }
-                    Ok(())
-                })
-            })
-        })
     }
 }
 
@@ -507,52 +355,6 @@ pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, lev
     }
 }
 
-/// What the caller has provided for a copy.
-struct Room {
-    capacity: usize,
-    count: *mut usize,
-}
-
-/// Copies `needed` entries to the buffers that are not NULL, if they are large enough, and tells the count.
-///
-/// # Safety
-/// `room.count` is NULL, misaligned or a place for a count.
-unsafe fn copy_out(
-    room: Room,
-    needed: usize,
-    buffers: &[(&'static str, *mut u8)],
-    copy: impl FnOnce() -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    // SAFETY: the caller's promise.
-    let count = unsafe { pointers::output("count", room.count) }?;
-    if buffers.iter().all(|(_, buffer)| buffer.is_null()) {
-        if room.capacity > 0 {
-            return Err(Failure::Null { argument: buffers[0].0 });
-        }
-    } else if room.capacity < needed {
-        count.write(needed);
-        return Err(Failure::BufferTooSmall { argument: "capacity", capacity: room.capacity, needed });
-    } else {
-        copy()?;
-    }
-    count.write(needed);
-    Ok(())
-}
-
-/// A pointer to numbers as one to points of the dimension of `t`.
-fn pointer_for<G: Dimension>(_t: &MovingTriangulation<G>, positions: *mut f64) -> *mut G::Point {
-    positions.cast()
-}
-
-/// The position of a vertex, NaN if it has been removed.
-fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: u32) -> G::Point {
-    t.position(vertex).unwrap_or_else(|_| {
-        let mut nowhere = G::Point::default();
-        (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
-        nowhere
-    })
-}
-
 fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_cells_view, Failure> {
     let CellsView { corners, neighbours } = t.cells()?;
     Ok(deldrift_cells_view {
@@ -561,10 +363,4 @@ fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_ce
         vertices: start_of(corners).cast(),
         neighbours: start_of(neighbours).cast(),
     })
-}
-
-/// Where a list begins, NULL if it is empty: an empty slice of Rust begins at an address that means
-/// nothing to C.
-pub(super) fn start_of<T>(list: &[T]) -> *const T {
-    if list.is_empty() { ptr::null() } else { list.as_ptr() }
 }

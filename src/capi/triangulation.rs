@@ -8,9 +8,9 @@ use super::fence;
 use super::options::{self, AlgorithmCode, deldrift_options};
 use super::pointers;
 use super::status::{Failure, deldrift_status};
-use crate::complex::memory;
 use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::Error;
+use crate::machine::memory;
 use crate::motion::{MAX_VERTICES, MovingTriangulation};
 
 /// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.

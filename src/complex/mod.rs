@@ -17,19 +17,19 @@
 
 #![allow(unsafe_code)]
 
+mod cell;
 mod corners;
 mod flips;
-pub(crate) mod memory;
 mod record;
 
-use std::fmt;
-
+pub use cell::{Cell, Facet};
 pub use corners::Corners;
 pub use flips::{Obstacle, Stretch};
 pub use record::Row;
 
 use crate::error::{Error, Result};
-use crate::prefetch::prefetch;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 use record::Record;
 
 /// The ghost vertex: index 0 of the sites.
@@ -38,97 +38,6 @@ pub const INFINITE: u32 = 0;
 pub const NONE: u32 = u32::MAX;
 /// Greatest number of cells: a little below 2^30, so that codes are left to name cells in the making.
 pub const MAX_CELLS: usize = (1 << 30) - 4096;
-
-/// A facet as seen from one of its two cells: the cell, and the index of the corner opposite the facet.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Facet(u32);
-
-impl Facet {
-    /// The facet of `cell` opposite corner `i`.
-    #[inline(always)]
-    pub fn new(cell: u32, i: usize) -> Self {
-        Facet(cell << 2 | i as u32)
-    }
-
-    /// The facet of which [`code`](Self::code) is the number.
-    #[inline(always)]
-    pub fn from_code(code: u32) -> Self {
-        Facet(code)
-    }
-
-    /// One number for cell and index.
-    #[inline(always)]
-    pub fn code(self) -> u32 {
-        self.0
-    }
-
-    /// The cell.
-    #[inline(always)]
-    pub fn cell(self) -> u32 {
-        self.0 >> 2
-    }
-
-    /// The index of the opposite corner.
-    #[inline(always)]
-    pub fn index(self) -> usize {
-        (self.0 & 3) as usize
-    }
-}
-
-impl fmt::Debug for Facet {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}", self.cell(), self.index())
-    }
-}
-
-/// A cell: its corners and, opposite each, the facet by which it touches its neighbour.
-#[derive(Clone, Copy, Debug)]
-#[repr(C)]
-pub struct Cell<C: Corners> {
-    alignment: [C::Alignment; 0],
-    /// Sites at the corners.
-    pub corners: C,
-    /// Codes of the neighbours' facets.
-    neighbours: C,
-}
-
-impl<C: Corners> Cell<C> {
-    /// No cell.
-    fn free() -> Self {
-        Cell { alignment: [], corners: C::filled(NONE), neighbours: C::filled(NONE) }
-    }
-
-    /// Whether it is no cell.
-    #[inline(always)]
-    pub(crate) fn is_free(&self) -> bool {
-        self.corners[0] == NONE
-    }
-
-    /// Whether the last corner is the ghost vertex.
-    #[inline(always)]
-    pub fn is_ghost(&self) -> bool {
-        self.corners[C::N - 1] == INFINITE
-    }
-
-    /// The facet opposite corner `i`, seen from the neighbour.
-    #[inline(always)]
-    pub fn neighbour(&self, i: usize) -> Facet {
-        Facet(self.neighbours[i])
-    }
-
-    /// Index of a corner that the cell is known to have.
-    #[inline(always)]
-    pub fn index_of(&self, site: u32) -> usize {
-        let mut at = 0;
-        for i in 1..C::N {
-            if self.corners[i] == site {
-                at = i;
-            }
-        }
-        debug_assert_eq!(self.corners[at], site);
-        at
-    }
-}
 
 /// The free indices among those of `n_live` sorted cells: one after every `gap_after` of them.
 fn gaps(n_live: usize, gap_after: usize) -> impl Iterator<Item = u32> {

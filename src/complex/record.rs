@@ -9,8 +9,9 @@
 //! that one is put back. Rows are put back in the opposite order: a row that was noted after a neighbour had changed
 //! has a gluing to what came in its place, and the neighbour's own row, put back later, mends that.
 
-use super::{Cell, Complex, Corners, Facet, NONE, memory};
+use super::{Cell, Complex, Corners, Facet, NONE};
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Records of more rows than one cell in `KEPT`, and of more than `SMALL` rows, are not kept as scratch memory.
 const KEPT: usize = 16;

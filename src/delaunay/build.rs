@@ -4,11 +4,13 @@
 //! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean distance of
 //! sites that are next to each other in storage tells when to sort again.
 
-use super::cavity::Cavity;
+use super::cavity::{Cavity, Insert};
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, INFINITE, NONE, memory};
+use crate::complex::{Corners, INFINITE, NONE};
 use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::predicates::distance_above;
 
 /// A vertex that is hidden by one of a lower id at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,9 +153,9 @@ impl<G: Dimension> Delaunay<G> {
         order: &[u32],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(u32, u32)>> {
-        G::begin_build(self)?;
+        self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;
         let inserted = self.insert_while_begun(order, monitor);
-        G::end_build(self);
+        self.cavity.scratch.end_build();
         inserted
     }
 
@@ -303,7 +305,7 @@ impl<G: Dimension> Delaunay<G> {
         let step = (sites.len() / STRIDES).max(1);
         let (mut sum, mut n) = (0.0, 0.0);
         for pair in sites.windows(2).step_by(step).filter(|pair| pair.iter().all(Site::is_live)) {
-            sum += G::distance_above(&pair[0].point, &pair[1].point);
+            sum += distance_above(&pair[0].point, &pair[1].point);
             n += 1.0;
         }
         if n > 0.0 { sum / n } else { 0.0 }

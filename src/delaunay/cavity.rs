@@ -9,9 +9,12 @@
 //! Cost: in expectation 6 cells made and 4 deleted in the plane, about 27 and 20 in space, with one in-sphere test
 //! for each deleted cell and each rim facet.
 
+use std::fmt::Debug;
+
 use super::{Delaunay, Dimension};
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// What an insertion found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +25,30 @@ pub enum Insertion {
     Coincident(u32),
     /// There were no cells, and with the site there would be: a kernel has to be built. Nothing has changed.
     Spans,
+}
+
+/// How a dimension inserts, and the scratch memory for that.
+pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
+    /// Gets ready to insert very many sites, of which cells will be so many: after that, and until
+    /// [`end_build`](Self::end_build), `BUILD` is true.
+    fn begin_build(&mut self, _n_cells: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// Frees what [`begin_build`](Self::begin_build) made.
+    fn end_build(&mut self) {}
+
+    /// Bytes held.
+    fn memory_bytes(&self) -> usize;
+
+    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site. Lists
+    /// the new cells in `cavity`. After an error nothing has changed.
+    fn insert<const BUILD: bool>(
+        t: &mut Delaunay<G>,
+        cavity: &mut Cavity<G>,
+        start: u32,
+        s: u32,
+    ) -> Result<()>;
 }
 
 /// Scratch memory of insertions.
@@ -43,7 +70,7 @@ impl<G: Dimension> Default for Cavity<G> {
 
 impl<G: Dimension> Cavity<G> {
     pub(super) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.cells) + G::scratch_bytes(&self.scratch)
+        memory::bytes_of(&self.cells) + self.scratch.memory_bytes()
     }
 
     /// The cells made by the last insertion.
@@ -79,8 +106,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Inserts a site that has been added, walking from the cell `near`, with the scratch memory at hand. There must be
-    /// cells, and the filter must cover the site. `BUILD` if between [`begin_build`](Dimension::begin_build) and
-    /// [`end_build`](Dimension::end_build).
+    /// cells, and the filter must cover the site. `BUILD` if between [`begin_build`](Insert::begin_build) and
+    /// [`end_build`](Insert::end_build).
     #[inline(always)]
     pub(super) fn insert_into_cells<const BUILD: bool>(
         &mut self,
@@ -93,7 +120,7 @@ impl<G: Dimension> Delaunay<G> {
         if let Some(t) = self.corner_at(start, &q) {
             return Ok(Insertion::Coincident(t));
         }
-        G::insert::<BUILD>(self, cavity, start, s)?;
+        G::Scratch::insert::<BUILD>(self, cavity, start, s)?;
         self.recent = cavity.cells[0];
         self.sites[s as usize].cell = cavity.cells[0];
         Ok(Insertion::New)

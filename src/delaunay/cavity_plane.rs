@@ -10,10 +10,12 @@
 
 #![allow(unsafe_code)]
 
-use super::cavity::Cavity;
-use super::{Delaunay, Dimension, Plane};
-use crate::complex::{Facet, INFINITE, memory};
+use super::cavity::{Cavity, Insert};
+use super::kernel::Kernel;
+use super::{Delaunay, Plane};
+use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
+use crate::machine::memory;
 use crate::predicates::{Lifted, side_of_seen_circle};
 
 /// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.
@@ -25,9 +27,34 @@ pub struct Scratch {
     rim: Vec<(u32, Facet)>,
 }
 
-impl Scratch {
-    pub(super) fn memory_bytes(&self) -> usize {
+impl Insert<Plane> for Scratch {
+    fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.turns) + memory::bytes_of(&self.rim)
+    }
+
+    #[inline(always)]
+    fn insert<const BUILD: bool>(
+        t: &mut Delaunay<Plane>,
+        cavity: &mut Cavity<Plane>,
+        start: u32,
+        s: u32,
+    ) -> Result<()> {
+        // A polygon has two edges more than triangles.
+        t.complex.reserve(2)?;
+        let zone = dig(t, cavity, start, s)?;
+        t.reserve_record(zone.n_cells + 2)?;
+        t.complex.note_all(cavity.cells[..zone.n_cells].iter().copied())?;
+        t.complex.reserve_rows(2)?;
+        for k in zone.n_cells..zone.n_cells + 2 {
+            cavity.cells[k] = t.complex.create_blank();
+        }
+        cavity.n_cells = zone.n_cells + 2;
+        fill(t, cavity, s);
+        if zone.n_ghosts > 0 {
+            t.complex.retire_ghosts(zone.n_ghosts);
+            put_ghosts(t, cavity, s);
+        }
+        Ok(())
     }
 }
 
@@ -59,27 +86,6 @@ impl Edge {
         let [right, left] = [start, end].map(|s| Lifted::new(t.view().point(s), q));
         Edge { out: cell.neighbour(i), start, right, left, cross: right.cross(&left) }
     }
-}
-
-/// Replaces the zone of the site `s`, of which the cell `start` is one, by the triangles that join its rim to the site.
-#[inline(always)]
-pub(super) fn insert(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Result<()> {
-    // A polygon has two edges more than triangles.
-    t.complex.reserve(2)?;
-    let zone = dig(t, cavity, start, s)?;
-    t.reserve_record(zone.n_cells + 2)?;
-    t.complex.note_all(cavity.cells[..zone.n_cells].iter().copied())?;
-    t.complex.reserve_rows(2)?;
-    for k in zone.n_cells..zone.n_cells + 2 {
-        cavity.cells[k] = t.complex.create_blank();
-    }
-    cavity.n_cells = zone.n_cells + 2;
-    fill(t, cavity, s);
-    if zone.n_ghosts > 0 {
-        t.complex.retire_ghosts(zone.n_ghosts);
-        put_ghosts(t, cavity, s);
-    }
-    Ok(())
 }
 
 /// Finds the zone of `s` from one cell of it, and its rim.

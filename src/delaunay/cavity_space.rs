@@ -8,11 +8,12 @@
 //!
 //! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept.
 
-use super::cavity::Cavity;
+use super::cavity::{Cavity, Insert};
 use super::spheres::Spheres;
 use super::{Delaunay, Space};
-use crate::complex::{Facet, memory};
+use crate::complex::Facet;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
 const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
@@ -45,8 +46,16 @@ pub struct Scratch {
     pub(super) spheres: Spheres,
 }
 
-impl Scratch {
-    pub(super) fn memory_bytes(&self) -> usize {
+impl Insert<Space> for Scratch {
+    fn begin_build(&mut self, n_cells: usize) -> Result<()> {
+        self.spheres.begin(n_cells)
+    }
+
+    fn end_build(&mut self) {
+        self.spheres.end();
+    }
+
+    fn memory_bytes(&self) -> usize {
         let Meetings { table, labels, local } = &self.meetings;
         memory::bytes_of(&self.zone)
             + memory::bytes_of(&self.rim)
@@ -54,6 +63,38 @@ impl Scratch {
             + memory::bytes_of(labels)
             + memory::bytes_of(local)
             + self.spheres.memory_bytes()
+    }
+
+    #[inline(always)]
+    fn insert<const BUILD: bool>(
+        t: &mut Delaunay<Space>,
+        cavity: &mut Cavity<Space>,
+        start: u32,
+        s: u32,
+    ) -> Result<()> {
+        let Cavity { cells, scratch, .. } = cavity;
+        let mut ridges = Vec::new();
+        let dug = dig::<BUILD>(t, scratch, start, s);
+        if let Err(error) = dug.and_then(|()| reserve(t, cells, &mut ridges, scratch)) {
+            for &c in &scratch.zone[..scratch.n_zone] {
+                t.complex.set_mark(c, 0);
+            }
+            return Err(error);
+        }
+        let (zone, n_rim) = (&scratch.zone[..scratch.n_zone], scratch.n_rim);
+        t.complex.retire_ghosts(scratch.n_ghosts);
+        // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
+        let reused = zone.len().min(n_rim);
+        for &c in &zone[reused..] {
+            t.complex.release(c);
+        }
+        cells.extend_from_slice(&zone[..reused]);
+        for _ in reused..n_rim {
+            cells.push(t.complex.create_blank());
+        }
+        glue::<BUILD>(t, cells, scratch, ridges);
+        cavity.n_cells = n_rim;
+        Ok(())
     }
 }
 
@@ -77,39 +118,6 @@ fn joined([a, b, c, d]: [u32; 4], i: usize, s: u32) -> [u32; 4] {
         2 => [s, a, b, d],
         _ => [s, c, b, a],
     }
-}
-
-/// Replaces the zone of the site `s`, of which the cell `start` is one, by the cells that join its rim to the site.
-#[inline(always)]
-pub(super) fn insert<const BUILD: bool>(
-    t: &mut Delaunay<Space>,
-    cavity: &mut Cavity<Space>,
-    start: u32,
-    s: u32,
-) -> Result<()> {
-    let Cavity { cells, scratch, .. } = cavity;
-    let mut ridges = Vec::new();
-    let dug = dig::<BUILD>(t, scratch, start, s);
-    if let Err(error) = dug.and_then(|()| reserve(t, cells, &mut ridges, scratch)) {
-        for &c in &scratch.zone[..scratch.n_zone] {
-            t.complex.set_mark(c, 0);
-        }
-        return Err(error);
-    }
-    let (zone, n_rim) = (&scratch.zone[..scratch.n_zone], scratch.n_rim);
-    t.complex.retire_ghosts(scratch.n_ghosts);
-    // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
-    let reused = zone.len().min(n_rim);
-    for &c in &zone[reused..] {
-        t.complex.release(c);
-    }
-    cells.extend_from_slice(&zone[..reused]);
-    for _ in reused..n_rim {
-        cells.push(t.complex.create_blank());
-    }
-    glue::<BUILD>(t, cells, scratch, ridges);
-    cavity.n_cells = n_rim;
-    Ok(())
 }
 
 /// Makes room for all that the new cells need.

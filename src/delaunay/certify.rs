@@ -8,40 +8,19 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use super::{Delaunay, Dimension, Plane, Space};
-use crate::complex::{Cell, Corners, Facet, INFINITE, memory};
+use super::{Delaunay, Dimension, Failures};
+use crate::complex::{Cell, Corners, Facet};
 use crate::error::Result;
-use crate::predicates;
+use crate::machine::memory;
+use crate::machine::threads;
 use crate::simd::{Avx2, LANES};
-use crate::threads;
 
 /// A sweep of so many cells takes as long as to start a thread for them.
 const SWEPT_AT_LEAST: usize = 1 << 14;
 
 /// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order at
-/// all ([`prefetch::FAR`](crate::prefetch)), as most neighbours are stored close by.
+/// all ([`prefetch::FAR`](crate::machine::prefetch)), as most neighbours are stored close by.
 const FAR: usize = 4 << 20;
-
-/// What does not hold.
-#[derive(Debug, Default)]
-pub struct Failures {
-    /// Finite cells that are not positively oriented.
-    pub cells: Vec<u32>,
-    /// Facets between finite cells that fail the empty-sphere test, those of cells that are not positively oriented left
-    /// out: they are to be tested once these are.
-    pub facets: Vec<Facet>,
-    /// Ridges of the hull that are not convex, as facets of ghost cells.
-    pub ridges: Vec<Facet>,
-    /// Ghost cells whose ridges have not been looked at.
-    pub open_ghosts: Vec<u32>,
-    /// All ghost cells, after a sweep.
-    pub ghosts: Vec<u32>,
-    /// Whether a sweep has to find out what has failed.
-    pub are_open: bool,
-    /// Whether, even if the hull is convex at every ridge, it may wind more than once: some may not have been convex all
-    /// the way.
-    pub may_wind: bool,
-}
 
 /// Facets between finite cells that wait until they are as many as can be checked together.
 #[derive(Debug)]
@@ -53,44 +32,6 @@ pub(crate) struct Waiting {
 impl Default for Waiting {
     fn default() -> Self {
         Waiting { facets: [Facet::new(0, 0); LANES], n: 0 }
-    }
-}
-
-impl Failures {
-    /// Bytes held.
-    pub fn memory_bytes(&self) -> usize {
-        let lists = [&self.cells, &self.open_ghosts, &self.ghosts].map(memory::bytes_of);
-        let facets = [&self.facets, &self.ridges].map(memory::bytes_of);
-        lists.iter().chain(&facets).sum()
-    }
-
-    /// Forgets everything; keeps the memory.
-    pub fn clear(&mut self) {
-        self.cells.clear();
-        self.facets.clear();
-        self.ridges.clear();
-        self.open_ghosts.clear();
-        self.ghosts.clear();
-        self.are_open = false;
-        self.may_wind = false;
-    }
-
-    /// Whether nothing has failed.
-    pub fn are_none(&self) -> bool {
-        self.is_triangulation() && self.facets.is_empty() && !self.are_open
-    }
-
-    /// Whether all cells are positive and the hull is convex and winds once.
-    pub fn is_triangulation(&self) -> bool {
-        self.cells.is_empty() && self.ridges.is_empty() && !self.may_wind
-    }
-
-    /// Adds those of a later range.
-    fn append(&mut self, later: &Failures) -> Result<()> {
-        memory::append(&mut self.cells, &later.cells)?;
-        memory::append(&mut self.facets, &later.facets)?;
-        memory::append(&mut self.ridges, &later.ridges)?;
-        memory::append(&mut self.ghosts, &later.ghosts)
     }
 }
 
@@ -466,73 +407,10 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-/// Whether a finite triangle surely is positively oriented and has no other corner of a neighbour in its circle.
-#[inline(always)]
-pub(super) fn triangle_holds(t: &Delaunay<Plane>, c: u32) -> bool {
-    let cell = t.complex.cell(c);
-    let [a, b, d] = cell.corners.map(|s| t.view().point(s));
-    let circle = predicates::circle(a, b, d);
-    let side = |i| {
-        let apex = t.complex.apex(cell.neighbour(i));
-        let side = predicates::side_of_circle(&circle, a, t.view().point(apex));
-        if apex == INFINITE { f64::NEG_INFINITY } else { side }
-    };
-    let greatest = max(max(side(0), side(1)), side(2));
-    circle[2] > t.filter.orient && greatest < -t.filter.prepared
-}
-
-/// Likewise for a tetrahedron.
-#[inline(always)]
-pub(super) fn tetrahedron_holds(t: &Delaunay<Space>, c: u32) -> bool {
-    let cell = t.complex.cell(c);
-    let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
-    let sphere = predicates::sphere(a, b, d, e);
-    let side = |i| {
-        let apex = t.complex.apex(cell.neighbour(i));
-        let side = predicates::side_of_sphere(&sphere, a, t.view().point(apex));
-        if apex == INFINITE { f64::NEG_INFINITY } else { side }
-    };
-    let greatest = max(max(side(0), side(1)), max(side(2), side(3)));
-    sphere[3] > t.filter.orient && greatest < -t.filter.prepared
-}
-
-/// Whether the bi-cell of an edge between finite triangles surely passes [`Delaunay::check_bicell`].
-#[inline(always)]
-pub(super) fn bicell_holds_in_plane(t: &Delaunay<Plane>, edge: Facet) -> bool {
-    let cell = t.complex.cell(edge.cell());
-    let across = cell.neighbour(edge.index());
-    let corners = t.complex.cell(across.cell()).corners;
-    let [a, b, d] = cell.corners.map(|s| t.view().point(s));
-    let circle = predicates::circle(a, b, d);
-    let side = predicates::side_of_circle(&circle, a, t.view().point(corners[across.index()]));
-    let [a, b, d] = corners.map(|s| t.view().point(s));
-    let beyond = predicates::circle(a, b, d);
-    circle[2] > t.filter.orient && beyond[2] > t.filter.orient && side < -t.filter.prepared
-}
-
-/// Likewise for a facet between finite tetrahedra.
-#[inline(always)]
-pub(super) fn bicell_holds_in_space(t: &Delaunay<Space>, facet: Facet) -> bool {
-    let cell = t.complex.cell(facet.cell());
-    let across = cell.neighbour(facet.index());
-    let corners = t.complex.cell(across.cell()).corners;
-    let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
-    let sphere = predicates::sphere(a, b, d, e);
-    let side = predicates::side_of_sphere(&sphere, a, t.view().point(corners[across.index()]));
-    let beyond = corners.map(|s| t.view().point(s));
-    let volume = predicates::sphere(beyond[0], beyond[1], beyond[2], beyond[3])[3];
-    sphere[3] > t.filter.orient && volume > t.filter.orient && side < -t.filter.prepared
-}
-
-/// The greater one, in one instruction.
-#[inline(always)]
-fn max(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::delaunay::Space;
 
     /// Whether the hull of a pyramid is convex at the diagonal of its base after one vertex of that, not on the diagonal,
     /// has gone to a place.

@@ -8,8 +8,9 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use super::{Delaunay, Dimension, Insertion};
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Places and basis; empty while there are cells.
 #[derive(Debug, Default)]

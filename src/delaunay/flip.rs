@@ -16,11 +16,12 @@
 //! later. Sites keep their old cells until no flip will be taken back.
 
 use super::site::Sites;
-use super::{Delaunay, Dimension, Plane, Space};
-use crate::complex::{Corners, Facet, INFINITE, Obstacle, Row, Stretch, memory};
+use super::{Delaunay, Dimension};
+use crate::complex::{Corners, Facet, INFINITE, Obstacle, Row, Stretch};
 use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::predicates::StaticFilter;
-use crate::prefetch::{AHEAD, prefetch};
 
 /// Failing facets for each thread that take longer to flip than the thread to start; and as many if the number of threads
 /// is the caller's choice.
@@ -48,7 +49,7 @@ pub struct Flips<G: Dimension> {
     /// Of each flip, two cells that have all its sites as corners.
     changed: Vec<u32>,
     /// The third cell of flips that have made one.
-    made: Vec<u32>,
+    pub(super) made: Vec<u32>,
     /// For undoing: the rows that each flip has changed.
     journal: Vec<Row<G::Corners>>,
     n_flips: u64,
@@ -112,7 +113,7 @@ impl<G: Dimension> Flips<G> {
 
     /// Enters a flip: facets on its boundary, of two cells that have all its sites, and the rows before.
     #[inline(always)]
-    fn enter<const N: usize, const ROWS: usize>(
+    pub(super) fn enter<const N: usize, const ROWS: usize>(
         &mut self,
         (outer, rows): ([Facet; N], [Row<G::Corners>; ROWS]),
     ) {
@@ -169,9 +170,9 @@ impl<G: Dimension> AllFlips<G> {
 
 /// Flips cells of a stretch.
 pub struct Flipper<'t, 's, G: Dimension> {
-    filter: &'t StaticFilter,
-    sites: Sites<'t, G>,
-    cells: &'t mut Stretch<'s, G::Corners>,
+    pub(super) filter: &'t StaticFilter,
+    pub(super) sites: Sites<'t, G>,
+    pub(super) cells: &'t mut Stretch<'s, G::Corners>,
 }
 
 impl<G: Dimension> Flipper<'_, '_, G> {
@@ -215,42 +216,6 @@ impl<G: Dimension> Flipper<'_, '_, G> {
         flips.reserve()?;
         G::flip(self, facet, flips)?;
         flips.n_flips += 1;
-        Ok(())
-    }
-}
-
-impl Flipper<'_, '_, Plane> {
-    pub(super) fn flip_edge(&mut self, edge: Facet, flips: &mut Flips<Plane>) -> Result<(), Obstacle> {
-        flips.enter(self.cells.flip_2_2(edge)?);
-        Ok(())
-    }
-}
-
-impl Flipper<'_, '_, Space> {
-    /// Flips if that makes positive cells.
-    pub(super) fn flip_face(&mut self, face: Facet, flips: &mut Flips<Space>) -> Result<(), Obstacle> {
-        let i = face.index();
-        let cell = self.cells.cell(face.cell())?;
-        let q = self.sites.point(self.cells.apex(cell.neighbour(i))?);
-        let others = [(i + 1) % 4, (i + 2) % 4, (i + 3) % 4];
-        // The orientation of the cell with q in place of each corner of the facet.
-        let signs = others.map(|k| Space::orientation_with(self.filter, self.sites, &cell.corners, k, q));
-        let mut not_positive = (0..3).filter(|&k| signs[k] <= 0.0);
-        match (not_positive.next(), not_positive.next()) {
-            (None, _) => {
-                let flipped = self.cells.flip_2_3(face)?;
-                flips.made.push(flipped.0[4].cell());
-                flips.enter(flipped);
-            }
-            // The segment between the opposing vertices meets the edge opposite one corner: beyond it, or in it.
-            (Some(k), None) if signs[k] < 0.0 => flips.enter(self.cells.flip_3_2(face, others[k])?),
-            (Some(k), None) => {
-                let flipped = self.cells.flip_4_4(face, others[k])?;
-                flips.made.push(flipped[0].0[4].cell());
-                flipped.into_iter().for_each(|flipped| flips.enter(flipped));
-            }
-            _ => return Err(Obstacle::Shape),
-        }
         Ok(())
     }
 }
@@ -442,143 +407,4 @@ impl<G: Dimension> Delaunay<G> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::delaunay::{Failures, Level};
-    use crate::random::Rng;
-    use crate::threads::Threads;
-
-    /// A triangulation whose sites have moved by up to `size` along each axis, and the facets that fail; no cell is
-    /// inverted.
-    fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<Facet>) {
-        let rng = &mut Rng::new(5);
-        let mut points = vec![G::Point::default(); n];
-        points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
-        let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
-        t.add_sites(&points).expect("room for it");
-        t.rebuild(&mut |_| true).expect("room for it");
-        t.sort_cells().expect("room for it");
-        let mut failures = Failures::default();
-        for s in t.live_sites().collect::<Vec<_>>() {
-            let old = t.site(s).point;
-            let mut q = old;
-            (0..G::D).for_each(|k| q[k] += size * (2.0 * rng.unit() - 1.0));
-            t.cover(&q, &q);
-            t.set_point(s, q);
-            failures.clear();
-            t.check_star(s, &mut failures).expect("room for it");
-            t.check_ridges(&mut failures, |_| None).expect("room for it");
-            if !failures.cells.is_empty() || !failures.ridges.is_empty() {
-                t.set_point(s, old);
-            }
-        }
-        assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
-        let facets = failures.facets;
-        (t, facets)
-    }
-
-    /// Flips on several threads lead to a Delaunay triangulation, and most of them are done side by side.
-    fn threads_flip<G: Dimension>(size: f64) {
-        for threads in [2, 3, 7] {
-            let (mut t, mut suspects) = moved::<G>(4000, threads, size);
-            assert!(suspects.len() > 300, "{}", suspects.len());
-            t.record_changes(Vec::new());
-            let mut stuck = Vec::new();
-            let n_flips = t.flip_all(&mut suspects, &mut stuck).expect("room for it");
-            assert_eq!(stuck, []);
-            t.validate(Level::Delaunay).expect("a Delaunay triangulation");
-            let parts: Vec<u64> = t.flips.parts.iter().map(|part| part.n_flips).collect();
-            assert_eq!(parts.len(), threads as usize);
-            assert!(parts.iter().all(|&n| n > 0), "{parts:?}");
-            assert!(2 * parts.iter().sum::<u64>() > n_flips, "{parts:?} of {n_flips}");
-            // All cells that are new are in the record.
-            let changed = t.take_changes().expect("a record");
-            let (old, _) = moved::<G>(4000, threads, size);
-            for c in t.complex.live().filter(|c| !changed.contains(c)) {
-                assert_eq!(t.complex.cell(c).corners, old.complex.cell(c).corners);
-            }
-        }
-    }
-
-    #[test]
-    fn threads_flip_in_the_plane() {
-        threads_flip::<Plane>(2e-3);
-    }
-
-    #[test]
-    fn threads_flip_in_space() {
-        threads_flip::<Space>(2e-3);
-    }
-
-    /// The four cells around the shorter diagonal of a square become those around the other one when it is the shorter,
-    /// also where those on one side are ghosts.
-    #[test]
-    fn diagonals_change_in_space() {
-        let square = |a: f64| [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, a, 0.0], [0.0, -a, 0.0]];
-        let sides = [[0.1, 0.2, 2.0], [0.1, -0.1, -2.0]];
-        for sides in [&sides[..], &sides[..1], &sides[1..]] {
-            let mut t = Delaunay::<Space>::default();
-            t.add_sites(&[&square(0.9)[..], sides].concat()).expect("room for it");
-            t.rebuild(&mut |_| true).expect("room for it");
-            assert_eq!(t.complex.n_finite(), 2 * sides.len());
-            let before: Vec<_> = t.complex.cells().iter().map(|cell| cell.corners).collect();
-            for s in t.live_sites().collect::<Vec<_>>() {
-                if let Some(place) = square(1.1).get(t.site(s).id as usize) {
-                    t.cover(place, place);
-                    t.set_point(s, *place);
-                }
-            }
-            let mut failures = Failures::default();
-            assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
-            t.check_ridges(&mut failures, |_| None).expect("room for it");
-            assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
-            let mut flips = AllFlips::default();
-            flips.own.suspects.clone_from(&failures.facets);
-            t.flip_as_far_as_possible(&mut flips, 1).expect("room for it");
-            t.flips = flips;
-            t.undo_flips();
-            t.validate(Level::Embedding).expect("cells as they were");
-            assert!(t.complex.cells().iter().map(|cell| cell.corners).take(before.len()).eq(before));
-            let mut stuck = Vec::new();
-            t.record_changes(Vec::new());
-            assert_eq!(t.flip_all(&mut failures.facets, &mut stuck), Ok(1));
-            assert_eq!(stuck, []);
-            // All four cells are new, and recorded.
-            let changed = t.take_changes().expect("a record");
-            assert_eq!(t.complex.live().filter(|c| changed.contains(c)).count(), 4);
-            assert_eq!(t.complex.n_finite(), 2 * sides.len());
-            t.validate(Level::Delaunay).expect("a Delaunay triangulation");
-        }
-    }
-
-    /// Flips on one or several threads are taken back: corners, gluings and free cells are as they were.
-    #[test]
-    fn flips_come_back() {
-        for threads in [1, 3] {
-            let (mut t, mut suspects) = moved::<Space>(2000, threads, 3e-3);
-            let places = |t: &Delaunay<Space>| {
-                let corners = t.complex.cells().iter().map(|cell| cell.corners);
-                let neighbours =
-                    t.complex.live().map(|c| [0, 1, 2, 3].map(|i| t.complex.cell(c).neighbour(i)));
-                (corners.collect::<Vec<_>>(), neighbours.collect::<Vec<_>>())
-            };
-            let (before, free) = (places(&t), t.complex.free_cells().to_vec());
-            let mut flips = std::mem::take(&mut t.flips);
-            flips.own.suspects.append(&mut suspects);
-            t.flip_as_far_as_possible(&mut flips, threads as usize).expect("room for it");
-            let n_flips =
-                flips.own.journal.len() + flips.parts.iter().map(|part| part.journal.len()).sum::<usize>();
-            assert!(n_flips > 100, "{n_flips}");
-            t.flips = flips;
-            assert_ne!(places(&t), before);
-            // One thread has had to make room.
-            assert!(threads > 1 || t.complex.n_slots() > before.0.len());
-            t.undo_flips();
-            let after = places(&t);
-            assert_eq!(after.0[..before.0.len()], before.0);
-            assert_eq!(after.1, before.1);
-            assert!(t.complex.free_cells().ends_with(&free));
-            t.validate(Level::Structure).expect("cells as they were");
-        }
-    }
-}
+mod tests;

@@ -7,9 +7,10 @@
 use std::collections::HashMap;
 
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, memory};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
-use crate::threads::Threads;
+use crate::machine::memory;
+use crate::machine::threads::Threads;
 
 impl<G: Dimension> Delaunay<G> {
     /// Fills the hole of the gathered star by the triangulation of its link. After an error nothing has changed.

@@ -8,8 +8,8 @@
 use super::{Delaunay, Dimension, IndexSet};
 use crate::complex::{Complex, Corners, NONE};
 use crate::error::Result;
+use crate::machine::prefetch::{FAR, prefetch};
 use crate::predicates::StaticFilter;
-use crate::prefetch::{FAR, prefetch};
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,6 +6,8 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `dimension` | the two dimensions, as types |
+//! | `kernel`, `plane`, `space` | predicates of sites, and what else differs between the dimensions |
 //! | `order` | Hilbert curve and insertion rounds |
 //! | `build` | all sites at once |
 //! | `parts`, `parallel`, `unite` | the same on several threads |
@@ -16,8 +18,9 @@
 //! | `relocate` | one site to a new place |
 //! | `flip` | flips, on several threads, and undoing them |
 //! | `undo` | undoing any change |
+//! | `changes` | a record of the cells made or moved |
 //! | `successor` | a kernel to be built beside another one |
-//! | `certify`, `screen` | all certificates at once |
+//! | `certify`, `screen`, `failures` | all certificates at once |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
 //! | `set` | small sets of indices |
@@ -34,19 +37,24 @@ mod cavity;
 mod cavity_plane;
 mod cavity_space;
 mod certify;
+mod changes;
 mod dimension;
+mod failures;
 mod flat;
 mod flip;
 mod hub;
+mod kernel;
 mod locate;
 pub mod order;
 mod parallel;
 mod parts;
+mod plane;
 mod relocate;
 mod remove;
 mod screen;
 mod set;
 pub mod site;
+mod space;
 mod spheres;
 mod successor;
 mod undo;
@@ -55,29 +63,26 @@ mod validate;
 
 pub use build::Merge;
 pub use cavity::Insertion;
-pub use certify::Failures;
 pub(crate) use certify::Waiting;
-pub use dimension::{Coordinates, Dimension, Plane, Space};
+pub use dimension::{Dimension, Plane, Space};
+pub use failures::Failures;
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
 pub(crate) use set::IndexSet;
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, Corners, Facet, INFINITE, memory};
+use crate::complex::{Complex, Corners, Facet, INFINITE};
 use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::machine::threads::Threads;
 use crate::predicates::StaticFilter;
-use crate::prefetch::prefetch;
-use crate::threads::Threads;
 use cavity::Cavity;
 use flat::Flat;
 use flip::AllFlips;
 use parts::Parts;
 use remove::Hole;
-
-/// Lists of more than one cell in this number are put in storage order, unless all cells are near the processor anyway.
-const SPARSE: usize = 32;
-const NEAR: usize = 1 << 14;
 
 /// A Delaunay triangulation of sites.
 #[derive(Debug)]
@@ -356,37 +361,6 @@ impl<G: Dimension> Delaunay<G> {
         self.certificates += n as u64;
     }
 
-    /// Starts a record of the cells that relocations, insertions and removals make or move, in `buffer`.
-    pub fn record_changes(&mut self, mut buffer: Vec<u32>) {
-        buffer.clear();
-        self.changed = Some(buffer);
-    }
-
-    /// Ends the record and returns it: cells, some of them more than once, some free again by now. `None` if
-    /// all cells are new since it was started, or it was not.
-    pub fn take_changes(&mut self) -> Option<Vec<u32>> {
-        self.changed.take()
-    }
-
-    /// Reduces a record to its live cells, each once.
-    pub(crate) fn tidy_changes(&mut self, changed: &mut Vec<u32>) {
-        let complex = &mut self.complex;
-        changed.retain(|&c| {
-            let is_first = complex.is_live(c) && complex.mark(c) == 0;
-            if is_first {
-                complex.set_mark(c, 1);
-            }
-            is_first
-        });
-        if complex.n_slots() > NEAR && changed.len() * SPARSE > complex.n_slots() {
-            changed.clear();
-            changed.extend((0..complex.n_slots() as u32).filter(|&c| complex.mark(c) != 0));
-        }
-        for &c in changed.iter() {
-            complex.set_mark(c, 0);
-        }
-    }
-
     /// Visits each facet of these cells, which are live and listed once, exactly once.
     pub(crate) fn for_facets_of(&mut self, cells: &[u32], mut visit: impl FnMut(&Self, Facet)) {
         for &c in cells {
@@ -414,32 +388,6 @@ impl<G: Dimension> Delaunay<G> {
             prefetch(&self.sites, cell.corners[i] as usize);
         }
         prefetch(self.complex.cells(), cell.neighbour(facet.index()).cell() as usize);
-    }
-
-    /// Makes room for `n` more cells in the record, if there is one.
-    #[inline(always)]
-    pub(crate) fn reserve_record(&mut self, n: usize) -> Result<()> {
-        match &mut self.changed {
-            Some(changed) => memory::reserve(changed, n),
-            None => Ok(()),
-        }
-    }
-
-    /// Enters cells into the record, if there is one; there must be [room](Self::reserve_record) for them.
-    #[inline(always)]
-    pub(crate) fn record(&mut self, cells: impl IntoIterator<Item = u32>) {
-        if let Some(changed) = &mut self.changed {
-            changed.extend(cells);
-        }
-    }
-
-    /// As [`record`](Self::record), of many.
-    pub(crate) fn record_all(&mut self, cells: &[u32]) -> Result<()> {
-        if let Some(changed) = &mut self.changed {
-            memory::reserve(changed, cells.len())?;
-            changed.extend_from_slice(cells);
-        }
-        Ok(())
     }
 
     /// Bytes held.

@@ -9,9 +9,9 @@
 //! uneven densities have, are sorted again in their own bounding box, so that clusters within clusters are still
 //! visited along a curve.
 
-use crate::complex::memory;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Lower and upper corner of the bounding box.
 pub fn bounding_box<'p, G: Dimension>(

@@ -20,9 +20,10 @@ use super::order::{bounding_box, in_rounds};
 use super::parts::{self, Parts};
 use super::unite::Open;
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{INFINITE, memory};
+use crate::complex::INFINITE;
 use crate::error::{Error, Result};
-use crate::threads::{self, Threads};
+use crate::machine::memory;
+use crate::machine::threads::{self, Threads};
 
 /// Share of the work that is done when the parts are triangulated, roughly.
 const SHARE_OF_PARTS: f64 = 0.8;

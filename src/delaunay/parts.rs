@@ -7,9 +7,10 @@
 
 use super::order::{Keyed, bounding_box, hilbert_order};
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{INFINITE, memory};
+use crate::complex::INFINITE;
 use crate::error::Result;
-use crate::threads;
+use crate::machine::memory;
+use crate::machine::threads;
 use std::ops::Range;
 
 /// A sample of this number of sites for each part puts each plane where the sizes of the parts differ by a

@@ -13,9 +13,10 @@
 
 use super::locate::list_star;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE, memory};
+use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE};
 use crate::error::Result;
-use crate::prefetch::prefetch;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 
 /// Link sites that the bit masks of facets can tell apart, the ghost vertex included.
 pub(super) const MAX_LINK: usize = 64;

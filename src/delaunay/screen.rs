@@ -3,13 +3,12 @@
 //! Nearly all cells hold after a motion. They are taken in blocks: first the sites beyond the facets of all
 //! cells of a block are looked up, then the certificates of four cells are evaluated together. The loads of
 //! the first step do not depend on each other, so that the processor waits for many at once. All facets are
-//! tested, from both sides, as in [`triangle_holds`](super::certify::triangle_holds).
+//! tested, from both sides, as in [`cell_holds`](super::kernel::Kernel::cell_holds).
 
-use super::{Delaunay, Dimension, Plane, Space};
+use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
-use crate::predicates;
-use crate::prefetch::{AHEAD, prefetch};
-use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::simd::{ALL, Avx2, LANES};
 
 /// Most cells of a block.
 const BLOCK: usize = 64;
@@ -82,46 +81,15 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-/// As [`bicell_holds_in_plane`](super::certify::bicell_holds_in_plane), of several edges, or by bounds that are sharper:
-/// one bit for each.
-#[inline(always)]
-pub(super) fn edges_hold(avx2: Avx2, t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
-    let [k, l, m, n] =
-        [corners_at(t, edges[0]), corners_at(t, edges[1]), corners_at(t, edges[2]), corners_at(t, edges[3])];
-    let bicells = [
-        places_in_plane(avx2, t, [k[0], l[0], m[0], n[0]]),
-        places_in_plane(avx2, t, [k[1], l[1], m[1], n[1]]),
-        places_in_plane(avx2, t, [k[2], l[2], m[2], n[2]]),
-        places_in_plane(avx2, t, apexes_beyond(t, edges)),
-    ];
-    let hold = predicates::bicells_surely_hold2d(&t.filter, &bicells).bits();
-    if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d(&bicells).bits() }
-}
-
-/// Likewise for the facets of tetrahedra.
-#[inline(always)]
-pub(super) fn faces_hold(avx2: Avx2, t: &Delaunay<Space>, faces: &[Facet; LANES]) -> u32 {
-    let [k, l, m, n] =
-        [corners_at(t, faces[0]), corners_at(t, faces[1]), corners_at(t, faces[2]), corners_at(t, faces[3])];
-    let bicells = [
-        places_in_space(avx2, t, [k[0], l[0], m[0], n[0]]),
-        places_in_space(avx2, t, [k[1], l[1], m[1], n[1]]),
-        places_in_space(avx2, t, [k[2], l[2], m[2], n[2]]),
-        places_in_space(avx2, t, [k[3], l[3], m[3], n[3]]),
-        places_in_space(avx2, t, apexes_beyond(t, faces)),
-    ];
-    let hold = predicates::bicells_surely_hold3d(&t.filter, &bicells).bits();
-    if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d(&bicells).bits() }
-}
-
 /// The corners of the cell of a facet, those of the facet first.
 #[inline(always)]
-fn corners_at<G: Dimension>(t: &Delaunay<G>, facet: Facet) -> G::Corners {
+pub(super) fn corners_at<G: Dimension>(t: &Delaunay<G>, facet: Facet) -> G::Corners {
     t.complex.cell(facet.cell()).corners.rotated_to_last(facet.index())
 }
 
+/// The sites beyond facets.
 #[inline(always)]
-fn apexes_beyond<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> [u32; LANES] {
+pub(super) fn apexes_beyond<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> [u32; LANES] {
     let mut apexes = [INFINITE; LANES];
     for (apex, facet) in apexes.iter_mut().zip(facets) {
         *apex = t.complex.apex(t.complex.cell(facet.cell()).neighbour(facet.index()));
@@ -129,89 +97,12 @@ fn apexes_beyond<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> [u32
     apexes
 }
 
-/// As [`triangle_holds`](super::certify::triangle_holds), of several triangles: one bit for each.
-#[inline(always)]
-pub(super) fn triangles_hold(
-    avx2: Avx2,
-    t: &Delaunay<Plane>,
-    cells: &[u32; LANES],
-    apexes: [&[u32; LANES]; 4],
-) -> u32 {
-    let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-    let a = places_in_plane(avx2, t, [k[0], l[0], m[0], n[0]]);
-    let b = places_in_plane(avx2, t, [k[1], l[1], m[1], n[1]]);
-    let c = places_in_plane(avx2, t, [k[2], l[2], m[2], n[2]]);
-    let circle = predicates::circle(&a, &b, &c);
-    let mut hold = avx2.splat(t.filter.orient).is_less(circle[2]);
-    for apexes in &apexes[..3] {
-        let side = predicates::side_of_circle(&circle, &a, &places_in_plane(avx2, t, **apexes));
-        hold = hold & (side.is_less(avx2.splat(-t.filter.prepared)) | avx2.are_equal(apexes, INFINITE));
-    }
-    hold.bits()
-}
-
-#[inline(always)]
-fn places_in_plane(avx2: Avx2, t: &Delaunay<Plane>, sites: [u32; LANES]) -> [Lanes; 2] {
-    avx2.pairs(sites.map(|s| t.view().point(s)))
-}
-
-/// Likewise for tetrahedra.
-#[inline(always)]
-pub(super) fn tetrahedra_hold(
-    avx2: Avx2,
-    t: &Delaunay<Space>,
-    cells: &[u32; LANES],
-    apexes: [&[u32; LANES]; 4],
-) -> u32 {
-    let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-    let a = places_in_space(avx2, t, [k[0], l[0], m[0], n[0]]);
-    let b = places_in_space(avx2, t, [k[1], l[1], m[1], n[1]]);
-    let c = places_in_space(avx2, t, [k[2], l[2], m[2], n[2]]);
-    let d = places_in_space(avx2, t, [k[3], l[3], m[3], n[3]]);
-    let sphere = predicates::sphere(&a, &b, &c, &d);
-    let mut hold = avx2.splat(t.filter.orient).is_less(sphere[3]);
-    for apexes in apexes {
-        let side = predicates::side_of_sphere(&sphere, &a, &places_in_space(avx2, t, *apexes));
-        hold = hold & (side.is_less(avx2.splat(-t.filter.prepared)) | avx2.are_equal(apexes, INFINITE));
-    }
-    hold.bits()
-}
-
-#[inline(always)]
-fn places_in_space(avx2: Avx2, t: &Delaunay<Space>, sites: [u32; LANES]) -> [Lanes; 3] {
-    let [x, y, z, _] = avx2.fours(sites.map(|s| t.view().padded_point(s)));
-    [x, y, z]
-}
-
-/// Takes sites that are certainly outside the sphere of a tetrahedron out of a set of them, by position.
-#[inline(always)]
-pub(super) fn drop_outside_sphere(
-    avx2: Avx2,
-    t: &Delaunay<Space>,
-    cell: &[u32; 4],
-    sites: &[u32],
-    mut set: u64,
-) -> u64 {
-    let [a, b, c, d] = cell.map(|s| t.view().point(s));
-    let [x, y, z, volume] = predicates::sphere(a, b, c, d);
-    let sphere = [avx2.splat(x), avx2.splat(y), avx2.splat(z), avx2.splat(volume)];
-    let a = [avx2.splat(a[0]), avx2.splat(a[1]), avx2.splat(a[2])];
-    for k in (0..sites.len()).step_by(LANES) {
-        if (set >> k) as u32 & ALL == 0 {
-            continue;
-        }
-        // The last one fills the last lanes.
-        let four = std::array::from_fn(|lane| sites[(k + lane).min(sites.len() - 1)]);
-        let side = predicates::side_of_sphere(&sphere, &a, &places_in_space(avx2, t, four));
-        set &= !(u64::from(side.is_less(avx2.splat(-t.filter.prepared)).bits()) << k);
-    }
-    set
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::Failures;
+    use crate::delaunay::kernel::Kernel;
+    use crate::delaunay::{Failures, Plane, Space};
+    use crate::predicates;
     use crate::random::Rng;
 
     fn point<G: Dimension>(mut coordinate: impl FnMut() -> f64) -> G::Point {
@@ -399,7 +290,9 @@ mod tests {
     /// No site inside a sphere or on it is dropped, and nearly all outside are; those not in the set stay out of it.
     #[test]
     fn sites_outside_are_dropped() {
-        let Some(avx2) = Avx2::new() else { return };
+        if Avx2::new().is_none() {
+            return;
+        }
         let rng = &mut Rng::new(13);
         let (mut n_outside, mut n_dropped) = (0, 0);
         for round in 0..60 {
@@ -412,7 +305,7 @@ mod tests {
                 let corners = t.complex.cell(c).corners;
                 let any = (rng.unit() * 2f64.powi(53)) as u64 * 2048 + (rng.unit() * 2048.0) as u64;
                 let set = any & (u64::MAX >> (64 - sites.len()));
-                let left = avx2.run(|| drop_outside_sphere(avx2, &t, &corners, &sites, set));
+                let left = Space::drop_outside(&t, &corners, &sites, set);
                 assert_eq!(left & !set, 0);
                 for (k, &s) in sites.iter().enumerate().filter(|&(k, _)| set >> k & 1 == 1) {
                     let site = t.site(s);

@@ -1,7 +1,7 @@
 //! Small sets of indices, for questions that may not write marks.
 
-use crate::complex::memory;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Up to this number, indices need no memory of their own: a power of two, less one.
 const FEW: usize = 63;

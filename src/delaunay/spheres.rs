@@ -8,8 +8,9 @@
 #![allow(unsafe_code)]
 
 use super::{Delaunay, Space};
-use crate::complex::{INFINITE, NONE, memory};
+use crate::complex::{INFINITE, NONE};
 use crate::error::Result;
+use crate::machine::memory;
 use crate::predicates::{self, Sphere};
 
 /// Entries of the table at most: 256 KiB, a part of a core's own cache. Sixteen times as many are no faster.

@@ -1,9 +1,10 @@
 //! A kernel to be built beside another one, so that this stays as it is until the new one is complete.
 
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::error::Result;
-use crate::prefetch::AHEAD;
+use crate::machine::memory;
+use crate::machine::prefetch::AHEAD;
 
 impl<G: Dimension> Delaunay<G> {
     /// A kernel with the same sites, but without cells, and with room for `more` of them. `place` tells where a live one is;

@@ -9,8 +9,9 @@
 
 use super::flat::Flat;
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{Complex, Corners, memory};
+use crate::complex::{Complex, Corners};
 use crate::error::Result;
+use crate::machine::memory;
 
 /// What a site was.
 #[derive(Clone, Copy, Debug)]

@@ -33,8 +33,9 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
+use crate::complex::{Corners, Facet, INFINITE, NONE};
 use crate::error::Result;
+use crate::machine::memory;
 
 /// A triangulation without its zone.
 pub(super) struct Open<G: Dimension> {

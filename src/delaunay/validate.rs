@@ -15,7 +15,8 @@
 use std::fmt;
 
 use super::{Delaunay, Dimension, order};
-use crate::complex::{Corners, Facet, INFINITE, NONE, memory};
+use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::machine::memory;
 
 /// How much is checked; each level includes the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -321,13 +322,32 @@ impl<G: Dimension> Delaunay<G> {
         }
         let mut crossings = 0;
         for c in ghosts {
-            match G::is_crossed(&self.filter, self.view(), &self.complex.cell(c).corners, o, aim) {
+            match self.is_crossed(c, o, aim) {
                 Some(true) => crossings += 1,
                 Some(false) => {}
                 None => return None,
             }
         }
         Some(crossings)
+    }
+
+    /// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side;
+    /// `None` if it meets the boundary of the facet.
+    fn is_crossed(&self, ghost: u32, o: &G::Point, aim: &G::Point) -> Option<bool> {
+        let mut is_crossed = Some(true);
+        for i in 0..G::D {
+            let mut points = self.view().points(&self.complex.cell(ghost).corners);
+            (points[i], points[Self::LAST]) = (aim, o);
+            // The facet of a ghost is oriented as seen from outside: negative, with a point on the inner side.
+            let sign = G::orient(&self.filter, &points[..G::Corners::N]);
+            if sign > 0.0 {
+                return Some(false);
+            }
+            if sign == 0.0 {
+                is_crossed = None;
+            }
+        }
+        is_crossed
     }
 
     fn check_spheres(&self) -> Check {

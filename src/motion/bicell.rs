@@ -1,10 +1,11 @@
 //! Bi-cells: two cells and the facet between them (report, section 2.2).
 
 use super::MovingTriangulation;
-use crate::complex::{Corners, Facet, INFINITE, memory};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
-use crate::predicates::Delimiter;
+use crate::machine::memory;
+use crate::predicates::{Delimiter, Tolerances};
 
 /// The corners of a bi-cell that are not the ghost vertex.
 #[derive(Clone, Copy, Debug)]
@@ -65,19 +66,19 @@ impl<'k, G: Dimension> BiCell<'k, G> {
     /// The standard delimiter; `None` at the hull.
     #[inline(always)]
     pub(super) fn delimiter(&self) -> Option<Delimiter<G::Point>> {
-        (self.n == G::D + 2).then(|| G::delimiter(&self.points[..G::D + 2]))
+        (self.n == G::D + 2).then(|| G::Point::delimiter(&self.points[..G::D + 2]))
     }
 
     /// Certified lower bound of the tolerance of a bi-cell at the hull.
     pub(super) fn hull_tolerance(&self) -> f64 {
-        G::orientation_tolerance(&self.points[..G::D + 1])
+        G::Point::orientation_tolerance(&self.points[..G::D + 1])
     }
 
     /// Certified lower bound of the tolerance; it need not be sharp if it is `enough`.
     #[inline(always)]
     pub(super) fn tolerance(&self, enough: f64) -> f64 {
         if self.n == G::D + 2 {
-            G::tolerance(&self.points[..G::D + 2], enough)
+            G::Point::tolerance(&self.points[..G::D + 2], enough)
         } else {
             self.hull_tolerance()
         }

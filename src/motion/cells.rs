@@ -18,10 +18,11 @@ use super::changes::{Tracker, renumber};
 use super::marks::{Bits, Marks};
 use super::matching::Matcher;
 use super::ordering::Ordering;
-use crate::complex::{Corners, Facet, NONE, memory};
+use crate::complex::{Corners, Facet, NONE};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
-use crate::prefetch::{AHEAD, prefetch};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;

@@ -7,10 +7,11 @@
 
 use super::MovingTriangulation;
 use super::marks::Marks;
-use crate::complex::{Corners, NONE, memory};
+use crate::complex::{Corners, NONE};
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::prefetch::{AHEAD, prefetch};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// In place of an id: a vertex that has none any more.
 pub const NO_VERTEX: u32 = NONE;

@@ -5,9 +5,10 @@
 //! for each id.
 
 use super::{CoincidencePolicy, MovingTriangulation};
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::{Dimension, Merge, Place};
 use crate::error::{Error, Result};
+use crate::machine::memory;
 
 /// Which vertices are hidden.
 #[derive(Debug, Default)]

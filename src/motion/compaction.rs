@@ -16,9 +16,10 @@ use super::changes::Taken;
 use super::regions::Regions;
 use super::repair::Repair;
 use super::transaction::Transaction;
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones alone.

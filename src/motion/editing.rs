@@ -6,10 +6,11 @@
 
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
+use crate::machine::memory;
 
 /// Rebuild when more than one vertex in `EDITED` is inserted or removed: a removal and an insertion cost about as much as
 /// rebuilding this number of vertices.

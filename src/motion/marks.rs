@@ -1,7 +1,7 @@
 //! Sets of numbers below a bound: a bit for each, and a list of those whose bit is set.
 
-use crate::complex::memory;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Scanning the bits of this number of numbers takes as long as sorting one.
 const SPARSE: usize = 256;

@@ -3,9 +3,10 @@
 //! Few are found by a hash table. Many are listed by their lowest corner: cells with the same lowest corner are close
 //! together in memory, before and after, while the entries of a hash table are scattered, and each is a cache miss.
 
-use crate::complex::{Corners, NONE, memory};
+use crate::complex::{Corners, NONE};
 use crate::error::Result;
-use crate::prefetch::{AHEAD, prefetch};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// From `MANY` on, cells are listed by their lowest corner, unless the ids are more than `SPARSE` times as many as the cells,
 /// or more than `LONGEST` cells have the same lowest corner: a search goes through all of these.

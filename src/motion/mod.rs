@@ -66,11 +66,12 @@ pub use query::Location;
 pub(crate) use query::cells_at;
 pub use views::CellsView;
 
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::machine::threads::Threads;
 use crate::predicates::exact_calls;
-use crate::threads::Threads;
 use auto::Auto;
 use changes::Taken;
 use coincidence::Hidden;

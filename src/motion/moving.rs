@@ -17,12 +17,12 @@ use std::ops::ControlFlow;
 use super::MovingTriangulation;
 use super::regions::Fixed;
 use super::staging::{Given, first_bad, stage_block};
-use crate::complex::memory;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
-use crate::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
+use crate::machine::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
+use crate::machine::{memory, threads};
+use crate::predicates::{are_within, distance_above};
 use crate::simd::{ALL, Avx2, LANES};
-use crate::threads;
 
 /// Moves of so many vertices take as long as to start a thread for them.
 const MOVED_AT_LEAST: usize = 1 << 14;
@@ -139,7 +139,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                         |fixed, places| {
                             let tolerances = fixed.each_ref().map(|fixed| fixed.tolerance);
                             let fixed = fixed.each_ref().map(|fixed| &fixed.point);
-                            G::are_within(avx2, fixed, &tolerances, places.each_ref())
+                            are_within(avx2, fixed, &tolerances, places.each_ref())
                         },
                         #[inline(always)]
                         |movers, places, sites_of| G::exchange(avx2, places, movers.sites, sites_of),
@@ -253,7 +253,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 if point == p {
                     continue;
                 }
-                let distance = G::distance_above(point, p);
+                let distance = distance_above(point, p);
                 self.regions.slacks.travel(s, distance);
                 sum += distance;
                 greatest = if distance > greatest { distance } else { greatest };

@@ -4,10 +4,12 @@ use std::cmp::Ordering;
 
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, Level, MovingTriangulation, Violation};
-use crate::complex::{INFINITE, NONE, memory};
+use crate::complex::{INFINITE, NONE};
 use crate::delaunay::{Dimension, IndexSet, Place};
 use crate::error::Result;
-use crate::prefetch::prefetch;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::predicates::compare_distance;
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,7 +164,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn compare(&self, q: &G::Point, a: u32, b: u32) -> Ordering {
-        G::compare_distance(q, &self.kernel.site(a).point, &self.kernel.site(b).point)
+        compare_distance(q, &self.kernel.site(a).point, &self.kernel.site(b).point)
     }
 
     fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = u32>) -> Option<u32> {

@@ -12,10 +12,11 @@ use super::coincidence::Hidden;
 use super::moving::differ;
 use super::staging::Given;
 use super::{CoincidencePolicy, CommitReport, MovingTriangulation};
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::{Delaunay, Dimension, Merge, Site};
 use crate::error::{Error, Result};
-use crate::prefetch::prefetch;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 
 /// Sites are sorted when the mean distance of those next to each other has become so much greater. Measured with
 /// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): with less, it sorts without need; with more

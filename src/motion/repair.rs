@@ -22,10 +22,12 @@
 
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
-use crate::complex::{Corners, Facet, INFINITE, memory};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Dimension, Failures, Shortcut};
 use crate::error::{Error, Result};
-use crate::prefetch::{AHEAD, prefetch};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::predicates::squared_distance;
 
 /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
 /// vertex rebuilt, and flips are never stuck there.)
@@ -288,7 +290,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let site = self.kernel.site(s);
             let other = &self.staging.positions[site.id as usize];
             let is_new = repair.at[site.id as usize] == At::New && site.point != *other;
-            is_new.then(|| G::squared_distance(&site.point, other))
+            is_new.then(|| squared_distance(&site.point, other))
         };
         let finite = sites.iter().filter(|&&s| s != INFINITE);
         let with_displacement = finite.filter_map(|&s| displacement(s).map(|d| (d, s)));

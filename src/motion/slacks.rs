@@ -18,14 +18,16 @@
 //! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these. Memory:
 //! as many bytes for a cell, and 2 for a site.
 
-#![allow(unsafe_code)]
+mod entries;
 
+use self::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
 use super::bicell::BiCell;
-use crate::complex::{Cell, Complex, Corners, Facet, NONE, memory};
+use crate::complex::{Complex, Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
-use crate::predicates::LANES;
-use crate::prefetch::prefetch;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::predicates::{LANES, Tolerances, distance_above};
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;
@@ -40,13 +42,10 @@ const UNFIT: u32 = 32;
 const ENOUGH: f64 = 64.0;
 /// How many cells or bi-cells in advance to ask for.
 const AHEAD: usize = 8;
-/// Cells looked at in one go.
-const BLOCK: usize = 64;
-
 /// Bi-cells whose tolerances are to be computed together.
 #[derive(Debug, Default)]
 struct Batch<G: Dimension> {
-    bicells: G::BiCells,
+    bicells: <G::Point as Tolerances>::BiCells,
     facets: [[u32; 2]; LANES],
     n: usize,
 }
@@ -116,54 +115,6 @@ impl<G: Dimension> Check<'_, G> {
     }
 }
 
-fn deadline(entry: u32) -> u16 {
-    entry as u16
-}
-
-fn slack(entry: u32) -> i16 {
-    (entry >> 16) as i16
-}
-
-fn entry(deadline: u16, slack: i16) -> u32 {
-    u32::from(deadline) | u32::from(slack as u16) << 16
-}
-
-/// The least slack of a cell.
-#[inline(always)]
-fn least<C: Corners>(entries: &C) -> i16 {
-    let mut least = slack(entries[0]);
-    for i in 1..C::N {
-        least = least.min(slack(entries[i]));
-    }
-    least
-}
-
-/// Lists those of at most [`BLOCK`] cells of which a corner has passed its deadline, by a loop without branches: they cannot
-/// be predicted. The corners must be indices of odometers.
-#[inline(never)]
-fn list_expired_of<'l, C: Corners>(
-    cells: &[Cell<C>],
-    entries: &[C],
-    travelled: &[u16],
-    listed: &'l mut [u32; BLOCK],
-) -> &'l [u32] {
-    let mut n = 0;
-    for (k, (cell, entries)) in cells.iter().zip(entries).enumerate() {
-        if cell.corners[0] == NONE {
-            continue;
-        }
-        let mut differences = 0;
-        for i in 0..C::N {
-            // SAFETY: the caller's promise; a free cell, which has no corners, is not here.
-            let travelled = unsafe { *travelled.get_unchecked(cell.corners[i] as usize) };
-            differences |= entries[i].wrapping_sub(u32::from(travelled));
-        }
-        listed[n % BLOCK] = k as u32;
-        n += (differences >> 15 & 1) as usize;
-    }
-    &listed[..n]
-}
-
 impl<G: Dimension> Slacks<G> {
     /// Forgets everything; keeps the memory.
     pub(super) fn clear(&mut self) {
@@ -213,7 +164,7 @@ impl<G: Dimension> Slacks<G> {
         let (mut sum, mut n) = (0.0, 0.0);
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
             let there = elsewhere.get(site.id as usize);
-            sum += there.map_or(0.0, |p| G::distance_above(&site.point, p));
+            sum += there.map_or(0.0, |p| distance_above(&site.point, p));
             n += 1.0;
         }
         // Of no use, but no error either, where nothing moves. A power of two that is no number any more would make
@@ -360,7 +311,7 @@ impl<G: Dimension> Slacks<G> {
             return;
         };
         let batch = &mut self.batch;
-        G::set_bicell(&mut batch.bicells, batch.n, points);
+        G::Point::set_bicell(&mut batch.bicells, batch.n, points);
         batch.facets[batch.n] = [facet, across].map(Facet::code);
         batch.n += 1;
         if batch.n == LANES {
@@ -389,10 +340,10 @@ impl<G: Dimension> Slacks<G> {
             return;
         }
         let hold = match check {
-            Check::Moved(..) => G::bicells_hold(kernel.filter(), &self.batch.bicells),
+            Check::Moved(..) => G::Point::bicells_hold(kernel.filter(), &self.batch.bicells),
             Check::Not => [true; LANES],
         };
-        let tolerances = G::tolerances(&self.batch.bicells, [self.enough; LANES]);
+        let tolerances = G::Point::tolerances(&self.batch.bicells, [self.enough; LANES]);
         for k in 0..n {
             let sides = self.batch.facets[k].map(Facet::from_code);
             let holds = hold[k] || check.holds(kernel, sides[0]);

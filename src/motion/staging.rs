@@ -1,10 +1,11 @@
 //! Positions that wait for the next commit.
 
 use super::MovingTriangulation;
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::predicates::is_in_range;
+use crate::machine::memory;
+use crate::predicates::{Array, is_in_range};
 
 /// Staged positions by vertex id. During and after a commit the entries of its vertices hold the positions
 /// *before* it: applying a move exchanges the two.
@@ -54,7 +55,7 @@ impl<'p, G: Dimension> Given<'p, G> {
 /// Stages positions; `false` if one is bad.
 pub(super) fn stage_block<G: Dimension>(staged: &mut [G::Point], given: &[G::Point]) -> bool {
     let mut bad = 0u64;
-    for (staged, &value) in G::coordinates_mut(staged).iter_mut().zip(G::coordinates(given)) {
+    for (staged, &value) in G::Point::flattened_mut(staged).iter_mut().zip(G::Point::flattened(given)) {
         bad |= u64::from(!is_in_range(value));
         *staged = value + 0.0;
     }

@@ -12,7 +12,7 @@ use super::staging::Given;
 use super::{CommitReport, SwitchingRule};
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::predicates::displacement_limit;
+use crate::predicates::{displacement_limit, squared_distance};
 
 /// Where the algorithm is.
 #[derive(Debug, Default)]
@@ -72,7 +72,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let s = self.site_of[v as usize];
             let displacement =
-                G::squared_distance(&self.kernel.site(s).point, &self.staging.positions[v as usize]);
+                squared_distance(&self.kernel.site(s).point, &self.staging.positions[v as usize]);
             within += u32::from(displacement < displacement_limit(self.tolerance_of_site(s)));
         }
         f64::from(within) / f64::from(rule.sample.max(1))

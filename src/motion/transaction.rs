@@ -15,9 +15,9 @@
 //! Memory is reserved before a change, so [`undo`](MovingTriangulation::undo) needs none, and cannot fail.
 
 use super::MovingTriangulation;
-use crate::complex::memory;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// Where a vertex was: its site, and the next vertex there.
 #[derive(Clone, Copy, Debug)]

@@ -13,9 +13,10 @@ use super::cells::{Cells, MOST};
 use super::changes::Tracker;
 use super::marks::Marks;
 use super::visibility::Visibility;
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
+use crate::machine::memory;
 
 /// The finite cells, by vertex id. Valid until the triangulation changes.
 #[derive(Clone, Copy, Debug)]

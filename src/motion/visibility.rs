@@ -2,9 +2,10 @@
 
 use super::MovingTriangulation;
 use super::views::Views;
-use crate::complex::{NONE, memory};
+use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::machine::memory;
 
 /// A vertex that was hidden or shown, and whether it was hidden before.
 #[derive(Clone, Copy, Debug)]

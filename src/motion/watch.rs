@@ -42,9 +42,9 @@ use super::regions::Filter;
 use super::repair::Repair;
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
-use crate::complex::memory;
 use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
+use crate::machine::memory;
 
 /// With more than one vertex in `MANY` beyond its tolerance, a sweep of everything is cheaper.
 const MANY: usize = 4;

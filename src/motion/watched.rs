@@ -3,10 +3,11 @@
 //! A list of facet codes, and by cell and index a bit for being a member and a bit for being listed: what leaves the set
 //! stays listed until the list is gone through. A facet may be named from either side.
 
-use crate::complex::{Facet, memory};
+use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
-use crate::prefetch::{AHEAD, FAR, prefetch};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, FAR, prefetch};
 
 #[derive(Debug, Default)]
 pub(super) struct Watched {

@@ -1,44 +1,128 @@
-//! The certificates of a bi-cell, several at a time.
+//! What is certain of bi-cells, by dimension, and their certificates, several at a time.
 //!
-//! They are those of the [prepared sphere](super::sphere) of the first cell: its volume, that of the second cell, and the
-//! side of the second opposing vertex, by the same operations, and so within the same bounds.
+//! The certificates are those of the [prepared sphere](super::sphere) of the first cell: its volume, that of the second
+//! cell, and the side of the second opposing vertex, by the same operations, and so within the same bounds.
 
-use super::StaticFilter;
+use std::fmt::Debug;
+
 use super::filter::{semi_static_bounds_2d, semi_static_bounds_3d};
-use super::lanes::BiCells;
-use super::tolerance::{cross, dot};
+use super::vectors::{cross, dot, minor, minus};
+use super::{
+    BiCells, Delimiter, StaticFilter, delimiter2d, delimiter3d, orientation_tolerance2d,
+    orientation_tolerance3d, separator3d, tolerances2d, tolerances3d,
+};
 use crate::simd::{Avx2, LANES, Real};
 
-/// For each lane, whether both triangles, of the edge `ab` with `c` and `d`, surely are positively oriented, the second
-/// with the edge reversed, and `d` is outside the circle of the first.
-#[inline]
-pub fn bicells_hold2d(f: &StaticFilter, bicells: &BiCells<2, 4>) -> [bool; LANES] {
-    if let Some(avx2) = Avx2::new() {
-        return bits(avx2.run(
-            #[inline(always)]
-            || bicells_surely_hold2d(f, &bicells.lanes(avx2)).bits(),
-        ));
-    }
-    std::array::from_fn(|i| bicells_surely_hold2d(f, &bicells.lane(i)))
+/// Tolerances of cells and bi-cells. A bi-cell is given by its `D + 2` corners, the opposing vertices first and last;
+/// the vertices of the facet and then the first of all are in the order of a positive orientation.
+pub trait Tolerances: Sized {
+    /// Bi-cells that are looked at together.
+    type BiCells: Debug + Default;
+    /// Standard delimiter.
+    fn delimiter(bicell: &[&Self]) -> Delimiter<Self>;
+    /// Certified lower bound of the tolerance; it need not be sharp if it is `enough`.
+    fn tolerance(bicell: &[&Self], enough: f64) -> f64;
+    /// Sets the bi-cell of a lane.
+    fn set_bicell(bicells: &mut Self::BiCells, lane: usize, bicell: &[&Self]);
+    /// As [`tolerance`](Self::tolerance), of all of them.
+    fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES];
+    /// For each lane, whether the bi-cell surely has two positive cells and passes the empty-sphere test.
+    fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
+    /// Certified lower bound of the tolerance of the orientation of `D + 1` points; 0 unless it is certainly positive.
+    fn orientation_tolerance(cell: &[&Self]) -> f64;
 }
 
-/// Likewise for tetrahedra, of the facet with `c` positively oriented and the reversed one with `d`.
-#[inline]
-pub fn bicells_hold3d(f: &StaticFilter, bicells: &BiCells<3, 5>) -> [bool; LANES] {
-    if let Some(avx2) = Avx2::new() {
-        return bits(avx2.run(
-            #[inline(always)]
-            || bicells_surely_hold3d(f, &bicells.lanes(avx2)).bits(),
-        ));
+impl Tolerances for [f64; 2] {
+    type BiCells = BiCells<2, 4>;
+
+    #[inline(always)]
+    fn delimiter(bicell: &[&Self]) -> Delimiter<Self> {
+        let &[c, a, b, d] = bicell else { unreachable!("two triangles") };
+        delimiter2d(c, [a, b], d)
     }
-    std::array::from_fn(|i| bicells_surely_hold3d(f, &bicells.lane(i)))
+
+    #[inline(always)]
+    fn tolerance(bicell: &[&Self], _: f64) -> f64 {
+        Self::delimiter(bicell).tolerance
+    }
+
+    #[inline(always)]
+    fn set_bicell(bicells: &mut BiCells<2, 4>, lane: usize, bicell: &[&Self]) {
+        let &[c, a, b, d] = bicell else { unreachable!("two triangles") };
+        bicells.set(lane, [a, b, c, d]);
+    }
+
+    #[inline(always)]
+    fn tolerances(bicells: &BiCells<2, 4>, _: [f64; LANES]) -> [f64; LANES] {
+        tolerances2d(bicells)
+    }
+
+    #[inline]
+    fn bicells_hold(f: &StaticFilter, bicells: &BiCells<2, 4>) -> [bool; LANES] {
+        if let Some(avx2) = Avx2::new() {
+            return bits(avx2.run(
+                #[inline(always)]
+                || bicells_surely_hold2d(f, &bicells.lanes(avx2)).bits(),
+            ));
+        }
+        std::array::from_fn(|i| bicells_surely_hold2d(f, &bicells.lane(i)))
+    }
+
+    #[inline(always)]
+    fn orientation_tolerance(cell: &[&Self]) -> f64 {
+        orientation_tolerance2d(cell.try_into().expect("three corners"))
+    }
+}
+
+impl Tolerances for [f64; 3] {
+    type BiCells = BiCells<3, 5>;
+
+    #[inline(always)]
+    fn delimiter(bicell: &[&Self]) -> Delimiter<Self> {
+        let &[d, a, b, c, e] = bicell else { unreachable!("two tetrahedra") };
+        delimiter3d(d, [a, b, c], e)
+    }
+
+    #[inline(always)]
+    fn tolerance(bicell: &[&Self], enough: f64) -> f64 {
+        let &[d, a, b, c, e] = bicell else { unreachable!("two tetrahedra") };
+        separator3d(d, [a, b, c], e, enough).delimiter.tolerance
+    }
+
+    #[inline(always)]
+    fn set_bicell(bicells: &mut BiCells<3, 5>, lane: usize, bicell: &[&Self]) {
+        let &[d, a, b, c, e] = bicell else { unreachable!("two tetrahedra") };
+        bicells.set(lane, [a, b, c, d, e]);
+    }
+
+    #[inline(always)]
+    fn tolerances(bicells: &BiCells<3, 5>, enough: [f64; LANES]) -> [f64; LANES] {
+        tolerances3d(bicells, enough)
+    }
+
+    #[inline]
+    fn bicells_hold(f: &StaticFilter, bicells: &BiCells<3, 5>) -> [bool; LANES] {
+        if let Some(avx2) = Avx2::new() {
+            return bits(avx2.run(
+                #[inline(always)]
+                || bicells_surely_hold3d(f, &bicells.lanes(avx2)).bits(),
+            ));
+        }
+        std::array::from_fn(|i| bicells_surely_hold3d(f, &bicells.lane(i)))
+    }
+
+    #[inline(always)]
+    fn orientation_tolerance(cell: &[&Self]) -> f64 {
+        orientation_tolerance3d(cell.try_into().expect("four corners"))
+    }
 }
 
 fn bits(mask: u32) -> [bool; LANES] {
     std::array::from_fn(|i| mask >> i & 1 == 1)
 }
 
-/// As [`bicells_hold2d`], of one bi-cell or of those in lanes.
+/// Whether both triangles, of the edge `ab` with `c` and `d`, surely are positively oriented, the second with the edge
+/// reversed, and `d` is outside the circle of the first: of one bi-cell or of those in lanes.
 #[inline(always)]
 pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, bicells: &[[T; 2]; 4]) -> T::Mask {
     let any = bicells[0][0];
@@ -46,7 +130,7 @@ pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, bicells: &[[
     Certificates::in_plane(&differences(bicells)).exceed(bounds)
 }
 
-/// As [`bicells_hold3d`], of one bi-cell or of those in lanes.
+/// Likewise for tetrahedra, of the facet with `c` positively oriented and the reversed one with `d`.
 #[inline(always)]
 pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, bicells: &[[T; 3]; 5]) -> T::Mask {
     let any = bicells[0][0];
@@ -72,18 +156,11 @@ pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T
 #[inline(always)]
 fn differences<T: Real, const D: usize, const P: usize, const N: usize>(points: &[[T; D]; P]) -> [[T; D]; N] {
     const { assert!(N + 1 == P) };
-    let mut differences = [[points[0][0]; D]; N];
+    let mut differences = [points[0]; N];
     for k in 0..N {
-        for axis in 0..D {
-            differences[k][axis] = points[k + 1][axis] - points[0][axis];
-        }
+        differences[k] = minus(&points[k + 1], &points[0]);
     }
     differences
-}
-
-#[inline(always)]
-fn square<T: Real>(p: &[T; 2]) -> T {
-    p[0] * p[0] + p[1] * p[1]
 }
 
 /// The greatest magnitude along each axis.
@@ -108,11 +185,10 @@ struct Certificates<T> {
 impl<T: Real> Certificates<T> {
     #[inline(always)]
     fn in_plane([u, v, s]: &[[T; 2]; 3]) -> Self {
-        let (uu, vv, ss) = (square(u), square(v), square(s));
+        let (uu, vv, ss) = (dot(u, u), dot(v, v), dot(s, s));
         let n = [uu * v[1] - vv * u[1], vv * u[0] - uu * v[0]];
-        let volume = u[0] * v[1] - u[1] * v[0];
-        let beyond = s[0] * u[1] - s[1] * u[0];
-        Certificates { volume, beyond, side: (s[0] * n[0] + s[1] * n[1]) - ss * volume }
+        let volume = minor(u, v);
+        Certificates { volume, beyond: minor(s, u), side: dot(s, &n) - ss * volume }
     }
 
     #[inline(always)]

@@ -21,10 +21,10 @@ use std::ops::{Add, Mul, Sub};
 /// Whether expansions can evaluate a polynomial of the given degree in coordinates: whether coordinates other
 /// than zero are large enough for products of so many to be multiples of 2⁻⁹⁶⁰.
 #[inline]
-pub(super) fn has_room<const D: usize, const N: usize>(points: [&[f64; D]; N], degree: u32) -> bool {
+pub(super) fn has_room<P: AsRef<[f64]> + ?Sized, const N: usize>(points: [&P; N], degree: u32) -> bool {
     // A number of 53 bits that is at least 2⁵² units is a multiple of the unit.
     let least = 2f64.powi(52 - 960 / degree as i32);
-    points.into_iter().flatten().all(|&x| x == 0.0 || x.abs() >= least)
+    points.into_iter().flat_map(P::as_ref).all(|&x| x == 0.0 || x.abs() >= least)
 }
 
 /// `orient2d`, of which the rounded value is given.
@@ -69,9 +69,12 @@ pub(super) fn insphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
 
 #[cold]
 #[inline(never)]
-pub(super) fn compare_distance<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
+pub(super) fn compare_distance(points: [&[f64]; 3]) -> Ordering {
+    // An axis without extent adds no distance.
+    let in_space = |p: &[f64]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
+    let [q, a, b]: [[f64; 3]; 3] = points.map(in_space);
     let room = Room::new();
-    let [to_a, to_b] = differences(&room, q, [a, b]);
+    let [to_a, to_b] = differences(&room, &q, [&a, &b]);
     (square(&to_a) - square(&to_b)).sign()
 }
 

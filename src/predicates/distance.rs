@@ -2,12 +2,13 @@
 
 use super::big::{self, has_room};
 use super::filter::UNDERFLOW;
+use super::tolerance::squared_distance;
 use robust::Coord;
 use std::cmp::Ordering;
 
-/// Compares the distances of `a` and of `b` from `q`, exactly, in dimension 1 to 3.
+/// Compares the distances of `a` and of `b` from `q`, exactly.
 #[inline(always)]
-pub fn compare_distance<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
+pub fn compare_distance<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
     let (to_a, to_b) = (squared_distance(q, a), squared_distance(q, b));
     let difference = to_a - to_b;
     // A rounded squared distance is a sum of D non-negative terms, each of relative error 3 u to first order
@@ -35,27 +36,16 @@ pub fn is_collinear3(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> bool {
     })
 }
 
-#[inline(always)]
-fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
-    let mut sum = 0.0;
-    for axis in 0..D {
-        let difference = p[axis] - q[axis];
-        sum += difference * difference;
-    }
-    sum
-}
-
 /// The sign of |q − a|² − |q − b|² = Σ a² − b² − 2qa + 2qb, every product being a sum of two doubles.
 #[cold]
 #[inline(never)]
-fn compare_distance_exactly<const D: usize>(q: &[f64; D], a: &[f64; D], b: &[f64; D]) -> Ordering {
-    const { assert!(D <= 3, "a sum has room for the products of three axes") };
+fn compare_distance_exactly<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
+    let [q, a, b] = [q, a, b].map(P::as_ref);
     if !has_room([q, a, b], 2) {
-        return big::compare_distance(q, a, b);
+        return big::compare_distance([q, a, b]);
     }
     let mut sum = ExactSum::default();
-    for axis in 0..D {
-        let (q, a, b) = (q[axis], a[axis], b[axis]);
+    for ((&q, &a), &b) in q.iter().zip(a).zip(b) {
         for (factor, other) in [(a, a), (-b, b), (-2.0 * q, a), (2.0 * q, b)] {
             let (product, tail) = two_product(factor, other);
             sum.add(tail);

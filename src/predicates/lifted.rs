@@ -6,6 +6,8 @@
 //! of 25. The bound is derived like those of the other determinants, for this operation order, and is static
 //! only: what it leaves uncertain goes to [`incircle`](super::incircle).
 
+use super::vectors::{dot, minor, minus};
+
 /// A point as seen from another: the difference, and its square.
 #[derive(Clone, Copy, Debug)]
 pub struct Lifted {
@@ -17,14 +19,14 @@ impl Lifted {
     /// The point `p` seen from `q`.
     #[inline(always)]
     pub fn new(p: &[f64; 2], q: &[f64; 2]) -> Self {
-        let [x, y] = [p[0] - q[0], p[1] - q[1]];
-        Lifted { difference: [x, y], square: x * x + y * y }
+        let difference = minus(p, q);
+        Lifted { difference, square: dot(&difference, &difference) }
     }
 
     /// Cross product with another point seen from the same place: positive if that is to the left.
     #[inline(always)]
     pub fn cross(&self, other: &Self) -> f64 {
-        self.difference[0] * other.difference[1] - self.difference[1] * other.difference[0]
+        minor(&self.difference, &other.difference)
     }
 }
 

@@ -73,6 +73,7 @@
 
 mod bicells;
 mod big;
+mod coordinates;
 mod distance;
 mod filter;
 mod integer;
@@ -84,15 +85,17 @@ mod plane;
 mod separator;
 mod space;
 mod sphere;
-mod tally;
 mod tolerance;
+mod vectors;
 
+pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
+pub use bicells::Tolerances;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
     bicells_surely_hold3d,
 };
-pub use bicells::{bicells_hold2d, bicells_hold3d};
+pub use coordinates::{Array, Coordinates};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::BiCells;
@@ -106,14 +109,12 @@ pub use sphere::{
     Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, side_of_circle, side_of_sphere,
     sphere,
 };
-pub(crate) use tally::add_exact_calls;
-pub use tally::exact_calls;
+pub(crate) use tolerance::are_within;
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
     tolerances2d,
 };
-pub(crate) use tolerance::{are_within2d, are_within3d};
 
 /// Largest magnitude of an accepted coordinate.
 pub const MAX_MAGNITUDE: f64 = 1e57;

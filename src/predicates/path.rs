@@ -8,15 +8,16 @@
 //! extent. A sum of d of them is d times that off, and d − 1 roundings of at most d · d! products: 16 u in the
 //! plane, 156 u in space.
 
-use super::tolerance::{LEAST_DETERMINANT, ORIENT_2D, ORIENT_3D, cross, dot, minus};
+use super::tolerance::{LEAST_DETERMINANT, ORIENT_2D, ORIENT_3D};
+use super::vectors::{cross, dot, minor, minus};
 
 /// Whether a triangle certainly stays positively oriented.
 pub fn stays_positive2d(old: [&[f64; 2]; 3], new: [&[f64; 2]; 3]) -> bool {
-    let rows = |p: [&[f64; 2]; 3]| [p[1], p[2]].map(|q| [q[0] - p[0][0], q[1] - p[0][1]]);
+    let rows = |p: [&[f64; 2]; 3]| [p[1], p[2]].map(|q| minus(q, p[0]));
     let [a, b] = [rows(old), rows(new)];
-    let det = |u: [f64; 2], v: [f64; 2]| u[0] * v[1] - u[1] * v[0];
     let bound = 3.0 * ORIENT_2D * product_of_extents([&a, &b]) + 2.0 * LEAST_DETERMINANT;
-    [det(a[0], a[1]), det(a[0], b[1]) + det(b[0], a[1]), det(b[0], b[1])].iter().all(|&sum| sum > bound)
+    let one = minor(&a[0], &b[1]) + minor(&b[0], &a[1]);
+    [minor(&a[0], &a[1]), one, minor(&b[0], &b[1])].iter().all(|&sum| sum > bound)
 }
 
 /// Whether a tetrahedron certainly stays positively oriented.

@@ -3,7 +3,8 @@
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
 use super::integer::{Scaled, Wide};
-use super::tally;
+use super::vectors::{dot, minor, minus};
+use crate::machine::tally;
 use robust::Coord;
 
 /// Twice the signed area of the triangle `abc`: positive when counter-clockwise, zero when collinear.
@@ -11,7 +12,7 @@ use robust::Coord;
 /// The sign is exact for points in the filter's box; the magnitude is approximate.
 #[inline(always)]
 pub fn orient2d(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
-    let det = cross(&minus(b, a), &minus(c, a));
+    let det = minor(&minus(b, a), &minus(c, a));
     if det.abs() > f.orient { det } else { orient2d_uncertain(det, [a, b, c]) }
 }
 
@@ -68,7 +69,7 @@ fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
 #[inline(always)]
 fn incircle_rounded([a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
     let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
-    cross(&u, &w) * dot(&v, &minus(c, b)) - cross(&u, &v) * dot(&w, &minus(d, b))
+    minor(&u, &w) * dot(&v, &minus(c, b)) - minor(&u, &v) * dot(&w, &minus(d, b))
 }
 
 /// The same, modulo 2²⁵⁶.
@@ -77,21 +78,6 @@ fn incircle_integer([u, v, w]: &[[i64; 2]; 3]) -> Wide {
     let cross = |p: &[i64; 2], q: &[i64; 2]| product(p[0], q[1]) - product(p[1], q[0]);
     let dot_from_u = |p: &[i64; 2]| product(p[0], p[0] - u[0]) + product(p[1], p[1] - u[1]);
     Wide::from(cross(u, w)).times(dot_from_u(v)).minus(Wide::from(cross(u, v)).times(dot_from_u(w)))
-}
-
-#[inline(always)]
-fn minus(p: &[f64; 2], q: &[f64; 2]) -> [f64; 2] {
-    [p[0] - q[0], p[1] - q[1]]
-}
-
-#[inline(always)]
-fn cross(p: &[f64; 2], q: &[f64; 2]) -> f64 {
-    p[0] * q[1] - p[1] * q[0]
-}
-
-#[inline(always)]
-fn dot(p: &[f64; 2], q: &[f64; 2]) -> f64 {
-    p[0] * q[0] + p[1] * q[1]
 }
 
 fn coord(&[x, y]: &[f64; 2]) -> Coord<f64> {

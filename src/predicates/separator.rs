@@ -1,9 +1,8 @@
 //! Delimiters and separators of space: see [`tolerance`](super::tolerance).
 
 use super::lanes::BiCells;
-use super::tolerance::{
-    CROSS, Delimiter, LEAST, LEAST_DETERMINANT, ORIENT_3D, UNIT, cross, dot, middle, minus, square_between,
-};
+use super::tolerance::{CROSS, Delimiter, LEAST, LEAST_DETERMINANT, ORIENT_3D, UNIT, middle, square_between};
+use super::vectors::{cross, dot, minus, plus};
 use crate::simd::{ALL, Avx2, LANES, Real};
 
 /// The points of a bi-cell: the vertices of the facet, then the opposing ones, `c` and `d`.
@@ -171,12 +170,11 @@ fn half_of_square<T: Real>(square: T) -> T {
 #[inline(always)]
 fn annulus<T: Real>([o, f, g, c, d]: [&[T; 3]; 5], is_standard: T::Mask) -> ([T; 3], T, T) {
     let (u, v, w) = (minus(f, o), minus(g, o), minus(c, d));
-    let (p, q) = (minus(c, o), minus(d, o));
     // u·x = |u|² / 2, v·x = |v|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
     let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
     let scale = o[0].splat(0.5) / dot(&u, &vw);
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
-    let ws = w[0] * (p[0] + q[0]) + w[1] * (p[1] + q[1]) + w[2] * (p[2] + q[2]);
+    let ws = dot(&w, &plus(&minus(c, o), &minus(d, o)));
     let coordinate = |k: usize| o[k] + (uu * vw[k] + vv * wu[k] + ws * uv[k]) * scale;
     let centre = [coordinate(0), coordinate(1), coordinate(2)];
     let from = |p| square_between(&centre, p);

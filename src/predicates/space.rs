@@ -6,7 +6,8 @@
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
 use super::integer::{Scaled, Wide};
-use super::tally;
+use super::vectors::{dot, minor, minus};
+use crate::machine::tally;
 use robust::Coord3D;
 
 /// Six times the signed volume of the tetrahedron `abcd`, the determinant of `b − a`, `c − a`, `d − a`; zero
@@ -132,22 +133,6 @@ fn product(x: i64, y: i64) -> i128 {
 #[inline(always)]
 fn volume(u: &[f64; 3], v: &[f64; 3], w: &[f64; 3]) -> f64 {
     minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
-}
-
-/// Minor of the first two columns.
-#[inline(always)]
-fn minor(p: &[f64; 3], q: &[f64; 3]) -> f64 {
-    p[0] * q[1] - p[1] * q[0]
-}
-
-#[inline(always)]
-fn minus(p: &[f64; 3], q: &[f64; 3]) -> [f64; 3] {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-#[inline(always)]
-fn dot(p: &[f64; 3], q: &[f64; 3]) -> f64 {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
 
 fn coord(&[x, y, z]: &[f64; 3]) -> Coord3D<f64> {

@@ -27,7 +27,7 @@
 
 use super::StaticFilter;
 use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d};
-use super::tolerance::minus;
+use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
 use crate::simd::Real;
 
 /// Vector and area of a cell of the plane: `[n_x, n_y, V]`.
@@ -38,9 +38,9 @@ pub type Sphere<T = f64> = [T; 4];
 /// The circle of the triangle `abc`.
 #[inline(always)]
 pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
-    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-    let (uu, vv) = (dot(&u, &u), dot(&v, &v));
-    [minor(uu, v[1], vv, u[1]), minor(vv, u[0], uu, v[0]), minor(u[0], v[1], u[1], v[0])]
+    let (u, v) = (minus(b, a), minus(c, a));
+    let (uu, vv) = (fused_dot(&u, &u), fused_dot(&v, &v));
+    [fused_minor(uu, v[1], vv, u[1]), fused_minor(vv, u[0], uu, v[0]), fused_minor(u[0], v[1], u[1], v[0])]
 }
 
 /// Positive if `q` is inside the circle of which `a` is the first corner, negative if outside; open if the
@@ -48,25 +48,24 @@ pub fn circle<T: Real>(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Circle<T> {
 /// would be mispredicted.)
 #[inline(always)]
 pub fn side_of_circle<T: Real>(&[x, y, volume]: &Circle<T>, a: &[T; 2], q: &[T; 2]) -> T {
-    let s = [q[0] - a[0], q[1] - a[1]];
-    dot(&s, &[x, y]).minus_product(dot(&s, &s), volume)
+    let s = minus(q, a);
+    fused_dot(&s, &[x, y]).minus_product(fused_dot(&s, &s), volume)
 }
 
 /// The sphere of the tetrahedron `abcd`.
 #[inline(always)]
 pub fn sphere<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Sphere<T> {
     let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
-    let (uu, vv, ww) = (dot(&u, &u), dot(&v, &v), dot(&w, &w));
-    let (vw, uw, uv) = (cross(&v, &w), cross(&u, &w), cross(&u, &v));
-    let [x, y, z] = [minor(uu, vw[0], vv, uw[0]), minor(uu, vw[1], vv, uw[1]), minor(uu, vw[2], vv, uw[2])];
-    [ww.times_plus(uv[0], x), ww.times_plus(uv[1], y), ww.times_plus(uv[2], z), dot(&u, &vw)]
+    let (uu, vv, ww) = (fused_dot(&u, &u), fused_dot(&v, &v), fused_dot(&w, &w));
+    let (vw, uw, uv) = (fused_cross(&v, &w), fused_cross(&u, &w), fused_cross(&u, &v));
+    let n = |axis: usize| ww.times_plus(uv[axis], fused_minor(uu, vw[axis], vv, uw[axis]));
+    [n(0), n(1), n(2), fused_dot(&u, &vw)]
 }
 
 /// What lies beyond the plane of `a`, `b`, `c`, on the side from which they turn counter-clockwise.
 #[inline(always)]
 pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> Sphere {
-    let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
-    let [x, y, z] = cross(&u, &v).map(|t| t * f.largest_square);
+    let [x, y, z] = fused_cross(&minus(b, a), &minus(c, a)).map(|t| t * f.largest_square);
     [x, y, z, 0.0]
 }
 
@@ -76,7 +75,7 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
 #[inline(always)]
 pub fn side_of_sphere<T: Real>(&[x, y, z, volume]: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
     let s = minus(q, a);
-    dot(&s, &[x, y, z]).minus_product(dot(&s, &s), volume)
+    fused_dot(&s, &[x, y, z]).minus_product(fused_dot(&s, &s), volume)
 }
 
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
@@ -93,7 +92,7 @@ pub fn side_of_sphere<T: Real>(&[x, y, z, volume]: &Sphere<T>, a: &[T; 3], q: &[
 pub fn is_box_outside_sphere([a, b, c, d]: [&[f64; 3]; 4], [lower, upper]: [&[f64; 3]; 2]) -> bool {
     let [x, y, z, volume] = sphere(a, b, c, d);
     let (s, reach) = nearest(a, [x, y, z], volume, [lower, upper]);
-    let side = (s[0] * x + s[1] * y + s[2] * z) - (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) * volume;
+    let side = dot(&s, &[x, y, z]) - dot(&s, &s) * volume;
     volume > 0.0 && side < -4.0 * prepared_bound_3d(largest(extents([a, b, c, d])), reach)
 }
 
@@ -102,7 +101,7 @@ pub fn is_box_outside_sphere([a, b, c, d]: [&[f64; 3]; 4], [lower, upper]: [&[f6
 pub fn is_box_outside_circle([a, b, c]: [&[f64; 2]; 3], [lower, upper]: [&[f64; 2]; 2]) -> bool {
     let [x, y, volume] = circle(a, b, c);
     let (s, reach) = nearest(a, [x, y], volume, [lower, upper]);
-    let side = (s[0] * x + s[1] * y) - (s[0] * s[0] + s[1] * s[1]) * volume;
+    let side = dot(&s, &[x, y]) - dot(&s, &s) * volume;
     volume > 0.0 && side < -4.0 * prepared_bound_2d(largest(extents([a, b, c])), reach)
 }
 
@@ -134,26 +133,6 @@ fn next_to(x: f64, lower: f64, upper: f64) -> f64 {
     } else {
         x
     }
-}
-
-/// `a` · `b` − `c` · `d`.
-#[inline(always)]
-fn minor<T: Real>(a: T, b: T, c: T, d: T) -> T {
-    (a * b).minus_product(c, d)
-}
-
-#[inline(always)]
-fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
-    [minor(p[1], q[2], p[2], q[1]), minor(p[2], q[0], p[0], q[2]), minor(p[0], q[1], p[1], q[0])]
-}
-
-#[inline(always)]
-fn dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
-    let mut sum = p[0] * q[0];
-    for k in 1..D {
-        sum = p[k].times_plus(q[k], sum);
-    }
-    sum
 }
 
 #[cfg(test)]

@@ -105,8 +105,10 @@
 //! [`separator3d`]: super::separator3d
 //! [`tolerances3d`]: super::tolerances3d
 
+use super::coordinates::Array;
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
+use super::vectors::{cross, dot, minor, minus, plus};
 use crate::simd::{Avx2, LANES, Real};
 
 /// Delimiter of a bi-cell: a sphere with the interior facet inside and the opposing vertices outside.
@@ -157,15 +159,15 @@ const HALF: f64 = 0.5 - 4.0 * UNIT;
 
 /// Squared distance, in the order of operations that the thresholds of this module certify.
 #[inline(always)]
-pub fn squared_distance<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
-    square_between(p, q)
+pub fn squared_distance<P: AsRef<[f64]>>(p: &P, q: &P) -> f64 {
+    square_between(p.as_ref(), q.as_ref())
 }
 
 /// The same for any [`Real`].
 #[inline(always)]
-pub(super) fn square_between<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
+pub(super) fn square_between<T: Real>(p: &[T], q: &[T]) -> T {
     let mut sum = (p[0] - q[0]) * (p[0] - q[0]);
-    for axis in 1..D {
+    for axis in 1..p.len() {
         sum = sum + (p[axis] - q[axis]) * (p[axis] - q[axis]);
     }
     sum
@@ -173,7 +175,7 @@ pub(super) fn square_between<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) ->
 
 /// Upper bound of the distance.
 #[inline(always)]
-pub fn distance_above<const D: usize>(p: &[f64; D], q: &[f64; D]) -> f64 {
+pub fn distance_above<P: AsRef<[f64]> + PartialEq>(p: &P, q: &P) -> f64 {
     let square = squared_distance(p, q);
     if square < LEAST * LEAST {
         return if p == q { 0.0 } else { LEAST * ABOVE };
@@ -201,31 +203,19 @@ fn limit<T: Real>(tolerance: T) -> T {
 
 /// For each of several vertices whether it is certainly nearer to its fixed position than its tolerance: one bit each.
 #[inline(always)]
-pub(crate) fn are_within2d(
+pub(crate) fn are_within<P: Array>(
     avx2: Avx2,
-    fixed: [&[f64; 2]; LANES],
+    fixed: [&P; LANES],
     tolerances: &[f64; LANES],
-    places: [&[f64; 2]; LANES],
+    places: [&P; LANES],
 ) -> u32 {
-    let square = square_between(&avx2.pairs(fixed), &avx2.pairs(places));
-    square.is_less(limit(avx2.load(tolerances))).bits()
-}
-
-/// Likewise in space.
-#[inline(always)]
-pub(crate) fn are_within3d(
-    avx2: Avx2,
-    fixed: [&[f64; 3]; LANES],
-    tolerances: &[f64; LANES],
-    places: [&[f64; 3]; LANES],
-) -> u32 {
-    let square = square_between(&avx2.triples(fixed), &avx2.triples(places));
-    square.is_less(limit(avx2.load(tolerances))).bits()
+    let (fixed, places) = (P::in_lanes(avx2, fixed), P::in_lanes(avx2, places));
+    square_between(fixed.as_ref(), places.as_ref()).is_less(limit(avx2.load(tolerances))).bits()
 }
 
 /// Whether `p` is certainly strictly inside the sphere.
 #[inline(always)]
-pub fn is_certainly_inside<const D: usize>(centre: &[f64; D], radius: f64, p: &[f64; D]) -> bool {
+pub fn is_certainly_inside<P: AsRef<[f64]>>(centre: &P, radius: f64, p: &P) -> bool {
     squared_distance(centre, p) < displacement_limit(radius)
 }
 
@@ -235,12 +225,7 @@ pub fn is_certainly_inside<const D: usize>(centre: &[f64; D], radius: f64, p: &[
 /// By Stewart's theorem the middle of a segment is nowhere nearer, in squares, than the nearer end less a
 /// quarter of the squared length.
 #[inline(always)]
-pub fn is_path_certainly_outside<const D: usize>(
-    centre: &[f64; D],
-    radius: f64,
-    from: &[f64; D],
-    to: &[f64; D],
-) -> bool {
+pub fn is_path_certainly_outside<P: AsRef<[f64]>>(centre: &P, radius: f64, from: &P, to: &P) -> bool {
     let square = Real::min(squared_distance(centre, from), squared_distance(centre, to));
     // (1 ± u)⁵ twice and three roundings.
     let limit = (radius * radius + 0.25 * squared_distance(from, to)) * (1.0 + 16.0 * UNIT);
@@ -269,11 +254,10 @@ pub fn tolerances2d(bicells: &BiCells<2, 4>) -> [f64; LANES] {
 /// Centre, radius and half-width of the standard delimiter of a facet and two opposing vertices.
 #[inline(always)]
 fn annulus2d<T: Real>([o, f, c, d]: &[[T; 2]; 4]) -> ([T; 2], T, T) {
-    let (u, w) = ([f[0] - o[0], f[1] - o[1]], [c[0] - d[0], c[1] - d[1]]);
-    let s = [(c[0] - o[0]) + (d[0] - o[0]), (c[1] - o[1]) + (d[1] - o[1])];
+    let (u, w, s) = (minus(f, o), minus(c, d), plus(&minus(c, o), &minus(d, o)));
     // u·x = |u|² / 2 and w·x = w·s / 2, the bisectors, with x from o to the centre.
-    let (uu, ws) = (u[0] * u[0] + u[1] * u[1], w[0] * s[0] + w[1] * s[1]);
-    let scale = o[0].splat(0.5) / (u[0] * w[1] - u[1] * w[0]);
+    let (uu, ws) = (dot(&u, &u), dot(&w, &s));
+    let scale = o[0].splat(0.5) / minor(&u, &w);
     let centre = [o[0] + (uu * w[1] - ws * u[1]) * scale, o[1] + (ws * u[0] - uu * w[0]) * scale];
     let inner = square_between(&centre, o).max(square_between(&centre, f));
     let outer = square_between(&centre, c).min(square_between(&centre, d));
@@ -297,8 +281,7 @@ pub(super) fn middle<T: Real, const D: usize>(inner: T, outer: T) -> (T, T) {
 /// the triangle is certainly positive.
 #[inline]
 pub fn orientation_tolerance2d([a, b, c]: [&[f64; 2]; 3]) -> f64 {
-    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-    let volume = u[0] * v[1] - u[1] * v[0];
+    let volume = minor(&minus(b, a), &minus(c, a));
     let [x, y] = extents([a, b, c]);
     let bound = ORIENT_2D * (x * y) + LEAST_DETERMINANT;
     let square = Real::max(Real::max(squared_distance(a, b), squared_distance(a, c)), squared_distance(b, c));
@@ -314,7 +297,6 @@ pub fn orientation_tolerance3d([a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
     let volume = dot(&w, &uv);
     let extents = extents([a, b, c, d]);
     let bound = ORIENT_3D * (extents[0] * extents[1] * extents[2]) + LEAST_DETERMINANT;
-    let plus = |p: &[f64; 3], q: &[f64; 3]| [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
     let sum = plus(&uv, &vw);
     let normals = [uv, vw, wu, sum, plus(&vw, &wu), plus(&wu, &uv), plus(&sum, &wu)];
     let square = normals.iter().fold(0.0, |square, n| Real::max(square, dot(n, n)));
@@ -326,21 +308,6 @@ pub fn orientation_tolerance3d([a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
 #[inline(always)]
 fn non_negative(x: f64) -> f64 {
     if x > 0.0 && x < f64::INFINITY { x } else { 0.0 }
-}
-
-#[inline(always)]
-pub(super) fn minus<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-#[inline(always)]
-pub(super) fn dot<T: Real>(p: &[T; 3], q: &[T; 3]) -> T {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-}
-
-#[inline(always)]
-pub(super) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
-    [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
 #[cfg(test)]
@@ -356,8 +323,8 @@ mod tests {
         let plane = |points: &[[f64; 3]; LANES]| points.map(|[x, y, _]| [x, y]);
         let (fixed2d, places2d) = (plane(fixed), plane(places));
         [
-            avx2.run(|| are_within2d(avx2, fixed2d.each_ref(), tolerances, places2d.each_ref())),
-            avx2.run(|| are_within3d(avx2, fixed.each_ref(), tolerances, places.each_ref())),
+            avx2.run(|| are_within(avx2, fixed2d.each_ref(), tolerances, places2d.each_ref())),
+            avx2.run(|| are_within(avx2, fixed.each_ref(), tolerances, places.each_ref())),
         ]
     }
 

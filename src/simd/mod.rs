@@ -125,16 +125,16 @@ impl Avx2 {
         )
     }
 
-    /// Three numbers for each lane.
+    /// Two or three numbers for each lane.
     #[inline(always)]
-    pub fn triples(self, triples: [&[f64; 3]; LANES]) -> [Lanes; 3] {
-        let ends = triples.map(|triple| {
-            let ends = (triple.first_chunk(), triple.last_chunk());
-            (ends.0.expect("two of three"), ends.1.expect("two of three"))
-        });
-        let [x, y] = self.pairs(ends.map(|(xy, _)| xy));
-        let [_, z] = self.pairs(ends.map(|(_, yz)| yz));
-        [x, y, z]
+    pub fn points<const D: usize>(self, points: [&[f64; D]; LANES]) -> [Lanes; D] {
+        const { assert!(D == 2 || D == 3) };
+        let mut lanes = [self.splat(0.0); D];
+        [lanes[0], lanes[1]] = self.pairs(points.map(|p| p.first_chunk().expect("two or three")));
+        if D == 3 {
+            [_, lanes[2]] = self.pairs(points.map(|p| p.last_chunk().expect("two or three")));
+        }
+        lanes
     }
 
     /// Four numbers for each lane.

@@ -80,7 +80,7 @@ fn lanes_are_where_they_belong() {
     assert_all(&[avx2.two_pairs(a, b)], &[[0, 1, 7, 8]]);
     assert_all(&avx2.pairs([a, b, c, d]), &[[0, 7, 12, 20], [1, 8, 13, 21]]);
     let triples = [0, 7, 12, 20].map(|k| numbers[k..].first_chunk().expect("three"));
-    assert_all(&avx2.triples(triples), &[[0, 7, 12, 20], [1, 8, 13, 21], [2, 9, 14, 22]]);
+    assert_all(&avx2.points::<3>(triples), &[[0, 7, 12, 20], [1, 8, 13, 21], [2, 9, 14, 22]]);
     let fours = [0, 7, 12, 20].map(|k| numbers[k..].first_chunk().expect("four"));
     let rows = [[0, 7, 12, 20], [1, 8, 13, 21], [2, 9, 14, 22], [3, 10, 15, 23]];
     assert_all(&avx2.fours(fours), &rows);

@@ -1,12 +1,12 @@
 //! Which cells are in their slots as before, which have gone, and which are in another slot.
 
 use super::{AHEAD, Cells, Found, NO_CELL, Scratch, ids_of, is_finite};
-use crate::complex::memory;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 use crate::motion::matching::{Matcher, are_same};
 use crate::motion::ordering::Ordering;
-use crate::prefetch::prefetch;
 
 /// Rows that are compared first when any may have changed: where most of these are gone from their slots, so are most of
 /// the others.

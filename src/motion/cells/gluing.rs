@@ -1,13 +1,14 @@
 //! The neighbours of the cells.
 
 use super::{AHEAD, Cells, NO_CELL, ids_of};
-use crate::complex::{Corners, NONE, memory};
+use crate::complex::{Corners, NONE};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::machine::threads;
 use crate::motion::marks::Marks;
 use crate::motion::ordering::Ordering;
-use crate::prefetch::prefetch;
-use crate::threads;
 
 /// Rows that take as long to write as it takes to start a thread for them.
 const GLUED_AT_LEAST: usize = 1 << 13;

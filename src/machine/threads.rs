@@ -2,7 +2,7 @@
 //!
 //! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes.
 //! The compiler proves that there are no data races; no `unsafe` is involved but to start a thread, to take over what
-//! several threads have written side by side (here and in [`memory`](crate::complex::memory)), and to move sites of which
+//! several threads have written side by side (here and in [`memory`]), and to move sites of which
 //! no two threads have the same one (`motion::moving`). Results are put together in the order of the work, so that they
 //! do not depend on which thread was faster.
 //!
@@ -24,9 +24,8 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
-use crate::complex::memory;
+use super::{memory, processors, tally};
 use crate::error::Result;
-use crate::{predicates, processors};
 
 /// Ranges for each thread.
 const RANGES: usize = 8;
@@ -78,10 +77,8 @@ impl<F: FnOnce() -> B, B> Task<F, B> {
     /// Does the work on a thread that has done nothing else.
     fn run(&mut self) {
         IS_WORKER.set(true);
-        self.done = self
-            .work
-            .take()
-            .map(|work| catch_unwind(AssertUnwindSafe(|| (work(), predicates::exact_calls()))));
+        self.done =
+            self.work.take().map(|work| catch_unwind(AssertUnwindSafe(|| (work(), tally::exact_calls()))));
     }
 }
 
@@ -91,7 +88,7 @@ pub(crate) fn join<A, B: Send>(a: impl FnOnce() -> A, b: impl FnOnce() -> B + Se
     let a = beside(&mut task, a);
     match (task.done, task.work) {
         (Some(Ok((b, exact_calls))), _) => {
-            predicates::add_exact_calls(exact_calls);
+            tally::add(exact_calls);
             (a, b)
         }
         (Some(Err(payload)), _) => panic!("on another thread: {}", message(&payload)),
@@ -289,10 +286,9 @@ mod tests {
 
     #[test]
     fn exact_calls_of_all_threads_count() {
-        let before = predicates::exact_calls();
-        let f = predicates::StaticFilter::plane([0.0; 2], [2.0; 2]);
-        for_each(0..5, &|_| assert_eq!(predicates::orient2d(&f, &[0.1; 2], &[0.2; 2], &[0.3; 2]), 0.0));
-        assert_eq!(predicates::exact_calls() - before, 5);
+        let before = tally::exact_calls();
+        for_each(0..5, &|_| tally::count());
+        assert_eq!(tally::exact_calls() - before, 5);
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! How often filters have left a sign to exact arithmetic.
+//! How often each thread has needed exact arithmetic. What [`join`](super::threads::join) has done on another thread
+//! counts for the calling one.
 
 use std::cell::Cell;
 
@@ -15,11 +16,12 @@ pub fn exact_calls() -> u64 {
 
 /// Counts one.
 #[inline(always)]
-pub(super) fn count() {
-    EXACT.set(EXACT.get() + 1);
+pub(crate) fn count() {
+    add(1);
 }
 
 /// Counts those that another thread has evaluated for the current one.
-pub(crate) fn add_exact_calls(n: u64) {
+#[inline(always)]
+pub(super) fn add(n: u64) {
     EXACT.set(EXACT.get() + n);
 }

@@ -11,8 +11,8 @@ use std::fmt::{self, Write};
 use std::hash::{BuildHasher, Hash};
 use std::mem::MaybeUninit;
 
+use super::threads;
 use crate::error::{Error, Result};
-use crate::threads;
 
 /// Arrays below this size stay on ordinary pages.
 const LARGE: usize = 4 << 20;

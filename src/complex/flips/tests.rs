@@ -1,0 +1,208 @@
+//! Flips of small complexes, and taking them back.
+
+use super::*;
+use crate::complex::INFINITE;
+
+/// Corners of all cells, each rotated to a normal form that keeps its orientation.
+fn cells<C: Corners>(complex: &Complex<C>) -> Vec<C> {
+    let mut all: Vec<C> = complex
+        .live()
+        .map(|c| {
+            let mut v = complex.cell(c).corners;
+            let mut odd = false;
+            for i in 0..C::N {
+                for j in i + 1..C::N {
+                    if v[j] < v[i] {
+                        v.as_mut().swap(i, j);
+                        odd = !odd;
+                    }
+                }
+            }
+            if odd { v.reflected(0) } else { v }
+        })
+        .collect();
+    all.sort_unstable();
+    all
+}
+
+fn is_mutual<C: Corners>(complex: &Complex<C>) -> bool {
+    complex.live().all(|c| {
+        (0..C::N).all(|i| {
+            let n = complex.cell(c).neighbour(i);
+            let same = (0..C::N)
+                .filter(|&k| k != i)
+                .all(|k| complex.cell(n.cell()).corners.as_ref().contains(&complex.cell(c).corners[k]));
+            same && complex.cell(n.cell()).neighbour(n.index()) == Facet::new(c, i)
+        })
+    })
+}
+
+#[test]
+fn a_2_2_flip_done_twice_more_swaps_back() {
+    let mut complex = Complex::<[u32; 3]>::default();
+    complex.start([1, 2, 3]).unwrap();
+    // Split the cell at 4 by hand: three cells around it.
+    let outs: Vec<Facet> = (0..3).map(|i| complex.cell(0).neighbour(i)).collect();
+    complex.retire(0);
+    complex.put(0, [4, 2, 3]);
+    let (b, c) = (complex.create([1, 4, 3]), complex.create([1, 2, 4]));
+    let new = [0, b, c];
+    for i in 0..3 {
+        complex.glue(Facet::new(new[i], i), outs[i]);
+        for j in 0..i {
+            complex.glue(Facet::new(new[i], j), Facet::new(new[j], i));
+        }
+    }
+    assert!(is_mutual(&complex));
+    let before = cells(&complex);
+    let edge = |complex: &Complex<[u32; 3]>| {
+        let c = complex.finite().next().unwrap();
+        (0..3)
+            .map(|i| Facet::new(c, i))
+            .find(|f| !complex.cell(complex.cell(c).neighbour(f.index()).cell()).is_ghost())
+            .unwrap()
+    };
+    let f = edge(&complex);
+    complex.whole().flip_2_2(f).expect("all cells are there");
+    assert!(is_mutual(&complex));
+    assert_ne!(cells(&complex), before);
+    let i = (f.index() + 1) % 3;
+    complex.whole().flip_2_2(Facet::new(f.cell(), i)).expect("all cells are there");
+    assert!(is_mutual(&complex));
+    assert_eq!(cells(&complex), before);
+}
+
+/// The corners of facets.
+fn boundary(complex: &Complex<[u32; 4]>, facets: [Facet; 6]) -> Vec<Vec<u32>> {
+    let mut corners = facets.map(|f| {
+        let mut corners: Vec<u32> = complex.cell(f.cell()).corners.to_vec();
+        corners.remove(f.index());
+        corners.sort_unstable();
+        corners
+    });
+    corners.sort_unstable();
+    corners.to_vec()
+}
+
+#[test]
+fn flips_in_space_come_back() {
+    let mut complex = Complex::<[u32; 4]>::default();
+    complex.start([1, 2, 3, 4]).unwrap();
+    // Split the cell at 5 by hand: four cells around it.
+    let outs: Vec<Facet> = (0..4).map(|i| complex.cell(0).neighbour(i)).collect();
+    let corners = complex.cell(0).corners;
+    complex.put(0, corners.with(0, 5));
+    let new = [0, 1, 2, 3].map(|i| if i == 0 { 0 } else { complex.create(corners.with(i, 5)) });
+    for i in 0..4 {
+        complex.glue(Facet::new(new[i], i), outs[i]);
+        for j in 0..i {
+            complex.glue(Facet::new(new[i], j), Facet::new(new[j], i));
+        }
+    }
+    assert!(is_mutual(&complex));
+    let before = cells(&complex);
+    for (c, i) in new.into_iter().flat_map(|c| (0..4).map(move |i| (c, i))) {
+        let facet = Facet::new(c, i);
+        if complex.cell(complex.cell(c).neighbour(i).cell()).is_ghost() {
+            continue;
+        }
+        let [p, q] = [facet, complex.cell(c).neighbour(i)].map(|f| complex.apex(f));
+        let (n_slots, free) = (complex.n_slots(), complex.free_cells().to_vec());
+        assert_eq!(complex.whole().flip_2_3(facet).err(), Some(Obstacle::Full));
+        assert_eq!(cells(&complex), before);
+        complex.create_free(2).unwrap();
+        let (outer, undo) = complex.whole().flip_2_3(facet).expect("all cells are there");
+        let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
+        assert!(is_mutual(&complex) && complex.n_finite() == 5);
+        let boundary_of_flip = boundary(&complex, outer);
+        assert!(made.iter().all(|&m| [p, q].iter().all(|s| complex.cell(m).corners.contains(s))));
+        // The other way by the inverse flip, from each cell and each of its facets at the edge.
+        for &m in &made {
+            for apex in complex.cell(m).corners.into_iter().filter(|&s| s != p && s != q) {
+                let at = complex.cell(m).index_of(apex);
+                let k = (0..4).find(|&k| k != at && ![p, q].contains(&complex.cell(m).corners[k])).unwrap();
+                let after = cells(&complex);
+                let (n_slots, free) = (complex.n_slots(), complex.free_cells().to_vec());
+                let (rim, back) = complex.whole().flip_3_2(Facet::new(m, at), k).expect("three cells");
+                assert!(is_mutual(&complex));
+                assert_eq!(boundary(&complex, rim), boundary_of_flip);
+                assert_eq!(cells(&complex), before);
+                complex.undo_flips(back.into_iter().rev());
+                complex.restore_free(n_slots, &free);
+                assert!(is_mutual(&complex));
+                assert_eq!(cells(&complex), after);
+            }
+        }
+        complex.undo_flips(undo.into_iter().rev());
+        complex.restore_free(n_slots, &free);
+        assert!(is_mutual(&complex));
+        assert_eq!(cells(&complex), before);
+        assert_eq!((complex.n_slots(), complex.free_cells()), (n_slots, &free[..]));
+    }
+}
+
+/// Two tetrahedra that share a facet, and the ghosts around, which come first.
+fn two_tetrahedra() -> (Complex<[u32; 4]>, Facet) {
+    let mut complex = Complex::<[u32; 4]>::default();
+    complex.start([1, 2, 3, 4]).unwrap();
+    // A ghost becomes a finite cell with a new corner, by hand, with a ghost on each of its other facets.
+    let (ghost, mut finite) = (1, complex.cell(1).corners);
+    finite[3] = 5;
+    let ridges: Vec<Facet> = (0..3).map(|i| complex.cell(ghost).neighbour(i)).collect();
+    complex.retire(ghost);
+    complex.put(ghost, finite);
+    let new = [0, 1, 2].map(|i| {
+        let mut corners = finite.with(i, INFINITE);
+        corners.swap(i, 3);
+        complex.create(corners)
+    });
+    for (i, &g) in new.iter().enumerate() {
+        complex.glue(Facet::new(g, 3), Facet::new(ghost, i));
+        complex.glue(Facet::new(g, i), ridges[i]);
+        for (j, &h) in new.iter().enumerate().take(i) {
+            complex.glue(Facet::new(g, j), Facet::new(h, i));
+        }
+    }
+    assert!(is_mutual(&complex));
+    complex.sort(6, usize::MAX).unwrap();
+    assert!(is_mutual(&complex));
+    let shared = complex
+        .finite()
+        .flat_map(|c| (0..4).map(move |i| Facet::new(c, i)))
+        .find(|facet| !complex.cell(complex.cell(facet.cell()).neighbour(facet.index()).cell()).is_ghost())
+        .expect("a facet between finite cells");
+    (complex, shared)
+}
+
+#[test]
+fn flips_need_all_their_cells() {
+    let (mut complex, facet) = two_tetrahedra();
+    complex.create_free(3).unwrap();
+    let before = cells(&complex);
+    let n = complex.n_slots() as u32;
+    // The six ghosts and two cells are all concerned.
+    for start in 1..n - 3 {
+        let mut tried = [None; 2];
+        complex
+            .divided(&[0, start], &mut tried, |_, stretch, tried| {
+                *tried = stretch.flip_2_3(facet).err();
+            })
+            .unwrap();
+        assert_eq!(tried, [Some(Obstacle::Elsewhere); 2]);
+        assert_eq!(cells(&complex), before);
+        assert_eq!(complex.free_cells().len(), 3);
+    }
+    // The first stretch has all cells, and of the free ones one or none.
+    for (start, expected) in [(n - 3, Some(Obstacle::Full)), (n - 2, None)] {
+        let mut tried = [None; 2];
+        complex
+            .divided(&[0, start], &mut tried, |k, stretch, tried| {
+                assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
+                *tried = stretch.flip_2_3(facet).err();
+            })
+            .unwrap();
+        assert_eq!(tried[0], expected);
+        assert!(is_mutual(&complex));
+    }
+    assert_eq!((complex.n_finite(), complex.free_cells().len()), (3, 2));
+}

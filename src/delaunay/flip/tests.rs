@@ -1,0 +1,139 @@
+//! Flips on one or several threads, and taking them back.
+
+use super::*;
+use crate::delaunay::{Failures, Level, Plane, Space};
+use crate::machine::threads::Threads;
+use crate::random::Rng;
+
+/// A triangulation whose sites have moved by up to `size` along each axis, and the facets that fail; no cell is
+/// inverted.
+fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<Facet>) {
+    let rng = &mut Rng::new(5);
+    let mut points = vec![G::Point::default(); n];
+    points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
+    let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
+    t.add_sites(&points).expect("room for it");
+    t.rebuild(&mut |_| true).expect("room for it");
+    t.sort_cells().expect("room for it");
+    let mut failures = Failures::default();
+    for s in t.live_sites().collect::<Vec<_>>() {
+        let old = t.site(s).point;
+        let mut q = old;
+        (0..G::D).for_each(|k| q[k] += size * (2.0 * rng.unit() - 1.0));
+        t.cover(&q, &q);
+        t.set_point(s, q);
+        failures.clear();
+        t.check_star(s, &mut failures).expect("room for it");
+        t.check_ridges(&mut failures, |_| None).expect("room for it");
+        if !failures.cells.is_empty() || !failures.ridges.is_empty() {
+            t.set_point(s, old);
+        }
+    }
+    assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
+    let facets = failures.facets;
+    (t, facets)
+}
+
+/// Flips on several threads lead to a Delaunay triangulation, and most of them are done side by side.
+fn threads_flip<G: Dimension>(size: f64) {
+    for threads in [2, 3, 7] {
+        let (mut t, mut suspects) = moved::<G>(4000, threads, size);
+        assert!(suspects.len() > 300, "{}", suspects.len());
+        t.record_changes(Vec::new());
+        let mut stuck = Vec::new();
+        let n_flips = t.flip_all(&mut suspects, &mut stuck).expect("room for it");
+        assert_eq!(stuck, []);
+        t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+        let parts: Vec<u64> = t.flips.parts.iter().map(|part| part.n_flips).collect();
+        assert_eq!(parts.len(), threads as usize);
+        assert!(parts.iter().all(|&n| n > 0), "{parts:?}");
+        assert!(2 * parts.iter().sum::<u64>() > n_flips, "{parts:?} of {n_flips}");
+        // All cells that are new are in the record.
+        let changed = t.take_changes().expect("a record");
+        let (old, _) = moved::<G>(4000, threads, size);
+        for c in t.complex.live().filter(|c| !changed.contains(c)) {
+            assert_eq!(t.complex.cell(c).corners, old.complex.cell(c).corners);
+        }
+    }
+}
+
+#[test]
+fn threads_flip_in_the_plane() {
+    threads_flip::<Plane>(2e-3);
+}
+
+#[test]
+fn threads_flip_in_space() {
+    threads_flip::<Space>(2e-3);
+}
+
+/// The four cells around the shorter diagonal of a square become those around the other one when it is the shorter,
+/// also where those on one side are ghosts.
+#[test]
+fn diagonals_change_in_space() {
+    let square = |a: f64| [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, a, 0.0], [0.0, -a, 0.0]];
+    let sides = [[0.1, 0.2, 2.0], [0.1, -0.1, -2.0]];
+    for sides in [&sides[..], &sides[..1], &sides[1..]] {
+        let mut t = Delaunay::<Space>::default();
+        t.add_sites(&[&square(0.9)[..], sides].concat()).expect("room for it");
+        t.rebuild(&mut |_| true).expect("room for it");
+        assert_eq!(t.complex.n_finite(), 2 * sides.len());
+        let before: Vec<_> = t.complex.cells().iter().map(|cell| cell.corners).collect();
+        for s in t.live_sites().collect::<Vec<_>>() {
+            if let Some(place) = square(1.1).get(t.site(s).id as usize) {
+                t.cover(place, place);
+                t.set_point(s, *place);
+            }
+        }
+        let mut failures = Failures::default();
+        assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
+        t.check_ridges(&mut failures, |_| None).expect("room for it");
+        assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
+        let mut flips = AllFlips::default();
+        flips.own.suspects.clone_from(&failures.facets);
+        t.flip_as_far_as_possible(&mut flips, 1).expect("room for it");
+        t.flips = flips;
+        t.undo_flips();
+        t.validate(Level::Embedding).expect("cells as they were");
+        assert!(t.complex.cells().iter().map(|cell| cell.corners).take(before.len()).eq(before));
+        let mut stuck = Vec::new();
+        t.record_changes(Vec::new());
+        assert_eq!(t.flip_all(&mut failures.facets, &mut stuck), Ok(1));
+        assert_eq!(stuck, []);
+        // All four cells are new, and recorded.
+        let changed = t.take_changes().expect("a record");
+        assert_eq!(t.complex.live().filter(|c| changed.contains(c)).count(), 4);
+        assert_eq!(t.complex.n_finite(), 2 * sides.len());
+        t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+    }
+}
+
+/// Flips on one or several threads are taken back: corners, gluings and free cells are as they were.
+#[test]
+fn flips_come_back() {
+    for threads in [1, 3] {
+        let (mut t, mut suspects) = moved::<Space>(2000, threads, 3e-3);
+        let places = |t: &Delaunay<Space>| {
+            let corners = t.complex.cells().iter().map(|cell| cell.corners);
+            let neighbours = t.complex.live().map(|c| [0, 1, 2, 3].map(|i| t.complex.cell(c).neighbour(i)));
+            (corners.collect::<Vec<_>>(), neighbours.collect::<Vec<_>>())
+        };
+        let (before, free) = (places(&t), t.complex.free_cells().to_vec());
+        let mut flips = std::mem::take(&mut t.flips);
+        flips.own.suspects.append(&mut suspects);
+        t.flip_as_far_as_possible(&mut flips, threads as usize).expect("room for it");
+        let n_flips =
+            flips.own.journal.len() + flips.parts.iter().map(|part| part.journal.len()).sum::<usize>();
+        assert!(n_flips > 100, "{n_flips}");
+        t.flips = flips;
+        assert_ne!(places(&t), before);
+        // One thread has had to make room.
+        assert!(threads > 1 || t.complex.n_slots() > before.0.len());
+        t.undo_flips();
+        let after = places(&t);
+        assert_eq!(after.0[..before.0.len()], before.0);
+        assert_eq!(after.1, before.1);
+        assert!(t.complex.free_cells().ends_with(&free));
+        t.validate(Level::Structure).expect("cells as they were");
+    }
+}

@@ -1,0 +1,88 @@
+//! What the kernel does in another way in either dimension.
+//!
+//! All else above the predicates is written once, over [`Dimension`]: a point is an array of `D` coordinates, a cell an
+//! array of `D + 1` corners, and the two signs that decide everything are the orientation of `D + 1` points and the
+//! position of a point against the sphere through them.
+
+use super::Delaunay;
+use super::cavity::Insert;
+use super::dimension::Dimension;
+use super::flip::{Flipper, Flips};
+use super::site::{Site, Sites};
+use crate::complex::{Corners, Facet, Obstacle};
+use crate::predicates::StaticFilter;
+use crate::simd::{Avx2, LANES};
+
+/// The predicates of a dimension, and the steps of algorithms that differ. `G` is the dimension itself: a supertrait of
+/// [`Dimension`] can name its types only by a parameter.
+///
+/// The predicates take sites (a place and the vertex id that breaks ties, see [`crate::predicates`]) by index.
+/// `INFINITE` must not be among the indices whose place is read.
+pub trait Kernel<G: Dimension> {
+    /// Sites of a part at least for a build in parts to be clearly faster, on a busy machine as well.
+    const BUILT_AT_LEAST: usize;
+    /// Scratch memory of insertions.
+    type Scratch: Insert<G>;
+
+    /// Error bounds for points inside the box.
+    fn filter(lower: &G::Point, upper: &G::Point) -> StaticFilter;
+
+    /// Sign of the orientation of `D + 1` points: positive for the corners of a valid finite cell.
+    fn orient(f: &StaticFilter, points: &[&G::Point]) -> f64;
+
+    /// Sign of the orientation of the cell.
+    #[inline(always)]
+    fn orientation(f: &StaticFilter, sites: Sites<G>, v: &G::Corners) -> f64 {
+        Self::orient(f, &sites.points(v)[..G::Corners::N])
+    }
+
+    /// Sign of the orientation of the cell after corner `i`, which may be `INFINITE`, has gone to `q`.
+    #[inline(always)]
+    fn orientation_with(f: &StaticFilter, sites: Sites<G>, v: &G::Corners, i: usize, q: &G::Point) -> f64 {
+        let mut points = sites.points(v);
+        points[i] = q;
+        Self::orient(f, &points[..G::Corners::N])
+    }
+
+    /// Whether `q`, whose ties are broken as those of vertex `id`, is inside the sphere of a positively
+    /// oriented finite cell, symbolically perturbed.
+    fn is_in_sphere(f: &StaticFilter, sites: Sites<G>, v: &G::Corners, q: &G::Point, id: u32) -> bool;
+
+    /// Whether all points of a box are certainly outside the sphere of a positively oriented finite cell.
+    fn is_clear_of(sites: Sites<G>, v: &G::Corners, lower: &G::Point, upper: &G::Point) -> bool;
+
+    /// Whether the points lie in one affine subspace of dimension `points.len() - 2`: two equal points,
+    /// three on a line, four in a plane.
+    fn is_dependent(f: &StaticFilter, points: &[G::Point]) -> bool;
+
+    /// Whether a cell certainly stays positively oriented while its `D + 1` corners go straight from `old` to `new`.
+    fn stays_positive(old: &[&G::Point], new: &[&G::Point]) -> bool;
+
+    /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
+    fn cell_holds(t: &Delaunay<G>, cell: u32) -> bool;
+
+    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each.
+    fn cells_hold(avx2: Avx2, t: &Delaunay<G>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
+
+    /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
+    /// test.
+    fn bicell_holds(t: &Delaunay<G>, facet: Facet) -> bool;
+
+    /// As [`bicell_holds`](Self::bicell_holds), of several facets, or by bounds that are sharper: one bit each.
+    fn facets_hold(avx2: Avx2, t: &Delaunay<G>, facets: &[Facet; LANES]) -> u32;
+
+    /// Takes sites that are certainly outside the sphere of a cell out of a set of them, by position.
+    fn drop_outside(t: &Delaunay<G>, cell: &G::Corners, sites: &[u32], set: u64) -> u64;
+
+    /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
+    fn flip(flipper: &mut Flipper<G>, facet: Facet, flips: &mut Flips<G>) -> Result<(), Obstacle>;
+
+    /// Exchanges places with those of sites, by index; returns how many differ, bit by bit. All is read before anything
+    /// is written.
+    fn exchange(
+        avx2: Avx2,
+        places: &mut [G::Point; LANES],
+        sites: &mut [Site<G>],
+        sites_of: &[u32; LANES],
+    ) -> u64;
+}

@@ -1,0 +1,166 @@
+//! The kernel's steps in the plane.
+
+use super::dimension::Plane;
+use super::flip::{Flipper, Flips};
+use super::kernel::Kernel;
+use super::screen::{apexes_beyond, corners_at};
+use super::site::{Site, Sites};
+use super::{Delaunay, cavity_plane};
+use crate::complex::{Facet, INFINITE, Obstacle};
+use crate::predicates::{self, StaticFilter};
+use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+
+impl Kernel<Plane> for Plane {
+    const BUILT_AT_LEAST: usize = 16_000;
+    type Scratch = cavity_plane::Scratch;
+
+    fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
+        StaticFilter::plane(*lower, *upper)
+    }
+
+    #[inline(always)]
+    fn orient(f: &StaticFilter, points: &[&[f64; 2]]) -> f64 {
+        let &[a, b, c] = points else { unreachable!("a triangle") };
+        predicates::orient2d(f, a, b, c)
+    }
+
+    #[inline(always)]
+    fn is_in_sphere(f: &StaticFilter, sites: Sites<Plane>, v: &[u32; 3], q: &[f64; 2], id: u32) -> bool {
+        debug_assert!(v[2] != INFINITE);
+        let [a, b, c] = v.map(|s| sites.point(s));
+        let sign = predicates::incircle(f, a, b, c, q);
+        if sign != 0.0 {
+            return sign > 0.0;
+        }
+        let [i, j, k] = v.map(|s| sites.id(s));
+        predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id])
+    }
+
+    #[inline(always)]
+    fn is_clear_of(sites: Sites<Plane>, v: &[u32; 3], lower: &[f64; 2], upper: &[f64; 2]) -> bool {
+        predicates::is_box_outside_circle(v.map(|s| sites.point(s)), [lower, upper])
+    }
+
+    fn is_dependent(f: &StaticFilter, points: &[[f64; 2]]) -> bool {
+        match points {
+            [] | [_] => false,
+            [a, b] => a == b,
+            [a, b, c] => predicates::orient2d(f, a, b, c) == 0.0,
+            _ => true,
+        }
+    }
+
+    fn stays_positive(old: &[&[f64; 2]], new: &[&[f64; 2]]) -> bool {
+        let triangle = |p: &[_]| <[_; 3]>::try_from(p).expect("three corners");
+        predicates::stays_positive2d(triangle(old), triangle(new))
+    }
+
+    #[inline(always)]
+    fn cell_holds(t: &Delaunay<Plane>, c: u32) -> bool {
+        let cell = t.complex.cell(c);
+        let [a, b, d] = cell.corners.map(|s| t.view().point(s));
+        let circle = predicates::circle(a, b, d);
+        let side = |i| {
+            let apex = t.complex.apex(cell.neighbour(i));
+            let side = predicates::side_of_circle(&circle, a, t.view().point(apex));
+            if apex == INFINITE { f64::NEG_INFINITY } else { side }
+        };
+        let greatest = Real::max(Real::max(side(0), side(1)), side(2));
+        circle[2] > t.filter.orient && greatest < -t.filter.prepared
+    }
+
+    #[inline(always)]
+    fn cells_hold(avx2: Avx2, t: &Delaunay<Plane>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
+        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
+        let circle = predicates::circle(&a, &b, &c);
+        let mut hold = avx2.splat(t.filter.orient).is_less(circle[2]);
+        for apexes in &apexes[..3] {
+            let side = predicates::side_of_circle(&circle, &a, &places(avx2, t, **apexes));
+            hold = hold & (side.is_less(avx2.splat(-t.filter.prepared)) | avx2.are_equal(apexes, INFINITE));
+        }
+        hold.bits()
+    }
+
+    #[inline(always)]
+    fn bicell_holds(t: &Delaunay<Plane>, edge: Facet) -> bool {
+        let cell = t.complex.cell(edge.cell());
+        let across = cell.neighbour(edge.index());
+        let corners = t.complex.cell(across.cell()).corners;
+        let [a, b, d] = cell.corners.map(|s| t.view().point(s));
+        let circle = predicates::circle(a, b, d);
+        let side = predicates::side_of_circle(&circle, a, t.view().point(corners[across.index()]));
+        let [a, b, d] = corners.map(|s| t.view().point(s));
+        let beyond = predicates::circle(a, b, d);
+        circle[2] > t.filter.orient && beyond[2] > t.filter.orient && side < -t.filter.prepared
+    }
+
+    #[inline(always)]
+    fn facets_hold(avx2: Avx2, t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
+        let [k, l, m, n] = [
+            corners_at(t, edges[0]),
+            corners_at(t, edges[1]),
+            corners_at(t, edges[2]),
+            corners_at(t, edges[3]),
+        ];
+        let bicells = [
+            places(avx2, t, [k[0], l[0], m[0], n[0]]),
+            places(avx2, t, [k[1], l[1], m[1], n[1]]),
+            places(avx2, t, [k[2], l[2], m[2], n[2]]),
+            places(avx2, t, apexes_beyond(t, edges)),
+        ];
+        let hold = predicates::bicells_surely_hold2d(&t.filter, &bicells).bits();
+        if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d(&bicells).bits() }
+    }
+
+    #[inline(always)]
+    fn drop_outside(_: &Delaunay<Plane>, _: &[u32; 3], _: &[u32], set: u64) -> u64 {
+        // They are few.
+        set
+    }
+
+    #[inline(always)]
+    fn flip(flipper: &mut Flipper<Plane>, edge: Facet, flips: &mut Flips<Plane>) -> Result<(), Obstacle> {
+        flips.enter(flipper.cells.flip_2_2(edge)?);
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn exchange(
+        avx2: Avx2,
+        places: &mut [[f64; 2]; LANES],
+        sites: &mut [Site<Plane>],
+        sites_of: &[u32; LANES],
+    ) -> u64 {
+        let [s, t, u, v] = sites_of.map(|s| s as usize);
+        let (first, last) = halves(places);
+        let new = [avx2.load(first), avx2.load(last)];
+        let old = [
+            avx2.two_pairs(&sites[s].point, &sites[t].point),
+            avx2.two_pairs(&sites[u].point, &sites[v].point),
+        ];
+        new[0].store_low_to(&mut sites[s].point);
+        new[0].store_high_to(&mut sites[t].point);
+        new[1].store_low_to(&mut sites[u].point);
+        new[1].store_high_to(&mut sites[v].point);
+        old[0].store_to(first);
+        old[1].store_to(last);
+        let same = [new[0].are_same(old[0]).bits(), new[1].are_same(old[1]).bits()];
+        let same = [same[0] & 3, same[0] >> 2, same[1] & 3, same[1] >> 2];
+        same.iter().map(|&bits| u64::from(bits != 3)).sum()
+    }
+}
+
+#[inline(always)]
+fn places(avx2: Avx2, t: &Delaunay<Plane>, sites: [u32; LANES]) -> [Lanes; 2] {
+    avx2.pairs(sites.map(|s| t.view().point(s)))
+}
+
+#[inline(always)]
+fn halves(places: &mut [[f64; 2]; LANES]) -> (&mut [f64; LANES], &mut [f64; LANES]) {
+    let halves = places.as_flattened_mut().as_chunks_mut().0;
+    let [first, last] = halves else { unreachable!("four pairs") };
+    (first, last)
+}

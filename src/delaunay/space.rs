@@ -1,0 +1,233 @@
+//! The kernel's steps in space.
+
+use super::dimension::Space;
+use super::flip::{Flipper, Flips};
+use super::kernel::Kernel;
+use super::screen::{apexes_beyond, corners_at};
+use super::site::{Site, Sites};
+use super::{Delaunay, cavity_space};
+use crate::complex::{Facet, INFINITE, Obstacle};
+use crate::predicates::{self, StaticFilter};
+use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
+
+impl Kernel<Space> for Space {
+    const BUILT_AT_LEAST: usize = 5_000;
+    type Scratch = cavity_space::Scratch;
+
+    fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
+        StaticFilter::space(*lower, *upper)
+    }
+
+    #[inline(always)]
+    fn orient(f: &StaticFilter, points: &[&[f64; 3]]) -> f64 {
+        let &[a, b, c, d] = points else { unreachable!("a tetrahedron") };
+        predicates::orient3d(f, a, b, c, d)
+    }
+
+    #[inline(always)]
+    fn is_in_sphere(f: &StaticFilter, sites: Sites<Space>, v: &[u32; 4], q: &[f64; 3], id: u32) -> bool {
+        debug_assert!(v[3] != INFINITE);
+        let [a, b, c, d] = v.map(|s| sites.point(s));
+        let sign = predicates::insphere(f, a, b, c, d, q);
+        if sign != 0.0 {
+            return sign > 0.0;
+        }
+        let [i, j, k, l] = v.map(|s| sites.id(s));
+        predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id])
+    }
+
+    #[inline(always)]
+    fn is_clear_of(sites: Sites<Space>, v: &[u32; 4], lower: &[f64; 3], upper: &[f64; 3]) -> bool {
+        predicates::is_box_outside_sphere(v.map(|s| sites.point(s)), [lower, upper])
+    }
+
+    fn is_dependent(f: &StaticFilter, points: &[[f64; 3]]) -> bool {
+        match points {
+            [] | [_] => false,
+            [a, b] => a == b,
+            [a, b, c] => predicates::is_collinear3(a, b, c),
+            [a, b, c, d] => predicates::orient3d(f, a, b, c, d) == 0.0,
+            _ => true,
+        }
+    }
+
+    fn stays_positive(old: &[&[f64; 3]], new: &[&[f64; 3]]) -> bool {
+        let tetrahedron = |p: &[_]| <[_; 4]>::try_from(p).expect("four corners");
+        predicates::stays_positive3d(tetrahedron(old), tetrahedron(new))
+    }
+
+    #[inline(always)]
+    fn cell_holds(t: &Delaunay<Space>, c: u32) -> bool {
+        let cell = t.complex.cell(c);
+        let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
+        let sphere = predicates::sphere(a, b, d, e);
+        let side = |i| {
+            let apex = t.complex.apex(cell.neighbour(i));
+            let side = predicates::side_of_sphere(&sphere, a, t.view().point(apex));
+            if apex == INFINITE { f64::NEG_INFINITY } else { side }
+        };
+        let greatest = Real::max(Real::max(side(0), side(1)), Real::max(side(2), side(3)));
+        sphere[3] > t.filter.orient && greatest < -t.filter.prepared
+    }
+
+    #[inline(always)]
+    fn cells_hold(avx2: Avx2, t: &Delaunay<Space>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
+        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
+        let d = places(avx2, t, [k[3], l[3], m[3], n[3]]);
+        let sphere = predicates::sphere(&a, &b, &c, &d);
+        let mut hold = avx2.splat(t.filter.orient).is_less(sphere[3]);
+        for apexes in apexes {
+            let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t, *apexes));
+            hold = hold & (side.is_less(avx2.splat(-t.filter.prepared)) | avx2.are_equal(apexes, INFINITE));
+        }
+        hold.bits()
+    }
+
+    #[inline(always)]
+    fn bicell_holds(t: &Delaunay<Space>, facet: Facet) -> bool {
+        let cell = t.complex.cell(facet.cell());
+        let across = cell.neighbour(facet.index());
+        let corners = t.complex.cell(across.cell()).corners;
+        let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
+        let sphere = predicates::sphere(a, b, d, e);
+        let side = predicates::side_of_sphere(&sphere, a, t.view().point(corners[across.index()]));
+        let beyond = corners.map(|s| t.view().point(s));
+        let volume = predicates::sphere(beyond[0], beyond[1], beyond[2], beyond[3])[3];
+        sphere[3] > t.filter.orient && volume > t.filter.orient && side < -t.filter.prepared
+    }
+
+    #[inline(always)]
+    fn facets_hold(avx2: Avx2, t: &Delaunay<Space>, faces: &[Facet; LANES]) -> u32 {
+        let [k, l, m, n] = [
+            corners_at(t, faces[0]),
+            corners_at(t, faces[1]),
+            corners_at(t, faces[2]),
+            corners_at(t, faces[3]),
+        ];
+        let bicells = [
+            places(avx2, t, [k[0], l[0], m[0], n[0]]),
+            places(avx2, t, [k[1], l[1], m[1], n[1]]),
+            places(avx2, t, [k[2], l[2], m[2], n[2]]),
+            places(avx2, t, [k[3], l[3], m[3], n[3]]),
+            places(avx2, t, apexes_beyond(t, faces)),
+        ];
+        let hold = predicates::bicells_surely_hold3d(&t.filter, &bicells).bits();
+        if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d(&bicells).bits() }
+    }
+
+    #[inline(always)]
+    fn drop_outside(t: &Delaunay<Space>, cell: &[u32; 4], sites: &[u32], set: u64) -> u64 {
+        let Some(avx2) = Avx2::new() else { return set };
+        avx2.run_with(
+            (t, cell),
+            sites,
+            set,
+            #[inline(always)]
+            |(t, cell), sites, set| drop_outside_sphere(avx2, t, cell, sites, set),
+        )
+    }
+
+    /// Flips if that makes positive cells.
+    fn flip(
+        Flipper { filter, sites, cells }: &mut Flipper<Space>,
+        face: Facet,
+        flips: &mut Flips<Space>,
+    ) -> Result<(), Obstacle> {
+        let i = face.index();
+        let cell = cells.cell(face.cell())?;
+        let q = sites.point(cells.apex(cell.neighbour(i))?);
+        let others = [(i + 1) % 4, (i + 2) % 4, (i + 3) % 4];
+        // The orientation of the cell with q in place of each corner of the facet.
+        let signs = others.map(|k| Space::orientation_with(filter, *sites, &cell.corners, k, q));
+        let mut not_positive = (0..3).filter(|&k| signs[k] <= 0.0);
+        match (not_positive.next(), not_positive.next()) {
+            (None, _) => {
+                let flipped = cells.flip_2_3(face)?;
+                flips.made.push(flipped.0[4].cell());
+                flips.enter(flipped);
+            }
+            // The segment between the opposing vertices meets the edge opposite one corner: beyond it, or in it.
+            (Some(k), None) if signs[k] < 0.0 => flips.enter(cells.flip_3_2(face, others[k])?),
+            (Some(k), None) => {
+                let flipped = cells.flip_4_4(face, others[k])?;
+                flips.made.push(flipped[0].0[4].cell());
+                flipped.into_iter().for_each(|flipped| flips.enter(flipped));
+            }
+            _ => return Err(Obstacle::Shape),
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn exchange(
+        avx2: Avx2,
+        places: &mut [[f64; 3]; LANES],
+        sites: &mut [Site<Space>],
+        sites_of: &[u32; LANES],
+    ) -> u64 {
+        let [s, t, u, v] = sites_of.map(|s| s as usize);
+        let places = places.as_flattened_mut();
+        let new = [
+            avx2.load(from(places, 0)),
+            avx2.load(from(places, 3)),
+            avx2.load(from(places, 6)),
+            avx2.load(from(places, 8)).rotated(),
+        ];
+        let old = [
+            avx2.load(sites[s].padded()),
+            avx2.load(sites[t].padded()),
+            avx2.load(sites[u].padded()),
+            avx2.load(sites[v].padded()),
+        ];
+        // What is behind a site's point stays.
+        let new = [
+            new[0].with_last_of(old[0]),
+            new[1].with_last_of(old[1]),
+            new[2].with_last_of(old[2]),
+            new[3].with_last_of(old[3]),
+        ];
+        new[0].store_to(sites[s].padded_mut());
+        new[1].store_to(sites[t].padded_mut());
+        new[2].store_to(sites[u].padded_mut());
+        new[3].store_to(sites[v].padded_mut());
+        // Each has one number too many, which the next one mends.
+        old[0].store_to(from(places, 0));
+        old[1].store_to(from(places, 3));
+        old[2].store_to(from(places, 6));
+        old[3].store_three_to(from(places, 9));
+        (0..LANES).map(|k| u64::from(new[k].are_same(old[k]).bits() != ALL)).sum()
+    }
+}
+
+#[inline(always)]
+fn places(avx2: Avx2, t: &Delaunay<Space>, sites: [u32; LANES]) -> [Lanes; 3] {
+    let [x, y, z, _] = avx2.fours(sites.map(|s| t.view().padded_point(s)));
+    [x, y, z]
+}
+
+/// Takes sites that are certainly outside the sphere of a tetrahedron out of a set of them, by position.
+#[inline(always)]
+fn drop_outside_sphere(avx2: Avx2, t: &Delaunay<Space>, cell: &[u32; 4], sites: &[u32], mut set: u64) -> u64 {
+    let [a, b, c, d] = cell.map(|s| t.view().point(s));
+    let [x, y, z, volume] = predicates::sphere(a, b, c, d);
+    let sphere = [avx2.splat(x), avx2.splat(y), avx2.splat(z), avx2.splat(volume)];
+    let a = [avx2.splat(a[0]), avx2.splat(a[1]), avx2.splat(a[2])];
+    for k in (0..sites.len()).step_by(LANES) {
+        if (set >> k) as u32 & ALL == 0 {
+            continue;
+        }
+        // The last one fills the last lanes.
+        let four = std::array::from_fn(|lane| sites[(k + lane).min(sites.len() - 1)]);
+        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t, four));
+        set &= !(u64::from(side.is_less(avx2.splat(-t.filter.prepared)).bits()) << k);
+    }
+    set
+}
+
+#[inline(always)]
+fn from<const N: usize>(numbers: &mut [f64], first: usize) -> &mut [f64; N] {
+    numbers[first..].first_chunk_mut().expect("all are there")
+}

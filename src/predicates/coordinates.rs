@@ -1,0 +1,50 @@
+//! Points: arrays of coordinates, of either dimension.
+
+use std::fmt::Debug;
+use std::ops::{Index, IndexMut};
+
+use super::bicells::Tolerances;
+use crate::simd::{Avx2, LANES, Lanes};
+
+/// Coordinates of one point: `[f64; D]`.
+pub trait Coordinates:
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Index<usize, Output = f64>
+    + IndexMut<usize>
+    + AsRef<[f64]>
+    + Array
+    + Tolerances
+    + Send
+    + Sync
+{
+}
+impl Coordinates for [f64; 2] {}
+impl Coordinates for [f64; 3] {}
+
+/// What takes it that points are arrays.
+pub trait Array: Sized {
+    /// The coordinates of points, one after the other.
+    fn flattened(points: &[Self]) -> &[f64];
+    /// The same, to write.
+    fn flattened_mut(points: &mut [Self]) -> &mut [f64];
+    /// Each coordinate of several points, in lanes.
+    fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]>;
+}
+
+impl<const D: usize> Array for [f64; D] {
+    fn flattened(points: &[Self]) -> &[f64] {
+        points.as_flattened()
+    }
+
+    fn flattened_mut(points: &mut [Self]) -> &mut [f64] {
+        points.as_flattened_mut()
+    }
+
+    #[inline(always)]
+    fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]> {
+        avx2.points(points)
+    }
+}
