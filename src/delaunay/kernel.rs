@@ -1,4 +1,4 @@
-//! What the kernel does in another way in either dimension.
+//! What the kernel does differently in the plane and in space.
 //!
 //! All else above the predicates is written once, over [`Dimension`]: a point is an array of `D` coordinates, a cell an
 //! array of `D + 1` corners, and the two signs that decide everything are the orientation of `D + 1` points and the

@@ -1,6 +1,6 @@
 //! What the code asks of the machine: memory that may be refused, threads, and entries of arrays before they are used.
 //!
-//! No module here knows what it is asked for: all of deldrift is above.
+//! It uses [`simd`](crate::simd) and [`error`](crate::error) alone: all else is above.
 
 pub mod memory;
 pub mod prefetch;

@@ -24,7 +24,7 @@ pub trait Coordinates:
 impl Coordinates for [f64; 2] {}
 impl Coordinates for [f64; 3] {}
 
-/// What takes it that points are arrays.
+/// Points as arrays, whatever their length: written once, but only where that is known.
 pub trait Array: Sized {
     /// The coordinates of points, one after the other.
     fn flattened(points: &[Self]) -> &[f64];

@@ -30,7 +30,7 @@
 //!
 //! # Products and sums in one
 //!
-//! Where a product and a sum are one operation with one rounding (`lanes.rs`), the rules hold as they are.
+//! Where a product and a sum are one operation with one rounding (`vectors.rs`), the rules hold as they are.
 //! With x y + z in place of fl(x y) + z the sum adds the exact product, which is bounded by what bounds
 //! the rounded one, and an error has gone. The result may underflow, which a sum does not, and is η off
 //! then: the η granted to the product. As the last operation it is right in sign unless it underflows, and
