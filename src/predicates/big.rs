@@ -18,6 +18,8 @@ use std::cmp::Ordering;
 use std::mem::MaybeUninit;
 use std::ops::{Add, Mul, Sub};
 
+use super::integer::with_sign;
+
 /// Whether expansions can evaluate a polynomial of the given degree in coordinates: whether coordinates other
 /// than zero are large enough for products of so many to be multiples of 2⁻⁹⁶⁰.
 #[inline]
@@ -33,7 +35,7 @@ pub(super) fn has_room<P: AsRef<[f64]> + ?Sized, const N: usize>(points: [&P; N]
 pub(super) fn orient2d(rounded: f64, [a, b, c]: [&[f64; 2]; 3]) -> f64 {
     let room = Room::new();
     let [u, v] = differences(&room, a, [b, c]);
-    with_sign(rounded, &minor(&u, &v))
+    with_sign(rounded, minor(&u, &v).sign())
 }
 
 /// `incircle`, of which the rounded value is given.
@@ -43,7 +45,7 @@ pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
     let room = Room::new();
     let [u, v, w] = differences(&room, a, [b, c, d]);
     let det = square(&v) * minor(&u, &w) - square(&u) * minor(&v, &w) - square(&w) * minor(&u, &v);
-    with_sign(rounded, &det)
+    with_sign(rounded, det.sign())
 }
 
 /// `orient3d`, of which the rounded value is given.
@@ -52,7 +54,7 @@ pub(super) fn incircle(rounded: f64, [a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
 pub(super) fn orient3d(rounded: f64, [a, b, c, d]: [&[f64; 3]; 4]) -> f64 {
     let room = Room::new();
     let [u, v, w] = differences(&room, a, [b, c, d]);
-    with_sign(rounded, &volume(&u, &v, &w))
+    with_sign(rounded, volume(&u, &v, &w).sign())
 }
 
 /// `insphere`, of which the rounded value is given.
@@ -64,7 +66,7 @@ pub(super) fn insphere(rounded: f64, [a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
     let det = square(&u) * volume(&v, &w, &s) - square(&v) * volume(&u, &w, &s)
         + square(&w) * volume(&u, &v, &s)
         - square(&s) * volume(&u, &v, &w);
-    with_sign(rounded, &det)
+    with_sign(rounded, det.sign())
 }
 
 #[cold]
@@ -115,16 +117,6 @@ fn decode(x: f64) -> (i64, i32) {
     let mantissa = leading | fraction;
     let exponent = biased - (f64::MAX_EXP - 1) - MANTISSA_BITS as i32;
     (if x < 0.0 { -mantissa } else { mantissa }, exponent)
-}
-
-/// The rounded value, which is near the exact one, with the sign of that.
-fn with_sign(rounded: f64, exact: &Integer) -> f64 {
-    let magnitude = rounded.abs().max(f64::MIN_POSITIVE);
-    match exact.sign() {
-        Ordering::Less => -magnitude,
-        Ordering::Equal => 0.0,
-        Ordering::Greater => magnitude,
-    }
 }
 
 fn square<'r, const D: usize>(p: &[Integer<'r>; D]) -> Integer<'r> {

@@ -2,10 +2,11 @@
 
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
-use super::integer::{Scaled, Wide};
+use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
 use robust::Coord;
+use std::cmp::Ordering;
 
 /// Twice the signed area of the triangle `abc`: positive when counter-clockwise, zero when collinear.
 ///
@@ -50,9 +51,8 @@ fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
         return det;
     }
     tally::count();
-    let [origin, others @ ..] = points;
-    if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
-        return scaled.value(incircle_integer(&scaled.differences), 4);
+    if let Some(sign) = incircle_sign(points, largest(extents)) {
+        return with_sign(det, sign);
     }
     if !has_room(points, 4) {
         return big::incircle(det, points);
@@ -72,7 +72,31 @@ fn incircle_rounded([a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
     minor(&u, &w) * dot(&v, &minus(c, b)) - minor(&u, &v) * dot(&w, &minus(d, b))
 }
 
-/// The same, modulo 2²⁵⁶.
+/// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
+fn incircle_sign([origin, others @ ..]: [&[f64; 2]; 4], extent: f64) -> Option<Ordering> {
+    let Some(scaled) = Scaled::new(origin, others, extent) else {
+        let scaled = LongScaled::new(origin, others, extent)?;
+        return Some(match scaled.n_bits {
+            ..=91 => incircle_modular(&scaled.modular::<Limbs<5>>()).sign(),
+            _ => incircle_modular(&scaled.modular::<Limbs<7>>()).sign(),
+        });
+    };
+    Some(match scaled.n_bits {
+        ..=27 => incircle_modular(&scaled.modular::<Short<i64>>()).sign(),
+        28..=43 => incircle_modular(&scaled.modular::<Short<i128>>()).sign(),
+        _ => incircle_integer(&scaled.differences).sign(),
+    })
+}
+
+/// [`incircle_rounded`] modulo a power of two.
+#[inline(always)]
+fn incircle_modular<M: Modular>([u, v, w]: &[[M; 2]; 3]) -> M {
+    let cross = |p: &[M; 2], q: &[M; 2]| p[0].times(q[1]).minus(p[1].times(q[0]));
+    let dot_from_u = |p: &[M; 2]| p[0].times(p[0].minus(u[0])).plus(p[1].times(p[1].minus(u[1])));
+    cross(u, w).times(dot_from_u(v)).minus(cross(u, v).times(dot_from_u(w)))
+}
+
+/// The same, modulo 2²⁵⁶, of differences of 59 bits.
 fn incircle_integer([u, v, w]: &[[i64; 2]; 3]) -> Wide {
     let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
     let cross = |p: &[i64; 2], q: &[i64; 2]| product(p[0], q[1]) - product(p[1], q[0]);

@@ -5,10 +5,11 @@
 
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
-use super::integer::{Scaled, Wide};
+use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
 use robust::Coord3D;
+use std::cmp::Ordering;
 
 /// Six times the signed volume of the tetrahedron `abcd`, the determinant of `b − a`, `c − a`, `d − a`; zero
 /// when the points are coplanar.
@@ -47,9 +48,8 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
         return det;
     }
     tally::count();
-    let [origin, others @ ..] = points;
-    if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
-        return scaled.value(orient3d_integer(&scaled.differences), 3);
+    if let Some(sign) = orient3d_sign(points, largest(extents)) {
+        return with_sign(det, sign);
     }
     if !has_room(points, 3) {
         return big::orient3d(det, points);
@@ -67,9 +67,8 @@ fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
         return det;
     }
     tally::count();
-    let [origin, others @ ..] = points;
-    if let Some(scaled) = Scaled::new(origin, others, largest(extents)) {
-        return scaled.value(insphere_integer(&scaled.differences), 5);
+    if let Some(sign) = insphere_sign(points, largest(extents)) {
+        return with_sign(det, sign);
     }
     if !has_room(points, 5) {
         return big::insphere(det, points);
@@ -98,7 +97,69 @@ fn insphere_rounded([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
         - volume_uvw * dot(&s, &minus(e, b))
 }
 
-/// The same, modulo 2²⁵⁶.
+/// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
+fn insphere_sign([origin, others @ ..]: [&[f64; 3]; 5], extent: f64) -> Option<Ordering> {
+    let Some(scaled) = Scaled::new(origin, others, extent) else {
+        let scaled = LongScaled::new(origin, others, extent)?;
+        return Some(match scaled.n_bits {
+            ..=85 => insphere_modular(&scaled.modular::<Limbs<6>>()).sign(),
+            _ => insphere_modular(&scaled.modular::<Limbs<8>>()).sign(),
+        });
+    };
+    Some(match scaled.n_bits {
+        ..=21 => insphere_modular(&scaled.modular::<Short<i64>>()).sign(),
+        22..=33 => insphere_modular(&scaled.modular::<Short<i128>>()).sign(),
+        _ => insphere_integer(&scaled.differences).sign(),
+    })
+}
+
+/// Likewise.
+fn orient3d_sign([origin, others @ ..]: [&[f64; 3]; 4], extent: f64) -> Option<Ordering> {
+    let Some(scaled) = Scaled::new(origin, others, extent) else {
+        let scaled = LongScaled::new(origin, others, extent)?;
+        return Some(orient3d_modular(&scaled.modular::<Limbs<5>>()).sign());
+    };
+    Some(match scaled.n_bits {
+        ..=36 => orient3d_modular(&scaled.modular::<Short<i64>>()).sign(),
+        37..=57 => orient3d_modular(&scaled.modular::<Short<i128>>()).sign(),
+        _ => orient3d_modular(&scaled.modular::<Limbs<3>>()).sign(),
+    })
+}
+
+/// [`insphere_rounded`] modulo a power of two.
+#[inline(always)]
+fn insphere_modular<M: Modular>([u, v, w, s]: &[[M; 3]; 4]) -> M {
+    let (minor_uv, minor_uw, minor_us) = (minor_modular(u, v), minor_modular(u, w), minor_modular(u, s));
+    let (minor_vw, minor_vs, minor_ws) = (minor_modular(v, w), minor_modular(v, s), minor_modular(w, s));
+    let volume_uvw = volume_modular([minor_vw, minor_uw, minor_uv], [u, v, w]);
+    let volume_uvs = volume_modular([minor_vs, minor_us, minor_uv], [u, v, s]);
+    let volume_uws = volume_modular([minor_ws, minor_us, minor_uw], [u, w, s]);
+    let dot_from_u = |p: &[M; 3]| {
+        let [x, y, z] = std::array::from_fn(|axis| p[axis].times(p[axis].minus(u[axis])));
+        x.plus(y).plus(z)
+    };
+    let first = volume_uvs.times(dot_from_u(w));
+    first.minus(volume_uws.times(dot_from_u(v))).minus(volume_uvw.times(dot_from_u(s)))
+}
+
+#[inline(always)]
+fn orient3d_modular<M: Modular>([u, v, w]: &[[M; 3]; 3]) -> M {
+    volume_modular([minor_modular(v, w), minor_modular(u, w), minor_modular(u, v)], [u, v, w])
+}
+
+/// As [`volume_integer`].
+#[inline(always)]
+fn volume_modular<M: Modular>(minors: [M; 3], differences: [&[M; 3]; 3]) -> M {
+    let [first, second, third] = std::array::from_fn(|i| minors[i].times(differences[i][2]));
+    first.minus(second).plus(third)
+}
+
+#[inline(always)]
+fn minor_modular<M: Modular>(p: &[M; 3], q: &[M; 3]) -> M {
+    p[0].times(q[1]).minus(p[1].times(q[0]))
+}
+
+/// The same, modulo 2²⁵⁶, of differences of 59 bits.
 fn insphere_integer([u, v, w, s]: &[[i64; 3]; 4]) -> Wide {
     let (minor_uv, minor_uw, minor_us) = (minor_integer(u, v), minor_integer(u, w), minor_integer(u, s));
     let (minor_vw, minor_vs, minor_ws) = (minor_integer(v, w), minor_integer(v, s), minor_integer(w, s));
@@ -108,10 +169,6 @@ fn insphere_integer([u, v, w, s]: &[[i64; 3]; 4]) -> Wide {
     let dot_from_u = |p: &[i64; 3]| (0..3).map(|axis| product(p[axis], p[axis] - u[axis])).sum();
     let first = volume_uvs.times(dot_from_u(w));
     first.minus(volume_uws.times(dot_from_u(v))).minus(volume_uvw.times(dot_from_u(s)))
-}
-
-fn orient3d_integer([u, v, w]: &[[i64; 3]; 3]) -> Wide {
-    volume_integer([minor_integer(v, w), minor_integer(u, w), minor_integer(u, v)], [u, v, w])
 }
 
 /// Determinant of three differences, given the minors without each of them.
