@@ -248,7 +248,13 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
     }
 
     fn error_ratio(&self, points: &[[f64; D]; N]) -> f64 {
-        let everything = StaticFilter { orient: -1.0, in_sphere: -1.0, prepared: 0.0, largest_square: 0.0 };
+        let everything = StaticFilter {
+            orient: -1.0,
+            in_sphere: -1.0,
+            prepared: 0.0,
+            largest_square: 0.0,
+            is_exact: false,
+        };
         error_ratio(points, (self.value)(&everything, points), (self.bound)(&self.tight_filter(points)))
     }
 

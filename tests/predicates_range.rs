@@ -201,7 +201,13 @@ impl<const D: usize, const N: usize> Predicate<D, N> {
     fn check(&self) {
         let mut random = Random::new(1_985 + N as u64);
         let mut total = Tally::default();
-        let everything = StaticFilter { orient: -1.0, in_sphere: -1.0, prepared: 0.0, largest_square: 0.0 };
+        let everything = StaticFilter {
+            orient: -1.0,
+            in_sphere: -1.0,
+            prepared: 0.0,
+            largest_square: 0.0,
+            is_exact: false,
+        };
         let wide = (self.filter)([-MAX_MAGNITUDE; D], [MAX_MAGNITUDE; D]);
         let sign = |f: &StaticFilter, points: &[[f64; D]; N]| {
             (self.value)(f, points).partial_cmp(&0.0).expect("not NaN")

@@ -5,12 +5,12 @@
 //! sites that are next to each other in storage tells when to sort again.
 
 use super::cavity::{Cavity, Insert};
-use super::order::in_rounds;
+use super::order::{self, in_rounds};
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE, NONE};
 use crate::error::{Error, Result};
 use crate::machine::memory;
-use crate::predicates::distance_above;
+use crate::predicates::{StaticFilter, distance_above};
 
 /// A vertex that is hidden by one of a lower id at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,9 +141,21 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.start()?;
         self.cavity.steps = 0;
-        let coincident = self.insert_all(order, monitor)?;
+        let filter = self.filter;
+        self.filter = self.exact_filter().unwrap_or(filter);
+        let inserted = self.insert_all(order, monitor);
+        // Vertices may leave the lattice.
+        self.filter = filter;
+        let coincident = inserted?;
         self.flat.clear();
         Ok(coincident)
+    }
+
+    /// Bounds for the sites if they are on a lattice, and few steps of it apart.
+    fn exact_filter(&self) -> Option<StaticFilter> {
+        let points = || self.sites[1..].iter().filter(|site| site.is_live()).map(|site| &site.point);
+        let (lower, upper) = order::bounding_box::<G>(points())?;
+        G::exact_filter(&lower, &upper, points())
     }
 
     /// Inserts those sites that are in no cell yet; returns pairs of coincident sites, the second in the

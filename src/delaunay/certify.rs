@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::{Delaunay, Dimension, Failures};
-use crate::complex::{Cell, Corners, Facet};
+use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::threads;
@@ -37,18 +37,24 @@ impl Default for Waiting {
 
 impl<G: Dimension> Delaunay<G> {
     /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end,
-    /// when more than `most` cells have failed. What has been listed before an error is of no use.
-    pub(crate) fn sweep(&mut self, failures: &mut Failures, most: usize) -> Result<bool> {
+    /// when more than `most` cells have failed. What has been listed before an error is of no use. Where it is known where all
+    /// vertices were `before`, by id, certificates of those that have not moved are not evaluated again in exact arithmetic.
+    pub(crate) fn sweep(
+        &mut self,
+        failures: &mut Failures,
+        most: usize,
+        before: Option<&[G::Point]>,
+    ) -> Result<bool> {
         failures.clear();
         let n = self.complex.n_slots();
         let n_threads = self.threads.for_work(n, SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
         let n_failed = AtomicUsize::new(0);
         if n_threads == 1 {
-            self.sweep_range(0..n, failures, most, &n_failed)?;
+            self.sweep_range(0..n, failures, most, before, &n_failed)?;
         } else {
             let parts = threads::for_ranges(n, n_threads, |range| {
                 let mut failures = Failures::default();
-                self.sweep_range(range, &mut failures, most, &n_failed).map(|()| failures)
+                self.sweep_range(range, &mut failures, most, before, &n_failed).map(|()| failures)
             })?;
             for part in parts {
                 failures.append(&part?)?;
@@ -69,10 +75,11 @@ impl<G: Dimension> Delaunay<G> {
         range: Range<usize>,
         failures: &mut Failures,
         most: usize,
+        before: Option<&[G::Point]>,
         n_failed: &AtomicUsize,
     ) -> Result<()> {
         let mut swept = Ok(());
-        self.screen(range.start as u32..range.end as u32, |c| match self.sweep_cell(c, failures) {
+        self.screen(range.start as u32..range.end as u32, |c| match self.sweep_cell(c, before, failures) {
             Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
             Err(error) => {
                 swept = Err(error);
@@ -122,19 +129,30 @@ impl<G: Dimension> Delaunay<G> {
     /// to cells of higher indices are left to those.
     #[cold]
     #[inline(never)]
-    pub(super) fn sweep_cell(&self, c: u32, failures: &mut Failures) -> Result<bool> {
+    pub(super) fn sweep_cell(
+        &self,
+        c: u32,
+        before: Option<&[G::Point]>,
+        failures: &mut Failures,
+    ) -> Result<bool> {
         let cell = self.complex.cell(c);
         if cell.is_ghost() {
             memory::push(&mut failures.ghosts, c)?;
             return Ok(true);
         }
-        if !self.is_positive(c) {
+        let is_at_rest = before.is_some_and(|before| self.are_at_rest(cell.corners.as_ref(), before));
+        if !is_at_rest && !self.is_positive(c) {
             memory::push(&mut failures.cells, c)?;
             return Ok(false);
         }
         let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
         let lower = facets.filter(|&facet| cell.neighbour(facet.index()).cell() < c);
-        memory::collect(&mut failures.facets, lower.filter(|&facet| !self.is_locally_delaunay(facet)))?;
+        let failing = lower.filter(|&facet| {
+            let apex = self.complex.apex(cell.neighbour(facet.index()));
+            let is_as_it_was = is_at_rest && before.is_some_and(|before| self.are_at_rest(&[apex], before));
+            !is_as_it_was && !self.is_locally_delaunay(facet)
+        });
+        memory::collect(&mut failures.facets, failing)?;
         Ok(true)
     }
 
@@ -251,7 +269,7 @@ impl<G: Dimension> Delaunay<G> {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         let cells = [facet.cell(), across.cell()];
         // Ties are dear, and as they were.
-        if cells.iter().all(|&c| self.are_at_rest(&self.complex.cell(c).corners, before)) {
+        if cells.iter().all(|&c| self.are_at_rest(self.complex.cell(c).corners.as_ref(), before)) {
             return Ok(true);
         }
         let mut are_positive = true;
@@ -340,9 +358,9 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Whether none of the corners has moved.
-    fn are_at_rest(&self, corners: &G::Corners, before: &[G::Point]) -> bool {
-        corners.as_ref().iter().all(|&s| {
+    /// Whether none of these sites, of which one may be the ghost vertex, has moved.
+    fn are_at_rest(&self, sites: &[u32], before: &[G::Point]) -> bool {
+        sites.iter().filter(|&&s| s != INFINITE).all(|&s| {
             let site = self.site(s);
             site.point == before[site.id as usize]
         })

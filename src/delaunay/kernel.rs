@@ -27,6 +27,15 @@ pub trait Kernel<G: Dimension> {
     /// Error bounds for points inside the box.
     fn filter(lower: &G::Point, upper: &G::Point) -> StaticFilter;
 
+    /// As [`exact_filter`](crate::predicates::exact_filter), of points whose box this is.
+    fn exact_filter<'p>(
+        lower: &G::Point,
+        upper: &G::Point,
+        points: impl Iterator<Item = &'p G::Point>,
+    ) -> Option<StaticFilter>
+    where
+        G::Point: 'p;
+
     /// Sign of the orientation of `D + 1` points: positive for the corners of a valid finite cell.
     fn orient(f: &StaticFilter, points: &[&G::Point]) -> f64;
 

@@ -18,6 +18,14 @@ impl Kernel<Plane> for Plane {
         StaticFilter::plane(*lower, *upper)
     }
 
+    fn exact_filter<'p>(
+        lower: &[f64; 2],
+        upper: &[f64; 2],
+        points: impl Iterator<Item = &'p [f64; 2]>,
+    ) -> Option<StaticFilter> {
+        predicates::exact_filter(StaticFilter::plane, lower, upper, points)
+    }
+
     #[inline(always)]
     fn orient(f: &StaticFilter, points: &[&[f64; 2]]) -> f64 {
         let &[a, b, c] = points else { unreachable!("a triangle") };

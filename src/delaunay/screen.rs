@@ -150,7 +150,7 @@ mod tests {
     ) -> [Vec<u32>; 3] {
         let mut failures = Failures::default();
         screen(&mut |c| {
-            t.sweep_cell(c, &mut failures).expect("room for it");
+            t.sweep_cell(c, None, &mut failures).expect("room for it");
             true
         });
         let facets = failures.facets.iter().map(|facet| facet.code()).collect();

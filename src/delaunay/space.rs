@@ -18,6 +18,14 @@ impl Kernel<Space> for Space {
         StaticFilter::space(*lower, *upper)
     }
 
+    fn exact_filter<'p>(
+        lower: &[f64; 3],
+        upper: &[f64; 3],
+        points: impl Iterator<Item = &'p [f64; 3]>,
+    ) -> Option<StaticFilter> {
+        predicates::exact_filter(StaticFilter::space, lower, upper, points)
+    }
+
     #[inline(always)]
     fn orient(f: &StaticFilter, points: &[&[f64; 3]]) -> f64 {
         let &[a, b, c, d] = points else { unreachable!("a tetrahedron") };

@@ -115,5 +115,12 @@ fn prepare(entries: &mut [Entry], t: &Delaunay<Space>, cell: u32, q: &[f64; 3], 
 #[cold]
 #[inline(never)]
 fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
-    t.is_in_conflict(cell, q, id)
+    let corners = t.complex.cell(cell).corners;
+    if !t.filter.is_exact || corners[3] == INFINITE {
+        return t.is_in_conflict(cell, q, id);
+    }
+    // The side of the sphere is exact, so it is zero: a tie.
+    let [a, b, c, d] = corners.map(|s| t.view().point(s));
+    let [i, j, k, l] = corners.map(|s| t.view().id(s));
+    predicates::is_inside_cospherical(&t.filter, [a, b, c, d, q], [i, j, k, l, id])
 }

@@ -109,7 +109,15 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.move_staged(&mut repair)
         };
         repair.failures.are_open = true;
-        let mended = begun.and_then(|()| self.mend(&mut repair, report));
+        let mended = begun.and_then(|()| {
+            if repair.n_new == 0 {
+                // No vertex of the cells has moved.
+                self.settle(&mut repair);
+                report.moved = 0;
+                return Ok(true);
+            }
+            self.mend(&mut repair, report)
+        });
         report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
         if !mended? {
@@ -138,8 +146,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
         let most = self.n_present / placed::<G>();
         // A vertex taken back mends about three cells.
-        if repair.failures.are_open && !self.kernel.sweep(&mut repair.failures, 3 * most)? {
-            return Ok(false);
+        if repair.failures.are_open {
+            // Of a whole staging all applied, the positions staged are now those before.
+            let before = self.staging.others_applied.then_some(&self.staging.positions[..]);
+            if !self.kernel.sweep(&mut repair.failures, 3 * most, before)? {
+                return Ok(false);
+            }
         }
         let mut is_triangulation = repair.failures.is_triangulation();
         if !self.monitor(0.5) {

@@ -69,7 +69,7 @@ use crate::simd::Real;
 const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// Covers the rounding of the bounds themselves.
-const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
+pub(super) const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 
 /// What bounds allow for underflow, times a power of the largest extent: 2⁵³ η, the least normal number.
 /// Processors take longer to multiply a subnormal one than to evaluate all the rest of a bound.
@@ -132,19 +132,19 @@ const _: () = {
 };
 
 /// A 2 × 2 minor of differences.
-const MINOR: Computed = SQUARE.plus(SQUARE);
+pub(super) const MINOR: Computed = SQUARE.plus(SQUARE);
 
 /// A product of two differences.
-const SQUARE: Computed = DIFFERENCE.times(DIFFERENCE);
+pub(super) const SQUARE: Computed = DIFFERENCE.times(DIFFERENCE);
 
 /// A difference of two coordinates.
-const DIFFERENCE: Computed = Computed { magnitude: 1.0, error: UNIT, underflow: 0.0 };
+pub(super) const DIFFERENCE: Computed = Computed { magnitude: 1.0, error: UNIT, underflow: 0.0 };
 
 /// What is known of an intermediate value of degree k, in units of its product of extents.
 #[derive(Clone, Copy)]
-struct Computed {
+pub(super) struct Computed {
     /// Bounds the computed value.
-    magnitude: f64,
+    pub(super) magnitude: f64,
     /// Bounds its distance to the exact value.
     error: f64,
     /// What both may be exceeded by, in units of η·Mᵏ⁻².
@@ -152,7 +152,7 @@ struct Computed {
 }
 
 impl Computed {
-    const fn times(self, other: Self) -> Self {
+    pub(super) const fn times(self, other: Self) -> Self {
         let magnitude = self.magnitude * other.magnitude;
         let inherited =
             self.magnitude * other.error + self.error * other.magnitude + self.error * other.error;
@@ -162,7 +162,7 @@ impl Computed {
     }
 
     /// Also describes a difference.
-    const fn plus(self, other: Self) -> Self {
+    pub(super) const fn plus(self, other: Self) -> Self {
         let magnitude = self.magnitude + other.magnitude;
         Self {
             magnitude: magnitude * (1.0 + UNIT),
@@ -180,7 +180,7 @@ impl Computed {
 
 /// Error bounds valid for all points of a bounding box.
 ///
-/// No bound is zero, so a determinant that is exceeds none. An empty or unbounded box gives infinity or NaN,
+/// No determinant that is zero exceeds a bound. An empty or unbounded box gives infinity or NaN,
 /// which nothing exceeds: all calls then take the slow path.
 #[derive(Clone, Copy, Debug)]
 pub struct StaticFilter {
@@ -192,6 +192,8 @@ pub struct StaticFilter {
     pub prepared: f64,
     /// Square of the largest extent.
     pub largest_square: f64,
+    /// Whether rounded determinants are exact, so that one that is zero is a tie.
+    pub is_exact: bool,
 }
 
 impl StaticFilter {
@@ -203,6 +205,7 @@ impl StaticFilter {
             in_sphere: incircle_bound(extents),
             prepared: lifted_bound_2d(PREPARED_2D.max(LIFTED), extents),
             largest_square: largest(extents) * largest(extents),
+            is_exact: false,
         }
     }
 
@@ -214,11 +217,12 @@ impl StaticFilter {
             in_sphere: insphere_bound(extents),
             prepared: lifted_bound_3d(PREPARED_3D, extents),
             largest_square: largest(extents) * largest(extents),
+            is_exact: false,
         }
     }
 }
 
-fn box_extents<const D: usize>(lower: &[f64; D], upper: &[f64; D]) -> [f64; D] {
+pub(super) fn box_extents<const D: usize>(lower: &[f64; D], upper: &[f64; D]) -> [f64; D] {
     std::array::from_fn(|axis| {
         let extent = upper[axis] - lower[axis];
         // Also for NaN, and for the inverted box of no points: a negative extent would be no bound.

@@ -6,7 +6,7 @@
 //! Points that nearly tie are mostly neighbours with similar exponents, so their differences are integers of few
 //! bits in a unit that is a power of two ([`Scaled`], [`LongScaled`]). A determinant D of degree k consists of terms
 //! of k times as many bits, but D itself is shorter: this stage is entered only when the rounded determinant does
-//! not exceed its error bound, so |D| is at most twice that bound. With b bits in a difference that is
+//! not exceed its error bound, so |D| is at most twice that bound. With an extent of b bits that is
 //! 2 · 756 u · 2⁵ᵇ·(1 + 2⁻⁴⁰) < 2⁵ᵇ⁻⁴² for `insphere`, 2 · 72 u · 2⁴ᵇ < 2⁴ᵇ⁻⁴⁵ for `incircle` and 2 · 40 u · 2³ᵇ < 2³ᵇ⁻⁴⁶ for
 //! `orient3d`, and what the bound allows for underflow is less than a thousandth of that (see [`MIN_EXTENT`]). Hence it
 //! suffices to know D modulo a power of two above twice that number, which costs a few wrapping multiplications
@@ -44,7 +44,7 @@ fn exponent_of(x: f64) -> i32 {
 pub(super) struct Scaled<const D: usize, const N: usize> {
     /// The differences: at least one of them is odd.
     pub differences: [[i64; D]; N],
-    /// Bits of the longest of them, sign apart.
+    /// Bits of the extent of the points' box, which may be twice the longest difference.
     pub n_bits: u32,
 }
 
@@ -62,7 +62,7 @@ impl<const D: usize, const N: usize> Scaled<D, N> {
 
         let mut differences = [[0; D]; N];
         let mut is_exact = true;
-        let (mut bits, mut most) = (0, 0);
+        let mut bits = 0;
         for (difference, point) in differences.iter_mut().zip(points) {
             for axis in 0..D {
                 let (rounded, tail) = two_difference(point[axis], origin[axis]);
@@ -71,16 +71,15 @@ impl<const D: usize, const N: usize> Scaled<D, N> {
                 is_exact &= integers.0 as f64 * unit == rounded && integers.1 as f64 * unit == tail;
                 let sum = integers.0 + integers.1;
                 bits |= sum;
-                most |= sum.unsigned_abs();
                 difference[axis] = sum;
             }
         }
         if !is_exact {
             return None;
         }
-        let shift = bits.trailing_zeros() % u64::BITS;
+        let shift = bits.trailing_zeros() % i64::BITS;
         differences.as_flattened_mut().iter_mut().for_each(|x| *x >>= shift);
-        Some(Self { differences, n_bits: u64::BITS - (most >> shift).leading_zeros() })
+        Some(Self { differences, n_bits: N_BITS as u32 - shift.min(N_BITS as u32) })
     }
 
     /// The differences modulo a power of two.
@@ -103,19 +102,18 @@ impl<const D: usize, const N: usize> LongScaled<D, N> {
         }
         let lowest = exponent_of(extent) - (N_LONG_BITS - 1);
         let mut differences = [[0; D]; N];
-        let (mut bits, mut most) = (0, 0);
+        let mut bits = 0;
         for (difference, point) in differences.iter_mut().zip(points) {
             for axis in 0..D {
                 let (rounded, tail) = two_difference(point[axis], origin[axis]);
                 let sum = in_units(rounded, lowest)? + in_units(tail, lowest)?;
                 bits |= sum;
-                most |= sum.unsigned_abs();
                 difference[axis] = sum;
             }
         }
-        let shift = bits.trailing_zeros() % u128::BITS;
+        let shift = bits.trailing_zeros() % i128::BITS;
         differences.as_flattened_mut().iter_mut().for_each(|x| *x >>= shift);
-        Some(Self { differences, n_bits: u128::BITS - (most >> shift).leading_zeros() })
+        Some(Self { differences, n_bits: N_LONG_BITS as u32 - shift.min(N_LONG_BITS as u32) })
     }
 
     /// As [`Scaled::modular`].
@@ -379,7 +377,7 @@ mod tests {
         let few = Scaled::new(&[0.5], [&[3.0], &[-4.5]], 7.5).unwrap();
         assert_eq!((few.differences, few.n_bits), ([[5], [-10]], 4));
         let none = Scaled::new(&[7.5], [&[7.5]], 7.5).unwrap();
-        assert_eq!((none.differences, none.n_bits), ([[0]], 0));
+        assert_eq!(none.differences, [[0]]);
     }
 
     #[test]

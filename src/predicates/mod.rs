@@ -11,8 +11,8 @@
 //! 1. *Static*: one bound per predicate, valid for all points of a bounding box ([`StaticFilter`]). The
 //!    only work beside the determinant is one comparison; this much is inlined into the caller.
 //! 2. *Semi-static*: the same bound for the bounding box of this call's own points.
-//! 3. *Integer*: where scaled differences are integers that fit, as those of neighbours on a grid are, the
-//!    determinant in 256 bits (`integer.rs`; not for `orient2d`, whose expansions are short).
+//! 3. *Integer*: where differences are integers that fit, as those of neighbours on a grid are, the determinant
+//!    modulo 2⁶⁴ to 2⁵¹², by the length of the differences (`integer.rs`; not for `orient2d`, whose expansions are short).
 //! 4. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
 //! 5. *Big integers*: where expansions would underflow, the determinant in long integers (`big.rs`).
 //!
@@ -78,7 +78,10 @@ mod distance;
 mod filter;
 mod integer;
 mod lanes;
+mod lattice;
 mod lifted;
+#[cfg(test)]
+mod near_ties;
 mod path;
 mod perturbation;
 mod plane;
@@ -99,9 +102,10 @@ pub use coordinates::{Array, Coordinates};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::BiCells;
+pub use lattice::exact_filter;
 pub use lifted::{Lifted, side_of_seen_circle};
 pub use path::{stays_positive2d, stays_positive3d};
-pub use perturbation::{incircle_perturbed, insphere_perturbed};
+pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical};
 pub use plane::{incircle, orient2d};
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};

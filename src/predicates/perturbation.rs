@@ -35,7 +35,6 @@
 use super::filter::StaticFilter;
 use super::plane::{incircle, orient2d};
 use super::space::{insphere, orient3d};
-use std::cmp::Reverse;
 
 /// Whether the last point is inside the circle of the first three, ties being decided by `ids`.
 ///
@@ -68,9 +67,10 @@ fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u3
     })
 }
 
+/// As [`insphere_perturbed`], of points that are cospherical.
 #[cold]
 #[inline(never)]
-fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
+pub fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
     debug_assert!(orient3d(f, a, b, c, d) > 0.0, "the tetrahedron is not positive");
     is_inside_raised(ids, |vertex| match vertex {
         0 => orient3d(f, e, b, c, d),
@@ -83,12 +83,17 @@ fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids:
 /// Decides a tie among the `N − 1` vertices of a positive simplex and a query point, which comes last.
 /// `replaced(i)` is the orientation of the simplex with vertex `i` replaced by the query point.
 fn is_inside_raised<const N: usize>(ids: [u32; N], replaced: impl Fn(usize) -> f64) -> bool {
-    let mut dominating_first: [usize; N] = std::array::from_fn(|position| position);
-    dominating_first.sort_unstable_by_key(|&position| Reverse(ids[position]));
-    dominating_first
-        .into_iter()
-        .take_while(|&position| position != N - 1)
-        .map(replaced)
-        .find(|&orientation| orientation != 0.0)
-        .is_some_and(|orientation| orientation > 0.0)
+    let mut left = ids.map(i64::from);
+    loop {
+        let dominating =
+            (1..N).fold(0, |most, position| if left[position] > left[most] { position } else { most });
+        if dominating == N - 1 {
+            return false;
+        }
+        let orientation = replaced(dominating);
+        if orientation != 0.0 {
+            return orientation > 0.0;
+        }
+        left[dominating] = -1;
+    }
 }

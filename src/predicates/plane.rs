@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 #[inline(always)]
 pub fn orient2d(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
     let det = minor(&minus(b, a), &minus(c, a));
-    if det.abs() > f.orient { det } else { orient2d_uncertain(det, [a, b, c]) }
+    if det.abs() > f.orient || f.is_exact { det } else { orient2d_uncertain(det, [a, b, c]) }
 }
 
 /// In-circle determinant: positive iff `d` is strictly inside the circle of the counter-clockwise triangle
@@ -24,7 +24,7 @@ pub fn orient2d(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f
 #[inline(always)]
 pub fn incircle(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2], d: &[f64; 2]) -> f64 {
     let det = incircle_rounded([a, b, c, d]);
-    if det.abs() > f.in_sphere { det } else { incircle_uncertain(det, [a, b, c, d]) }
+    if det.abs() > f.in_sphere || f.is_exact { det } else { incircle_uncertain(det, [a, b, c, d]) }
 }
 
 /// The later stages, after the rounded determinant.
@@ -67,13 +67,13 @@ fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
 /// The cross products satisfy `u (v×w) − v (u×w) + w (u×v) = 0`. Its scalar product with u replaces
 /// `|u|² v×w`, and two products remain of three: `(u×w)(v·(v − u)) − (u×v)(w·(w − u))`.
 #[inline(always)]
-fn incircle_rounded([a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
+pub(super) fn incircle_rounded([a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
     let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
     minor(&u, &w) * dot(&v, &minus(c, b)) - minor(&u, &v) * dot(&w, &minus(d, b))
 }
 
 /// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
-fn incircle_sign([origin, others @ ..]: [&[f64; 2]; 4], extent: f64) -> Option<Ordering> {
+pub(super) fn incircle_sign([origin, others @ ..]: [&[f64; 2]; 4], extent: f64) -> Option<Ordering> {
     let Some(scaled) = Scaled::new(origin, others, extent) else {
         let scaled = LongScaled::new(origin, others, extent)?;
         return Some(match scaled.n_bits {

@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 #[inline(always)]
 pub fn orient3d(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> f64 {
     let det = volume(&minus(b, a), &minus(c, a), &minus(d, a));
-    if det.abs() > f.orient { det } else { orient3d_uncertain(det, [a, b, c, d]) }
+    if det.abs() > f.orient || f.is_exact { det } else { orient3d_uncertain(det, [a, b, c, d]) }
 }
 
 /// In-sphere determinant: positive iff `e` is strictly inside the sphere of the positive tetrahedron
@@ -36,7 +36,7 @@ pub fn insphere(
     e: &[f64; 3],
 ) -> f64 {
     let det = insphere_rounded([a, b, c, d, e]);
-    if det.abs() > f.in_sphere { det } else { insphere_uncertain(det, [a, b, c, d, e]) }
+    if det.abs() > f.in_sphere || f.is_exact { det } else { insphere_uncertain(det, [a, b, c, d, e]) }
 }
 
 /// The later stages, after the rounded determinant.
@@ -85,7 +85,7 @@ fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
 /// `|u|² [vws]`, and three products remain of four:
 /// `[uvs] (w·(w − u)) − [uws] (v·(v − u)) − [uvw] (s·(s − u))`.
 #[inline(always)]
-fn insphere_rounded([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
+pub(super) fn insphere_rounded([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
     let (u, v, w, s) = (minus(b, a), minus(c, a), minus(d, a), minus(e, a));
     let (minor_uv, minor_uw, minor_us) = (minor(&u, &v), minor(&u, &w), minor(&u, &s));
     let (minor_vw, minor_vs, minor_ws) = (minor(&v, &w), minor(&v, &s), minor(&w, &s));
@@ -98,7 +98,7 @@ fn insphere_rounded([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
 }
 
 /// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
-fn insphere_sign([origin, others @ ..]: [&[f64; 3]; 5], extent: f64) -> Option<Ordering> {
+pub(super) fn insphere_sign([origin, others @ ..]: [&[f64; 3]; 5], extent: f64) -> Option<Ordering> {
     let Some(scaled) = Scaled::new(origin, others, extent) else {
         let scaled = LongScaled::new(origin, others, extent)?;
         return Some(match scaled.n_bits {
@@ -114,7 +114,7 @@ fn insphere_sign([origin, others @ ..]: [&[f64; 3]; 5], extent: f64) -> Option<O
 }
 
 /// Likewise.
-fn orient3d_sign([origin, others @ ..]: [&[f64; 3]; 4], extent: f64) -> Option<Ordering> {
+pub(super) fn orient3d_sign([origin, others @ ..]: [&[f64; 3]; 4], extent: f64) -> Option<Ordering> {
     let Some(scaled) = Scaled::new(origin, others, extent) else {
         let scaled = LongScaled::new(origin, others, extent)?;
         return Some(orient3d_modular(&scaled.modular::<Limbs<5>>()).sign());
@@ -188,7 +188,7 @@ fn product(x: i64, y: i64) -> i128 {
 
 /// Determinant of three differences.
 #[inline(always)]
-fn volume(u: &[f64; 3], v: &[f64; 3], w: &[f64; 3]) -> f64 {
+pub(super) fn volume(u: &[f64; 3], v: &[f64; 3], w: &[f64; 3]) -> f64 {
     minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
 }
 

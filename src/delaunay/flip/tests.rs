@@ -29,7 +29,7 @@ fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<F
             t.set_point(s, old);
         }
     }
-    assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
+    assert!(t.sweep(&mut failures, usize::MAX, None).expect("room for it") && failures.cells.is_empty());
     let facets = failures.facets;
     (t, facets)
 }
@@ -86,7 +86,7 @@ fn diagonals_change_in_space() {
             }
         }
         let mut failures = Failures::default();
-        assert!(t.sweep(&mut failures, usize::MAX).expect("room for it") && failures.cells.is_empty());
+        assert!(t.sweep(&mut failures, usize::MAX, None).expect("room for it") && failures.cells.is_empty());
         t.check_ridges(&mut failures, |_| None).expect("room for it");
         assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
         let mut flips = AllFlips::default();

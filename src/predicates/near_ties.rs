@@ -1,0 +1,161 @@
+//! Tests of the integer stages on ties and near ties of every length of differences, by long integers.
+
+use std::cmp::Ordering;
+
+use super::filter::{extents, incircle_bound, insphere_bound, is_certain, largest, orient3d_bound};
+use super::integer::{LongScaled, Scaled};
+use super::plane::{incircle_rounded, incircle_sign};
+use super::space::{insphere_rounded, insphere_sign, orient3d_sign, volume};
+use super::vectors::minus;
+use super::{MAX_MAGNITUDE, big};
+use crate::random::Rng;
+
+/// Numbers of up to 53 bits with exponents up to `spread` apart, at any place of the range.
+fn numbers<const D: usize>(rng: &mut Rng, n_bits: u32, spread: i64) -> [f64; D] {
+    let exponent = rng.within(-180, 130 - spread);
+    std::array::from_fn(|_| {
+        let mantissa = rng.next() >> (64 - n_bits);
+        mantissa as f64 * 2f64.powi((exponent + rng.within(0, spread)) as i32)
+    })
+}
+
+/// Images of a point under changes of signs and permutations of axes, which are all on one sphere about the origin.
+fn images<const D: usize, const N: usize>(rng: &mut Rng, p: [f64; D]) -> [[f64; D]; N] {
+    std::array::from_fn(|_| image(rng, p))
+}
+
+fn image<const D: usize>(rng: &mut Rng, mut p: [f64; D]) -> [f64; D] {
+    rng.shuffle(&mut p);
+    p.map(|x| if rng.one_in(2) { x } else { -x })
+}
+
+/// Images of a point; now and then one of them is moved by a last bit.
+fn near_tie<const D: usize, const N: usize>(rng: &mut Rng) -> [[f64; D]; N] {
+    if rng.one_in(3) {
+        return near_sphere(rng);
+    }
+    let n_bits = *rng.pick(&[2, 5, 10, 19, 20, 21, 25, 31, 32, 33, 40, 50, 52, 53]);
+    let spread = *rng.pick(&[0, 0, 0, 2, 5, 8, 20, 30, 31, 32, 33, 40, 50, 56, 60, 80]);
+    let p = numbers::<D>(rng, n_bits, spread);
+    let mut points = images(rng, p);
+    if rng.one_in(2) {
+        let x = &mut points[rng.below(N)][rng.below(D)];
+        *x = if rng.one_in(2) { x.next_up() } else { x.next_down() };
+    }
+    points
+}
+
+/// Integers on a sphere, and one that is next to it: with squares of the distances from the origin that differ by a small
+/// k, the determinant is k times a volume, and as large as it can be where it is still uncertain.
+///
+/// From (x, y) to (x − s, y + 1) the square grows by s² − 2 s x + 2 y + 1, which is k for y = s x + (k − s² − 1) / 2.
+fn near_sphere<const D: usize, const N: usize>(rng: &mut Rng) -> [[f64; D]; N] {
+    let n_bits = rng.within(8, 47) as u32;
+    let (x, z) = ((rng.next() >> (64 - n_bits)) as i64, (rng.next() >> (64 - n_bits)) as i64);
+    let s = rng.within(1, 8);
+    let k = 2 * rng.within(-200, 200) + s * s + 1;
+    let y = s * x + (k - s * s - 1) / 2;
+    let unit = 2f64.powi(rng.within(-100, 100) as i32);
+    let on = [x, y, z].map(|x| x as f64 * unit);
+    let beside = [x - s, y + 1, z].map(|x| x as f64 * unit);
+    let of = |p: [f64; 3]| std::array::from_fn(|axis| p[axis]);
+    let mut points = images(rng, of(on));
+    points[rng.below(N)] = image(rng, of(beside));
+    points
+}
+
+/// Which format takes the differences of points: its number of bits rounded up to the next limit.
+fn length<const D: usize, const N: usize>(
+    origin: &[f64; D],
+    others: [&[f64; D]; N],
+    extent: f64,
+    limits: &[u32],
+) -> usize {
+    let n_bits = match Scaled::new(origin, others, extent) {
+        Some(scaled) => scaled.n_bits,
+        None => LongScaled::new(origin, others, extent).map_or(u32::MAX, |scaled| scaled.n_bits),
+    };
+    limits.iter().position(|&most| n_bits <= most).unwrap_or(limits.len())
+}
+
+fn sign(x: f64) -> Ordering {
+    x.partial_cmp(&0.0).expect("a number")
+}
+
+const CASES: usize = 400_000;
+
+/// Every format has been taken, and what is too long for all of them has been seen.
+fn assert_all_taken(counts: &[usize]) {
+    assert!(counts.iter().all(|&n| n > CASES / 1_000), "{counts:?}");
+}
+
+#[test]
+fn near_ties_of_spheres_are_those_of_long_integers() {
+    let rng = &mut Rng::new(1);
+    let mut counts = [0; 6];
+    for _ in 0..CASES {
+        let points = near_tie::<3, 5>(rng);
+        let [a, others @ ..] = points.each_ref();
+        let extents = extents(points.each_ref());
+        let det = insphere_rounded(points.each_ref());
+        if is_certain(det, insphere_bound(extents), extents) {
+            continue;
+        }
+        counts[length(a, others, largest(extents), &[21, 33, 59, 85, 110])] += 1;
+        if let Some(found) = insphere_sign(points.each_ref(), largest(extents)) {
+            assert_eq!(found, sign(big::insphere(1.0, points.each_ref())), "{points:?}");
+        }
+    }
+    assert_all_taken(&counts);
+}
+
+#[test]
+fn near_ties_of_circles_are_those_of_long_integers() {
+    let rng = &mut Rng::new(2);
+    let mut counts = [0; 6];
+    for _ in 0..CASES {
+        let points = near_tie::<2, 4>(rng);
+        let [a, others @ ..] = points.each_ref();
+        let extents = extents(points.each_ref());
+        let det = incircle_rounded(points.each_ref());
+        if is_certain(det, incircle_bound(extents), extents) {
+            continue;
+        }
+        counts[length(a, others, largest(extents), &[27, 43, 59, 91, 110])] += 1;
+        if let Some(found) = incircle_sign(points.each_ref(), largest(extents)) {
+            assert_eq!(found, sign(big::incircle(1.0, points.each_ref())), "{points:?}");
+        }
+    }
+    assert_all_taken(&counts);
+}
+
+#[test]
+fn near_ties_of_planes_are_those_of_long_integers() {
+    let rng = &mut Rng::new(3);
+    let mut counts = [0; 5];
+    for _ in 0..CASES {
+        // Images with one coordinate kept, now and then moved by a last bit; the sum of a plane's points is in it, too.
+        let mut points = near_tie::<3, 4>(rng);
+        let axis = rng.below(3);
+        let height = points[0][axis];
+        points.iter_mut().skip(1).filter(|_| !rng.one_in(30)).for_each(|p| p[axis] = height);
+        if rng.one_in(2) {
+            // A plane that is not parallel to any axis.
+            points.iter_mut().for_each(|p| p[axis] = p[(axis + 1) % 3] + p[(axis + 2) % 3]);
+        }
+        if points.as_flattened().iter().any(|x| x.abs() > MAX_MAGNITUDE) {
+            continue;
+        }
+        let [a, b, c, d] = points.each_ref();
+        let extents = extents(points.each_ref());
+        let det = volume(&minus(b, a), &minus(c, a), &minus(d, a));
+        if is_certain(det, orient3d_bound(extents), extents) {
+            continue;
+        }
+        counts[length(a, [b, c, d], largest(extents), &[36, 57, 59, 110])] += 1;
+        if let Some(found) = orient3d_sign(points.each_ref(), largest(extents)) {
+            assert_eq!(found, sign(big::orient3d(1.0, points.each_ref())), "{points:?}");
+        }
+    }
+    assert_all_taken(&counts);
+}
