@@ -207,3 +207,26 @@ fn walks_begin_in_a_cell_after_flips() {
     }
     assert!(flips > 4000, "there were hardly any flips: {flips}");
 }
+
+/// Where all cells change at once flips would be quadratic in their number: a repair gives up in time, in proportion to the
+/// number of vertices. Without a limit this one evaluates 700 certificates a vertex.
+#[test]
+fn repairs_that_would_flip_without_end_rebuild() {
+    let mut rng = Rng::new(3);
+    let mut now: Vec<[f64; 3]> = (0..4000)
+        .map(|_| {
+            let p = [0; 3].map(|_| rng.unit() - 0.5);
+            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            p.map(|x| x / length)
+        })
+        .collect();
+    let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
+    let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
+    // The sphere becomes an ellipsoid.
+    now.iter_mut().for_each(|p| p[0] += 0.001 * p[1]);
+    let report = t.commit_positions(&now).expect("a commit");
+    assert_eq!(report.rebuilds, 1);
+    assert!(report.certificates < 100 * now.len() as u64, "{report:?}");
+    let positions: Vec<_> = now.iter().copied().map(Some).collect();
+    assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || "an ellipsoid".into());
+}

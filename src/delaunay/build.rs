@@ -304,6 +304,7 @@ impl<G: Dimension> Delaunay<G> {
             recent: index.get(self.recent as usize).copied().unwrap_or_default(),
             complex,
             certificates: self.certificates,
+            link_sites: self.link_sites,
             threads: self.threads,
             ..Delaunay::empty()
         };

@@ -54,6 +54,10 @@ pub struct Flips<G: Dimension> {
     journal: Vec<Row<G::Corners>>,
     n_flips: u64,
     certificates: u64,
+    /// How many certificates may be evaluated.
+    most: u64,
+    /// Whether these were not enough.
+    is_exhausted: bool,
     /// Whether there was no memory to go on.
     has_failed: bool,
 }
@@ -69,6 +73,8 @@ impl<G: Dimension> Default for Flips<G> {
             journal: Vec::new(),
             n_flips: 0,
             certificates: 0,
+            most: u64::MAX,
+            is_exhausted: false,
             has_failed: false,
         }
     }
@@ -84,8 +90,9 @@ impl<G: Dimension> Flips<G> {
             + memory::bytes_of(&self.journal)
     }
 
-    fn begin(&mut self) {
-        (self.n_flips, self.certificates, self.has_failed) = (0, 0, false);
+    fn begin(&mut self, most: u64) {
+        (self.n_flips, self.certificates, self.most) = (0, 0, most);
+        (self.is_exhausted, self.has_failed) = (false, false);
         self.stuck.clear();
         self.later.clear();
         self.changed.clear();
@@ -181,6 +188,10 @@ impl<G: Dimension> Flipper<'_, '_, G> {
         let mut before = flips.n_flips;
         loop {
             while let Some(facet) = flips.suspects.pop() {
+                if flips.certificates >= flips.most {
+                    flips.is_exhausted = true;
+                    return;
+                }
                 if let Err(obstacle) = self.flip_if_it_fails(facet, flips) {
                     flips.put_off(facet, obstacle);
                     if flips.has_failed {
@@ -223,15 +234,21 @@ impl<G: Dimension> Flipper<'_, '_, G> {
 impl<G: Dimension> Delaunay<G> {
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that fail
     /// still as they cannot be flipped. There are none in the plane; if there are, [`undo_flips`](Self::undo_flips) must
-    /// follow. Returns the number of flips. After an error all is as it was.
-    pub(crate) fn flip_all(&mut self, suspects: &mut Vec<Facet>, stuck: &mut Vec<Facet>) -> Result<u64> {
+    /// follow. Returns the number of flips; `None` if more than `most` certificates would have to be evaluated on the way, and
+    /// then [`undo_flips`](Self::undo_flips) must follow, too. After an error all is as it was.
+    pub(crate) fn flip_all(
+        &mut self,
+        suspects: &mut Vec<Facet>,
+        stuck: &mut Vec<Facet>,
+        most: u64,
+    ) -> Result<Option<u64>> {
         let mut flips = std::mem::take(&mut self.flips);
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
         // Unless the cells are sorted nearly all flips would need those of several threads.
         let n = if self.is_sorted { flips.own.suspects.len() } else { 0 };
         let n_threads = self.threads.for_work(n, FLIPPED_AT_LEAST, FLIPPED_IF_ASKED);
-        let done = self.flip_listed(&mut flips, n_threads);
+        let done = self.flip_listed(&mut flips, n_threads, most);
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
         self.flips = flips;
@@ -242,15 +259,16 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn flip_star(&mut self) -> Result<Option<u64>> {
         let mut flips = std::mem::take(&mut self.flips);
         let done = self.flip_star_with(&mut flips);
-        let is_stuck = done.is_ok() && !flips.own.stuck.is_empty();
+        let is_stuck = !flips.own.stuck.is_empty();
         self.flips = flips;
-        if is_stuck {
+        let done = done?.filter(|_| !is_stuck);
+        if done.is_none() {
             self.undo_flips();
         }
-        Ok(Some(done?).filter(|_| !is_stuck))
+        Ok(done)
     }
 
-    fn flip_star_with(&mut self, flips: &mut AllFlips<G>) -> Result<u64> {
+    fn flip_star_with(&mut self, flips: &mut AllFlips<G>) -> Result<Option<u64>> {
         let Flips { suspects, .. } = &mut flips.own;
         suspects.clear();
         memory::reserve(suspects, self.hole.star.len() * G::Corners::N)?;
@@ -260,14 +278,15 @@ impl<G: Dimension> Delaunay<G> {
             let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
             suspects.extend((0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i)));
         }
-        self.flip_listed(flips, 1)
+        self.flip_listed(flips, 1, u64::MAX)
     }
 
-    /// Flips from the suspects, and keeps that unless flips are stuck; returns their number. After an error all is as it
-    /// was.
-    fn flip_listed(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<u64> {
-        let done = self.flip_as_far_as_possible(flips, n_threads);
-        let is_done = flips.own.stuck.is_empty();
+    /// Flips from the suspects, and keeps that unless flips are stuck or too many; returns their number, and `None` in the
+    /// latter case. After an error all is as it was.
+    fn flip_listed(&mut self, flips: &mut AllFlips<G>, n_threads: usize, most: u64) -> Result<Option<u64>> {
+        let done = self.flip_as_far_as_possible(flips, n_threads, most);
+        let is_exhausted = flips.own.is_exhausted;
+        let is_done = flips.own.stuck.is_empty() && !is_exhausted;
         let done = done.and_then(|()| if is_done { self.enter_flips(flips) } else { Ok(()) });
         if let Err(error) = done {
             self.take_back(flips);
@@ -281,12 +300,17 @@ impl<G: Dimension> Delaunay<G> {
                 self.keep(part);
             }
         }
-        Ok(n_flips)
+        Ok((!is_exhausted).then_some(n_flips))
     }
 
-    fn flip_as_far_as_possible(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<()> {
-        flips.own.begin();
-        flips.parts.iter_mut().for_each(Flips::begin);
+    fn flip_as_far_as_possible(
+        &mut self,
+        flips: &mut AllFlips<G>,
+        n_threads: usize,
+        most: u64,
+    ) -> Result<()> {
+        flips.own.begin(most);
+        flips.parts.iter_mut().for_each(|part| part.begin(most));
         flips.were_several = false;
         if n_threads > 1 {
             flips.n_slots = self.complex.n_slots();
@@ -295,6 +319,10 @@ impl<G: Dimension> Delaunay<G> {
             flips.free.extend_from_slice(self.complex.free_cells());
             flips.were_several = true;
             self.flip_side_by_side(flips, n_threads)?;
+            flips.own.is_exhausted = flips.parts.iter().any(|part| part.is_exhausted);
+            if flips.own.is_exhausted {
+                return Ok(());
+            }
         }
         let own = &mut flips.own;
         loop {
@@ -303,7 +331,7 @@ impl<G: Dimension> Delaunay<G> {
             if own.has_failed {
                 return Err(Error::OutOfMemory { bytes: own.journal.len() * size_of::<Row<G::Corners>>() });
             }
-            if own.later.is_empty() {
+            if own.later.is_empty() || own.is_exhausted {
                 return Ok(());
             }
             self.complex.create_free(ROOM)?;

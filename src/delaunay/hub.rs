@@ -16,6 +16,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Fills the hole of the gathered star by the triangulation of its link. After an error nothing has changed.
     #[cold]
     pub(super) fn remove_hub(&mut self) -> Result<()> {
+        self.link_sites += self.hole.sites.len() as u64;
         let made = self.cells_of_link()?;
         // Orientation is part of a facet seen from one side: the two sides have their sorted corners in common.
         let mut sides: Vec<(G::Corners, Facet)> = Vec::new();

@@ -110,6 +110,8 @@ pub struct Delaunay<G: Dimension> {
     changed: Option<Vec<u32>>,
     /// Certificates evaluated by relocations so far.
     certificates: u64,
+    /// Sites of links that have been triangulated in removals of vertices of high degree.
+    link_sites: u64,
     threads: Threads,
 }
 
@@ -146,6 +148,7 @@ impl<G: Dimension> Delaunay<G> {
             log: undo::Log::default(),
             changed: None,
             certificates: 0,
+            link_sites: 0,
             threads: Threads::ONE,
         }
     }
@@ -354,6 +357,11 @@ impl<G: Dimension> Delaunay<G> {
     /// How many certificates relocations have evaluated so far.
     pub fn certificates(&self) -> u64 {
         self.certificates
+    }
+
+    /// How many sites of links removals of vertices of high degree have triangulated so far.
+    pub(crate) fn link_sites(&self) -> u64 {
+        self.link_sites
     }
 
     /// Counts certificates.

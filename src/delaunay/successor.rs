@@ -30,7 +30,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         let mut next = Delaunay { sites, free_sites, parts, threads: self.threads, ..Delaunay::empty() };
         self.give_scratch_to(&mut next);
-        next.certificates = self.certificates;
+        (next.certificates, next.link_sites) = (self.certificates, self.link_sites);
         Ok(next)
     }
 

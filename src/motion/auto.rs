@@ -17,8 +17,9 @@
 //! by half a computation of all, all tolerances are computed again, so that what is watched follows from how far the
 //! vertices go now.
 //!
-//! **Rebuilding.** After a repair that had to rebuild, as many commits rebuild at once as have failed in a row, and
-//! twice as many the next time.
+//! **Rebuilding.** After a repair that had to rebuild, or has cost more than that, as many commits rebuild at once as have
+//! failed in a row, and twice as many the next time. What a repair has cost is estimated from what it has counted: on
+//! lattices that is exact evaluations and removals of vertices of high degree, near the hull, more than flips.
 //!
 //! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
 //! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a
@@ -26,7 +27,7 @@
 
 use super::regions::Filter;
 use super::staging::Given;
-use super::{CommitReport, MovingTriangulation, SwitchingRule};
+use super::{CommitReport, Evaluations, MovingTriangulation, SwitchingRule};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 
@@ -59,6 +60,12 @@ struct Costs {
     computed: f64,
     /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices.
     calm: f64,
+    /// A vertex rebuilt, exact evaluations apart; also one of the link of a vertex of high degree.
+    rebuilt: f64,
+    /// A vertex placed.
+    placed: f64,
+    /// An exact evaluation.
+    exact: f64,
 }
 
 /// Measured with 1,000 vertices in the plane, 13,000 in space, in Lloyd's iterations; only the ratios matter.
@@ -72,6 +79,9 @@ const fn costs<G: Dimension>() -> Costs {
             used_up: 0.0,
             computed: 90.0,
             calm: 1500.0,
+            rebuilt: 230.0,
+            placed: 1000.0,
+            exact: 50.0,
         }
     } else {
         let slack = Some(18.0);
@@ -83,6 +93,9 @@ const fn costs<G: Dimension>() -> Costs {
             used_up: 100.0,
             computed: 500.0,
             calm: 250.0,
+            rebuilt: 1500.0,
+            placed: 5000.0,
+            exact: 130.0,
         }
     }
 }
@@ -126,6 +139,8 @@ pub(super) struct Auto {
     /// Commits still to be rebuilt without trying to repair, and how many they were last time.
     rebuilds: u32,
     last_rebuilds: u32,
+    /// Exact evaluations of the last commit that rebuilt without trying to repair, if there was one.
+    exact_of_rebuild: Option<u64>,
     /// Immediate relocations in this round, those within tolerance, and those that changed no cell.
     relocated: u64,
     within: u64,
@@ -148,15 +163,18 @@ impl<G: Dimension> MovingTriangulation<G> {
                 self.commit_by_placement(Shortcut::Flips, given, report)
             };
         }
+        let before = self.evaluations();
         if self.auto.rebuilds > 0 {
             self.auto.rebuilds -= 1;
-            return self.rebuild_given(given, report);
+            self.rebuild_given(given, report)?;
+            self.auto.exact_of_rebuild = Some(self.evaluations().exact - before.exact);
+            return Ok(());
         }
         if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_look(given, report)? {
             return Ok(());
         }
         self.commit_by_repair(given, report)?;
-        self.learn(report);
+        self.learn(report, before);
         Ok(())
     }
 
@@ -306,11 +324,25 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.auto.pace += LAST * (mended - self.auto.pace);
     }
 
+    /// Whether a repair has cost more than rebuilding would have.
+    fn is_too_expensive(&self, report: &CommitReport, before: Evaluations) -> bool {
+        let (costs, now) = (costs::<G>(), self.evaluations());
+        let (n, exact) = (self.n_present as f64, now.exact - before.exact);
+        let spent = n * costs.sweep
+            + report.placements as f64 * costs.placed
+            + (now.link_sites - before.link_sites) as f64 * costs.rebuilt
+            + exact as f64 * costs.exact;
+        // While it is not known it counts as equal.
+        let exact_of_rebuild = self.auto.exact_of_rebuild.unwrap_or(exact);
+        spent > n * costs.rebuilt + exact_of_rebuild as f64 * costs.exact
+    }
+
     /// Draws conclusions from a repair.
-    fn learn(&mut self, report: &CommitReport) {
+    fn learn(&mut self, report: &CommitReport, before: Evaluations) {
         self.follow_pace(report);
+        let is_too_expensive = self.is_too_expensive(report, before);
         let auto = &mut self.auto;
-        if report.rebuilds > 0 {
+        if report.rebuilds > 0 || is_too_expensive {
             auto.last_rebuilds = (2 * auto.last_rebuilds + 1).min(REBUILT);
             auto.rebuilds = auto.last_rebuilds;
             return;

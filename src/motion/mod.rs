@@ -86,6 +86,14 @@ use views::Views;
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
 
+/// Sums of what has been evaluated: certificates, exact signs, and sites of links that were triangulated in removals.
+#[derive(Clone, Copy, Debug)]
+struct Evaluations {
+    certificates: u64,
+    exact: u64,
+    link_sites: u64,
+}
+
 /// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex it is
 /// fitted to the points again, which takes as long as a small part of one commit.
 const MOVED: u64 = 64;
@@ -301,15 +309,20 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Certificates and exact signs evaluated so far.
-    fn evaluations(&self) -> [u64; 2] {
-        [self.kernel.certificates(), exact_calls()]
+    /// What has been evaluated so far.
+    fn evaluations(&self) -> Evaluations {
+        Evaluations {
+            certificates: self.kernel.certificates(),
+            exact: exact_calls(),
+            link_sites: self.kernel.link_sites(),
+        }
     }
 
     /// Enters what was evaluated since then.
-    fn enter_evaluations(&self, report: &mut CommitReport, [certificates, exact]: [u64; 2]) {
-        report.certificates = self.kernel.certificates() - certificates;
-        report.exact_calls = exact_calls() - exact;
+    fn enter_evaluations(&self, report: &mut CommitReport, before: Evaluations) {
+        let now = self.evaluations();
+        report.certificates = now.certificates - before.certificates;
+        report.exact_calls = now.exact - before.exact;
     }
 
     /// Adds what was done to the sums.

@@ -35,6 +35,12 @@ const fn placed<G: Dimension>() -> usize {
     if G::D == 2 { 8 } else { 20 }
 }
 
+/// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all cells
+/// change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
+const fn certified<G: Dimension>() -> u64 {
+    if G::D == 2 { 20 } else { 40 }
+}
+
 /// Times that flips may be stuck before the triangulation is rebuilt.
 const ROUNDS: usize = 8;
 
@@ -164,7 +170,12 @@ impl<G: Dimension> MovingTriangulation<G> {
             repair.suspects.clear();
             memory::reserve(&mut repair.suspects, repair.failures.facets.len())?;
             repair.suspects.extend_from_slice(&repair.failures.facets);
-            let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck)?;
+            let most_certificates = certified::<G>() * self.n_present as u64;
+            let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck, most_certificates)?;
+            let Some(flips) = flips else {
+                self.kernel.undo_flips();
+                return Ok(false);
+            };
             if repair.stuck.is_empty() {
                 report.flips += flips;
                 return Ok(true);

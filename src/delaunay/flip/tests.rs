@@ -41,7 +41,8 @@ fn threads_flip<G: Dimension>(size: f64) {
         assert!(suspects.len() > 300, "{}", suspects.len());
         t.record_changes(Vec::new());
         let mut stuck = Vec::new();
-        let n_flips = t.flip_all(&mut suspects, &mut stuck).expect("room for it");
+        let n_flips =
+            t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").expect("no limit");
         assert_eq!(stuck, []);
         t.validate(Level::Delaunay).expect("a Delaunay triangulation");
         let parts: Vec<u64> = t.flips.parts.iter().map(|part| part.n_flips).collect();
@@ -98,7 +99,7 @@ fn diagonals_change_in_space() {
         assert!(t.complex.cells().iter().map(|cell| cell.corners).take(before.len()).eq(before));
         let mut stuck = Vec::new();
         t.record_changes(Vec::new());
-        assert_eq!(t.flip_all(&mut failures.facets, &mut stuck), Ok(1));
+        assert_eq!(t.flip_all(&mut failures.facets, &mut stuck, u64::MAX), Ok(Some(1)));
         assert_eq!(stuck, []);
         // All four cells are new, and recorded.
         let changed = t.take_changes().expect("a record");
