@@ -5,7 +5,7 @@
 PRESET ?= quick
 PREFIX ?= /usr/local
 # Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy",
-# make report ARGS="--scenario man"
+# make report ARGS="--scenario man", make targets ARGS="--target loop"
 ARGS ?=
 
 # Debian packages that the benchmark is built with.

@@ -103,6 +103,10 @@ private:
             "where named in full only")
             ->take_all()
             ->check(CLI::IsMember(engine_names()));
+        add("--target", "NAME", options_.targets,
+            "with --targets: only this one, named as in the column target; may be repeated")
+            ->take_all()
+            ->check(CLI::IsMember(target_names()));
         add_number("--threads", options_.threads, 1, "number of threads deldrift may use, default 1; may be repeated")
             ->take_all();
         add_number("--seed", options_.seed, 0, "of the generated positions, default 1");
@@ -172,6 +176,8 @@ private:
             if (std::find(known.begin(), known.end(), scenario) == known.end())
                 throw std::runtime_error(fmt::format("the scenario {} is for runs {} --report", scenario,
                                                      options_.task == Task::report ? "without" : "with"));
+        if (!options_.targets.empty() && options_.task != Task::targets)
+            throw std::runtime_error("--target is for runs with --targets");
         if (options_.scenarios.empty() && options_.series.empty()) options_.scenarios = known;
     }
 
@@ -190,6 +196,15 @@ const std::vector<std::string> &report_scenario_names() {
     static const std::vector<std::string> names = {"lloyd_2d_uniform", "lloyd_2d_r2", "lloyd_2d_x2", "lloyd_2d_sin2",
                                                    "slloyd",           "snodt",       "man",         "share_2d",
                                                    "share_3d",         "walk_2d",     "walk_3d"};
+    return names;
+}
+
+const std::vector<std::string> &target_names() {
+    static const std::vector<std::string> names = {
+        "tolerance_test", "half_within", "immediate_still", "converged",     "swept",
+        "threads_swept",  "leap_1",      "leap_10",         "threads_build", "step_0",
+        "step_1e-5",      "step_1e-4",   "step_1e-3",       "step_1e-2",     "loop",
+        "grown_cells",    "grown_star",  "grown_relocate_vertex", "grown_commit_one"};
     return names;
 }
 

@@ -35,6 +35,7 @@ struct Options {
     Preset preset;
     std::vector<std::string> scenarios;
     std::vector<std::string> engines;  // empty: all
+    std::vector<std::string> targets;  // empty: all
     std::vector<SeriesFile> series;
     std::size_t n_series_checks = SIZE_MAX;           // as n_checks, for series files
     std::size_t n_series_slow_timestamps = SIZE_MAX;  // as n_slow_timestamps, for series files
@@ -54,5 +55,8 @@ Options parse_options(int n_arguments, char **arguments);
 
 /// The inputs of the report, in the order of its tables and figures.
 const std::vector<std::string> &report_scenario_names();
+
+/// What targets are called.
+const std::vector<std::string> &target_names();
 
 }  // namespace bench
