@@ -396,6 +396,10 @@ TEST_CASE("options") {
     CHECK_MESSAGE(parse({"--targets", "--target", "loop", "--target", "swept"}).targets.size() == 2, "chosen targets");
     CHECK_THROWS_WITH(parse({"--targets", "--target", "magic"}), Contains("--target: magic not in"));
     CHECK_THROWS_WITH(parse({"--target", "loop"}), Contains("for runs with --targets"));
+    CHECK(parse({"--structured", "--point-set-size", "700"}).preset.structured_sizes == std::vector<std::size_t>{700});
+    CHECK_THROWS_WITH(parse({"--point-set", "grid"}), Contains("for runs with --structured"));
+    CHECK_MESSAGE(parse({}).with_structured, "a whole run has the structured table");
+    CHECK_MESSAGE(!parse({"--scenario", "walk_3d"}).with_structured, "a part of it has not");
 }
 
 }  // namespace
