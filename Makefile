@@ -5,7 +5,7 @@
 PRESET ?= quick
 PREFIX ?= /usr/local
 # Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy",
-# make report ARGS="--scenario man"
+# make report ARGS="--scenario man", make bench ARGS="--structured", make targets ARGS="--target loop"
 ARGS ?=
 
 # Debian packages that the benchmark is built with.
@@ -41,7 +41,7 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 	ctest --test-dir cpp-bench/build --output-on-failure
 	cpp-bench/report_page/test_page.py
 
-bench: benchmark ## deldrift beside CGAL: a table, and cpp-bench/results/bench.csv (PRESET=quick or full)
+bench: benchmark ## deldrift beside CGAL: tables, cpp-bench/results/bench.csv and structured.csv (PRESET=quick or full)
 	cpp-bench/run --preset $(PRESET) $(ARGS)
 
 report: benchmark ## the experiments of RR-6750, beside CGAL: cpp-bench/results/report/index.html (PRESET=quick or full)

@@ -5,6 +5,7 @@
 #include "resources.hpp"
 #include "runner.hpp"
 #include "self_test.hpp"
+#include "structured.hpp"
 #include "targets.hpp"
 
 #include <fmt/format.h>
@@ -28,10 +29,13 @@ int perform(const bench::Options &options, const std::string &command) {
         case bench::Task::report: bench::run_report(options); environment += "_report"; break;
         case bench::Task::memory: bench::run_memory(options); environment += "_memory"; break;
         case bench::Task::large: bench::run_large(options); environment += "_large"; break;
+        case bench::Task::structured: bench::run_structured(options); environment += "_structured"; break;
         case bench::Task::targets: bench::run_targets(options); environment += "_targets"; break;
         case bench::Task::run: bench::run_scenarios(options); break;
     }
     bench::write_environment(options.results + "/" + environment + ".txt", command);
+    if (options.with_structured)
+        bench::write_environment(options.results + "/environment_structured.txt", command);
     return 0;
 }
 

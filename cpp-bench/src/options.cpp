@@ -2,6 +2,7 @@
 #include "options.hpp"
 
 #include "engine.hpp"
+#include "structured.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,9 +15,12 @@ namespace bench {
 namespace {
 
 const std::map<std::string, Preset> presets = {
-    {"quick", {"quick", 1000, 50, 5, 10, 3, {1'000, 10'000, 100'000, 1'000'000}, {1'000, 10'000, 100'000}}},
-    {"full", {"full", 1000, 1000, 20, 20, 3, {1'000, 10'000, 100'000, 1'000'000}, {1'000, 10'000, 100'000}}},
-    {"smoke", {"smoke", 20, 5, 2, 2, 1, {1'000}, {1'000}}},
+    {"quick",
+     {"quick", 1000, 50, 5, 10, 3, {1'000, 10'000, 100'000, 1'000'000}, {1'000, 10'000, 100'000}, {10'000}, false}},
+    {"full",
+     {"full", 1000, 1000, 20, 20, 3, {1'000, 10'000, 100'000, 1'000'000}, {1'000, 10'000, 100'000},
+      {5'000, 40'000, 200'000}, true}},
+    {"smoke", {"smoke", 20, 5, 2, 2, 1, {1'000}, {1'000}, {500}, true}},
 };
 
 const std::vector<std::string> scenario_names = {"lloyd_2d_uniform", "walk_3d", "static_2d",
@@ -103,6 +107,15 @@ private:
             "where named in full only")
             ->take_all()
             ->check(CLI::IsMember(engine_names()));
+        add("--target", "NAME", options_.targets,
+            "with --targets: only this one, named as in the column target; may be repeated")
+            ->take_all()
+            ->check(CLI::IsMember(target_names()));
+        add("--point-set", "NAME", options_.point_sets,
+            "with --structured: only this one, named as in the column points of structured.csv; may be\n"
+            "repeated")
+            ->take_all()
+            ->check(CLI::IsMember(point_set_names()));
         add_number("--threads", options_.threads, 1, "number of threads deldrift may use, default 1; may be repeated")
             ->take_all();
         add_number("--seed", options_.seed, 0, "of the generated positions, default 1");
@@ -120,6 +133,8 @@ private:
         add_number("--slow-timestamps", n_slow_timestamps_, 1,
                    "time engines that relocate one vertex after another at so many timestamps in 3D,\n"
                    "instead of the preset's; series files: all");
+        add_number("--point-set-size", point_set_sizes_, 100, "other sizes for --structured; may be repeated")
+            ->take_all();
         add_number("--large-points-2d", options_.large_points_2d, 0,
                    "other sizes for --large; 0 leaves the dimension out");
         add_number("--large-points-3d", options_.large_points_3d, 0, "the same in 3D");
@@ -145,6 +160,10 @@ private:
         add_task("--memory", Task::memory, "bytes per vertex at a million points, to memory.csv");
         add_task("--large", Task::large,
                  "build, validate and commit 50 million points in 2D and 20 million in 3D, to large.csv");
+        add_task("--structured", Task::structured,
+                 "point sets such as solvers have: lattices, layers, surfaces, graded and clustered clouds,\n"
+                 "built and moved, to structured.csv; the last part of a run without --scenario or --series.\n"
+                 "With --preset full all sets at three sizes");
         add_task("--targets", Task::targets,
                  "special cases beside the speed-up wanted, to targets.csv: within eight minutes");
         add_task("--self-test", Task::self_test, "test the benchmark's own checks");
@@ -172,6 +191,13 @@ private:
             if (std::find(known.begin(), known.end(), scenario) == known.end())
                 throw std::runtime_error(fmt::format("the scenario {} is for runs {} --report", scenario,
                                                      options_.task == Task::report ? "without" : "with"));
+        if (!options_.targets.empty() && options_.task != Task::targets)
+            throw std::runtime_error("--target is for runs with --targets");
+        if (!(options_.point_sets.empty() && point_set_sizes_.empty()) && options_.task != Task::structured)
+            throw std::runtime_error("--point-set and --point-set-size are for runs with --structured");
+        if (!point_set_sizes_.empty()) options_.preset.structured_sizes = point_set_sizes_;
+        options_.with_structured =
+            options_.task == Task::run && options_.scenarios.empty() && options_.series.empty();
         if (options_.scenarios.empty() && options_.series.empty()) options_.scenarios = known;
     }
 
@@ -182,6 +208,7 @@ private:
     std::size_t n_timestamps_ = 0;
     std::size_t n_checks_ = 0;
     std::size_t n_slow_timestamps_ = 0;
+    std::vector<std::size_t> point_set_sizes_;
 };
 
 }  // namespace
@@ -190,6 +217,15 @@ const std::vector<std::string> &report_scenario_names() {
     static const std::vector<std::string> names = {"lloyd_2d_uniform", "lloyd_2d_r2", "lloyd_2d_x2", "lloyd_2d_sin2",
                                                    "slloyd",           "snodt",       "man",         "share_2d",
                                                    "share_3d",         "walk_2d",     "walk_3d"};
+    return names;
+}
+
+const std::vector<std::string> &target_names() {
+    static const std::vector<std::string> names = {
+        "tolerance_test", "half_within", "immediate_still", "converged",     "swept",
+        "threads_swept",  "leap_1",      "leap_10",         "threads_build", "step_0",
+        "step_1e-5",      "step_1e-4",   "step_1e-3",       "step_1e-2",     "loop",
+        "grown_cells",    "grown_star",  "grown_relocate_vertex", "grown_commit_one"};
     return names;
 }
 

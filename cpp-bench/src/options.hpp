@@ -19,6 +19,8 @@ struct Preset {
     unsigned n_repeats;
     std::vector<std::size_t> static_sizes;
     std::vector<std::size_t> step_sizes;
+    std::vector<std::size_t> structured_sizes;
+    bool has_all_point_sets;  // of structured.hpp: else the most telling ones
 };
 
 struct SeriesFile {
@@ -27,14 +29,17 @@ struct SeriesFile {
     std::size_t n_steps = 0;
 };
 
-enum class Task { run, report, memory, large, targets, self_test, help };
+enum class Task { run, report, memory, large, structured, targets, self_test, help };
 
 struct Options {
     Task task = Task::run;
     std::string help;  // what Task::help prints
     Preset preset;
     std::vector<std::string> scenarios;
-    std::vector<std::string> engines;  // empty: all
+    std::vector<std::string> engines;     // empty: all
+    std::vector<std::string> targets;     // empty: all
+    std::vector<std::string> point_sets;  // of Task::structured; empty: the preset's
+    bool with_structured = false;         // Task::run ends with structured point sets
     std::vector<SeriesFile> series;
     std::size_t n_series_checks = SIZE_MAX;           // as n_checks, for series files
     std::size_t n_series_slow_timestamps = SIZE_MAX;  // as n_slow_timestamps, for series files
@@ -54,5 +59,8 @@ Options parse_options(int n_arguments, char **arguments);
 
 /// The inputs of the report, in the order of its tables and figures.
 const std::vector<std::string> &report_scenario_names();
+
+/// What targets are called.
+const std::vector<std::string> &target_names();
 
 }  // namespace bench

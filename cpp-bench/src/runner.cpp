@@ -9,6 +9,7 @@
 #include "scenarios.hpp"
 #include "step.hpp"
 #include "step_table.hpp"
+#include "structured.hpp"
 #include "table.hpp"
 #include "verify.hpp"
 
@@ -48,6 +49,8 @@ public:
         std::filesystem::create_directories(options_.results);
         for (const std::string &scenario : options_.scenarios) run_scenario(scenario);
         for (const SeriesFile &file : options_.series) run_file(file);
+        if (options_.with_structured)
+            structured_lines_ = measure_structured(options_.preset, {}, options_.seed, checks_, progress_);
     }
 
     void report() {
@@ -57,10 +60,17 @@ public:
             print_steps(std::cout, step_lines_);
             std::cout << '\n';
         }
+        if (options_.with_structured) {
+            print_structured(std::cout, structured_lines_);
+            std::cout << '\n';
+        }
         print_checks(std::cout, checks_);
         const std::string path = options_.results + "/bench.csv";
         write_csv(path, rows_);
         std::cout << "\nwritten: " << path << '\n';
+        if (!options_.with_structured) return;
+        write_structured(options_.results, structured_lines_);
+        std::cout << "written: " << options_.results << "/structured.csv\n";
     }
 
 private:
@@ -176,6 +186,7 @@ private:
     Progress progress_;
     std::vector<Row> rows_;
     std::vector<StepLine> step_lines_;
+    std::vector<StructuredLine> structured_lines_;
     std::vector<Checks> checks_;
 };
 

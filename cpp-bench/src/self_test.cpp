@@ -14,7 +14,6 @@
 #include "scenarios.hpp"
 #include "self_test.hpp"
 #include "table.hpp"
-#include "targets.hpp"
 #include "verify.hpp"
 
 #include <algorithm>
@@ -360,35 +359,6 @@ TEST_CASE("measure") {
     CHECK(significant(0, 3) == "0.00");
 }
 
-TEST_CASE("targets") {
-    Progress progress(Progress::Output::silent);
-    std::vector<Checks> checks;
-    const std::vector<Target> targets = 
-        measure_targets({300, 5, 300, 500, 2, {200, 300}, {200, 300, 400}, 300, 0.02}, 1, checks, progress);
-    const auto is_measured = [](const Target &target) {
-        return target.reference_ns > 0 && target.contender_ns > 0 && target.wanted >= 0.125;
-    };
-    // All are measured.
-    CHECK(targets.size() == 58);
-    CHECK(std::all_of(targets.begin(), targets.end(), is_measured));
-    std::size_t n_comparisons = 0;
-    for (const Checks &check : checks) n_comparisons += check.n_comparisons;
-    CHECK_MESSAGE(n_comparisons == 74, "the cells of all engines are compared");
-    const auto is_swept_in_vain = [](const Target &target) { return target.what == "swept" && target.n_changes > 0; };
-    CHECK_MESSAGE(std::none_of(targets.begin(), targets.end(), is_swept_in_vain),
-                  "every certificate that is swept holds");
-    const auto is_within_as_named = [](const Target &target) {
-        return (target.what != "tolerance_test" || target.within == 1) &&
-               (target.what != "half_within" || (target.within > 0.4 && target.within < 0.7));
-    };
-    CHECK_MESSAGE(std::all_of(targets.begin(), targets.end(), is_within_as_named),
-                  "all vertices, or half of them, are within tolerance");
-    Target target = {"", 2, 1, "", "", 30, 10, 3, 0, 0};
-    CHECK_MESSAGE(target.verdict() == std::string("pass"), "reached");
-    target.contender_ns = 10.1;
-    CHECK_MESSAGE(target.verdict() == std::string("missed"), "missed by little");
-}
-
 TEST_CASE("options") {
     const auto parse = [](std::vector<std::string> words) {
         words.insert(words.begin(), "run");
@@ -423,6 +393,13 @@ TEST_CASE("options") {
     CHECK_THROWS_WITH(parse({"--displacement", "d.npy"}), Contains("wants a --series"));
     CHECK_THROWS_WITH(parse({"--series", "x.npy", "--steps", "3"}), Contains("go together"));
     CHECK_THROWS_WITH(parse({"--sead", "3"}), Contains("not expected: 3 --sead"));
+    CHECK_MESSAGE(parse({"--targets", "--target", "loop", "--target", "swept"}).targets.size() == 2, "chosen targets");
+    CHECK_THROWS_WITH(parse({"--targets", "--target", "magic"}), Contains("--target: magic not in"));
+    CHECK_THROWS_WITH(parse({"--target", "loop"}), Contains("for runs with --targets"));
+    CHECK(parse({"--structured", "--point-set-size", "700"}).preset.structured_sizes == std::vector<std::size_t>{700});
+    CHECK_THROWS_WITH(parse({"--point-set", "grid"}), Contains("for runs with --structured"));
+    CHECK_MESSAGE(parse({}).with_structured, "a whole run has the structured table");
+    CHECK_MESSAGE(!parse({"--scenario", "walk_3d"}).with_structured, "a part of it has not");
 }
 
 }  // namespace

@@ -157,15 +157,16 @@ public:
 
     std::vector<Target> run() {
         for (const unsigned dimension : {2u, 3u}) {
-            test(dimension, dimension == 2 ? 100 : 500);
-            stay_by_half(dimension);
-            relocate(dimension, dimension == 2 ? 8 : 30);
-            converge(dimension, dimension == 2 ? 30 : 150);
-            sweep(dimension, dimension == 2 ? 12 : 22);
-            for (const unsigned displacement : leaps) leap(dimension, displacement);
-            build_anew(dimension);
+            if (sizes_.has("tolerance_test")) test(dimension, dimension == 2 ? 100 : 500);
+            if (sizes_.has("half_within")) stay_by_half(dimension);
+            if (sizes_.has("immediate_still")) relocate(dimension, dimension == 2 ? 8 : 30);
+            if (sizes_.has("converged")) converge(dimension, dimension == 2 ? 30 : 150);
+            if (sizes_.has("swept") || sizes_.has("threads_swept")) sweep(dimension, dimension == 2 ? 12 : 22);
+            for (const unsigned displacement : leaps)
+                if (sizes_.has(leap_name(displacement))) leap(dimension, displacement);
+            if (sizes_.has("threads_build")) build_anew(dimension);
             append(step_targets(dimension, sizes_, seed_, checks_, progress_));
-            append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
+            if (sizes_.has("loop")) append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
             append(growth_targets(dimension, sizes_, seed_, progress_));
         }
         return targets_;
@@ -232,7 +233,7 @@ private:
 
     void leap(unsigned dimension, unsigned displacement) {
         const std::size_t last = n_warm + sizes_.n_rounds;
-        const std::string name = fmt::format("leap_{}", displacement);
+        const std::string name = leap_name(displacement);
         const Series series = moving_points(name, dimension, sizes_.n_relocated, From::where_they_began,
                                             displacement, last, seed_);
         auto done = replay(series,
@@ -253,6 +254,8 @@ private:
         add("threads_build", series, done[0], done[1], wanted_of_two_threads);
     }
 
+    static std::string leap_name(unsigned displacement) { return fmt::format("leap_{}", displacement); }
+
     void append(const std::vector<Target> &targets) {
         targets_.insert(targets_.end(), targets.begin(), targets.end());
     }
@@ -266,6 +269,7 @@ private:
 
     void add(const char *what, const Series &series, const Outcome &reference, const Outcome &contender,
              double wanted) {
+        if (!sizes_.has(what)) return;
         targets_.push_back({what, series.dimension, series.n_points, reference.name, contender.name,
                             reference.ns, contender.ns, wanted, contender.n_changes, contender.within});
     }
@@ -285,9 +289,10 @@ std::vector<Target> measure_targets(const TargetSizes &sizes, std::uint64_t seed
 }
 
 void run_targets(const Options &options) {
-    const TargetSizes whole = {10'000, 24, 100'000, 1'000'000, 7, {1'000, 10'000, 100'000, 1'000'000},
+    TargetSizes whole = {10'000, 24, 100'000, 1'000'000, 7, {1'000, 10'000, 100'000, 1'000'000},
                                {10'000, 100'000, 1'000'000}, 100'000, 2};
-    const TargetSizes smoke = {1'000, 4, 1'000, 2'000, 3, {1'000}, {1'000, 2'000}, 1'000, 0.1};
+    TargetSizes smoke = {1'000, 4, 1'000, 2'000, 3, {1'000}, {1'000, 2'000}, 1'000, 0.1};
+    whole.chosen = smoke.chosen = options.targets;
     keep_memory();
     Progress progress;
     std::vector<Checks> checks;

@@ -7,6 +7,7 @@
 #include "progress.hpp"
 #include "verify.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -14,7 +15,7 @@
 
 namespace bench {
 
-/// How much of everything: points, and how often they move after the warm-up.
+/// How much of everything: points, how often they move after the warm-up, and which targets.
 struct TargetSizes {
     std::size_t n_relocated;  // points that are relocated one by one, at once
     std::size_t n_rounds;     // of all of them
@@ -25,6 +26,11 @@ struct TargetSizes {
     std::vector<std::size_t> grown;   // inputs of which single calls are timed, in ascending order
     std::size_t n_stepped;            // points that go a step together
     double seconds;                   // most that an engine visits an input's vertices, or makes one kind of call
+    std::vector<std::string> chosen = {};  // targets; empty: all
+
+    bool has(const std::string &target) const {
+        return chosen.empty() || std::find(chosen.begin(), chosen.end(), target) != chosen.end();
+    }
 };
 
 /// A speed-up to be reached, and what was measured.

@@ -229,7 +229,10 @@ std::vector<Target> loop_targets(unsigned dimension, const TargetSizes &sizes, s
 
 std::vector<Target> growth_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
                                    Progress &progress) {
-    const std::vector<std::string> names = {"cells", "star", "relocate_vertex", "commit_one"};
+    std::vector<std::string> names = {"cells", "star", "relocate_vertex", "commit_one"};
+    const auto is_not_chosen = [&](const std::string &name) { return !sizes.has("grown_" + name); };
+    names.erase(std::remove_if(names.begin(), names.end(), is_not_chosen), names.end());
+    if (names.empty()) return {};
     std::vector<std::vector<double>> ns(names.size());
     progress.begin(fmt::format("single calls, {}D", dimension), sizes.grown.size() * names.size());
     for (const std::size_t n_points : sizes.grown) {

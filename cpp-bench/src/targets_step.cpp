@@ -16,12 +16,17 @@ constexpr double wanted_of_rebuilding = 1 / 1.3;
 
 constexpr unsigned n_repeats = 3;
 
+std::string target_name(double displacement) { return "step_" + displacement_name(displacement); }
+
 }  // namespace
 
 std::vector<Target> step_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
                                  std::vector<Checks> &checks, Progress &progress) {
     std::vector<Target> targets;
-    const auto measure = [&](const std::string &name, const std::vector<double> &lengths) {
+    const auto measure = [&](const std::string &name, std::vector<double> lengths) {
+        const auto is_not_chosen = [&](double length) { return !sizes.has(target_name(length)); };
+        lengths.erase(std::remove_if(lengths.begin(), lengths.end(), is_not_chosen), lengths.end());
+        if (lengths.empty()) return;
         checks.emplace_back();
         const EngineKind &commit = engine_kind(name), &step = step_kind(name);
         const auto ns = replay_displacements("step", dimension, sizes.n_stepped, lengths, {&commit, &step}, n_repeats,
@@ -30,8 +35,8 @@ std::vector<Target> step_targets(unsigned dimension, const TargetSizes &sizes, s
             const double wanted = commit.algorithm == "rebuilding" ? wanted_of_rebuilding
                                   : lengths[i] == 0                ? wanted_at_rest
                                                                    : wanted_of_steps;
-            targets.push_back({"step_" + displacement_name(lengths[i]), dimension, sizes.n_stepped, commit.name(),
-                               step.name(), ns[i][0], ns[i][1], wanted, 0, 0});
+            targets.push_back({target_name(lengths[i]), dimension, sizes.n_stepped, commit.name(), step.name(),
+                               ns[i][0], ns[i][1], wanted, 0, 0});
         }
     };
     measure("deldrift/auto", displacements);
