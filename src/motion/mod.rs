@@ -11,7 +11,7 @@
 //! | `tolerance` | section 3.3 | place only vertices that leave their tolerance or safe region |
 //! | `switching` | section 5.2 | rebuild until few do |
 //! | `repair` | | move all at once, check every certificate, mend what fails |
-//! | `watch` | | as repair, but of what has left its tolerance, or soon will |
+//! | `watching` | | as repair, but of what has left its tolerance, or soon will |
 //! | `slack` | | as repair, but of bi-cells whose own tolerance is used up |
 //! | `auto` | | watching, repair or rebuilding, by what the last commits found |
 //!
@@ -47,15 +47,13 @@ mod rebuilding;
 mod regions;
 mod repair;
 mod slack;
-mod slacks;
 mod staging;
 mod switching;
 mod tolerance;
 mod transaction;
 mod views;
 mod visibility;
-mod watch;
-mod watched;
+mod watching;
 
 pub use crate::delaunay::{Level, Violation};
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};

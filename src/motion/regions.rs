@@ -26,8 +26,8 @@
 mod measuring;
 
 use self::measuring::Batch;
-use super::slacks::Slacks;
-use super::watched::Watched;
+use super::slack::Slacks;
+use super::watching::Watched;
 use super::{CommitReport, MovingTriangulation};
 use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Site};
@@ -49,7 +49,7 @@ pub(super) enum Filter {
     SafeRegion,
     /// S+T: the safe region only where the tolerance fails.
     Both,
-    /// The tolerance, of those bi-cells that are not [watched](super::watch).
+    /// The tolerance, of those bi-cells that are not [watched](super::watching).
     Watch,
     /// The tolerance of each bi-cell for itself.
     Slack,

@@ -18,15 +18,13 @@
 //! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these. Memory:
 //! as many bytes for a cell, and 2 for a site.
 
-mod entries;
-
-use self::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
-use super::bicell::BiCell;
+use super::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
 use crate::complex::{Complex, Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
+use crate::motion::bicell::BiCell;
 use crate::predicates::{LANES, Tolerances, distance_above};
 
 /// Greatest slack, in units.
@@ -51,7 +49,7 @@ struct Batch<G: Dimension> {
 }
 
 #[derive(Debug)]
-pub(super) struct Slacks<G: Dimension> {
+pub(in crate::motion) struct Slacks<G: Dimension> {
     /// Units in a length of 1: a power of two.
     per_length: f64,
     /// For how many timestamps the unit has not fitted.
@@ -117,14 +115,14 @@ impl<G: Dimension> Check<'_, G> {
 
 impl<G: Dimension> Slacks<G> {
     /// Forgets everything; keeps the memory.
-    pub(super) fn clear(&mut self) {
+    pub(in crate::motion) fn clear(&mut self) {
         self.travelled.clear();
         self.entries.clear();
         self.is_open.clear();
     }
 
     /// Follows the number of sites and cells.
-    pub(super) fn grow(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+    pub(in crate::motion) fn grow(&mut self, kernel: &Delaunay<G>) -> Result<()> {
         let more_sites = kernel.sites().len().saturating_sub(self.travelled.len());
         let more_cells = kernel.complex().n_slots().saturating_sub(self.entries.len());
         memory::reserve(&mut self.travelled, more_sites)?;
@@ -139,7 +137,7 @@ impl<G: Dimension> Slacks<G> {
 
     /// Computes the bi-cells of all facets; returns how many. The vertices were `elsewhere`, by id, a timestamp ago, or
     /// will be at the next.
-    pub(super) fn compute(&mut self, kernel: &Delaunay<G>, elsewhere: &[G::Point]) -> Result<u64> {
+    pub(in crate::motion) fn compute(&mut self, kernel: &Delaunay<G>, elsewhere: &[G::Point]) -> Result<u64> {
         self.clear();
         self.grow(kernel)?;
         self.choose_unit(kernel, elsewhere);
@@ -175,7 +173,7 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// Computes the bi-cells of all facets of these cells, each listed once; returns how many.
-    pub(super) fn compute_anew(&mut self, kernel: &mut Delaunay<G>, cells: &[u32]) -> Result<u64> {
+    pub(in crate::motion) fn compute_anew(&mut self, kernel: &mut Delaunay<G>, cells: &[u32]) -> Result<u64> {
         memory::reserve(&mut self.open, (1 + G::Corners::N) * cells.len())?;
         for &c in cells {
             self.is_open[c as usize / 64] |= 1 << (c % 64);
@@ -192,7 +190,7 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// The vertices have moved by about so much in a timestamp. Whether the unit still fits.
-    pub(super) fn expect(&mut self, step: f64) -> bool {
+    pub(in crate::motion) fn expect(&mut self, step: f64) -> bool {
         self.enough = ENOUGH * step;
         let units = step * self.per_length / UNITS;
         let fits = units * FITTING > 1.0 && units < FITTING;
@@ -202,7 +200,7 @@ impl<G: Dimension> Slacks<G> {
 
     /// Adds to the way of a site; `distance` is an upper bound.
     #[inline(always)]
-    pub(super) fn travel(&mut self, s: u32, distance: f64) {
+    pub(in crate::motion) fn travel(&mut self, s: u32, distance: f64) {
         // The cut is that of a conversion to less than the range.
         let way = ((distance * self.per_length) as u32).min(u32::from(LIMIT)) as u16 + 1;
         let travelled = &mut self.travelled[s as usize];
@@ -212,7 +210,7 @@ impl<G: Dimension> Slacks<G> {
     /// Checks the bi-cells that have no slack left after a motion from where the vertices were `before`, by id, by at most
     /// `greatest` each, and recomputes those that hold; returns how many there were. `None`, and nothing checked, if
     /// more than `most` cells are concerned.
-    pub(super) fn check_expired(
+    pub(in crate::motion) fn check_expired(
         &mut self,
         kernel: &Delaunay<G>,
         before: &[G::Point],
@@ -410,7 +408,7 @@ impl<G: Dimension> Slacks<G> {
         }
     }
 
-    pub(super) fn memory_bytes(&self) -> usize {
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
         self.travelled.capacity() * size_of::<u16>()
             + (self.expired.capacity() + self.facets.capacity() + self.open.capacity()) * size_of::<u32>()
             + self.is_open.capacity() * size_of::<u64>()

@@ -13,7 +13,7 @@
 //! In the tolerance algorithm a bi-cell of hardly any tolerance sends its D + 2 vertices to the queue at each
 //! timestamp, and each of them has a whole star of bi-cells that are far from failing. Here such a bi-cell costs one
 //! test, and the vertices have the tolerance of the others. Which are watched follows from how fast the vertices move
-//! ([`Regions`](super::regions::Regions)).
+//! ([`Regions`](crate::motion::regions::Regions)).
 //!
 //! # What a timestamp proves
 //!
@@ -38,20 +38,20 @@
 //! Cost: 2 ns a vertex; about 5 or 20 ns for a watched bi-cell; and for a vertex beyond its star and the bi-cells
 //! there. Both counts shrink with the root of the displacement.
 
-use super::regions::Filter;
-use super::repair::Repair;
-use super::staging::Given;
-use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 use crate::machine::memory;
+use crate::motion::regions::Filter;
+use crate::motion::repair::Repair;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
 
 /// With more than one vertex in `MANY` beyond its tolerance, a sweep of everything is cheaper.
 const MANY: usize = 4;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
-    pub(super) fn watch_or_repair(
+    pub(in crate::motion) fn watch_or_repair(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
@@ -65,7 +65,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Brings all vertices of a whole staging to their new positions if no more than `most` leave their tolerance; `false`
     /// otherwise, and nothing has moved. No two vertices may share a site.
-    pub(super) fn commit_by_watching(
+    pub(in crate::motion) fn commit_by_watching(
         &mut self,
         most: usize,
         given: &mut Given<'_, G>,
@@ -134,7 +134,11 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Repairs what a check of some certificates of a whole staging has found. The listed vertices and those placed have their
     /// bi-cells recomputed, like all new cells.
-    pub(super) fn mend_checked(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<()> {
+    pub(in crate::motion) fn mend_checked(
+        &mut self,
+        repair: &mut Repair,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         self.with_regions(report, |t, report| {
             for &v in &t.staging.vertices {
                 t.regions.note_relocated(v)?;

@@ -14,7 +14,7 @@
 //! **One embedding.** The report places vertices in the embedding at *fixed* positions, T_f, and so has to
 //! queue a vertex again when a new bi-cell's tolerance falls below its displacement. Here the queue is
 //! worked off in the embedding at the *moving* positions: once every accepted vertex has moved, that is a
-//! Delaunay triangulation by Proposition 1 (in space, with the correction in [`regions`](super::regions)),
+//! Delaunay triangulation by Proposition 1 (in space, with the correction in [`regions`](crate::motion::regions)),
 //! the queued vertices being where they were; predicates are exact, so it stays one after each placement,
 //! without checking any delimiter. So delimiters are computed once, after the last placement, and no vertex
 //! is ever queued again. They are taken at the moving positions, which lie within them by construction. A
@@ -31,19 +31,19 @@
 //! placement, and up to about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in
 //! the queue. `examples/tolerance_share` measures both.
 
-use super::moving::differ;
-use super::placement::Placed;
-use super::regions::Filter;
-use super::staging::Given;
-use super::staging::check_position;
-use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::NONE;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
+use crate::motion::moving::differ;
+use crate::motion::placement::Placed;
+use crate::motion::regions::Filter;
+use crate::motion::staging::Given;
+use crate::motion::staging::check_position;
+use crate::motion::{Algorithm, CommitReport, MovingTriangulation};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a filter and a queue.
-    pub(super) fn commit_by_filter(
+    pub(in crate::motion) fn commit_by_filter(
         &mut self,
         filter: Filter,
         given: &mut Given<'_, G>,
@@ -80,7 +80,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Places the queued vertices; the regions follow.
-    pub(super) fn place_beyond(&mut self, report: &mut CommitReport) -> Result<()> {
+    pub(in crate::motion) fn place_beyond(&mut self, report: &mut CommitReport) -> Result<()> {
         self.order_queue_by_site();
         self.with_regions(report, |t, report| {
             t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
@@ -170,7 +170,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Moves one vertex at once, by the filter in force if there is one.
-    pub(super) fn relocate_filtered(
+    pub(in crate::motion) fn relocate_filtered(
         &mut self,
         vertex: u32,
         q: &G::Point,
@@ -205,7 +205,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Relocates a vertex; the regions are told.
-    pub(super) fn relocate_noted(
+    pub(in crate::motion) fn relocate_noted(
         &mut self,
         vertex: u32,
         q: &G::Point,

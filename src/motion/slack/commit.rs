@@ -11,24 +11,24 @@
 //! space 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
 //! ([`Slacks`](super::slacks::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers each.
 //!
-//! What a timestamp proves is what it proves in [watching](super::watch): read "held" for a bi-cell that has slack left,
+//! What a timestamp proves is what it proves in [watching](super::super::watching): read "held" for a bi-cell that has slack left,
 //! "watched" for one that has none.
 //!
 //! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the displacement, but
 //! for a logarithm.
 
-use super::regions::Filter;
-use super::staging::Given;
-use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::motion::regions::Filter;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
 
 /// With more than one cell in `MANY` past its deadline, a sweep of everything is cheaper.
 const MANY: usize = 3;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by slack where that is possible, else by repair.
-    pub(super) fn slack_or_repair(
+    pub(in crate::motion) fn slack_or_repair(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
@@ -42,7 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Brings all vertices of a whole staging to their new positions; `false` if they are there, but too many bi-cells
     /// have no slack left. No two vertices may share a site.
-    pub(super) fn commit_by_slack(
+    pub(in crate::motion) fn commit_by_slack(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,

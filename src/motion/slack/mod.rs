@@ -1,0 +1,7 @@
+//! *Slack*: a tolerance for each bi-cell.
+
+mod commit;
+mod entries;
+mod slacks;
+
+pub(super) use slacks::Slacks;
