@@ -49,7 +49,21 @@ pub struct AlgorithmRow {
     pub documentation: &'static str,
 }
 
-/// A row: documentation, variant and C code, what [`AlgorithmRow`] has, and the method that commits.
+/// By which regions immediate relocations are filtered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Immediate {
+    /// By none: the algorithm keeps none, or none that serve one vertex at a time.
+    None,
+    /// By those of this filter, which are computed if they are not kept.
+    By(Filter),
+    /// Likewise, once *rebuilding + tolerance* has switched.
+    OnceSwitched(Filter),
+    /// By those of this filter, while they are kept.
+    WhileKept(Filter),
+}
+
+/// A row: documentation, variant and C code, what [`AlgorithmRow`] has, what filters immediate relocations, and the method
+/// that commits.
 macro_rules! algorithms {
     (default $default:ident; $(
         $(#[doc = $line:literal])+
@@ -58,6 +72,7 @@ macro_rules! algorithms {
             purpose: $purpose:ident,
             commits: $commits:ident,
             keeps: $keeps:literal,
+            immediate: $immediate:ident$(($filter:ident))?,
             by: $method:ident($($argument:expr),*),
         }
     )+) => {
@@ -94,6 +109,13 @@ macro_rules! algorithms {
                     },)+
                 }
             }
+
+            #[inline(always)]
+            pub(super) const fn immediate(self) -> Immediate {
+                match self {
+                    $(Algorithm::$variant => Immediate::$immediate$((Filter::$filter))?,)+
+                }
+            }
         }
 
         impl<G: Dimension> MovingTriangulation<G> {
@@ -124,6 +146,7 @@ algorithms! {
         purpose: Use,
         commits: ByOthers,
         keeps: "what the last commits have cost, and what those algorithms keep",
+        immediate: WhileKept(Tolerance),
         by: commit_by_auto(),
     }
 
@@ -133,6 +156,7 @@ algorithms! {
         purpose: Use,
         commits: Rebuild,
         keeps: "",
+        immediate: None,
         by: rebuild_given(),
     }
 
@@ -145,6 +169,7 @@ algorithms! {
         purpose: Use,
         commits: OneByOne,
         keeps: "",
+        immediate: None,
         by: commit_by_placement(Shortcut::Flips),
     }
 
@@ -158,7 +183,8 @@ algorithms! {
         purpose: Use,
         commits: OneByOne,
         keeps: "tolerances per vertex",
-        by: commit_by_filter(Filter::Tolerance),
+        immediate: By(Tolerance),
+        by: commit_by_tolerance(),
     }
 
     /// All vertices move at once, every certificate is checked, and what fails is repaired by flips and
@@ -168,6 +194,7 @@ algorithms! {
         purpose: Use,
         commits: Together,
         keeps: "",
+        immediate: None,
         by: commit_by_repair(),
     }
 
@@ -178,6 +205,7 @@ algorithms! {
         purpose: Comparison,
         commits: OneByOne,
         keeps: "",
+        immediate: None,
         by: commit_by_placement(Shortcut::Certificates),
     }
 
@@ -191,7 +219,8 @@ algorithms! {
         purpose: Comparison,
         commits: OneByOne,
         keeps: "delimiters per facet",
-        by: commit_by_filter(Filter::SafeRegion),
+        immediate: By(SafeRegion),
+        by: commit_by_safe_region(Filter::SafeRegion),
     }
 
     /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within as
@@ -202,7 +231,8 @@ algorithms! {
         purpose: Comparison,
         commits: OneByOne,
         keeps: "tolerances per vertex, delimiters per facet",
-        by: commit_by_filter(Filter::Both),
+        immediate: By(Both),
+        by: commit_by_safe_region(Filter::Both),
     }
 
     /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
@@ -214,6 +244,7 @@ algorithms! {
         purpose: Comparison,
         commits: ByOthers,
         keeps: "tolerances per vertex",
+        immediate: OnceSwitched(Tolerance),
         by: commit_by_switching(),
     }
 
@@ -226,6 +257,7 @@ algorithms! {
         purpose: Internal,
         commits: Together,
         keeps: "tolerances per vertex, watched bi-cells",
+        immediate: None,
         by: watch_or_repair(),
     }
 
@@ -238,6 +270,7 @@ algorithms! {
         purpose: Internal,
         commits: Together,
         keeps: "tolerances per bi-cell, distances travelled per vertex",
+        immediate: None,
         by: slack_or_repair(),
     }
 }

@@ -24,6 +24,7 @@
 //! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a
 //! look at the star, a vertex beyond some eight looks.
 
+use super::attempt::Attempt;
 use super::regions::Filter;
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation, SwitchingRule};
@@ -143,7 +144,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if self.staging.count() * FEW < self.n_present {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
-                self.commit_by_filter(Filter::Tolerance, given, report)
+                self.commit_by_tolerance(given, report)
             } else {
                 self.commit_by_placement(Shortcut::Flips, given, report)
             };
@@ -165,7 +166,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.auto.look == Look::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
             if (is_kept || std::mem::take(&mut self.auto.is_due) || self.is_calm(given)?)
-                && self.commit_by_watching(self.n_present / BEYOND, given, report)?
+                && self.commit_by_watching(self.n_present / BEYOND, given, report)? == Attempt::Committed
             {
                 self.weigh_watching(report);
                 return Ok(true);
@@ -174,7 +175,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if self.auto.look == Look::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
-            if self.commit_by_slack(given, report)? {
+            if self.commit_by_slack(given, report)? == Attempt::Committed {
                 if was_kept {
                     self.weigh_slack(report);
                 }
@@ -291,13 +292,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             auto.wait -= 1;
         } else if are_most(still) {
             // Without the memory for them all goes on as it did.
-            let _ = self.regions.compute(
-                &mut self.kernel,
-                self.site_of.len(),
-                Filter::Tolerance,
-                &self.staging.positions,
-                &mut CommitReport::default(),
-            );
+            let _ = self.prepare_regions(Filter::Tolerance, &mut CommitReport::default());
         }
     }
 

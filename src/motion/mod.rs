@@ -8,16 +8,18 @@
 //! |---|---|---|
 //! | `rebuilding` | section 1 | triangulate all positions again |
 //! | `placement` | sections 3.1, 3.2 | relocate the vertices one at a time |
-//! | `tolerance` | section 3.3 | place only vertices that leave their tolerance or safe region |
-//! | `switching` | section 5.2 | rebuild until few do |
+//! | `tolerance` | section 3.3, Algorithm 1 | place only vertices that leave their tolerance |
+//! | `safe_region` | section 3.3, Algorithm 2 | place only vertices that leave their safe region |
+//! | `switching` | section 5.2 | rebuild until few leave their tolerance |
 //! | `repair` | | move all at once, check every certificate, mend what fails |
 //! | `watching` | | as repair, but of what has left its tolerance, or soon will |
 //! | `slack` | | as repair, but of bi-cells whose own tolerance is used up |
-//! | `auto` | | watching, repair or rebuilding, by what the last commits found |
+//! | `auto` | | watching, slack, repair or rebuilding, by what the last commits found |
 //!
-//! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4);
-//! `moving` has the loops that move all vertices; `transaction` what undoes a change; `cells` and `changes` what
-//! callers read of it; `compaction` forgets removed vertices.
+//! Each of `tolerance`, `safe_region`, `watching` and `slack` has a store and a commit; `regions` keeps one of the stores, and
+//! lets it follow changes. `immediate` relocates, inserts and removes one vertex at a time; `moving` has the loops that move
+//! all vertices; `transaction` what undoes a change; `cells` and `changes` what callers read of it; `compaction` forgets
+//! removed vertices.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
@@ -28,6 +30,7 @@
 //! an id.
 
 mod algorithms;
+mod attempt;
 mod auto;
 mod bicell;
 mod cells;
@@ -36,6 +39,7 @@ mod coincidence;
 mod commit;
 mod compaction;
 mod editing;
+mod immediate;
 mod marks;
 mod matching;
 mod moving;
@@ -46,6 +50,7 @@ mod query;
 mod rebuilding;
 mod regions;
 mod repair;
+mod safe_region;
 mod slack;
 mod staging;
 mod switching;
@@ -65,7 +70,7 @@ pub(crate) use query::cells_at;
 pub use views::CellsView;
 
 use crate::complex::NONE;
-use crate::delaunay::{Delaunay, Dimension, Insertion};
+use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
@@ -154,114 +159,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         t.build_first()?;
         t.statistics.coincident = t.hidden.count() as u64;
         Ok(t)
-    }
-
-    /// Moves one vertex at once, whatever is staged for others.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
-    /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
-    #[inline]
-    pub fn relocate_vertex(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
-        if self.relocate_within_tolerance(vertex, position) {
-            return Ok(());
-        }
-        self.relocate_checked(vertex, position)
-    }
-
-    /// The long way of [`relocate_vertex`](Self::relocate_vertex), kept out of the short one's registers.
-    #[inline(never)]
-    fn relocate_checked(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
-        let s = self.present_site("vertex", 0, vertex)?;
-        let q = check_position::<G>("position", 0, position)?;
-        if self.staging.is_staged(vertex) {
-            return Err(Error::DuplicateMove { argument: "vertex", index: 0, vertex });
-        }
-        let old = self.kernel.site(s).point;
-        if old == q {
-            return Ok(());
-        }
-        let before = self.evaluations();
-        let mut report = CommitReport { moved: 1, ..CommitReport::default() };
-        let relocated = self.transact(|t| {
-            t.reject_occupied(vertex, &q)?;
-            t.relocate_filtered(vertex, &q, &mut report)
-        });
-        if let Err(error) = relocated {
-            // Undoing does not know the place of a vertex that was only moved.
-            self.kernel.set_point(self.site_of[vertex as usize], old);
-            return Err(error);
-        }
-        self.enter_evaluations(&mut report, before);
-        self.count(report);
-        if self.options.algorithm == Algorithm::Auto && self.kernel.has_cells() {
-            self.follow_relocation(&report);
-        }
-        Ok(())
-    }
-
-    /// Inserts a vertex; its id is one above the highest ever given, or left by the latest [`compact`](Self::compact).
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
-    /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
-    pub fn insert_vertex(&mut self, position: &G::Point) -> Result<u32> {
-        let q = check_position::<G>("position", 0, position)?;
-        if self.site_of.len() >= MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: self.site_of.len() + 1, limit: MAX_VERTICES });
-        }
-        let id = self.site_of.len() as u32;
-        self.reject_occupied(id, &q)?;
-        self.staging.list()?;
-        self.staging.make_room(1)?;
-        memory::push(&mut self.site_of, NONE)?;
-        let before = self.evaluations();
-        let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
-        let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
-        if let Err(error) = inserted {
-            self.site_of.pop();
-            return Err(error);
-        }
-        self.n_present += 1;
-        self.staging.grow(self.site_of.len());
-        self.enter_evaluations(&mut report, before);
-        self.count(report);
-        Ok(id)
-    }
-
-    /// Gives the highest of all ids a site, or a place at one.
-    fn insert_at(&mut self, id: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
-        let s = self.kernel.add_site(*q, id)?;
-        self.site_of[id as usize] = s;
-        let inserted = self.with_regions(report, |t, _| {
-            // Undoing does not know of a site that is in without cells, so nothing may fail after that.
-            t.regions.make_room_to_note()?;
-            let inserted = t.kernel.insert_site(s, NONE)?;
-            if let Insertion::Coincident(at) = inserted {
-                // The new id is the highest of all, so it is the one to hide: nothing else changes.
-                t.hide(id, at)?;
-            }
-            t.regions.note_relocated(id)?;
-            Ok(inserted)
-        })?;
-        if inserted == Insertion::Spans { self.rebuild_as_is(report) } else { Ok(()) }
-    }
-
-    /// Removes a vertex and its staged move, if any. Its id is not given again before a [`compact`](Self::compact).
-    ///
-    /// # Errors
-    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
-    pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
-        self.present_site("vertex", 0, vertex)?;
-        self.staging.list()?;
-        let before = self.evaluations();
-        let mut report = CommitReport { removed: 1, ..CommitReport::default() };
-        self.transact(|t| t.with_regions(&mut report, |t, _| t.remove_present(vertex)))?;
-        self.staging.unstage(vertex);
-        self.edits.forget_removal(vertex);
-        self.enter_evaluations(&mut report, before);
-        self.count(report);
-        Ok(())
     }
 
     /// The site of a vertex that must be present and not about to be removed.

@@ -15,8 +15,8 @@
 use std::ops::ControlFlow;
 
 use super::MovingTriangulation;
-use super::regions::Fixed;
 use super::staging::{Given, first_bad, stage_block};
+use super::tolerance::Fixed;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
 use crate::machine::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
@@ -43,6 +43,16 @@ fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
 
 /// Vertices that are staged at a time: a few kilobytes, and whole lanes.
 const BLOCK: usize = 16 * LANES;
+
+/// What a motion on record has found.
+pub(super) struct Motion {
+    /// How many positions differ.
+    pub(super) moved: u64,
+    /// The longest way.
+    pub(super) greatest: f64,
+    /// Whether the unit of ways still fits.
+    pub(super) fits: bool,
+}
 
 /// Vertices that go to their new places unless they have to wait.
 struct Movers<'m, G: Dimension> {
@@ -137,8 +147,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                         blocks,
                         #[inline(always)]
                         |fixed, places| {
-                            let tolerances = fixed.each_ref().map(|fixed| fixed.tolerance);
-                            let fixed = fixed.each_ref().map(|fixed| &fixed.point);
+                            let tolerances = fixed.each_ref().map(Fixed::tolerance);
+                            let fixed = fixed.each_ref().map(Fixed::point);
                             are_within(avx2, fixed, &tolerances, places.each_ref())
                         },
                         #[inline(always)]
@@ -235,9 +245,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(moved.n)
     }
 
-    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Returns how many positions differ, and
-    /// the longest way. Errors as those of [`move_and_queue`](Self::move_and_queue).
-    pub(super) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<(u64, f64)> {
+    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Slacks must be kept. Errors as those of
+    /// [`move_and_queue`](Self::move_and_queue).
+    pub(super) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<Motion> {
+        let slacks = self.regions.slacks().expect("they have been prepared");
         let mut moved = 0_u64;
         let (mut sum, mut greatest) = (0.0, 0.0);
         let sites = self.kernel.sites_mut();
@@ -254,7 +265,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     continue;
                 }
                 let distance = distance_above(point, p);
-                self.regions.slacks.travel(s, distance);
+                slacks.travel(s, distance);
                 sum += distance;
                 greatest = if distance > greatest { distance } else { greatest };
                 moved += 1;
@@ -262,12 +273,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         self.staging.others_applied = true;
-        self.regions.follow_motion(&mut self.kernel, greatest);
-        if !self.regions.slacks.expect(sum / moved.max(1) as f64) {
-            self.regions.invalidate();
-        }
+        let fits = slacks.end_motion(&mut self.kernel, sum / moved.max(1) as f64, greatest);
         blocks.end(given)?;
-        Ok((moved, greatest))
+        Ok(Motion { moved, greatest, fits })
     }
 }
 

@@ -7,7 +7,6 @@
 //! The sample is drawn by a seeded generator, so a run can be repeated.
 
 use super::MovingTriangulation;
-use super::regions::Filter;
 use super::staging::Given;
 use super::{CommitReport, SwitchingRule};
 use crate::delaunay::Dimension;
@@ -52,7 +51,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.switching.commits += 1;
         if self.switching.has_switched {
-            self.commit_by_filter(Filter::Tolerance, given, report)
+            self.commit_by_tolerance(given, report)
         } else {
             self.rebuild_staged(report)
         }

@@ -5,7 +5,7 @@ use crate::delaunay::{Plane, Space};
 use crate::error::Error;
 use crate::motion::Options;
 use crate::motion::regions::Filter;
-use crate::motion::{Algorithm, CommitReport, Level};
+use crate::motion::{Algorithm, Level};
 use crate::random::Rng;
 
 /// Small whole numbers, and the same ones again.
@@ -28,10 +28,8 @@ fn staged<G: Dimension>(
     rng: &mut Rng,
 ) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<u32>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
-    let elsewhere = t.staging.positions.clone();
-    t.regions
-        .compute(&mut t.kernel, n, Filter::Tolerance, &elsewhere, &mut CommitReport::default())
-        .expect("room");
+    let other_positions = t.staging.positions.clone();
+    t.regions.prepare(Filter::Tolerance, &mut t.kernel, n, &other_positions).expect("room");
     let mut places = positions(&t);
     let far = points::<G>(n, rng);
     for (p, far) in places.iter_mut().zip(far) {
@@ -96,11 +94,10 @@ fn agree<G: Dimension>() {
             } else if moved_by == 1 {
                 assert_eq!(t.move_all_staged(given).expect("good places"), n_moved);
             } else {
-                let elsewhere = vec![G::Point::default(); n];
-                let report = &mut CommitReport::default();
-                let computed = t.regions.compute(&mut t.kernel, n, Filter::Slack, &elsewhere, report);
+                let other_positions = vec![G::Point::default(); n];
+                let computed = t.regions.prepare(Filter::Slack, &mut t.kernel, n, &other_positions);
                 computed.expect("room");
-                assert_eq!(t.move_all_on_record(given).expect("good places").0, n_moved);
+                assert_eq!(t.move_all_on_record(given).expect("good places").moved, n_moved);
             }
             assert_eq!([&positions(&t), &t.staging.positions], [&places, &before], "{n} vertices");
         }

@@ -17,9 +17,13 @@
 //! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the displacement, but
 //! for a logarithm.
 
+use super::slacks::Expired;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::motion::attempt::Attempt;
+use crate::motion::moving::Motion;
 use crate::motion::regions::Filter;
+use crate::motion::repair::Repair;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 
@@ -34,47 +38,55 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let can = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if can && self.commit_by_slack(given, report)? {
+        if can && self.commit_by_slack(given, report)? == Attempt::Committed {
             return Ok(());
         }
         self.commit_by_repair(given, report)
     }
 
-    /// Brings all vertices of a whole staging to their new positions; `false` if they are there, but too many bi-cells
-    /// have no slack left. No two vertices may share a site.
+    /// Brings all vertices of a whole staging to their new positions, and that alone if too many bi-cells have no slack
+    /// left. No two vertices may share a site.
     pub(in crate::motion) fn commit_by_slack(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
-    ) -> Result<bool> {
+    ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Slack) {
             self.stage_given(given)?;
             self.sort_cells()?;
-            let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
-            self.regions.compute(&mut self.kernel, n_ids, Filter::Slack, elsewhere, report)?;
+            self.prepare_regions(Filter::Slack, report)?;
         }
-        let (moved, greatest) = self.move_all_on_record(given)?;
-        let most = self.kernel.complex().n_finite() / MANY;
         let mut repair = std::mem::take(&mut self.repair);
+        let done = self.move_check_and_mend(&mut repair, given, report);
+        self.repair = repair;
+        done
+    }
+
+    fn move_check_and_mend(
+        &mut self,
+        repair: &mut Repair,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Attempt> {
+        let Motion { moved, greatest, fits } = self.move_all_on_record(given)?;
+        let most = self.kernel.complex().n_finite() / MANY;
         repair.failures.clear();
         repair.touched.clear();
         let (before, failures) = (&self.staging.positions, &mut repair.failures);
-        let checked = self.regions.slacks.check_expired(&self.kernel, before, greatest, most, failures);
-        let done = match checked {
-            Err(error) => Err(error),
-            Ok(None) => Ok(false),
-            Ok(Some(n)) => {
-                report.moved += moved;
-                report.tolerances += n;
-                self.kernel.count_certificates(3 * n as usize);
-                if repair.failures.are_none() {
-                    Ok(true)
-                } else {
-                    self.mend_checked(&mut repair, report).map(|()| true)
-                }
-            }
+        let slacks = self.regions.slacks().expect("they have been prepared");
+        let expired = slacks.check_expired(&self.kernel, before, greatest, most, failures)?;
+        if !fits {
+            self.regions.invalidate();
+        }
+        let Expired::Checked(n) = expired else {
+            return Ok(Attempt::OnlyMoved);
         };
-        self.repair = repair;
-        done
+        report.moved += moved;
+        report.tolerances += n;
+        self.kernel.count_certificates(3 * n as usize);
+        if !repair.failures.are_none() {
+            self.mend_checked(repair, report)?;
+        }
+        Ok(Attempt::Committed)
     }
 }

@@ -2,6 +2,7 @@
 
 mod commit;
 mod entries;
+mod pass;
 mod slacks;
 
 pub(super) use slacks::Slacks;

@@ -1,3 +1,8 @@
-//! *Tolerance* and *safe region* (report, section 3.3).
+//! The *tolerance* algorithm (report, Algorithm 1): a tolerance for each vertex.
 
+mod batch;
 mod commit;
+mod query;
+mod tolerances;
+
+pub(super) use tolerances::{Fixed, Tolerances};

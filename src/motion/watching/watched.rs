@@ -10,7 +10,7 @@ use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, FAR, prefetch};
 
 #[derive(Debug, Default)]
-pub(in crate::motion) struct Watched {
+pub(super) struct Watched {
     list: Vec<u32>,
     /// By cell: bit i for the membership of facet i, bit 4 + i for its being listed.
     bits: Vec<u8>,
@@ -20,13 +20,13 @@ const LISTED: u8 = 0xf0;
 
 impl Watched {
     /// Empties the set.
-    pub(in crate::motion) fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         self.list.clear();
         self.bits.clear();
     }
 
     /// Follows the number of cells.
-    pub(in crate::motion) fn grow(&mut self, n_cells: usize) -> Result<()> {
+    pub(super) fn grow(&mut self, n_cells: usize) -> Result<()> {
         let more = n_cells.saturating_sub(self.bits.len());
         memory::reserve(&mut self.bits, more)?;
         self.bits.resize(self.bits.len() + more, 0);
@@ -34,12 +34,12 @@ impl Watched {
     }
 
     /// Number of listed facets.
-    pub(in crate::motion) fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.list.len()
     }
 
     /// Takes the facets that are named from these cells out of the set.
-    pub(in crate::motion) fn forget(&mut self, cells: &[u32]) {
+    pub(super) fn forget(&mut self, cells: &[u32]) {
         for &c in cells {
             if let Some(bits) = self.bits.get_mut(c as usize) {
                 *bits &= LISTED;
@@ -48,7 +48,7 @@ impl Watched {
     }
 
     /// Puts a facet, given from both sides, into the set or takes it out; whether it is in the set.
-    pub(in crate::motion) fn set(&mut self, facet: Facet, across: Facet, is_member: bool) -> bool {
+    pub(super) fn set(&mut self, [facet, across]: [Facet; 2], is_member: bool) -> bool {
         let (name, other) = if facet.code() < across.code() { (facet, across) } else { (across, facet) };
         self.bits[other.cell() as usize] &= !(1 << other.index());
         let bits = &mut self.bits[name.cell() as usize];
@@ -69,11 +69,7 @@ impl Watched {
     }
 
     /// Visits all members named from live cells, and drops the others.
-    pub(in crate::motion) fn for_each<G: Dimension>(
-        &mut self,
-        kernel: &Delaunay<G>,
-        mut visit: impl FnMut(Facet),
-    ) {
+    pub(super) fn for_each<G: Dimension>(&mut self, kernel: &Delaunay<G>, mut visit: impl FnMut(Facet)) {
         let is_far = size_of_val(kernel.sites()) > FAR;
         let mut n = 0;
         for k in 0..self.list.len() {
@@ -98,7 +94,7 @@ impl Watched {
         self.list.truncate(n);
     }
 
-    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+    pub(super) fn memory_bytes(&self) -> usize {
         self.list.capacity() * size_of::<u32>() + self.bits.capacity()
     }
 }
