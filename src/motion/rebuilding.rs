@@ -8,7 +8,7 @@
 
 use std::cell::Cell;
 
-use super::coincidence::Hidden;
+use super::hidden::Hidden;
 use super::moving::differ;
 use super::staging::Given;
 use super::{CoincidencePolicy, CommitReport, MovingTriangulation};

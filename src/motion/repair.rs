@@ -115,7 +115,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !mended? {
             return self.commit_by_rebuilding(self.staging.applied, report);
         }
-        self.transaction.wants_order = true;
+        self.transaction.want_order();
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
     }
 

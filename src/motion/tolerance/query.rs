@@ -49,8 +49,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn annulus_widths(&self) -> Result<Vec<f64>> {
         let cells = self.cell_arrays()?;
         let mut widths = Vec::new();
-        memory::reserve_exact(&mut widths, cells.corners.len() * G::Corners::N)?;
-        for index in 0..cells.corners.len() as u32 {
+        memory::reserve_exact(&mut widths, cells.corners().len() * G::Corners::N)?;
+        for index in 0..cells.corners().len() as u32 {
             for corner in 0..G::Corners::N {
                 let delimiter = BiCell::of(&self.kernel, cells.facet(index, corner)).delimiter();
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
@@ -66,7 +66,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn standard_delimiter(&self, cell: u32, corner: u32) -> Result<Option<Delimiter<G::Point>>> {
         let cells = self.cell_arrays()?;
-        if cell as usize >= cells.corners.len() || corner as usize > G::D {
+        if cell as usize >= cells.corners().len() || corner as usize > G::D {
             return Ok(None);
         }
         Ok(BiCell::of(&self.kernel, cells.facet(cell, corner as usize)).delimiter())
