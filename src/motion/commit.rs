@@ -24,7 +24,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.prepare_tracking()?;
         let mut report = CommitReport::default();
         let before = self.evaluations();
-        self.staging.applied = 0;
+        self.staging.set_applied(0);
         if self.edits.are_none() {
             self.staging.forget_full_list(self.n_present);
         } else {

@@ -183,7 +183,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Gives a new kernel the sites of all vertices that are to be there, where they are to be.
     fn edit_sites(&mut self, next: &mut Delaunay<G>, report: &mut CommitReport) -> Result<()> {
         let spread = self.spread_hidden(next)?;
-        for &v in &self.staging.vertices {
+        for &v in self.staging.vertices() {
             report.moved += u64::from(self.move_to_staged(next, v, self.own_site(&spread, v)));
         }
         for &v in self.edits.removals() {

@@ -171,7 +171,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         self.prepare_regions(filter, report)?;
         self.staging.grow_for(self.site_of.len())?;
-        self.staging.positions[vertex as usize] = *q;
+        self.staging.positions_mut()[vertex as usize] = *q;
         if self.accept(vertex, report) {
             report.moved = 1;
             return Ok(());

@@ -22,7 +22,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             });
         }
         self.staging.reserve(self.site_of.len(), vertices.len())?;
-        let before = self.staging.vertices.len();
+        let before = self.staging.vertices().len();
         for (index, (&vertex, position)) in vertices.iter().zip(positions).enumerate() {
             if let Err(error) = self.stage("vertices", index, vertex, position) {
                 self.staging.truncate(before);
@@ -69,7 +69,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         self.staging.reserve(n_ids, positions.len())?;
-        let before = self.staging.vertices.len();
+        let before = self.staging.vertices().len();
         for (index, position) in positions.iter().enumerate() {
             if self.site_of[index] == NONE || self.edits.is_leaving(index as u32) {
                 continue;
@@ -101,7 +101,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Stages positions that are not staged yet.
     pub(super) fn stage_given(&mut self, given: &mut Given<'_, G>) -> Result<()> {
         match given.take() {
-            Some(positions) if !stage_block::<G>(&mut self.staging.positions, positions) => {
+            Some(positions) if !stage_block::<G>(self.staging.positions_mut(), positions) => {
                 Err(first_bad::<G>(positions))
             }
             _ => Ok(()),

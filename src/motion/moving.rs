@@ -178,8 +178,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Option<u64>> {
         let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
-        let mut movers = Movers { sites, queue: &mut self.staging.vertices, most, n_moved: 0 };
-        let positions = &mut self.staging.positions[..n];
+        let (positions, queue) = self.staging.parts_mut();
+        let mut movers = Movers { sites, queue, most, n_moved: 0 };
+        let positions = &mut positions[..n];
         let (fixed, last_fixed) = self.regions.fixed()[..n].as_chunks::<LANES>();
         let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
         let mut ended = None;
@@ -215,17 +216,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let n_moved = movers.n_moved;
         let Some((end, room)) = ended else {
-            self.staging.others_applied = true;
+            self.staging.apply_others();
             return Ok(Some(n_moved));
         };
-        let queue = std::mem::take(&mut self.staging.vertices);
+        let queue = std::mem::take(self.staging.vertices_mut());
         let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
         // Those that have not moved are exchanged in vain.
         for v in (0..end as u32).chain(not_moved.iter().copied()) {
             self.exchange_position(v);
         }
-        self.staging.vertices = queue;
-        self.staging.vertices.clear();
+        *self.staging.vertices_mut() = queue;
+        self.staging.vertices_mut().clear();
         room.map(|()| None)
     }
 
@@ -237,9 +238,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let sites = SharedSites { start: sites.as_mut_ptr(), n: sites.len() };
         // SAFETY: every vertex has a site of its own, and these are borrowed for as long as this takes.
         let moved = unsafe {
-            sites.move_all(&mut self.staging.positions, given.positions(), &self.site_of, n_threads)
+            sites.move_all(self.staging.positions_mut(), given.positions(), &self.site_of, n_threads)
         };
-        self.staging.others_applied = true;
+        self.staging.apply_others();
         self.kernel.cover(&moved.lower, &moved.upper);
         Blocks { given: given.positions(), are_good: moved.are_good }.end(given)?;
         Ok(moved.n)
@@ -253,7 +254,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (mut sum, mut greatest) = (0.0, 0.0);
         let sites = self.kernel.sites_mut();
         let mut blocks = Blocks { given: given.positions(), are_good: true };
-        for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions.chunks_mut(BLOCK)) {
+        for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions_mut().chunks_mut(BLOCK)) {
             blocks.stage(first, positions, &self.site_of[first..], sites);
             let sites_of = &self.site_of[first..];
             for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
@@ -272,7 +273,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 std::mem::swap(point, p);
             }
         }
-        self.staging.others_applied = true;
+        self.staging.apply_others();
         let fits = slacks.end_motion(&mut self.kernel, sum / moved.max(1) as f64, greatest);
         blocks.end(given)?;
         Ok(Motion { moved, greatest, fits })

@@ -39,7 +39,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.staging.is_whole() {
             return self.commit_by_rebuilding(0, report);
         }
-        let (positions, moved) = (&self.staging.positions, Cell::new(0));
+        let (positions, moved) = (self.staging.positions(), Cell::new(0));
         let place = |site: &Site<G>| {
             let p = positions[site.id as usize];
             moved.set(moved.get() + u64::from(differ::<G>(&site.point, &p)));
@@ -60,7 +60,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn commit_by_rebuilding(&mut self, first: usize, report: &mut CommitReport) -> Result<()> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(|spread| {
-            for &v in &self.staging.vertices[first..] {
+            for &v in &self.staging.vertices()[first..] {
                 let s = self.own_site(&spread, v);
                 report.moved += u64::from(self.move_to_staged(&mut next, v, s));
             }
@@ -104,7 +104,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Puts the site of a vertex in a new kernel where it is staged; whether it was elsewhere.
     pub(super) fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: u32, s: u32) -> bool {
-        let p = self.staging.positions[vertex as usize];
+        let p = self.staging.positions()[vertex as usize];
         let differ = differ::<G>(&next.site(s).point, &p);
         next.set_point(s, p);
         differ
@@ -238,7 +238,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.
     pub(super) fn exchange_position(&mut self, vertex: u32) -> bool {
         let s = self.site_of[vertex as usize];
-        let staged = &mut self.staging.positions[vertex as usize];
+        let staged = &mut self.staging.positions_mut()[vertex as usize];
         let old = self.kernel.site(s).point;
         let new = std::mem::replace(staged, old);
         self.kernel.set_point(s, new);

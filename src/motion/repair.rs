@@ -90,14 +90,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         let can_move_all = self.kernel.has_cells()
             && self.staging.is_whole()
-            && !self.staging.others_applied
+            && !self.staging.others_applied()
             && self.hidden.count() == 0;
         if !can_move_all {
             self.stage_given(given)?;
             self.staging.list()?;
         }
         if !self.kernel.has_cells() {
-            return self.commit_by_rebuilding(self.staging.applied, report);
+            return self.commit_by_rebuilding(self.staging.applied(), report);
         }
         self.regions.invalidate();
         let accepted = report.moved;
@@ -113,7 +113,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
         if !mended? {
-            return self.commit_by_rebuilding(self.staging.applied, report);
+            return self.commit_by_rebuilding(self.staging.applied(), report);
         }
         self.transaction.want_order();
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
@@ -193,8 +193,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(());
         }
         repair.at.resize(self.site_of.len(), At::Rest);
-        for &v in &self.staging.vertices[..self.staging.applied] {
-            if self.kernel.site(self.site_of[v as usize]).point != self.staging.positions[v as usize] {
+        for &v in &self.staging.vertices()[..self.staging.applied()] {
+            if self.kernel.site(self.site_of[v as usize]).point != self.staging.positions()[v as usize] {
                 repair.at[v as usize] = At::New;
                 repair.n_new += 1;
             }
@@ -206,12 +206,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_staged(&mut self, repair: &mut Repair) -> Result<()> {
         self.begin_moves(repair, 0)?;
         // At shared places there are the hidden vertices, and no more representatives than these.
-        memory::reserve(&mut repair.queue, self.staging.vertices.len().min(2 * self.hidden.count()))?;
+        memory::reserve(&mut repair.queue, self.staging.vertices().len().min(2 * self.hidden.count()))?;
         // As in the test for tolerances: sites are asked for in advance, as they are in another order than the vertices.
-        let (site_of, positions) = (&self.site_of[..], &mut self.staging.positions[..]);
+        let (site_of, applied) = (&self.site_of[..], self.staging.applied());
+        let (positions, queued) = self.staging.parts_mut();
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
         let sites = self.kernel.sites_mut();
-        let queued = &self.staging.vertices[self.staging.applied..];
+        let queued = &queued[applied..];
         for (k, &v) in queued.iter().enumerate() {
             if let Some(&next) = queued.get(k + AHEAD) {
                 prefetch(sites, site_of[next as usize] as usize);
@@ -254,7 +255,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     return Ok(false);
                 }
             }
-            let (at, before) = (&repair.at, &self.staging.positions);
+            let (at, before) = (&repair.at, self.staging.positions());
             let before = |id: u32| (at[id as usize] != At::Old).then(|| &before[id as usize]);
             self.kernel.check_ridges(&mut repair.failures, before)?;
             if repair.failures.ridges.is_empty() {
@@ -288,7 +289,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn farthest(&self, repair: &Repair, sites: &[u32]) -> Option<u32> {
         let displacement = |s: u32| {
             let site = self.kernel.site(s);
-            let other = &self.staging.positions[site.id as usize];
+            let other = &self.staging.positions()[site.id as usize];
             let is_new = repair.at[site.id as usize] == At::New && site.point != *other;
             is_new.then(|| squared_distance(&site.point, other))
         };
@@ -301,7 +302,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn take_back(&mut self, repair: &mut Repair, s: u32) -> Result<()> {
         memory::reserve(&mut repair.queue, 1)?;
         // The queue has to fit where the staged vertices are listed.
-        let listed = &mut self.staging.vertices;
+        let listed = self.staging.vertices_mut();
         memory::reserve(listed, (repair.queue.len() + 1).saturating_sub(listed.len()))?;
         let v = self.kernel.site(s).id;
         self.exchange_position(v);
@@ -348,14 +349,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// room for them.
     fn settle(&mut self, repair: &mut Repair) {
         let is_whole = self.staging.is_whole();
-        let vertices = &mut self.staging.vertices;
+        let vertices = self.staging.vertices_mut();
         if is_whole {
             vertices.clear();
         } else if repair.n_old > 0 {
             vertices.retain(|&v| repair.at[v as usize] != At::Old);
         }
-        self.staging.applied = vertices.len();
+        let applied = vertices.len();
         vertices.append(&mut repair.queue);
+        self.staging.set_applied(applied);
         self.order_queue_by_site();
     }
 }

@@ -13,16 +13,16 @@ use crate::predicates::{Array, is_in_range};
 /// asks for them.
 #[derive(Debug)]
 pub(super) struct Staging<G: Dimension> {
-    pub(super) positions: Vec<G::Point>,
+    positions: Vec<G::Point>,
     /// By vertex id; all false while whole.
     is_staged: Vec<bool>,
     /// Staged vertices in the order of the calls. While whole: those that a commit has queued.
-    pub(super) vertices: Vec<u32>,
+    vertices: Vec<u32>,
     /// How many of the listed vertices are at their new positions, while a commit is under way.
-    pub(super) applied: usize,
+    applied: usize,
     is_whole: bool,
     /// Whether, while whole, the vertices that are not listed are at their new positions.
-    pub(super) others_applied: bool,
+    others_applied: bool,
 }
 
 /// Positions of all vertices as the caller of a commit has given them, until they are staged: all at once
@@ -82,6 +82,57 @@ impl<G: Dimension> Default for Staging<G> {
 }
 
 impl<G: Dimension> Staging<G> {
+    /// By vertex id: where the vertex is to go, or, once its move is applied, where it was.
+    #[inline(always)]
+    pub(super) fn positions(&self) -> &[G::Point] {
+        &self.positions
+    }
+
+    #[inline(always)]
+    pub(super) fn positions_mut(&mut self) -> &mut [G::Point] {
+        &mut self.positions
+    }
+
+    /// The listed vertices. The first of them, as many as are [applied](Self::applied), are at their new positions.
+    #[inline(always)]
+    pub(super) fn vertices(&self) -> &[u32] {
+        &self.vertices
+    }
+
+    /// The list itself, for those who queue vertices.
+    #[inline(always)]
+    pub(super) fn vertices_mut(&mut self) -> &mut Vec<u32> {
+        &mut self.vertices
+    }
+
+    /// [Positions](Self::positions) and [list](Self::vertices).
+    #[inline(always)]
+    pub(super) fn parts_mut(&mut self) -> (&mut [G::Point], &mut Vec<u32>) {
+        (&mut self.positions, &mut self.vertices)
+    }
+
+    /// How many of the listed vertices are at their new positions.
+    #[inline(always)]
+    pub(super) fn applied(&self) -> usize {
+        self.applied
+    }
+
+    #[inline(always)]
+    pub(super) fn set_applied(&mut self, n: usize) {
+        self.applied = n;
+    }
+
+    /// Whether, while whole, the vertices that are not listed are at their new positions.
+    #[inline(always)]
+    pub(super) fn others_applied(&self) -> bool {
+        self.others_applied
+    }
+
+    /// All vertices of a whole staging are at their new positions, but for those listed.
+    pub(super) fn apply_others(&mut self) {
+        self.others_applied = true;
+    }
+
     pub(super) fn is_staged(&self, vertex: u32) -> bool {
         self.is_whole || self.is_staged.get(vertex as usize).copied().unwrap_or(false)
     }

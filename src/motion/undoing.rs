@@ -90,11 +90,11 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Stages all applied moves again, and puts the vertices back where they were, those at shared places later.
     fn take_moves_back(&mut self) {
-        let n_listed = self.staging.vertices.len();
-        if self.staging.others_applied {
+        let n_listed = self.staging.vertices().len();
+        if self.staging.others_applied() {
             // While whole the flags are free for the few that have not moved.
-            for k in self.staging.applied..n_listed {
-                let vertex = self.staging.vertices[k];
+            for k in self.staging.applied()..n_listed {
+                let vertex = self.staging.vertices()[k];
                 self.staging.set_flag(vertex, true);
             }
             for vertex in 0..self.site_of.len() as u32 {
@@ -102,16 +102,16 @@ impl<G: Dimension> MovingTriangulation<G> {
                     self.take_move_back(vertex);
                 }
             }
-            for k in self.staging.applied..n_listed {
-                let vertex = self.staging.vertices[k];
+            for k in self.staging.applied()..n_listed {
+                let vertex = self.staging.vertices()[k];
                 self.staging.set_flag(vertex, false);
             }
         } else {
-            for k in 0..self.staging.applied {
-                self.take_move_back(self.staging.vertices[k]);
+            for k in 0..self.staging.applied() {
+                self.take_move_back(self.staging.vertices()[k]);
             }
         }
-        self.staging.applied = 0;
+        self.staging.set_applied(0);
         self.staging.end_queue();
     }
 
@@ -122,7 +122,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return;
         }
         let here = self.kernel.site(s).point;
-        let old = std::mem::replace(&mut self.staging.positions[vertex as usize], here);
+        let old = std::mem::replace(&mut self.staging.positions_mut()[vertex as usize], here);
         self.transaction.displace(vertex, old);
     }
 }

@@ -16,28 +16,31 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<()> {
         if self.regions.kept_for() != Some(filter) {
             let (kernel, n_ids) = (&mut self.kernel, self.site_of.len());
-            report.tolerances += self.regions.prepare(filter, kernel, n_ids, &self.staging.positions)?;
+            report.tolerances += self.regions.prepare(filter, kernel, n_ids, self.staging.positions())?;
         }
         Ok(())
     }
 
     /// Moves those of the listed vertices that stay in their regions, and puts them before the others.
     pub(in crate::motion) fn accept_listed(&mut self, report: &mut CommitReport) {
-        let mut vertices = std::mem::take(&mut self.staging.vertices);
-        for k in self.staging.applied..vertices.len() {
+        let mut vertices = std::mem::take(self.staging.vertices_mut());
+        let first = self.staging.applied();
+        let mut applied = first;
+        for k in first..vertices.len() {
             if self.accept(vertices[k], report) {
-                vertices.swap(self.staging.applied, k);
-                self.staging.applied += 1;
+                vertices.swap(applied, k);
+                applied += 1;
             }
         }
-        self.staging.vertices = vertices;
+        *self.staging.vertices_mut() = vertices;
+        self.staging.set_applied(applied);
     }
 
     /// Moves a vertex to where it is staged if it stays in its region.
     #[inline(always)]
     pub(in crate::motion) fn accept(&mut self, vertex: u32, report: &mut CommitReport) -> bool {
         let s = self.site_of[vertex as usize];
-        let p = self.staging.positions[vertex as usize];
+        let p = self.staging.positions()[vertex as usize];
         if self.is_shared(s) {
             return false;
         }
@@ -90,7 +93,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 relocated.iter_mut().for_each(|v| *v = self.site_of[*v as usize]);
                 relocated.retain(|&s| !self.is_shared(s));
                 let (kernel, n_ids) = (&mut self.kernel, self.site_of.len());
-                let other_positions = &self.staging.positions;
+                let other_positions = self.staging.positions();
                 let n = self.regions.follow(kept, changed, relocated, kernel, n_ids, other_positions);
                 // Without the memory for it none are kept, and the next commit says so.
                 report.tolerances += n.unwrap_or_default();

@@ -72,7 +72,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let most = self.kernel.complex().n_finite() / MANY;
         repair.failures.clear();
         repair.touched.clear();
-        let (before, failures) = (&self.staging.positions, &mut repair.failures);
+        let (before, failures) = (self.staging.positions(), &mut repair.failures);
         let slacks = self.regions.slacks().expect("they have been prepared");
         let expired = slacks.check_expired(&self.kernel, before, greatest, most, failures)?;
         if !fits {

@@ -46,7 +46,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let s = self.site_of[v as usize];
             let displacement =
-                squared_distance(&self.kernel.site(s).point, &self.staging.positions[v as usize]);
+                squared_distance(&self.kernel.site(s).point, &self.staging.positions()[v as usize]);
             within += u32::from(displacement < displacement_limit(self.tolerance_of_site(s)));
         }
         f64::from(within) / f64::from(rule.sample.max(1))

@@ -65,7 +65,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn accept_all(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
         let moved = self.move_and_queue::<false>(usize::MAX, given)?;
         report.moved += moved.expect("there is room for all in the queue");
-        report.within_tolerance += (self.site_of.len() - self.staging.vertices.len()) as u64;
+        report.within_tolerance += (self.site_of.len() - self.staging.vertices().len()) as u64;
         Ok(())
     }
 }

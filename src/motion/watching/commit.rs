@@ -81,9 +81,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(Attempt::NotBegun);
         };
         report.moved += moved;
-        let n_beyond = self.staging.vertices.len();
+        let n_beyond = self.staging.vertices().len();
         report.within_tolerance += (self.n_present - n_beyond) as u64;
-        self.staging.applied = n_beyond;
+        self.staging.set_applied(n_beyond);
         if n_beyond + self.regions.n_watched() > 0 {
             let mut repair = std::mem::take(&mut self.repair);
             let done = self.check_and_mend(&mut repair, report);
@@ -100,10 +100,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !repair.failures.are_none() {
             return self.mend_checked(repair, report);
         }
-        report.unchanged += self.staging.vertices.len() as u64;
+        report.unchanged += self.staging.vertices().len() as u64;
         if let Some(watching) = self.regions.watching() {
-            let sites = self.staging.vertices.iter().map(|&v| self.site_of[v as usize]);
-            let other_positions = &self.staging.positions;
+            let sites = self.staging.vertices().iter().map(|&v| self.site_of[v as usize]);
+            let other_positions = self.staging.positions();
             report.tolerances +=
                 watching.recompute(&mut self.kernel, other_positions, &repair.touched, sites);
         }
@@ -115,7 +115,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Repair { failures, touched, .. } = repair;
         failures.clear();
         touched.clear();
-        for &v in &self.staging.vertices {
+        for &v in self.staging.vertices() {
             let s = self.site_of[v as usize];
             let point = self.kernel.site(s).point;
             self.kernel.cover(&point, &point);
@@ -123,7 +123,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             memory::collect(touched, self.kernel.gathered_star().iter().map(|&(c, _)| c))?;
         }
         self.kernel.tidy_changes(touched);
-        let (kernel, before) = (&self.kernel, &self.staging.positions);
+        let (kernel, before) = (&self.kernel, self.staging.positions());
         let mut waiting = Waiting::default();
         let mut checked = Ok(());
         if let Some(watching) = self.regions.watching() {
@@ -148,12 +148,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         self.with_regions(report, |t, report| {
-            for &v in &t.staging.vertices {
+            for &v in t.staging.vertices() {
                 t.regions.note_relocated(v)?;
             }
             t.kernel.record_all(&repair.touched)?;
             if !t.mend_moved(repair, report)? {
-                return t.commit_by_rebuilding(t.staging.applied, report);
+                return t.commit_by_rebuilding(t.staging.applied(), report);
             }
             t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
         })
