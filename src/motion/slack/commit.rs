@@ -70,9 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Attempt> {
         let Motion { moved, greatest, fits } = self.move_all_on_record(given)?;
         let most = self.kernel.complex().n_finite() / MANY;
-        repair.failures.clear();
-        repair.touched.clear();
-        let (before, failures) = (self.staging.positions(), &mut repair.failures);
+        let (before, (failures, _)) = (self.staging.positions(), repair.begin_check());
         let slacks = self.regions.slacks().expect("they have been prepared");
         let expired = slacks.check_expired(&self.kernel, before, greatest, most, failures)?;
         if !fits {
@@ -84,7 +82,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report.moved += moved;
         report.tolerances += n;
         self.kernel.count_certificates(3 * n as usize);
-        if !repair.failures.are_none() {
+        if !repair.is_unneeded() {
             self.mend_checked(repair, report)?;
         }
         Ok(Attempt::Committed)

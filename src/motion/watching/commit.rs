@@ -97,7 +97,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// failed is mended.
     fn check_and_mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<()> {
         self.check_moved(repair)?;
-        if !repair.failures.are_none() {
+        if !repair.is_unneeded() {
             return self.mend_checked(repair, report);
         }
         report.unchanged += self.staging.vertices().len() as u64;
@@ -105,16 +105,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             let sites = self.staging.vertices().iter().map(|&v| self.site_of[v as usize]);
             let other_positions = self.staging.positions();
             report.tolerances +=
-                watching.recompute(&mut self.kernel, other_positions, &repair.touched, sites);
+                watching.recompute(&mut self.kernel, other_positions, repair.touched(), sites);
         }
         Ok(())
     }
 
     /// Checks the bi-cells that are not held; lists the cells of the stars of the vertices beyond, each once.
     fn check_moved(&mut self, repair: &mut Repair) -> Result<()> {
-        let Repair { failures, touched, .. } = repair;
-        failures.clear();
-        touched.clear();
+        let (failures, touched) = repair.begin_check();
         for &v in self.staging.vertices() {
             let s = self.site_of[v as usize];
             let point = self.kernel.site(s).point;
@@ -151,7 +149,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             for &v in t.staging.vertices() {
                 t.regions.note_relocated(v)?;
             }
-            t.kernel.record_all(&repair.touched)?;
+            t.kernel.record_all(repair.touched())?;
             if !t.mend_moved(repair, report)? {
                 return t.commit_by_rebuilding(t.staging.applied(), report);
             }

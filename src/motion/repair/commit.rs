@@ -20,13 +20,15 @@
 //! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
 //! threads, all else by one.
 
-use super::staging::Given;
-use super::{CommitReport, MovingTriangulation};
-use crate::complex::{Corners, Facet, INFINITE};
-use crate::delaunay::{Dimension, Failures, Shortcut};
+use super::Repair;
+use super::scratch::At;
+use crate::complex::{Corners, INFINITE};
+use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
 
 /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
@@ -38,52 +40,10 @@ const fn placed<G: Dimension>() -> usize {
 /// Times that flips may be stuck before the triangulation is rebuilt.
 const ROUNDS: usize = 8;
 
-/// Where a vertex is while a commit is under way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum At {
-    /// It has not moved.
-    Rest,
-    New,
-    /// As `New`, but listed to be taken back.
-    Listed,
-    /// Taken back, or never moved because it shares its place: to be placed.
-    Old,
-}
-
-/// Scratch memory of repairs.
-#[derive(Debug, Default)]
-pub(super) struct Repair {
-    pub(super) failures: Failures,
-    /// Cells that may have failed, each once.
-    pub(super) touched: Vec<u32>,
-    suspects: Vec<Facet>,
-    stuck: Vec<Facet>,
-    /// By vertex id.
-    at: Vec<At>,
-    n_new: usize,
-    n_old: usize,
-    /// Sites to be taken back.
-    sites: Vec<u32>,
-    /// Vertices to be placed.
-    queue: Vec<u32>,
-}
-
-impl Repair {
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.failures.memory_bytes()
-            + memory::bytes_of(&self.touched)
-            + memory::bytes_of(&self.suspects)
-            + memory::bytes_of(&self.stuck)
-            + memory::bytes_of(&self.at)
-            + memory::bytes_of(&self.sites)
-            + memory::bytes_of(&self.queue)
-    }
-}
-
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
     /// may be taken back like the others.
-    pub(super) fn commit_by_repair(
+    pub(in crate::motion) fn commit_by_repair(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
@@ -122,7 +82,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Mends a triangulation all staged vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
     /// does, after a check that has found failures. `false` if too many vertices would have to be placed; otherwise
     /// those that are to be are not applied.
-    pub(super) fn mend_moved(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
+    pub(in crate::motion) fn mend_moved(
+        &mut self,
+        repair: &mut Repair,
+        report: &mut CommitReport,
+    ) -> Result<bool> {
         self.begin_moves(repair, report.moved)?;
         self.mend(repair, report)
     }
