@@ -68,7 +68,7 @@ impl<G: Dimension> Movers<'_, G> {
     /// nothing, where there is no room in the queue.
     #[cold]
     #[inline(never)]
-    fn go<const MOVES_ALL: bool>(
+    fn queue_or_move<const MOVES_ALL: bool>(
         &mut self,
         first: usize,
         beyond: u32,
@@ -197,7 +197,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let beyond = !hold(fixed, places) & ALL;
                 if beyond == 0 {
                     movers.n_moved += exchange(&mut movers, places, at);
-                } else if let ControlFlow::Break(room) = movers.go::<MOVES_ALL>(k * LANES, beyond, places, at)
+                } else if let ControlFlow::Break(room) =
+                    movers.queue_or_move::<MOVES_ALL>(k * LANES, beyond, places, at)
                 {
                     ended = Some((k * LANES, room));
                     break 'blocks;
@@ -207,7 +208,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let first = sites_of.len() * LANES;
                 let beyond = !bits_of(last_fixed, last_places) & ((1 << last_places.len()) - 1);
                 if let ControlFlow::Break(room) =
-                    movers.go::<MOVES_ALL>(first, beyond, last_places, last_sites_of)
+                    movers.queue_or_move::<MOVES_ALL>(first, beyond, last_places, last_sites_of)
                 {
                     ended = Some((first, room));
                     break;

@@ -23,7 +23,7 @@ pub struct CommitReport {
     pub within_tolerance: u64,
     /// Vertices that were certainly within their safe region, where the algorithm tests that.
     pub within_safe_region: u64,
-    /// Delimiters computed: bi-cells whose tolerance was taken anew.
+    /// Delimiters computed: bi-cells whose tolerance was computed.
     pub tolerances: u64,
     /// Certificates evaluated: orientations and in-sphere tests of stars whose vertex was relocated.
     pub certificates: u64,

@@ -68,7 +68,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         } else {
             self.move_staged(&mut repair)
         };
-        repair.failures.are_open = true;
+        repair.failures.is_sweep_due = true;
         let mended = begun.and_then(|()| self.mend(&mut repair, report));
         report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
@@ -102,7 +102,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
         let most = self.n_present / placed::<G>();
         // A vertex taken back mends about three cells.
-        if repair.failures.are_open && !self.kernel.sweep(&mut repair.failures, 3 * most)? {
+        if repair.failures.is_sweep_due && !self.kernel.sweep(&mut repair.failures, 3 * most)? {
             return Ok(false);
         }
         let mut is_triangulation = repair.failures.is_triangulation();
@@ -136,7 +136,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Whether a convex hull winds once.
     fn winds_once(&self, repair: &mut Repair) -> Result<bool> {
         let failures = &mut repair.failures;
-        if !failures.may_wind {
+        if !failures.may_wind_twice {
             return Ok(true);
         }
         if failures.ghosts.is_empty() {
