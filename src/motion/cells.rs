@@ -27,11 +27,16 @@ use crate::machine::prefetch::{AHEAD, prefetch};
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;
 
-/// When more than one slot in `MOST` has changed, all are compared.
-pub(super) const MOST: usize = 2;
+/// When more than this share of the slots has changed, all are compared.
+const MAX_SHARE_LISTED: f64 = 0.5;
+
+/// Whether so many changed slots are too many of `n_slots` to be compared one by one.
+pub(super) fn are_most(n_changed: usize, n_slots: usize) -> bool {
+    n_changed as f64 > MAX_SHARE_LISTED * n_slots as f64
+}
 
 /// Memory for this number of changes is always kept.
-const FEW: usize = 64;
+const KEPT_CHANGES: usize = 64;
 
 /// The arrays behind a view.
 #[derive(Debug)]
@@ -234,7 +239,7 @@ impl<G: Dimension> Cells<G> {
             None => self.glue_all(kernel),
         }
         // Memory for many changes is not kept.
-        if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / MOST + FEW {
+        if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / 2 + KEPT_CHANGES {
             *scratch = Scratch::default();
         }
         Ok(())

@@ -12,9 +12,9 @@ use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 
-/// Rebuild when more than one vertex in `EDITED` is inserted or removed: a removal and an insertion cost about as much as
-/// rebuilding this number of vertices.
-const EDITED: usize = 8;
+/// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in so many is inserted or
+/// removed, all are rebuilt.
+const REBUILT_PER_EDIT: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those of the
@@ -96,7 +96,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(false);
         }
         let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
-        if self.kernel.has_cells() && EDITED * n_edits <= self.n_present {
+        if self.kernel.has_cells() && REBUILT_PER_EDIT * n_edits <= self.n_present {
             if self.edit_cells(report)? {
                 return Ok(false);
             }

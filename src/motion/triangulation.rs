@@ -24,7 +24,7 @@ pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
 
 /// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex it is
 /// fitted to the points again, which takes as long as a small part of one commit.
-const MOVED: u64 = 64;
+const MOVES_PER_VERTEX: u64 = 64;
 
 /// A Delaunay triangulation whose vertices move.
 #[derive(Debug)]
@@ -118,10 +118,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut kernel = Delaunay::on(Threads::ONE)?;
         std::mem::swap(&mut kernel, &mut self.kernel);
         let stride = kernel.mean_stride();
-        let mut quiet = |_| true;
+        let mut unmonitored = |_| true;
         let merges = match &mut self.options.monitor {
             Some(monitor) => kernel.rebuild(monitor)?,
-            None => kernel.rebuild(&mut quiet)?,
+            None => kernel.rebuild(&mut unmonitored)?,
         };
         let hidden = self.hide_merged(&kernel, merges)?;
         self.adopt(kernel, hidden, stride);
@@ -157,7 +157,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.exact_calls += report.exact_calls;
         sum.coincident = self.hidden.count() as u64;
         self.n_moved += report.moved + report.inserted;
-        if self.n_moved > MOVED * self.n_present as u64 {
+        if self.n_moved > MOVES_PER_VERTEX * self.n_present as u64 {
             self.n_moved = 0;
             self.regions.tighten_filter(&mut self.kernel);
         }

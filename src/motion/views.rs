@@ -8,7 +8,7 @@
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::cells::{Cells, MOST};
+use super::cells::{Cells, are_most};
 use super::marks::Marks;
 use super::visibility::Visibilities;
 use crate::delaunay::{Delaunay, Dimension};
@@ -116,7 +116,7 @@ impl<G: Dimension> Views<G> {
             return Ok(());
         }
         // When most have changed, that follows, and needs no list.
-        if MOST * (behind.dirty.as_slice().len() + n_rows) > n_slots {
+        if are_most(behind.dirty.as_slice().len() + n_rows, n_slots) {
             return Ok(());
         }
         behind.dirty.reserve(n_rows, n_slots)
@@ -145,7 +145,7 @@ impl<G: Dimension> Views<G> {
         if behind.are_all {
             return;
         }
-        if MOST * (behind.dirty.as_slice().len() + rows.len()) > n_slots {
+        if are_most(behind.dirty.as_slice().len() + rows.len(), n_slots) {
             behind.dirty.clear();
             behind.are_all = true;
             return;

@@ -1,13 +1,15 @@
-//! What is looked at in a commit, and what the last ones tell about that.
+//! Which certificates a commit checks, and what the last ones tell about that.
 
 use crate::delaunay::Dimension;
 use crate::motion::CommitReport;
 
 /// Shortest and longest wait for another try, in commits.
-const WAIT: u32 = 16;
-const PATIENCE: u32 = 256;
-/// Share of the last commit in the pace.
-const LAST: f64 = 0.125;
+const MIN_WAIT_COMMITS: u32 = 16;
+const MAX_WAIT_COMMITS: u32 = 256;
+
+/// Weight of the last commit in the mean number of changes of a commit.
+const WEIGHT_OF_LAST: f64 = 0.125;
+
 /// What the parts of a commit cost, in nanoseconds.
 #[derive(Clone, Copy, Debug)]
 struct Costs {
@@ -24,7 +26,7 @@ struct Costs {
     /// Per vertex, to compute all tolerances.
     computed: f64,
     /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices.
-    calm: f64,
+    vertices_per_change: f64,
 }
 
 /// Measured with 1,000 vertices in the plane, 13,000 in space, in Lloyd's iterations; only the ratios matter.
@@ -37,7 +39,7 @@ const fn costs<G: Dimension>() -> Costs {
             slack: None,
             used_up: 0.0,
             computed: 90.0,
-            calm: 1500.0,
+            vertices_per_change: 1500.0,
         }
     } else {
         let slack = Some(18.0);
@@ -48,19 +50,19 @@ const fn costs<G: Dimension>() -> Costs {
             slack,
             used_up: 100.0,
             computed: 500.0,
-            calm: 250.0,
+            vertices_per_change: 250.0,
         }
     }
 }
 
 /// Watching is tried without slack before it after commits with at most one flip or placement per this number of vertices.
-const QUIET: f64 = 4000.0;
+const VERTICES_PER_CHANGE_TO_WATCH: f64 = 4000.0;
 /// Watching is tried when less than one bi-cell per this number of vertices uses up its slack.
-const STILL: u64 = 60;
+const VERTICES_PER_USED_UP_TO_WATCH: u64 = 60;
 
-/// How much is looked at.
+/// Which certificates a commit checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Look {
+pub(super) enum Scope {
     /// Repair: everything.
     #[default]
     All,
@@ -71,12 +73,12 @@ pub(super) enum Look {
 }
 
 /// Most commits rebuilt without trying to repair.
-const REBUILT: u32 = 15;
+const MAX_REBUILDS: u32 = 15;
 
 /// What the last commits found.
 #[derive(Debug, Default)]
 pub(in crate::motion) struct Auto {
-    look: Look,
+    scope: Scope,
     /// By how much that has cost more than the expensive way would have, and what the watched bi-cells have cost more than the
     /// vertices beyond, in nanoseconds.
     excess: f64,
@@ -84,8 +86,8 @@ pub(in crate::motion) struct Auto {
     /// Whether all tolerances are to be computed again, for balance.
     is_due: bool,
     /// Flips and placements in a commit, a mean with decreasing weights, and what it was when a way was given up.
-    pace: f64,
-    pace_at_stop: f64,
+    changes: f64,
+    changes_at_stop: f64,
     /// Commits until a cheaper way may be tried again, and how many they will be next time.
     wait: u32,
     next_wait: u32,
@@ -95,7 +97,7 @@ pub(in crate::motion) struct Auto {
     /// Immediate relocations in this round, those within tolerance, and those that changed no cell.
     relocated: u64,
     within: u64,
-    still: u64,
+    unchanged: u64,
 }
 
 /// What immediate relocations of a round have done.
@@ -104,13 +106,13 @@ pub(super) struct Round {
     /// Whether most were within tolerance.
     pub(super) are_most_within: bool,
     /// Whether most changed no cell.
-    pub(super) are_most_still: bool,
+    pub(super) are_most_unchanged: bool,
 }
 
 impl Auto {
-    /// How much is looked at.
-    pub(super) fn look(&self) -> Look {
-        self.look
+    /// Which certificates a commit checks.
+    pub(super) fn scope(&self) -> Scope {
+        self.scope
     }
 
     /// Whether the next commit is to rebuild without trying to repair; counts it.
@@ -127,7 +129,7 @@ impl Auto {
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.
     pub(super) fn note_oblivion(&mut self) {
-        self.is_due |= self.look == Look::Watched;
+        self.is_due |= self.scope == Scope::Watched;
     }
 
     /// Weighs what watching this number of bi-cells has cost, for `n` vertices, against the more expensive way, and what is
@@ -157,14 +159,14 @@ impl Auto {
         let costs = costs::<G>();
         let spared = costs.sweep - costs.slack.unwrap_or_default();
         self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared);
-        if self.wait == 0 && report.tolerances * STILL < n as u64 {
-            self.look = Look::Watched;
+        if self.wait == 0 && report.tolerances * VERTICES_PER_USED_UP_TO_WATCH < n as u64 {
+            self.scope = Scope::Watched;
         }
     }
 
     /// Enters by how much a commit has cost more than the more expensive way, which is taken when the sum is too large.
     fn weigh<G: Dimension>(&mut self, n: usize, report: &CommitReport, excess: f64) {
-        self.follow_pace(report);
+        self.follow_changes(report);
         self.excess = (self.excess + excess).max(0.0);
         self.wait = self.wait.saturating_sub(1);
         if 4.0 * self.excess > n as f64 * costs::<G>().computed {
@@ -176,11 +178,14 @@ impl Auto {
 
     /// From now on the more expensive way is taken.
     pub(super) fn give_up<G: Dimension>(&mut self) {
-        self.look =
-            if self.look == Look::Watched && costs::<G>().slack.is_some() { Look::Slack } else { Look::All };
-        self.pace_at_stop = self.pace;
+        self.scope = if self.scope == Scope::Watched && costs::<G>().slack.is_some() {
+            Scope::Slack
+        } else {
+            Scope::All
+        };
+        self.changes_at_stop = self.changes;
         (self.excess, self.imbalance, self.is_due) = (0.0, 0.0, false);
-        self.next_wait = (2 * self.next_wait + WAIT).min(PATIENCE);
+        self.next_wait = (2 * self.next_wait + MIN_WAIT_COMMITS).min(MAX_WAIT_COMMITS);
         self.wait = self.next_wait;
     }
 
@@ -195,7 +200,7 @@ impl Auto {
     pub(super) fn count_within(&mut self, relocated: u64) {
         self.relocated += relocated;
         self.within += relocated;
-        self.still += relocated;
+        self.unchanged += relocated;
     }
 
     /// Counts an immediate relocation in a round of so many; what has become of the round if it was the last.
@@ -203,13 +208,14 @@ impl Auto {
         let is_last = self.is_round_ending(round);
         self.relocated += 1;
         self.within += done.within_tolerance;
-        self.still += done.within_tolerance + done.unchanged;
+        self.unchanged += done.within_tolerance + done.unchanged;
         if !is_last {
             return None;
         }
         let are_most = |some: u64| 20 * some >= 17 * self.relocated;
-        let ended = Round { are_most_within: are_most(self.within), are_most_still: are_most(self.still) };
-        (self.relocated, self.within, self.still) = (0, 0, 0);
+        let ended =
+            Round { are_most_within: are_most(self.within), are_most_unchanged: are_most(self.unchanged) };
+        (self.relocated, self.within, self.unchanged) = (0, 0, 0);
         Some(ended)
     }
 
@@ -220,27 +226,28 @@ impl Auto {
         has_waited
     }
 
-    fn follow_pace(&mut self, report: &CommitReport) {
+    fn follow_changes(&mut self, report: &CommitReport) {
         let mended = (report.flips + report.placements) as f64;
-        self.pace += LAST * (mended - self.pace);
+        self.changes += WEIGHT_OF_LAST * (mended - self.changes);
     }
 
     /// Draws conclusions from a repair, for `n` vertices.
     pub(super) fn learn<G: Dimension>(&mut self, n: usize, report: &CommitReport) {
-        self.follow_pace(report);
+        self.follow_changes(report);
         if report.rebuilds > 0 {
-            self.last_rebuilds = (2 * self.last_rebuilds + 1).min(REBUILT);
+            self.last_rebuilds = (2 * self.last_rebuilds + 1).min(MAX_REBUILDS);
             self.rebuilds = self.last_rebuilds;
             return;
         }
         self.last_rebuilds = 0;
         self.wait = self.wait.saturating_sub(1);
-        // Also before the wait is over if it has become much calmer.
-        let may_try = self.wait == 0 || 3.0 * self.pace < self.pace_at_stop;
+        // Also before the wait is over if changes have become much rarer.
+        let may_try = self.wait == 0 || 3.0 * self.changes < self.changes_at_stop;
         let costs = costs::<G>();
-        if may_try && self.pace * costs.calm <= n as f64 {
-            let is_still = self.pace * QUIET <= n as f64;
-            self.look = if costs.slack.is_none() || is_still { Look::Watched } else { Look::Slack };
+        if may_try && self.changes * costs.vertices_per_change <= n as f64 {
+            let are_changes_rare = self.changes * VERTICES_PER_CHANGE_TO_WATCH <= n as f64;
+            self.scope =
+                if costs.slack.is_none() || are_changes_rare { Scope::Watched } else { Scope::Slack };
         }
     }
 }

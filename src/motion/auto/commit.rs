@@ -1,6 +1,6 @@
 //! One commit, by the algorithm chosen for it.
 
-use super::choice::Look;
+use super::choice::Scope;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 use crate::motion::attempt::Attempt;
@@ -8,14 +8,15 @@ use crate::motion::regions::Filter;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation, SwitchingRule};
 
-/// A staging is small if it has less than one vertex in `FEW`: a placement costs about as much as sweeping this number of
-/// vertices.
-const FEW: usize = 20;
-/// Watching pays only while less than one vertex in `BEYOND` is beyond its tolerance.
-const BEYOND: usize = 8;
+/// Vertices that are swept in the time of a placement: where fewer than one in so many is staged, these are placed.
+const SWEPT_PER_PLACEMENT: usize = 20;
+
+/// Watching pays only while less than this share of the vertices is beyond its tolerance.
+const MAX_SHARE_BEYOND: f64 = 0.125;
+
 /// Vertices sampled before all tolerances are computed, and the share of them that must be within.
-const SAMPLE: u32 = 64;
-const SHARE: f64 = 0.8;
+const SAMPLED_VERTICES: u32 = 64;
+const MIN_SHARE_WITHIN: f64 = 0.8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_auto(
@@ -26,7 +27,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.kernel.has_cells() {
             return self.rebuild_given(given, report);
         }
-        if self.staging.count() * FEW < self.n_present {
+        if self.staging.count() * SWEPT_PER_PLACEMENT < self.n_present {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
                 self.commit_by_tolerance(given, report)
             } else {
@@ -36,7 +37,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.auto.take_rebuild() {
             return self.rebuild_given(given, report);
         }
-        if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_look(given, report)? {
+        if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_scope(given, report)? {
             return Ok(());
         }
         self.commit_by_repair(given, report)?;
@@ -45,11 +46,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Commits by watching or by slack, if that is in force; `false` if a repair has to follow.
-    fn commit_by_look(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<bool> {
-        if self.auto.look() == Look::Watched {
+    fn commit_by_scope(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<bool> {
+        if self.auto.scope() == Scope::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
-            if (is_kept || self.auto.take_due() || self.is_calm(given)?)
-                && self.commit_by_watching(self.n_present / BEYOND, given, report)? == Attempt::Committed
+            if (is_kept || self.auto.take_due() || self.is_sample_within(given)?)
+                && self.commit_by_watching(MAX_SHARE_BEYOND, given, report)? == Attempt::Committed
             {
                 if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.n_present, report) {
                     self.regions.invalidate();
@@ -58,7 +59,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             self.auto.give_up::<G>();
         }
-        if self.auto.look() == Look::Slack {
+        if self.auto.scope() == Scope::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
             if self.commit_by_slack(given, report)? == Attempt::Committed {
                 if was_kept {
@@ -79,15 +80,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether all but a few of a sample of the vertices stay within tolerance.
-    fn is_calm(&mut self, given: &mut Given<'_, G>) -> Result<bool> {
+    fn is_sample_within(&mut self, given: &mut Given<'_, G>) -> Result<bool> {
         self.stage_given(given)?;
-        Ok(self.sampled_share(&SwitchingRule { sample: SAMPLE, ..SwitchingRule::default() }) >= SHARE)
+        Ok(self.sampled_share(&SwitchingRule { sample: SAMPLED_VERTICES, ..SwitchingRule::default() })
+            >= MIN_SHARE_WITHIN)
     }
 
     /// Immediate relocations in a round.
     #[inline(always)]
     fn round(&self) -> u64 {
-        self.n_present.max(SAMPLE as usize) as u64
+        self.n_present.max(SAMPLED_VERTICES as usize) as u64
     }
 
     /// Whether the next immediate relocation is the last of its round.
@@ -114,7 +116,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 self.regions.invalidate();
                 self.auto.give_up::<G>();
             }
-        } else if self.auto.has_waited() && ended.are_most_still {
+        } else if self.auto.has_waited() && ended.are_most_unchanged {
             // Without the memory for them all goes on as it did.
             let _ = self.prepare_regions(Filter::Tolerance, &mut CommitReport::default());
         }

@@ -33,12 +33,12 @@ use crate::predicates::squared_distance;
 
 /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
 /// vertex rebuilt, and flips are never stuck there.)
-const fn placed<G: Dimension>() -> usize {
+const fn rebuilt_per_placement<G: Dimension>() -> usize {
     if G::D == 2 { 8 } else { 20 }
 }
 
 /// Times that flips may be stuck before the triangulation is rebuilt.
-const ROUNDS: usize = 8;
+const MAX_ROUNDS: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
@@ -100,7 +100,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
-        let most = self.n_present / placed::<G>();
+        let most = self.n_present / rebuilt_per_placement::<G>();
         // A vertex taken back mends about three cells.
         if repair.failures.is_sweep_due && !self.kernel.sweep(&mut repair.failures, 3 * most)? {
             return Ok(false);
@@ -109,7 +109,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             if !(is_triangulation || self.take_back_failed(repair, most)? && self.winds_once(repair)?) {
                 return Ok(false);
             }

@@ -27,8 +27,8 @@ use crate::motion::repair::Repair;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 
-/// With more than one cell in `MANY` past its deadline, a sweep of everything is cheaper.
-const MANY: usize = 3;
+/// With more than this share of the cells past their deadlines, a sweep of everything is cheaper.
+const MAX_SHARE_EXPIRED: f64 = 1.0 / 3.0;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by slack where that is possible, else by repair.
@@ -69,7 +69,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<Attempt> {
         let Motion { moved, greatest, fits } = self.move_all_on_record(given)?;
-        let most = self.kernel.complex().n_finite() / MANY;
+        let most = (self.kernel.complex().n_finite() as f64 * MAX_SHARE_EXPIRED) as usize;
         let (before, (failures, _)) = (self.staging.positions(), repair.begin_check());
         let slacks = self.regions.slacks().expect("they have been prepared");
         let expired = slacks.check_expired(&self.kernel, before, greatest, most, failures)?;

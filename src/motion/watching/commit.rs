@@ -47,8 +47,8 @@ use crate::motion::repair::Repair;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 
-/// With more than one vertex in `MANY` beyond its tolerance, a sweep of everything is cheaper.
-const MANY: usize = 4;
+/// With more than this share of the vertices beyond their tolerance, a sweep of everything is cheaper.
+const MAX_SHARE_BEYOND: f64 = 0.25;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
@@ -58,17 +58,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let can_watch = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if can_watch && self.commit_by_watching(self.n_present / MANY, given, report)? == Attempt::Committed {
+        if can_watch && self.commit_by_watching(MAX_SHARE_BEYOND, given, report)? == Attempt::Committed {
             return Ok(());
         }
         self.commit_by_repair(given, report)
     }
 
-    /// Brings all vertices of a whole staging to their new positions, or none if more than `most` leave their tolerance. No
+    /// Brings all vertices of a whole staging to their new positions, or none if more than this
+    /// share of them leave their tolerance. No
     /// two vertices may share a site.
     pub(in crate::motion) fn commit_by_watching(
         &mut self,
-        most: usize,
+        max_share_beyond: f64,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
@@ -77,6 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.sort_cells()?;
             self.prepare_regions(Filter::Watch, report)?;
         }
+        let most = (self.n_present as f64 * max_share_beyond) as usize;
         let Some(moved) = self.move_and_queue::<true>(most, given)? else {
             return Ok(Attempt::NotBegun);
         };
