@@ -24,18 +24,18 @@ use std::sync::Mutex;
 pub enum Obstacle {
     /// The cells there are not such that a flip makes positive ones.
     Shape,
-    /// A cell would change that is not of the stretch.
+    /// A cell would change that is not of the range.
     Elsewhere,
-    /// The stretch has no free cell.
+    /// The range has no free cell.
     Full,
     /// There is no memory for undoing.
     Memory,
 }
 
 /// Cells that follow each other in storage, for one thread to flip while others flip the rest. A flip changes two to four
-/// cells and the neighbours' side of their gluings; it is done only if all of these are of the stretch.
+/// cells and the neighbours' side of their gluings; it is done only if all of these are of the range.
 #[derive(Debug)]
-pub struct Stretch<'c, C: Corners> {
+pub struct CellRange<'c, C: Corners> {
     /// Index of the first one.
     first: u32,
     cells: &'c mut [Cell<C>],
@@ -45,17 +45,17 @@ pub struct Stretch<'c, C: Corners> {
 
 impl<C: Corners> Complex<C> {
     /// All cells.
-    pub(crate) fn whole(&mut self) -> Stretch<'_, C> {
-        Stretch { first: 0, cells: &mut self.cells, free: &mut self.free }
+    pub(crate) fn whole(&mut self) -> CellRange<'_, C> {
+        CellRange { first: 0, cells: &mut self.cells, free: &mut self.free }
     }
 
-    /// Works on the stretches that begin at these cells, the first of them cell 0, each on a thread of its own and with its
+    /// Works on the ranges that begin at these cells, the first of them cell 0, each on a thread of its own and with its
     /// own one of `parts`. After an error the list of free cells [has to be restored](Self::restore_free).
     pub(crate) fn divided<P: Send>(
         &mut self,
         starts: &[u32],
         parts: &mut [P],
-        work: impl Fn(usize, &mut Stretch<C>, &mut P) + Sync,
+        work: impl Fn(usize, &mut CellRange<C>, &mut P) + Sync,
     ) -> Result<()> {
         let (mut free, mut all) = (Vec::<Vec<u32>>::new(), Vec::new());
         memory::reserve_exact(&mut free, starts.len())?;
@@ -70,11 +70,11 @@ impl<C: Corners> Complex<C> {
             let n = starts.get(k + 1).map_or(rest.len(), |&end| (end - starts[k]) as usize);
             let cells;
             (cells, rest) = rest.split_at_mut(n);
-            all.push(Mutex::new((Stretch { first: starts[k], cells, free }, part)));
+            all.push(Mutex::new((CellRange { first: starts[k], cells, free }, part)));
         }
         threads::for_each(0..starts.len(), &|k| {
-            let (stretch, part) = &mut *all[k].lock().expect("each is locked once");
-            work(k, stretch, part);
+            let (range, part) = &mut *all[k].lock().expect("each is locked once");
+            work(k, range, part);
         });
         drop(all);
         self.reserve_free(free.iter().map(Vec::len).sum())?;
@@ -100,14 +100,14 @@ impl<C: Corners> Complex<C> {
     }
 }
 
-impl<C: Corners> Stretch<'_, C> {
-    /// A cell of the stretch.
+impl<C: Corners> CellRange<'_, C> {
+    /// A cell of the range.
     #[inline(always)]
     pub(crate) fn cell(&self, cell: u32) -> Result<&Cell<C>, Obstacle> {
         self.cells.get(cell.wrapping_sub(self.first) as usize).ok_or(Obstacle::Elsewhere)
     }
 
-    /// The corner opposite a facet of a cell of the stretch.
+    /// The corner opposite a facet of a cell of the range.
     #[inline(always)]
     pub(crate) fn apex(&self, facet: Facet) -> Result<u32, Obstacle> {
         Ok(self.cell(facet.cell())?.corners[facet.index()])
@@ -118,7 +118,7 @@ impl<C: Corners> Stretch<'_, C> {
         &mut self.cells[cell.wrapping_sub(self.first) as usize]
     }
 
-    /// An error if one of these cells is not of the stretch.
+    /// An error if one of these cells is not of the range.
     #[inline(always)]
     fn has_cells_of(&self, codes: &[u32]) -> Result<(), Obstacle> {
         let has = |&code: &u32| (Facet(code).cell().wrapping_sub(self.first) as usize) < self.cells.len();
@@ -139,7 +139,7 @@ impl<C: Corners> Stretch<'_, C> {
 /// What a flip in the plane has put there, and the rows before.
 type Swapped = ([Facet; 4], [Row<[u32; 3]>; 2]);
 
-impl Stretch<'_, [u32; 3]> {
+impl CellRange<'_, [u32; 3]> {
     /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on the
     /// boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`,
     /// and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
@@ -180,7 +180,7 @@ fn rows<C: Corners>(cells: [(u32, Cell<C>); 3]) -> [Row<C>; 3] {
     cells.map(|(slot, cell)| Row::of(slot, &cell))
 }
 
-impl Stretch<'_, [u32; 4]> {
+impl CellRange<'_, [u32; 4]> {
     /// Replaces the two finite cells of a facet by three around the edge between their opposing
     /// vertices, and returns the facets on the boundary of both. The caller knows that the exchange is
     /// geometrically valid.
@@ -243,7 +243,7 @@ impl Stretch<'_, [u32; 4]> {
 /// What two flips in a row have put there.
 type Both = [([Facet; 6], Undo); 2];
 
-impl Stretch<'_, [u32; 4]> {
+impl CellRange<'_, [u32; 4]> {
     /// Replaces the edge opposite the corners `k` and that of `facet` in the cell of `facet`, with the four cells around
     /// it, by the edge between the opposing vertices of `facet`, and returns what both flips do. The caller knows
     /// that the corners of both edges are in one plane, where the edges cross. No change if the edge has not exactly four

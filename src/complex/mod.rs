@@ -24,7 +24,7 @@ mod record;
 
 pub use cell::{Cell, Facet};
 pub use corners::Corners;
-pub use flips::{Obstacle, Stretch};
+pub use flips::{CellRange, Obstacle};
 pub use record::Row;
 
 use crate::error::{Error, Result};

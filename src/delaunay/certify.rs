@@ -64,7 +64,7 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(false);
         }
         memory::append(&mut failures.open_ghosts, &failures.ghosts)?;
-        failures.may_wind = true;
+        failures.may_wind_twice = true;
         self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
         Ok(true)
     }
@@ -79,49 +79,55 @@ impl<G: Dimension> Delaunay<G> {
         n_failed: &AtomicUsize,
     ) -> Result<()> {
         let mut swept = Ok(());
-        self.screen(range.start as u32..range.end as u32, |c| match self.sweep_cell(c, before, failures) {
-            Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
-            Err(error) => {
-                swept = Err(error);
-                false
+        self.visit_uncertain(range.start as u32..range.end as u32, |c| {
+            match self.sweep_cell(c, before, failures) {
+                Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
+                Err(error) => {
+                    swept = Err(error);
+                    false
+                }
             }
         });
         swept
     }
 
-    /// Calls `look` with each of these cells that is a ghost or does not surely hold, until it returns `false`.
+    /// Calls `visit` with each of these cells that is a ghost or does not surely hold, until it returns `false`.
     /// Free ones are skipped. Ghosts come in the order of the list, and so do finite cells.
     #[inline(always)]
-    pub(super) fn screen(&self, cells: impl Iterator<Item = u32> + Clone, look: impl FnMut(u32) -> bool) {
-        let Some(avx2) = Avx2::new() else { return self.screen_singly(cells, look) };
+    pub(super) fn visit_uncertain(
+        &self,
+        cells: impl Iterator<Item = u32> + Clone,
+        visit: impl FnMut(u32) -> bool,
+    ) {
+        let Some(avx2) = Avx2::new() else { return self.visit_uncertain_singly(cells, visit) };
         if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR {
             avx2.run_with(
                 self,
                 cells,
-                look,
+                visit,
                 #[inline(always)]
-                |t, cells, look| t.screen_in_lanes::<true>(avx2, cells, look),
+                |t, cells, visit| t.visit_uncertain_in_lanes::<true>(avx2, cells, visit),
             );
         } else {
             avx2.run_with(
                 self,
                 cells,
-                look,
+                visit,
                 #[inline(always)]
-                |t, cells, look| t.screen_in_lanes::<false>(avx2, cells, look),
+                |t, cells, visit| t.visit_uncertain_in_lanes::<false>(avx2, cells, visit),
             );
         }
     }
 
-    /// As [`screen`](Self::screen), one cell at a time.
-    pub(super) fn screen_singly(
+    /// As [`visit_uncertain`](Self::visit_uncertain), one cell at a time.
+    pub(super) fn visit_uncertain_singly(
         &self,
         mut cells: impl Iterator<Item = u32>,
-        mut look: impl FnMut(u32) -> bool,
+        mut visit: impl FnMut(u32) -> bool,
     ) {
         cells.all(|c| {
             let is_ghost = self.complex.cell(c).is_ghost();
-            self.complex.is_free(c) || !is_ghost && G::cell_holds(self, c) || look(c)
+            self.complex.is_free(c) || !is_ghost && G::cell_holds(self, c) || visit(c)
         });
     }
 
@@ -168,8 +174,8 @@ impl<G: Dimension> Delaunay<G> {
                 if !self.is_convex(ridge) {
                     memory::push(&mut failures.ridges, ridge)?;
                 } else {
-                    failures.may_wind =
-                        failures.may_wind || !self.stayed_positive(&self.simplex_at_hull(ridge), &before);
+                    failures.may_wind_twice = failures.may_wind_twice
+                        || !self.stayed_positive(&self.simplex_at_hull(ridge), &before);
                 }
             }
         }
@@ -308,7 +314,7 @@ impl<G: Dimension> Delaunay<G> {
             memory::push(&mut failures.ridges, ridge)?;
             return Ok(false);
         }
-        failures.may_wind = true;
+        failures.may_wind_twice = true;
         Ok(true)
     }
 
@@ -320,7 +326,7 @@ impl<G: Dimension> Delaunay<G> {
         failures: &mut Failures,
     ) -> Result<()> {
         let mut checked = Ok(());
-        self.screen(cells.iter().copied(), |c| {
+        self.visit_uncertain(cells.iter().copied(), |c| {
             checked = if self.complex.cell(c).is_ghost() {
                 let mut ridges = (0..Self::LAST).map(|i| Facet::new(c, i));
                 ridges.try_for_each(|ridge| self.check_ridge(ridge, before, failures).map(|_| ()))

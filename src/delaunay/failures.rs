@@ -19,10 +19,10 @@ pub struct Failures {
     /// All ghost cells, after a sweep.
     pub ghosts: Vec<u32>,
     /// Whether a sweep has to find out what has failed.
-    pub are_open: bool,
+    pub is_sweep_due: bool,
     /// Whether, even if the hull is convex at every ridge, it may wind more than once: some may not have been convex all
     /// the way.
-    pub may_wind: bool,
+    pub may_wind_twice: bool,
 }
 
 impl Failures {
@@ -40,18 +40,18 @@ impl Failures {
         self.ridges.clear();
         self.open_ghosts.clear();
         self.ghosts.clear();
-        self.are_open = false;
-        self.may_wind = false;
+        self.is_sweep_due = false;
+        self.may_wind_twice = false;
     }
 
     /// Whether nothing has failed.
     pub fn are_none(&self) -> bool {
-        self.is_triangulation() && self.facets.is_empty() && !self.are_open
+        self.is_triangulation() && self.facets.is_empty() && !self.is_sweep_due
     }
 
     /// Whether all cells are positive and the hull is convex and winds once.
     pub fn is_triangulation(&self) -> bool {
-        self.cells.is_empty() && self.ridges.is_empty() && !self.may_wind
+        self.cells.is_empty() && self.ridges.is_empty() && !self.may_wind_twice
     }
 
     /// Adds those of a later range.

@@ -7,7 +7,7 @@
 //! can be as it was; flips that stay are entered into the record of the complex from there.
 //!
 //! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each thread
-//! flips in a stretch of the cells, all with about as many failing facets, and leaves flips that need cells of others
+//! flips in a range of the cells, all with about as many failing facets, and leaves flips that need cells of others
 //! alone. As flips of different threads have no cell in common, it is as if they had been done one after the other. What
 //! is left is flipped by one thread. For 300,000 points that move by a fiftieth of a spacing two threads are 1.7 and 1.5
 //! times as fast as one, all of the repair included (`examples/thread_scaling`).
@@ -17,7 +17,7 @@
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, Obstacle, Row, Stretch};
+use crate::complex::{CellRange, Corners, Facet, INFINITE, Obstacle, Row};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -175,11 +175,11 @@ impl<G: Dimension> AllFlips<G> {
     }
 }
 
-/// Flips cells of a stretch.
+/// Flips cells of a range.
 pub struct Flipper<'t, 's, G: Dimension> {
     pub(super) filter: &'t StaticFilter,
     pub(super) sites: Sites<'t, G>,
-    pub(super) cells: &'t mut Stretch<'s, G::Corners>,
+    pub(super) cells: &'t mut CellRange<'s, G::Corners>,
 }
 
 impl<G: Dimension> Flipper<'_, '_, G> {
@@ -339,7 +339,7 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Flips as far as several threads can, each in a stretch of the cells.
+    /// Flips as far as several threads can, each in a range of the cells.
     fn flip_side_by_side(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<()> {
         let AllFlips { own: Flips { suspects, .. }, parts, .. } = flips;
         let step = (suspects.len() / SAMPLE).max(1);
@@ -355,8 +355,8 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(parts, missing)?;
         parts.resize_with(parts.len() + missing, Flips::default);
         for (k, part) in parts.iter_mut().enumerate().take(starts.len()) {
-            let stretch = starts[k]..starts.get(k + 1).copied().unwrap_or(u32::MAX);
-            for &facet in suspects.iter().filter(|facet| stretch.contains(&facet.cell())) {
+            let range = starts[k]..starts.get(k + 1).copied().unwrap_or(u32::MAX);
+            for &facet in suspects.iter().filter(|facet| range.contains(&facet.cell())) {
                 memory::push(&mut part.suspects, facet)?;
             }
         }

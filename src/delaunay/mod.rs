@@ -14,13 +14,13 @@
 //! | `locate` | the walk |
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
 //! | `remove` | removal: fill the star by gift wrapping |
-//! | `hub` | removal of a vertex with very many neighbours |
+//! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
 //! | `flip` | flips, on several threads, and undoing them |
 //! | `undo` | undoing any change |
 //! | `changes` | a record of the cells made or moved |
 //! | `successor` | a kernel to be built beside another one |
-//! | `certify`, `screen`, `failures` | all certificates at once |
+//! | `certify`, `uncertain`, `failures` | all certificates at once |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
 //! | `set` | small sets of indices |
@@ -42,7 +42,7 @@ mod dimension;
 mod failures;
 mod flat;
 mod flip;
-mod hub;
+mod high_degree;
 mod kernel;
 mod locate;
 pub mod order;
@@ -51,12 +51,12 @@ mod parts;
 mod plane;
 mod relocate;
 mod remove;
-mod screen;
 mod set;
 pub mod site;
 mod space;
 mod spheres;
 mod successor;
+mod uncertain;
 mod undo;
 mod unite;
 mod validate;

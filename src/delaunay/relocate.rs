@@ -127,7 +127,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether all certificates of the gathered star hold, without ghosts or doubt; then it is recorded.
     fn star_surely_holds(&mut self) -> bool {
         let mut holds = true;
-        self.screen(self.hole.star.iter().map(|&(c, _)| c), |_| {
+        self.visit_uncertain(self.hole.star.iter().map(|&(c, _)| c), |_| {
             holds = false;
             false
         });

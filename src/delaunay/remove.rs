@@ -7,7 +7,7 @@
 //! is met by the ghost cell of a finite facet.
 //!
 //! Cost: with `k` link sites, about `2k` cells in space and `k` in the plane, each after at most `k` in-sphere
-//! tests. For hubs ([`MAX_LINK`] sites and more) `hub` triangulates the link instead.
+//! tests. For a vertex of high degree ([`MAX_LINK`] sites and more) `high_degree` triangulates the link instead.
 //!
 //! Invariant: the complex is not touched before the whole filling is known.
 
@@ -158,7 +158,7 @@ impl<G: Dimension> Delaunay<G> {
         self.label_link()?;
         if self.hole.sites.len() > MAX_LINK {
             self.restore_link_cells();
-            return self.remove_hub();
+            return self.remove_high_degree();
         }
         if let Err(error) = self.wrap().and_then(|()| self.reserve_filling()) {
             self.restore_link_cells();

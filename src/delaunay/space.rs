@@ -3,8 +3,8 @@
 use super::dimension::Space;
 use super::flip::{Flipper, Flips};
 use super::kernel::Kernel;
-use super::screen::{apexes_beyond, corners_at};
 use super::site::{Site, Sites};
+use super::uncertain::{apexes_beyond, corners_at};
 use super::{Delaunay, cavity_space};
 use crate::complex::{Facet, INFINITE, Obstacle};
 use crate::predicates::{self, StaticFilter};

@@ -14,7 +14,7 @@
 mod comparing;
 mod gluing;
 
-use super::changes::{Tracker, renumber};
+use super::changes::{Taken, Tracker, renumber};
 use super::marks::{Bits, Marks};
 use super::matching::Matcher;
 use super::ordering::Ordering;
@@ -27,29 +27,34 @@ use crate::machine::prefetch::{AHEAD, prefetch};
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;
 
-/// When more than one slot in `MOST` has changed, all are compared.
-pub(super) const MOST: usize = 2;
+/// When more than this share of the slots has changed, all are compared.
+const MAX_SHARE_LISTED: f64 = 0.5;
+
+/// Whether so many changed slots are too many of `n_slots` to be compared one by one.
+pub(super) fn are_most(n_changed: usize, n_slots: usize) -> bool {
+    n_changed as f64 > MAX_SHARE_LISTED * n_slots as f64
+}
 
 /// Memory for this number of changes is always kept.
-const FEW: usize = 64;
+const KEPT_CHANGES: usize = 64;
 
 /// The arrays behind a view.
 #[derive(Debug)]
 pub(super) struct Cells<G: Dimension> {
-    pub(super) corners: Vec<G::Corners>,
-    pub(super) neighbours: Vec<G::Corners>,
+    corners: Vec<G::Corners>,
+    neighbours: Vec<G::Corners>,
     /// By slot of the kernel's complex, the index of its cell in the arrays; [`NO_CELL`] if it has none.
-    pub(super) index_of: Vec<u32>,
+    index_of: Vec<u32>,
     /// The slot of each index.
-    pub(super) slots: Vec<u32>,
+    slots: Vec<u32>,
     /// By index; there may be more than cells.
     orderings: Vec<Ordering>,
     /// A bit for each lost cell that has been found, or whose index has been given to another one. All are 0 between calls.
     is_settled: Bits,
     /// What has changed since the program last took the changes, if it ever did.
-    pub(super) since_taken: Option<Tracker<G::Corners>>,
+    since_taken: Option<Tracker<G::Corners>>,
     /// What has changed since the latest commit began, if that is tracked.
-    pub(super) since_commit: Option<Tracker<G::Corners>>,
+    since_commit: Option<Tracker<G::Corners>>,
     scratch: Scratch<G::Corners>,
 }
 
@@ -129,6 +134,69 @@ fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> bool {
 }
 
 impl<G: Dimension> Cells<G> {
+    /// Vertex ids of each cell.
+    #[inline(always)]
+    pub(super) fn corners(&self) -> &[G::Corners] {
+        &self.corners
+    }
+
+    /// Index of the neighbour opposite each corner of each cell.
+    #[inline(always)]
+    pub(super) fn neighbours(&self) -> &[G::Corners] {
+        &self.neighbours
+    }
+
+    /// By slot of the kernel's complex, the index of its cell; [`NO_CELL`] if it has none.
+    #[inline(always)]
+    pub(super) fn index_of(&self) -> &[u32] {
+        &self.index_of
+    }
+
+    /// Tracks what changes from now on, which is when a commit begins.
+    pub(super) fn track_commit(&mut self) -> Result<()> {
+        if self.since_commit.is_none() {
+            self.since_commit = Some(Tracker::of(self.corners.len())?);
+        }
+        Ok(())
+    }
+
+    /// A commit begins: if its changes are tracked, the cells of now are their base.
+    pub(super) fn begin_commit(&mut self) {
+        if let Some(tracker) = &mut self.since_commit {
+            tracker.reset();
+        }
+    }
+
+    /// Lists, ascending, the cells created since the latest commit began, if that is tracked.
+    pub(super) fn list_created(&self) -> Result<Vec<u32>> {
+        let mut created = Vec::new();
+        if let Some(tracker) = &self.since_commit {
+            tracker.list_created(&self.corners, &mut created)?;
+        }
+        Ok(created)
+    }
+
+    /// Lists what has changed since this was last [ended](Self::end_taking): everything, as created, if it never was.
+    pub(super) fn take(&mut self, taken: &mut Taken<G::Corners>, n_ids: usize) -> Result<()> {
+        let tracker = match &mut self.since_taken {
+            Some(tracker) => tracker,
+            none => none.insert(Tracker::of_none(self.corners.len())?),
+        };
+        taken.list(tracker, &self.corners, n_ids)
+    }
+
+    /// What has been listed has been taken.
+    pub(super) fn end_taking(&mut self) {
+        self.since_taken.as_mut().expect("it has been listed").reset();
+    }
+
+    /// The cells are in other slots, listed by the old ones.
+    pub(super) fn renumber_slots(&mut self, slots: &[u32]) {
+        for slot in &mut self.slots {
+            *slot = slots.get(*slot as usize).copied().unwrap_or(NONE);
+        }
+    }
+
     /// Brings the arrays up to date: only the `dirty` slots have changed, or any, if there is no list of them. After an
     /// error they can be brought up to date later.
     pub(super) fn refresh(&mut self, kernel: &Delaunay<G>, dirty: Option<&Marks>) -> Result<()> {
@@ -171,7 +239,7 @@ impl<G: Dimension> Cells<G> {
             None => self.glue_all(kernel),
         }
         // Memory for many changes is not kept.
-        if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / MOST + FEW {
+        if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / 2 + KEPT_CHANGES {
             *scratch = Scratch::default();
         }
         Ok(())

@@ -5,10 +5,8 @@
 //! cell of the base that is gone its index and corners. So it never holds more than there were cells, however long
 //! nobody asks.
 
-use super::MovingTriangulation;
 use super::marks::Marks;
 use crate::complex::{Corners, NONE};
-use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -242,7 +240,7 @@ fn find<C: Corners>(by_corners: &[(C, u32)], corners: &C) -> Option<u32> {
 }
 
 /// What has changed since the program last took the changes. Indices are those of
-/// [`cells`](MovingTriangulation::cells), at that time or now; vertices are in ascending order.
+/// [`cells`](super::MovingTriangulation::cells), at that time or now; vertices are in ascending order.
 #[derive(Clone, Copy, Debug)]
 pub struct Changes<'t, C> {
     /// Cells that exist now and did not: their indices.
@@ -250,7 +248,7 @@ pub struct Changes<'t, C> {
     /// Cells that existed and do not now: the index that each had.
     pub removed: &'t [u32],
     /// Their corners, in the order in which they were listed when the program last took the changes. A vertex that was
-    /// removed before a [compaction](MovingTriangulation::compact) has no id any more: it is [`NO_VERTEX`].
+    /// removed before a [compaction](super::MovingTriangulation::compact) has no id any more: it is [`NO_VERTEX`].
     pub removed_corners: &'t [C],
     /// Cells that existed and have another index now: the old ones.
     pub renumbered_from: &'t [u32],
@@ -274,8 +272,8 @@ pub(super) struct Taken<C> {
     renumbered_from: Vec<u32>,
     renumbered_to: Vec<u32>,
     stars: Marks,
-    pub(super) hidden: Vec<u32>,
-    pub(super) shown: Vec<u32>,
+    hidden: Vec<u32>,
+    shown: Vec<u32>,
 }
 
 impl<C> Default for Taken<C> {
@@ -313,6 +311,42 @@ impl<C: Corners> Taken<C> {
             &mut self.hidden,
             &mut self.shown,
         ]
+    }
+
+    /// Lists what a tracker knows of the cells, and the vertices of all cells listed; no vertex is hidden or shown yet.
+    pub(super) fn list(&mut self, tracker: &mut Tracker<C>, corners: &[C], n_ids: usize) -> Result<()> {
+        self.clear();
+        self.list_cells(tracker, corners)?;
+        self.list_stars(corners, n_ids)
+    }
+
+    /// Makes room for this number of vertices hidden or shown.
+    pub(super) fn reserve_vertices(&mut self, n: usize) -> Result<()> {
+        memory::reserve(&mut self.hidden, n)?;
+        memory::reserve(&mut self.shown, n)
+    }
+
+    /// Enters a vertex that has been hidden or shown if it is not as before; there is room.
+    pub(super) fn list_vertex(&mut self, vertex: u32, was_hidden: bool, is_hidden: bool) {
+        match (was_hidden, is_hidden) {
+            (false, true) => self.hidden.push(vertex),
+            (true, false) => self.shown.push(vertex),
+            _ => {}
+        }
+    }
+
+    /// The lists.
+    pub(super) fn changes(&self) -> Changes<'_, C> {
+        Changes {
+            created: &self.created,
+            removed: &self.removed,
+            removed_corners: &self.removed_corners,
+            renumbered_from: &self.renumbered_from,
+            renumbered_to: &self.renumbered_to,
+            stars: self.stars.as_slice(),
+            hidden: &self.hidden,
+            shown: &self.shown,
+        }
     }
 
     /// Lists what a tracker knows.
@@ -382,43 +416,6 @@ impl<C: Corners> Taken<C> {
         lists.into_iter().map(|list| list.capacity() * 4).sum::<usize>()
             + self.removed_corners.capacity() * size_of::<C>()
             + self.stars.memory_bytes()
-    }
-}
-
-impl<G: Dimension> MovingTriangulation<G> {
-    /// What has changed since this was last called: everything, as created, at the first call. Commits and immediate
-    /// calls count alike. A program that never calls this pays nothing for it.
-    ///
-    /// The cost is that of what has changed.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
-    pub fn take_changes(&mut self) -> Result<Changes<'_, G::Corners>> {
-        let n_ids = self.site_of.len();
-        let cells = self.views.cells_mut(&self.kernel)?;
-        if cells.since_taken.is_none() {
-            cells.since_taken = Some(Tracker::of_none(cells.corners.len())?);
-        }
-        self.taken.clear();
-        let tracker = cells.since_taken.as_mut().expect("it has just been made");
-        self.taken.list_cells(tracker, &cells.corners)?;
-        self.taken.list_stars(&cells.corners, n_ids)?;
-        self.list_visibilities()?;
-        self.views.visibilities.clear();
-        self.takes_changes = true;
-        let cells = self.views.cells_mut(&self.kernel).expect("they are up to date");
-        cells.since_taken.as_mut().expect("it was there").reset();
-        let taken = &self.taken;
-        Ok(Changes {
-            created: &taken.created,
-            removed: &taken.removed,
-            removed_corners: &taken.removed_corners,
-            renumbered_from: &taken.renumbered_from,
-            renumbered_to: &taken.renumbered_to,
-            stars: taken.stars.as_slice(),
-            hidden: &taken.hidden,
-            shown: &taken.shown,
-        })
     }
 }
 

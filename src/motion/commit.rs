@@ -1,8 +1,10 @@
 //! The commit: one timestamp, all or nothing.
 
+use super::algorithms::for_algorithms;
+use super::regions::Filter;
 use super::staging::Given;
-use super::{CommitReport, MovingTriangulation};
-use crate::delaunay::Dimension;
+use super::{Algorithm, CommitReport, MovingTriangulation};
+use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -22,7 +24,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.prepare_tracking()?;
         let mut report = CommitReport::default();
         let before = self.evaluations();
-        self.staging.applied = 0;
+        self.staging.set_applied(0);
         if self.edits.are_none() {
             self.staging.forget_full_list(self.n_present);
         } else {
@@ -83,3 +85,34 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.options.monitor.as_mut().is_none_or(|monitor| monitor(fraction))
     }
 }
+
+/// Of the table of algorithms, the methods that commit.
+macro_rules! commit_by {
+    (default $default:ident; $(
+        $(#[doc = $line:literal])+
+        $variant:ident = $code:literal {
+            name: $name:literal,
+            purpose: $purpose:ident,
+            commits: $commits:ident,
+            keeps: $keeps:literal,
+            immediate: $immediate:ident$(($filter:ident))?,
+            by: $method:ident($($argument:expr),*),
+        }
+    )+) => {
+        impl<G: Dimension> MovingTriangulation<G> {
+            /// Brings the staged vertices to their new positions.
+            fn commit_by(
+                &mut self,
+                algorithm: Algorithm,
+                given: &mut Given<'_, G>,
+                report: &mut CommitReport,
+            ) -> Result<()> {
+                match algorithm {
+                    $(Algorithm::$variant => self.$method($($argument,)* given, report),)+
+                }
+            }
+        }
+    };
+}
+
+for_algorithms!(commit_by);

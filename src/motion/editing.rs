@@ -12,75 +12,9 @@ use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 
-/// Rebuild when more than one vertex in `EDITED` is inserted or removed: a removal and an insertion cost about as much as
-/// rebuilding this number of vertices.
-const EDITED: usize = 8;
-
-/// What waits.
-#[derive(Debug)]
-pub(super) struct Edits<G: Dimension> {
-    insertions: Vec<(u32, G::Point)>,
-    removals: Vec<u32>,
-    /// By vertex id, whether a removal is staged; ids beyond the end have none.
-    is_leaving: Vec<bool>,
-}
-
-impl<G: Dimension> Default for Edits<G> {
-    fn default() -> Self {
-        Edits { insertions: Vec::new(), removals: Vec::new(), is_leaving: Vec::new() }
-    }
-}
-
-impl<G: Dimension> Edits<G> {
-    /// Whether nothing waits.
-    #[inline(always)]
-    pub(super) fn are_none(&self) -> bool {
-        self.insertions.is_empty() && self.removals.is_empty()
-    }
-
-    /// Whether the removal of a vertex is staged.
-    #[inline(always)]
-    pub(super) fn is_leaving(&self, vertex: u32) -> bool {
-        !self.removals.is_empty() && self.is_leaving.get(vertex as usize).copied().unwrap_or(false)
-    }
-
-    /// Forgets all that waits.
-    fn clear(&mut self) {
-        self.insertions.clear();
-        for &v in &self.removals {
-            self.is_leaving[v as usize] = false;
-        }
-        self.removals.clear();
-    }
-
-    /// Forgets the removal of a vertex.
-    pub(super) fn forget_removal(&mut self, vertex: u32) {
-        if self.is_leaving(vertex) {
-            self.is_leaving[vertex as usize] = false;
-            self.removals.retain(|&v| v != vertex);
-        }
-    }
-
-    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones.
-    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
-        let mut insertions = memory::copy_of(&self.insertions)?;
-        insertions.iter_mut().for_each(|(id, _)| *id = ids[*id as usize]);
-        let mut removals = memory::copy_of(&self.removals)?;
-        removals.iter_mut().for_each(|v| *v = ids[*v as usize]);
-        let mut is_leaving = Vec::new();
-        if !removals.is_empty() {
-            memory::lengthen(&mut is_leaving, n, false)?;
-            removals.iter().for_each(|&v| is_leaving[v as usize] = true);
-        }
-        Ok(Edits { insertions, removals, is_leaving })
-    }
-
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.insertions.capacity() * size_of::<(u32, G::Point)>()
-            + self.removals.capacity() * 4
-            + self.is_leaving.capacity()
-    }
-}
+/// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in so many is inserted or
+/// removed, all are rebuilt.
+const REBUILT_PER_EDIT: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those of the
@@ -96,13 +30,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staging.list()?;
         self.staging.make_room(n)?;
         memory::reserve(&mut self.site_of, n)?;
-        memory::reserve(&mut self.edits.insertions, n)?;
+        self.edits.reserve_insertions(n)?;
         for (index, position) in positions.iter().enumerate() {
             check_position::<G>("positions", index, position)?;
         }
         for (id, position) in (first as u32..).zip(positions) {
             let checked = check_position::<G>("positions", 0, position)?;
-            self.edits.insertions.push((id, checked));
+            self.edits.insert(id, checked);
         }
         self.site_of.resize(first + n, NONE);
         self.staging.grow(self.site_of.len());
@@ -116,41 +50,33 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`]; [`Error::RemovedVertex`] also if the removal is staged already; [`Error::OutOfMemory`].
     pub fn stage_removals(&mut self, vertices: &[u32]) -> Result<()> {
         self.staging.list()?;
-        memory::reserve(&mut self.edits.removals, vertices.len())?;
-        let missing = self.site_of.len().saturating_sub(self.edits.is_leaving.len());
-        memory::reserve(&mut self.edits.is_leaving, missing)?;
-        self.edits.is_leaving.resize(self.edits.is_leaving.len() + missing, false);
-        let before = self.edits.removals.len();
+        self.edits.reserve_removals(vertices.len(), self.site_of.len())?;
+        let before = self.edits.removals().len();
         for (index, &vertex) in vertices.iter().enumerate() {
             if let Err(error) = self.site_of_vertex("vertices", index, vertex) {
-                for v in self.edits.removals.drain(before..) {
-                    self.edits.is_leaving[v as usize] = false;
-                }
+                self.edits.truncate_removals(before);
                 return Err(error);
             }
-            self.edits.is_leaving[vertex as usize] = true;
-            self.edits.removals.push(vertex);
+            self.edits.remove(vertex);
         }
         let edits = &self.edits;
-        self.staging.unstage_all(|v| edits.is_leaving[v as usize]);
+        self.staging.unstage_all(|v| edits.is_leaving(v));
         Ok(())
     }
 
     /// The id of a staged insertion.
     pub(super) fn coming(&self, k: usize) -> u32 {
-        self.edits.insertions[k].0
+        self.edits.insertions()[k].0
     }
 
     /// Number of staged insertions and removals.
     pub fn staged_edits(&self) -> (usize, usize) {
-        (self.edits.insertions.len(), self.edits.removals.len())
+        (self.edits.insertions().len(), self.edits.removals().len())
     }
 
     /// Forgets what waits. Ids that were given last are given back.
     pub(super) fn discard_edits(&mut self) {
-        // A commit that failed has put them in another order.
-        self.edits.insertions.sort_unstable_by_key(|&(id, _)| id);
-        while let Some((id, _)) = self.edits.insertions.pop() {
+        for id in self.edits.forget_insertions() {
             if id as usize + 1 == self.site_of.len() {
                 self.site_of.pop();
             }
@@ -169,8 +95,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.edits.are_none() {
             return Ok(false);
         }
-        let n_edits = self.edits.insertions.len().max(self.edits.removals.len());
-        if self.kernel.has_cells() && EDITED * n_edits <= self.n_present {
+        let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
+        if self.kernel.has_cells() && REBUILT_PER_EDIT * n_edits <= self.n_present {
             if self.edit_cells(report)? {
                 return Ok(false);
             }
@@ -187,13 +113,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn edit_cells(&mut self, report: &mut CommitReport) -> Result<bool> {
         self.order_insertions()?;
         self.with_regions(report, |t, report| {
-            for k in 0..t.edits.removals.len() {
-                t.remove_present(t.edits.removals[k])?;
+            for k in 0..t.edits.removals().len() {
+                t.remove_present(t.edits.removals()[k])?;
                 report.removed += 1;
             }
             let mut near = NONE;
-            for k in 0..t.edits.insertions.len() {
-                let (id, q) = t.edits.insertions[k];
+            for k in 0..t.edits.insertions().len() {
+                let (id, q) = t.edits.insertions()[k];
                 let s = t.kernel.add_site(q, id)?;
                 t.log_vertex(id)?;
                 t.site_of[id as usize] = s;
@@ -226,7 +152,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Puts the insertions along a Hilbert curve, so that each walk begins near its end.
     fn order_insertions(&mut self) -> Result<()> {
-        let insertions = &self.edits.insertions;
+        let insertions = self.edits.insertions();
         let mut keyed = Vec::new();
         memory::reserve_exact(&mut keyed, insertions.len())?;
         keyed.extend((0..insertions.len() as u32).map(Keyed::new));
@@ -234,18 +160,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut ordered = Vec::new();
         memory::reserve_exact(&mut ordered, insertions.len())?;
         ordered.extend(keyed.iter().map(|k| insertions[k.item() as usize]));
-        self.edits.insertions = ordered;
+        self.edits.reorder_insertions(ordered);
         Ok(())
     }
 
     /// Triangulates the vertices that stay, at their new positions, and those that come.
     fn rebuild_edited(&mut self, report: &mut CommitReport) -> Result<()> {
-        let room = self.hidden.count() + self.edits.insertions.len();
+        let room = self.hidden.count() + self.edits.insertions().len();
         let mut next = self.kernel.successor(room, |site| site.point, |_| {})?;
         let ready = self.edit_sites(&mut next, report);
         let (n_in, n_out) = self.staged_edits();
         self.build_and_adopt(next, ready, report)?;
-        for &v in &self.edits.removals {
+        for &v in self.edits.removals() {
             self.site_of[v as usize] = NONE;
         }
         self.n_present = self.n_present + n_in - n_out;
@@ -257,13 +183,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Gives a new kernel the sites of all vertices that are to be there, where they are to be.
     fn edit_sites(&mut self, next: &mut Delaunay<G>, report: &mut CommitReport) -> Result<()> {
         let spread = self.spread_hidden(next)?;
-        for &v in &self.staging.vertices {
+        for &v in self.staging.vertices() {
             report.moved += u64::from(self.move_to_staged(next, v, self.own_site(&spread, v)));
         }
-        for &v in &self.edits.removals {
+        for &v in self.edits.removals() {
             next.discard_site(self.own_site(&spread, v))?;
         }
-        for &(id, q) in &self.edits.insertions {
+        for &(id, q) in self.edits.insertions() {
             next.add_site(q, id)?;
         }
         Ok(())

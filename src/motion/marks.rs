@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::machine::memory;
 
 /// Scanning the bits of this number of numbers takes as long as sorting one.
-const SPARSE: usize = 256;
+const SCANNED_PER_SORTED: usize = 256;
 
 /// Bits by number; those beyond the end are 0.
 #[derive(Debug, Default)]
@@ -99,7 +99,7 @@ impl Marks {
 
     /// Puts a list of all the numbers in ascending order.
     fn put_in_order(&self, list: &mut Vec<u32>) {
-        if SPARSE * list.len() < 64 * self.bits.0.len() {
+        if SCANNED_PER_SORTED * list.len() < 64 * self.bits.0.len() {
             list.sort_unstable();
         } else {
             list.clear();

@@ -8,16 +8,18 @@
 //! |---|---|---|
 //! | `rebuilding` | section 1 | triangulate all positions again |
 //! | `placement` | sections 3.1, 3.2 | relocate the vertices one at a time |
-//! | `tolerance` | section 3.3 | place only vertices that leave their tolerance or safe region |
-//! | `switching` | section 5.2 | rebuild until few do |
+//! | `tolerance` | section 3.3, Algorithm 1 | place only vertices that leave their tolerance |
+//! | `safe_region` | section 3.3, Algorithm 2 | place only vertices that leave their safe region |
+//! | `switching` | section 5.2 | rebuild until few leave their tolerance |
 //! | `repair` | | move all at once, check every certificate, mend what fails |
-//! | `watch` | | as repair, but of what has left its tolerance, or soon will |
+//! | `watching` | | as repair, but of what has left its tolerance, or soon will |
 //! | `slack` | | as repair, but of bi-cells whose own tolerance is used up |
-//! | `auto` | | watching, repair or rebuilding, by what the last commits found |
+//! | `auto` | | watching, slack, repair or rebuilding, by what the last commits found |
 //!
-//! `bicell` and `regions` hold what tolerance and switching need: delimiters and tolerances (sections 2.2 to 2.4);
-//! `moving` has the loops that move all vertices; `transaction` what undoes a change; `cells` and `changes` what
-//! callers read of it; `compaction` forgets removed vertices.
+//! Each of `tolerance`, `safe_region`, `watching` and `slack` has a store and a commit; `regions` keeps one of the stores, and
+//! lets it follow changes. `immediate` relocates, inserts and removes one vertex at a time; `moving` has the loops that move
+//! all vertices; `transaction` what undoes a change; `cells` and `changes` what callers read of it; `compaction` forgets
+//! removed vertices.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
@@ -28,6 +30,7 @@
 //! an id.
 
 mod algorithms;
+mod attempt;
 mod auto;
 mod bicell;
 mod cells;
@@ -36,315 +39,41 @@ mod coincidence;
 mod commit;
 mod compaction;
 mod editing;
+mod edits;
+mod hidden;
+mod immediate;
 mod marks;
 mod matching;
+mod moves;
 mod moving;
 mod options;
 mod ordering;
 mod placement;
 mod query;
+mod reading;
 mod rebuilding;
 mod regions;
 mod repair;
+mod report;
+mod safe_region;
 mod slack;
-mod slacks;
 mod staging;
 mod switching;
 mod tolerance;
 mod transaction;
+mod triangulation;
+mod undoing;
 mod views;
 mod visibility;
-mod watch;
-mod watched;
+mod watching;
 
 pub use crate::delaunay::{Level, Violation};
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use cells::NO_CELL;
 pub use changes::{Changes, NO_VERTEX};
-pub use options::{CoincidencePolicy, CommitReport, Monitor, Options, SwitchingRule};
+pub use options::{CoincidencePolicy, Monitor, Options, SwitchingRule};
 pub use query::Location;
 pub(crate) use query::cells_at;
+pub use report::CommitReport;
+pub use triangulation::{MAX_VERTICES, MovingTriangulation};
 pub use views::CellsView;
-
-use crate::complex::NONE;
-use crate::delaunay::{Delaunay, Dimension, Insertion};
-use crate::error::{Error, Result};
-use crate::machine::memory;
-use crate::machine::threads::Threads;
-use crate::predicates::exact_calls;
-use auto::Auto;
-use changes::Taken;
-use coincidence::Hidden;
-use editing::Edits;
-use regions::Regions;
-use repair::Repair;
-use staging::{Staging, check_position};
-use switching::Switching;
-use transaction::Transaction;
-use views::Views;
-
-/// Greatest number of vertex ids.
-pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
-
-/// Sums of what has been evaluated: certificates, exact signs, and sites of links that were triangulated in removals.
-#[derive(Clone, Copy, Debug)]
-struct Evaluations {
-    certificates: u64,
-    exact: u64,
-    link_sites: u64,
-}
-
-/// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex it is
-/// fitted to the points again, which takes as long as a small part of one commit.
-const MOVED: u64 = 64;
-
-/// A Delaunay triangulation whose vertices move.
-#[derive(Debug)]
-pub struct MovingTriangulation<G: Dimension> {
-    kernel: Delaunay<G>,
-    /// Site of each id; [`NONE`] once removed.
-    site_of: Vec<u32>,
-    hidden: Hidden,
-    n_present: usize,
-    staging: Staging<G>,
-    edits: Edits<G>,
-    regions: Regions<G>,
-    switching: Switching,
-    repair: Repair,
-    auto: Auto,
-    options: Options,
-    statistics: CommitReport,
-    /// Moves and insertions since the kernel's static filter was made as sharp as possible.
-    n_moved: u64,
-    /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
-    sorted_stride: f64,
-    transaction: Transaction<G>,
-    views: Views<G>,
-    /// The changes taken last, and whether any ever were.
-    taken: Taken<G::Corners>,
-    takes_changes: bool,
-}
-
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Triangulates `positions`; vertex `i` is the `i`-th of them.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
-    /// [`Error::OutOfMemory`], [`Error::Cancelled`], [`Error::Coincident`] if the options reject that.
-    pub fn new(positions: &[G::Point], options: Options) -> Result<Self> {
-        if positions.len() > MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
-        }
-        let mut t = MovingTriangulation {
-            kernel: Delaunay::on(Threads::at_most(options.threads))?,
-            site_of: Vec::new(),
-            hidden: Hidden::default(),
-            n_present: positions.len(),
-            staging: Staging::default(),
-            edits: Edits::default(),
-            regions: Regions::default(),
-            switching: Switching::default(),
-            repair: Repair::default(),
-            auto: Auto::default(),
-            options,
-            statistics: CommitReport::default(),
-            n_moved: 0,
-            sorted_stride: 0.0,
-            transaction: Transaction::default(),
-            views: Views::default(),
-            taken: Taken::default(),
-            takes_changes: false,
-        };
-        for (i, p) in positions.iter().enumerate() {
-            check_position::<G>("positions", i, p)?;
-        }
-        t.kernel.add_sites(positions)?;
-        memory::reserve_exact(&mut t.site_of, positions.len())?;
-        t.site_of.resize(positions.len(), NONE);
-        t.build_first()?;
-        t.statistics.coincident = t.hidden.count() as u64;
-        Ok(t)
-    }
-
-    /// Moves one vertex at once, whatever is staged for others.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
-    /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
-    #[inline]
-    pub fn relocate_vertex(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
-        if self.relocate_within_tolerance(vertex, position) {
-            return Ok(());
-        }
-        self.relocate_checked(vertex, position)
-    }
-
-    /// The long way of [`relocate_vertex`](Self::relocate_vertex), kept out of the short one's registers.
-    #[inline(never)]
-    fn relocate_checked(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
-        let s = self.present_site("vertex", 0, vertex)?;
-        let q = check_position::<G>("position", 0, position)?;
-        if self.staging.is_staged(vertex) {
-            return Err(Error::DuplicateMove { argument: "vertex", index: 0, vertex });
-        }
-        let old = self.kernel.site(s).point;
-        if old == q {
-            return Ok(());
-        }
-        let before = self.evaluations();
-        let mut report = CommitReport { moved: 1, ..CommitReport::default() };
-        let relocated = self.transact(|t| {
-            t.reject_occupied(vertex, &q)?;
-            t.relocate_filtered(vertex, &q, &mut report)
-        });
-        if let Err(error) = relocated {
-            // Undoing does not know the place of a vertex that was only moved.
-            self.kernel.set_point(self.site_of[vertex as usize], old);
-            return Err(error);
-        }
-        self.enter_evaluations(&mut report, before);
-        self.count(report);
-        if self.options.algorithm == Algorithm::Auto && self.kernel.has_cells() {
-            self.follow_relocation(&report);
-        }
-        Ok(())
-    }
-
-    /// Inserts a vertex; its id is one above the highest ever given, or left by the latest [`compact`](Self::compact).
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
-    /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
-    pub fn insert_vertex(&mut self, position: &G::Point) -> Result<u32> {
-        let q = check_position::<G>("position", 0, position)?;
-        if self.site_of.len() >= MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: self.site_of.len() + 1, limit: MAX_VERTICES });
-        }
-        let id = self.site_of.len() as u32;
-        self.reject_occupied(id, &q)?;
-        self.staging.list()?;
-        self.staging.make_room(1)?;
-        memory::push(&mut self.site_of, NONE)?;
-        let before = self.evaluations();
-        let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
-        let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
-        if let Err(error) = inserted {
-            self.site_of.pop();
-            return Err(error);
-        }
-        self.n_present += 1;
-        self.staging.grow(self.site_of.len());
-        self.enter_evaluations(&mut report, before);
-        self.count(report);
-        Ok(id)
-    }
-
-    /// Gives the highest of all ids a site, or a place at one.
-    fn insert_at(&mut self, id: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
-        let s = self.kernel.add_site(*q, id)?;
-        self.site_of[id as usize] = s;
-        let inserted = self.with_regions(report, |t, _| {
-            // Undoing does not know of a site that is in without cells, so nothing may fail after that.
-            t.regions.make_room_to_note()?;
-            let inserted = t.kernel.insert_site(s, NONE)?;
-            if let Insertion::Coincident(at) = inserted {
-                // The new id is the highest of all, so it is the one to hide: nothing else changes.
-                t.hide(id, at)?;
-            }
-            t.regions.note_relocated(id)?;
-            Ok(inserted)
-        })?;
-        if inserted == Insertion::Spans { self.rebuild_as_is(report) } else { Ok(()) }
-    }
-
-    /// Removes a vertex and its staged move, if any. Its id is not given again before a [`compact`](Self::compact).
-    ///
-    /// # Errors
-    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
-    pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
-        self.present_site("vertex", 0, vertex)?;
-        self.staging.list()?;
-        let before = self.evaluations();
-        let mut report = CommitReport { removed: 1, ..CommitReport::default() };
-        self.transact(|t| t.with_regions(&mut report, |t, _| t.remove_present(vertex)))?;
-        self.staging.unstage(vertex);
-        self.edits.forget_removal(vertex);
-        self.enter_evaluations(&mut report, before);
-        self.count(report);
-        Ok(())
-    }
-
-    /// The site of a vertex that must be present and not about to be removed.
-    #[inline(always)]
-    fn site_of_vertex(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
-        let s = self.present_site(argument, index, vertex)?;
-        if self.edits.is_leaving(vertex) {
-            return Err(Error::RemovedVertex { argument, index, vertex });
-        }
-        Ok(s)
-    }
-
-    /// The site of a vertex that must be present.
-    fn present_site(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
-        match self.site_of.get(vertex as usize) {
-            None => Err(Error::NoSuchVertex { argument, index, vertex, ids: self.site_of.len() }),
-            Some(&NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
-            Some(&s) => Ok(s),
-        }
-    }
-
-    /// Builds the cells of sites in sorted storage for the first time.
-    fn build_first(&mut self) -> Result<()> {
-        let mut kernel = Delaunay::on(Threads::ONE)?;
-        std::mem::swap(&mut kernel, &mut self.kernel);
-        let stride = kernel.mean_stride();
-        let mut quiet = |_| true;
-        let merges = match &mut self.options.monitor {
-            Some(monitor) => kernel.rebuild(monitor)?,
-            None => kernel.rebuild(&mut quiet)?,
-        };
-        let hidden = self.hide_merged(&kernel, merges)?;
-        self.adopt(kernel, hidden, stride);
-        self.find_sites();
-        Ok(())
-    }
-
-    /// What has been evaluated so far.
-    fn evaluations(&self) -> Evaluations {
-        Evaluations {
-            certificates: self.kernel.certificates(),
-            exact: exact_calls(),
-            link_sites: self.kernel.link_sites(),
-        }
-    }
-
-    /// Enters what was evaluated since then.
-    fn enter_evaluations(&self, report: &mut CommitReport, before: Evaluations) {
-        let now = self.evaluations();
-        report.certificates = now.certificates - before.certificates;
-        report.exact_calls = now.exact - before.exact;
-    }
-
-    /// Adds what was done to the sums.
-    fn count(&mut self, report: CommitReport) {
-        let sum = &mut self.statistics;
-        sum.moved += report.moved;
-        sum.unchanged += report.unchanged;
-        sum.placements += report.placements;
-        sum.flips += report.flips;
-        sum.rebuilds += report.rebuilds;
-        sum.inserted += report.inserted;
-        sum.removed += report.removed;
-        sum.within_tolerance += report.within_tolerance;
-        sum.within_safe_region += report.within_safe_region;
-        sum.tolerances += report.tolerances;
-        sum.certificates += report.certificates;
-        sum.exact_calls += report.exact_calls;
-        sum.coincident = self.hidden.count() as u64;
-        self.n_moved += report.moved + report.inserted;
-        if self.n_moved > MOVED * self.n_present as u64 {
-            self.n_moved = 0;
-            self.regions.tighten_filter(&mut self.kernel);
-        }
-    }
-}

@@ -15,8 +15,8 @@
 use std::ops::ControlFlow;
 
 use super::MovingTriangulation;
-use super::regions::Fixed;
 use super::staging::{Given, first_bad, stage_block};
+use super::tolerance::Fixed;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
 use crate::machine::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
@@ -44,6 +44,16 @@ fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
 /// Vertices that are staged at a time: a few kilobytes, and whole lanes.
 const BLOCK: usize = 16 * LANES;
 
+/// What a motion on record has found.
+pub(super) struct Motion {
+    /// How many positions differ.
+    pub(super) moved: u64,
+    /// The longest way.
+    pub(super) greatest: f64,
+    /// Whether the unit of ways still fits.
+    pub(super) fits: bool,
+}
+
 /// Vertices that go to their new places unless they have to wait.
 struct Movers<'m, G: Dimension> {
     sites: &'m mut [Site<G>],
@@ -58,7 +68,7 @@ impl<G: Dimension> Movers<'_, G> {
     /// nothing, where there is no room in the queue.
     #[cold]
     #[inline(never)]
-    fn go<const MOVES_ALL: bool>(
+    fn queue_or_move<const MOVES_ALL: bool>(
         &mut self,
         first: usize,
         beyond: u32,
@@ -137,8 +147,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                         blocks,
                         #[inline(always)]
                         |fixed, places| {
-                            let tolerances = fixed.each_ref().map(|fixed| fixed.tolerance);
-                            let fixed = fixed.each_ref().map(|fixed| &fixed.point);
+                            let tolerances = fixed.each_ref().map(Fixed::tolerance);
+                            let fixed = fixed.each_ref().map(Fixed::point);
                             are_within(avx2, fixed, &tolerances, places.each_ref())
                         },
                         #[inline(always)]
@@ -168,8 +178,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Option<u64>> {
         let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
-        let mut movers = Movers { sites, queue: &mut self.staging.vertices, most, n_moved: 0 };
-        let positions = &mut self.staging.positions[..n];
+        let (positions, queue) = self.staging.parts_mut();
+        let mut movers = Movers { sites, queue, most, n_moved: 0 };
+        let positions = &mut positions[..n];
         let (fixed, last_fixed) = self.regions.fixed()[..n].as_chunks::<LANES>();
         let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
         let mut ended = None;
@@ -186,7 +197,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let beyond = !hold(fixed, places) & ALL;
                 if beyond == 0 {
                     movers.n_moved += exchange(&mut movers, places, at);
-                } else if let ControlFlow::Break(room) = movers.go::<MOVES_ALL>(k * LANES, beyond, places, at)
+                } else if let ControlFlow::Break(room) =
+                    movers.queue_or_move::<MOVES_ALL>(k * LANES, beyond, places, at)
                 {
                     ended = Some((k * LANES, room));
                     break 'blocks;
@@ -196,7 +208,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let first = sites_of.len() * LANES;
                 let beyond = !bits_of(last_fixed, last_places) & ((1 << last_places.len()) - 1);
                 if let ControlFlow::Break(room) =
-                    movers.go::<MOVES_ALL>(first, beyond, last_places, last_sites_of)
+                    movers.queue_or_move::<MOVES_ALL>(first, beyond, last_places, last_sites_of)
                 {
                     ended = Some((first, room));
                     break;
@@ -205,17 +217,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let n_moved = movers.n_moved;
         let Some((end, room)) = ended else {
-            self.staging.others_applied = true;
+            self.staging.apply_others();
             return Ok(Some(n_moved));
         };
-        let queue = std::mem::take(&mut self.staging.vertices);
+        let queue = std::mem::take(self.staging.vertices_mut());
         let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
         // Those that have not moved are exchanged in vain.
         for v in (0..end as u32).chain(not_moved.iter().copied()) {
             self.exchange_position(v);
         }
-        self.staging.vertices = queue;
-        self.staging.vertices.clear();
+        *self.staging.vertices_mut() = queue;
+        self.staging.vertices_mut().clear();
         room.map(|()| None)
     }
 
@@ -227,22 +239,23 @@ impl<G: Dimension> MovingTriangulation<G> {
         let sites = SharedSites { start: sites.as_mut_ptr(), n: sites.len() };
         // SAFETY: every vertex has a site of its own, and these are borrowed for as long as this takes.
         let moved = unsafe {
-            sites.move_all(&mut self.staging.positions, given.positions(), &self.site_of, n_threads)
+            sites.move_all(self.staging.positions_mut(), given.positions(), &self.site_of, n_threads)
         };
-        self.staging.others_applied = true;
+        self.staging.apply_others();
         self.kernel.cover(&moved.lower, &moved.upper);
         Blocks { given: given.positions(), are_good: moved.are_good }.end(given)?;
         Ok(moved.n)
     }
 
-    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Returns how many positions differ, and
-    /// the longest way. Errors as those of [`move_and_queue`](Self::move_and_queue).
-    pub(super) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<(u64, f64)> {
+    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Slacks must be kept. Errors as those of
+    /// [`move_and_queue`](Self::move_and_queue).
+    pub(super) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<Motion> {
+        let slacks = self.regions.slacks().expect("they have been prepared");
         let mut moved = 0_u64;
         let (mut sum, mut greatest) = (0.0, 0.0);
         let sites = self.kernel.sites_mut();
         let mut blocks = Blocks { given: given.positions(), are_good: true };
-        for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions.chunks_mut(BLOCK)) {
+        for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions_mut().chunks_mut(BLOCK)) {
             blocks.stage(first, positions, &self.site_of[first..], sites);
             let sites_of = &self.site_of[first..];
             for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
@@ -254,20 +267,17 @@ impl<G: Dimension> MovingTriangulation<G> {
                     continue;
                 }
                 let distance = distance_above(point, p);
-                self.regions.slacks.travel(s, distance);
+                slacks.travel(s, distance);
                 sum += distance;
                 greatest = if distance > greatest { distance } else { greatest };
                 moved += 1;
                 std::mem::swap(point, p);
             }
         }
-        self.staging.others_applied = true;
-        self.regions.follow_motion(&mut self.kernel, greatest);
-        if !self.regions.slacks.expect(sum / moved.max(1) as f64) {
-            self.regions.invalidate();
-        }
+        self.staging.apply_others();
+        let fits = slacks.end_motion(&mut self.kernel, sum / moved.max(1) as f64, greatest);
         blocks.end(given)?;
-        Ok((moved, greatest))
+        Ok(Motion { moved, greatest, fits })
     }
 }
 

@@ -42,7 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
         mut relocate: impl FnMut(&mut Self, u32, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
-        let (first, n) = (self.staging.applied, self.staging.vertices.len());
+        let (first, n) = (self.staging.applied(), self.staging.vertices().len());
         for k in first..n {
             if !self.kernel.has_cells() {
                 // Nothing to walk in: what is left is placed at once.
@@ -51,10 +51,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             if (k - first).is_multiple_of(MONITORED) && !self.monitor(k as f64 / n as f64) {
                 return Err(Error::Cancelled);
             }
-            self.staging.applied = k + 1;
-            let v = self.staging.vertices[k];
+            self.staging.set_applied(k + 1);
+            let v = self.staging.vertices()[k];
             let old = self.kernel.site(self.site_of[v as usize]).point;
-            let new = std::mem::replace(&mut self.staging.positions[v as usize], old);
+            let new = std::mem::replace(&mut self.staging.positions_mut()[v as usize], old);
             if new != old {
                 report.moved += 1;
                 match relocate(self, v, &new, report) {
@@ -62,8 +62,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                     Ok(Placed::BesideFlat) => return self.commit_by_rebuilding(k + 1, report),
                     Err(error) => {
                         // It counts as not moved; what has become of its site is in the record.
-                        self.staging.positions[v as usize] = new;
-                        self.staging.applied = k;
+                        self.staging.positions_mut()[v as usize] = new;
+                        self.staging.set_applied(k);
                         return Err(error);
                     }
                 }
@@ -122,7 +122,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// before.
     pub(super) fn order_queue_by_site(&mut self) {
         let (site_of, kernel) = (&self.site_of, &self.kernel);
-        let queue = &mut self.staging.vertices[self.staging.applied..];
+        let applied = self.staging.applied();
+        let queue = &mut self.staging.vertices_mut()[applied..];
         if self.hidden.count() > 0 {
             queue.sort_unstable_by_key(|&v| site_of[v as usize]);
             return;

@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 
 use super::staging::check_position;
-use super::{Algorithm, CommitReport, Level, MovingTriangulation, Violation};
+use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::{INFINITE, NONE};
-use crate::delaunay::{Dimension, IndexSet, Place};
+use crate::delaunay::{Dimension, IndexSet, Level, Place, Violation};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
@@ -88,10 +88,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(crate) fn list_star(&self, vertex: u32, slots: &mut IndexSet) -> Result<(&[u32], usize)> {
         let s = self.present_site("vertex", 0, vertex)?;
         let cells = self.cell_arrays()?;
-        let index_of = &cells.index_of;
+        let index_of = cells.index_of();
         self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot as usize))?;
         // Whoever asks for a star goes on to read the rows of its cells.
-        let asked = cells_at(slots, index_of).inspect(|&index| prefetch(&cells.corners, index as usize));
+        let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index as usize));
         let n = asked.count();
         self.kernel.prefetch_around(s, slots);
         Ok((index_of, n))
@@ -103,7 +103,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
     pub fn locate(&self, position: &G::Point) -> Result<Location> {
         let q = check_position::<G>("position", 0, position)?;
-        let index_of = |c: u32| Ok(self.cell_arrays()?.index_of[c as usize]);
+        let index_of = |c: u32| Ok(self.cell_arrays()?.index_of()[c as usize]);
         Ok(match self.kernel.locate(&q, NONE) {
             Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
             Place::Cell(c) => Location::Cell(index_of(c)?),

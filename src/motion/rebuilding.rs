@@ -8,7 +8,7 @@
 
 use std::cell::Cell;
 
-use super::coincidence::Hidden;
+use super::hidden::Hidden;
 use super::moving::differ;
 use super::staging::Given;
 use super::{CoincidencePolicy, CommitReport, MovingTriangulation};
@@ -21,7 +21,7 @@ use crate::machine::prefetch::prefetch;
 /// Sites are sorted when the mean distance of those next to each other has become so much greater. Measured with
 /// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): with less, it sorts without need; with more
 /// the walks take longer than to sort.
-const STRAYED: f64 = 1.7;
+const MAX_STRIDE_RATIO: f64 = 1.7;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates all vertices at their new positions, where none has moved yet.
@@ -39,7 +39,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.staging.is_whole() {
             return self.commit_by_rebuilding(0, report);
         }
-        let (positions, moved) = (&self.staging.positions, Cell::new(0));
+        let (positions, moved) = (self.staging.positions(), Cell::new(0));
         let place = |site: &Site<G>| {
             let p = positions[site.id as usize];
             moved.set(moved.get() + u64::from(differ::<G>(&site.point, &p)));
@@ -60,7 +60,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn commit_by_rebuilding(&mut self, first: usize, report: &mut CommitReport) -> Result<()> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(|spread| {
-            for &v in &self.staging.vertices[first..] {
+            for &v in &self.staging.vertices()[first..] {
                 let s = self.own_site(&spread, v);
                 report.moved += u64::from(self.move_to_staged(&mut next, v, s));
             }
@@ -72,7 +72,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn rebuild_as_is(&mut self, report: &mut CommitReport) -> Result<()> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(drop);
-        self.build_and_adopt_quietly(next, spread, report)
+        self.build_and_adopt_unmonitored(next, spread, report)
     }
 
     /// Triangulates all vertices, one of them at another place; not to be cancelled.
@@ -86,11 +86,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         let spread = self.spread_hidden(&mut next).map(|spread| {
             next.set_point(self.own_site(&spread, vertex), *q);
         });
-        self.build_and_adopt_quietly(next, spread, report)
+        self.build_and_adopt_unmonitored(next, spread, report)
     }
 
     /// As [`build_and_adopt`](Self::build_and_adopt), for immediate calls.
-    fn build_and_adopt_quietly(
+    fn build_and_adopt_unmonitored(
         &mut self,
         next: Delaunay<G>,
         is_ready: Result<()>,
@@ -104,7 +104,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Puts the site of a vertex in a new kernel where it is staged; whether it was elsewhere.
     pub(super) fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: u32, s: u32) -> bool {
-        let p = self.staging.positions[vertex as usize];
+        let p = self.staging.positions()[vertex as usize];
         let differ = differ::<G>(&next.site(s).point, &p);
         next.set_point(s, p);
         differ
@@ -160,15 +160,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// sites have their indices from before.
     fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64, bool)> {
         let (mut stride, mut keeps_sites) = (self.sorted_stride, next.keeps_sites());
-        if next.mean_stride() > STRAYED * stride || !next.has_even_parts() {
+        if next.mean_stride() > MAX_STRIDE_RATIO * stride || !next.has_even_parts() {
             next.sort_sites()?;
             (stride, keeps_sites) = (next.mean_stride(), false);
         }
         next.restore_parts();
-        let mut quiet = |_| true;
+        let mut unmonitored = |_| true;
         let merges = match &mut self.options.monitor {
             Some(monitor) => next.rebuild(monitor)?,
-            None => next.rebuild(&mut quiet)?,
+            None => next.rebuild(&mut unmonitored)?,
         };
         let hidden = self.hide_merged(next, merges)?;
         if self.takes_changes {
@@ -238,7 +238,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.
     pub(super) fn exchange_position(&mut self, vertex: u32) -> bool {
         let s = self.site_of[vertex as usize];
-        let staged = &mut self.staging.positions[vertex as usize];
+        let staged = &mut self.staging.positions_mut()[vertex as usize];
         let old = self.kernel.site(s).point;
         let new = std::mem::replace(staged, old);
         self.kernel.set_point(s, new);

@@ -1,6 +1,5 @@
 //! Positions that wait for the next commit.
 
-use super::MovingTriangulation;
 use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
@@ -14,20 +13,20 @@ use crate::predicates::{Array, is_in_range};
 /// asks for them.
 #[derive(Debug)]
 pub(super) struct Staging<G: Dimension> {
-    pub(super) positions: Vec<G::Point>,
+    positions: Vec<G::Point>,
     /// By vertex id; all false while whole.
     is_staged: Vec<bool>,
     /// Staged vertices in the order of the calls. While whole: those that a commit has queued.
-    pub(super) vertices: Vec<u32>,
+    vertices: Vec<u32>,
     /// How many of the listed vertices are at their new positions, while a commit is under way.
-    pub(super) applied: usize,
+    applied: usize,
     is_whole: bool,
     /// Whether, while whole, the vertices that are not listed are at their new positions.
-    pub(super) others_applied: bool,
+    others_applied: bool,
 }
 
 /// Positions of all vertices as the caller of a commit has given them, until they are staged: all at once
-/// ([`MovingTriangulation::stage_given`]), or block by block as the vertices move ([`moving`](super::moving)).
+/// ([`stage_given`](super::MovingTriangulation::stage_given)), or block by block as the vertices move ([`moving`](super::moving)).
 #[derive(Debug)]
 pub(super) struct Given<'p, G: Dimension>(Option<&'p [G::Point]>);
 
@@ -83,6 +82,57 @@ impl<G: Dimension> Default for Staging<G> {
 }
 
 impl<G: Dimension> Staging<G> {
+    /// By vertex id: where the vertex is to go, or, once its move is applied, where it was.
+    #[inline(always)]
+    pub(super) fn positions(&self) -> &[G::Point] {
+        &self.positions
+    }
+
+    #[inline(always)]
+    pub(super) fn positions_mut(&mut self) -> &mut [G::Point] {
+        &mut self.positions
+    }
+
+    /// The listed vertices. The first of them, as many as are [applied](Self::applied), are at their new positions.
+    #[inline(always)]
+    pub(super) fn vertices(&self) -> &[u32] {
+        &self.vertices
+    }
+
+    /// The list itself, for those who queue vertices.
+    #[inline(always)]
+    pub(super) fn vertices_mut(&mut self) -> &mut Vec<u32> {
+        &mut self.vertices
+    }
+
+    /// [Positions](Self::positions) and [list](Self::vertices).
+    #[inline(always)]
+    pub(super) fn parts_mut(&mut self) -> (&mut [G::Point], &mut Vec<u32>) {
+        (&mut self.positions, &mut self.vertices)
+    }
+
+    /// How many of the listed vertices are at their new positions.
+    #[inline(always)]
+    pub(super) fn applied(&self) -> usize {
+        self.applied
+    }
+
+    #[inline(always)]
+    pub(super) fn set_applied(&mut self, n: usize) {
+        self.applied = n;
+    }
+
+    /// Whether, while whole, the vertices that are not listed are at their new positions.
+    #[inline(always)]
+    pub(super) fn others_applied(&self) -> bool {
+        self.others_applied
+    }
+
+    /// All vertices of a whole staging are at their new positions, but for those listed.
+    pub(super) fn apply_others(&mut self) {
+        self.others_applied = true;
+    }
+
     pub(super) fn is_staged(&self, vertex: u32) -> bool {
         self.is_whole || self.is_staged.get(vertex as usize).copied().unwrap_or(false)
     }
@@ -170,7 +220,7 @@ impl<G: Dimension> Staging<G> {
     }
 
     /// Makes room for `more` moves of `n_ids` vertices.
-    fn reserve(&mut self, n_ids: usize, more: usize) -> Result<()> {
+    pub(super) fn reserve(&mut self, n_ids: usize, more: usize) -> Result<()> {
         let bytes = n_ids * (size_of::<G::Point>() + 1) + more * size_of::<u32>();
         let missing = n_ids - self.positions.len();
         let reserved = self.positions.try_reserve_exact(missing).is_ok()
@@ -184,21 +234,26 @@ impl<G: Dimension> Staging<G> {
         Ok(())
     }
 
-    fn stage(&mut self, vertex: u32, position: G::Point) {
+    pub(super) fn stage(&mut self, vertex: u32, position: G::Point) {
         self.positions[vertex as usize] = position;
         self.is_staged[vertex as usize] = true;
         self.vertices.push(vertex);
     }
 
     /// Stages all vertices, of which none is, at once; `false`, and nothing staged, if a position is bad.
-    fn stage_all(&mut self, positions: &[G::Point]) -> bool {
+    pub(super) fn stage_all(&mut self, positions: &[G::Point]) -> bool {
         debug_assert!(self.count() == 0 && self.positions.len() == positions.len());
         self.is_whole = stage_block::<G>(&mut self.positions, positions);
         self.is_whole
     }
 
+    /// All vertices are staged, of which none is, though their positions are not yet.
+    pub(super) fn expect_whole(&mut self) {
+        self.is_whole = true;
+    }
+
     /// Takes back all but the first `kept` moves.
-    fn truncate(&mut self, kept: usize) {
+    pub(super) fn truncate(&mut self, kept: usize) {
         if kept == 0 && self.vertices.len() > self.is_staged.len() / 8 {
             self.is_staged.fill(false);
         } else {
@@ -290,136 +345,4 @@ pub(super) fn check_position<G: Dimension>(
         });
     }
     Ok(checked)
-}
-
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
-    ///
-    /// # Errors
-    /// [`Error::WrongCount`] if the lengths differ; [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
-    /// [`Error::DuplicateMove`] if a move of the vertex is staged already, [`Error::NotFinite`],
-    /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
-    pub fn move_vertices(&mut self, vertices: &[u32], positions: &[G::Point]) -> Result<()> {
-        if vertices.len() != positions.len() {
-            return Err(Error::WrongCount {
-                argument: "count",
-                given: positions.len(),
-                wanted: vertices.len(),
-            });
-        }
-        self.staging.reserve(self.site_of.len(), vertices.len())?;
-        let before = self.staging.vertices.len();
-        for (index, (&vertex, position)) in vertices.iter().zip(positions).enumerate() {
-            if let Err(error) = self.stage("vertices", index, vertex, position) {
-                self.staging.truncate(before);
-                return Err(error);
-            }
-        }
-        Ok(())
-    }
-
-    /// Stages a move of every vertex: as [`move_first`](Self::move_first) with one position for each id ever given.
-    ///
-    /// # Errors
-    /// [`Error::WrongCount`] if `positions` has another length; otherwise as [`move_first`](Self::move_first).
-    pub fn move_all(&mut self, positions: &[G::Point]) -> Result<()> {
-        if positions.len() != self.site_of.len() {
-            return Err(Error::WrongCount {
-                argument: "count",
-                given: positions.len(),
-                wanted: self.site_of.len(),
-            });
-        }
-        self.move_first(positions)
-    }
-
-    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. Entries of
-    /// removed vertices are not read.
-    ///
-    /// # Errors
-    /// [`Error::WrongCount`] if there are more `positions` than ids; otherwise as
-    /// [`move_vertices`](Self::move_vertices).
-    pub fn move_first(&mut self, positions: &[G::Point]) -> Result<()> {
-        if positions.len() > self.site_of.len() {
-            return Err(Error::WrongCount {
-                argument: "count",
-                given: positions.len(),
-                wanted: self.site_of.len(),
-            });
-        }
-        let n_ids = self.site_of.len();
-        if self.can_stage_whole(positions.len()) {
-            self.staging.reserve(n_ids, 0)?;
-            if self.staging.stage_all(positions) {
-                return Ok(());
-            }
-        }
-        self.staging.reserve(n_ids, positions.len())?;
-        let before = self.staging.vertices.len();
-        for (index, position) in positions.iter().enumerate() {
-            if self.site_of[index] == NONE || self.edits.is_leaving(index as u32) {
-                continue;
-            }
-            if let Err(error) = self.stage("vertices", index, index as u32, position) {
-                self.staging.truncate(before);
-                return Err(error);
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether moves of the first `n` vertices can be staged whole.
-    fn can_stage_whole(&self, n: usize) -> bool {
-        let n_ids = self.site_of.len();
-        self.staging.count() == 0 && n == n_ids && self.n_present == n_ids && self.edits.are_none()
-    }
-
-    /// Says that all vertices are staged, though their positions are not yet, if these can be staged whole.
-    pub(super) fn expect_whole(&mut self, n: usize) -> Result<bool> {
-        if n == 0 || !self.can_stage_whole(n) {
-            return Ok(false);
-        }
-        self.staging.reserve(n, 0)?;
-        self.staging.is_whole = true;
-        Ok(true)
-    }
-
-    /// Stages positions that are not staged yet.
-    pub(super) fn stage_given(&mut self, given: &mut Given<'_, G>) -> Result<()> {
-        match given.take() {
-            Some(positions) if !stage_block::<G>(&mut self.staging.positions, positions) => {
-                Err(first_bad::<G>(positions))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    #[inline(always)]
-    fn stage(
-        &mut self,
-        argument: &'static str,
-        index: usize,
-        vertex: u32,
-        position: &G::Point,
-    ) -> Result<()> {
-        self.site_of_vertex(argument, index, vertex)?;
-        if self.staging.is_staged(vertex) {
-            return Err(Error::DuplicateMove { argument, index, vertex });
-        }
-        let position = check_position::<G>("positions", index, position)?;
-        self.staging.stage(vertex, position);
-        Ok(())
-    }
-
-    /// Forgets the staged moves, insertions and removals; returns how many moves there were.
-    pub fn discard_moves(&mut self) -> usize {
-        let n = self.staging.clear();
-        self.discard_edits();
-        n
-    }
-
-    /// Number of staged moves.
-    pub fn staged_count(&self) -> usize {
-        self.staging.count()
-    }
 }

@@ -8,14 +8,11 @@
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::MovingTriangulation;
-use super::cells::{Cells, MOST};
-use super::changes::Tracker;
+use super::cells::{Cells, are_most};
 use super::marks::Marks;
-use super::visibility::Visibility;
-use crate::complex::NONE;
+use super::visibility::Visibilities;
 use crate::delaunay::{Delaunay, Dimension};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::machine::memory;
 
 /// The finite cells, by vertex id. Valid until the triangulation changes.
@@ -48,7 +45,7 @@ pub(super) struct Views<G: Dimension> {
     current: OnceLock<Box<Cells<G>>>,
     behind: Mutex<Behind<G>>,
     changed: OnceLock<Vec<u32>>,
-    pub(super) visibilities: Vec<Visibility>,
+    visibilities: Visibilities,
 }
 
 impl<G: Dimension> Default for Views<G> {
@@ -57,7 +54,7 @@ impl<G: Dimension> Default for Views<G> {
             current: OnceLock::new(),
             behind: Mutex::default(),
             changed: OnceLock::new(),
-            visibilities: Vec::new(),
+            visibilities: Visibilities::default(),
         }
     }
 }
@@ -119,7 +116,7 @@ impl<G: Dimension> Views<G> {
             return Ok(());
         }
         // When most have changed, that follows, and needs no list.
-        if MOST * (behind.dirty.as_slice().len() + n_rows) > n_slots {
+        if are_most(behind.dirty.as_slice().len() + n_rows, n_slots) {
             return Ok(());
         }
         behind.dirty.reserve(n_rows, n_slots)
@@ -148,7 +145,7 @@ impl<G: Dimension> Views<G> {
         if behind.are_all {
             return;
         }
-        if MOST * (behind.dirty.as_slice().len() + rows.len()) > n_slots {
+        if are_most(behind.dirty.as_slice().len() + rows.len(), n_slots) {
             behind.dirty.clear();
             behind.are_all = true;
             return;
@@ -184,9 +181,7 @@ impl<G: Dimension> Views<G> {
         behind.dirty.clear();
         behind.are_all = true;
         if let Some(cells) = &mut behind.cells {
-            for slot in &mut cells.slots {
-                *slot = index.get(*slot as usize).copied().unwrap_or(NONE);
-            }
+            cells.renumber_slots(index);
         }
     }
 
@@ -199,7 +194,7 @@ impl<G: Dimension> Views<G> {
         slots: &[u32],
         n_slots: usize,
     ) -> Result<Self> {
-        let visibilities = Visibility::renumbered(&self.visibilities, ids)?;
+        let visibilities = self.visibilities.renumbered(ids)?;
         let mut views = Views { visibilities, ..Views::default() };
         if self.exist() {
             // What is not up to date has rows of vertices without an id.
@@ -217,9 +212,32 @@ impl<G: Dimension> Views<G> {
             Some(cells) => Some(cells),
             None => self.behind.get_mut().unwrap_or_else(PoisonError::into_inner).cells.as_mut(),
         };
-        if let Some(tracker) = cells.and_then(|cells| cells.since_commit.as_mut()) {
-            tracker.reset();
+        if let Some(cells) = cells {
+            cells.begin_commit();
         }
+    }
+
+    /// Vertices hidden or shown since the program last took the changes.
+    pub(super) fn visibilities(&mut self) -> &mut Visibilities {
+        &mut self.visibilities
+    }
+
+    /// The indices of the cells created since the latest commit began, as `list` lists them if they are not listed yet.
+    pub(super) fn changed(
+        &self,
+        kernel: &Delaunay<G>,
+        list: impl FnOnce(&Cells<G>) -> Result<Vec<u32>>,
+    ) -> Result<&[u32]> {
+        if let Some(changed) = self.changed.get() {
+            return Ok(changed);
+        }
+        let cells = self.cells(kernel)?;
+        let _alone = self.lock();
+        if let Some(changed) = self.changed.get() {
+            return Ok(changed);
+        }
+        let changed = list(cells)?;
+        Ok(self.changed.get_or_init(|| changed))
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
@@ -228,68 +246,6 @@ impl<G: Dimension> Views<G> {
         behind.dirty.memory_bytes()
             + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
             + self.changed.get().map_or(0, |changed| changed.capacity() * 4)
-            + self.visibilities.capacity() * size_of::<Visibility>()
-    }
-}
-
-impl<G: Dimension> MovingTriangulation<G> {
-    /// The finite cells and their neighbours.
-    ///
-    /// The first call after a change costs what that has changed, others constant time.
-    ///
-    /// # Errors
-    /// [`Error::OutOfMemory`].
-    pub fn cells(&self) -> Result<CellsView<'_, G>> {
-        let cells = self.cell_arrays()?;
-        Ok(CellsView { corners: &cells.corners, neighbours: &cells.neighbours })
-    }
-
-    pub(super) fn cell_arrays(&self) -> Result<&Cells<G>> {
-        self.views.cells(&self.kernel)
-    }
-
-    /// Indices, ascending, of the finite cells that did not exist when the latest commit began: of none before the
-    /// first one. Immediate relocations, insertions and removals since then count.
-    ///
-    /// # Errors
-    /// [`Error::ChangesNotTracked`] unless the options ask for it, [`Error::OutOfMemory`].
-    pub fn changed_cells(&self) -> Result<&[u32]> {
-        if !self.options.track_changes {
-            return Err(Error::ChangesNotTracked);
-        }
-        if let Some(changed) = self.views.changed.get() {
-            return Ok(changed);
-        }
-        let cells = self.cell_arrays()?;
-        let _alone = self.views.lock();
-        if let Some(changed) = self.views.changed.get() {
-            return Ok(changed);
-        }
-        let mut changed = Vec::new();
-        // A tracker may be there from a first commit that failed.
-        if let Some(tracker) = cells.since_commit.as_ref().filter(|_| self.timestamp() > 0) {
-            tracker.list_created(&cells.corners, &mut changed)?;
-        }
-        Ok(self.views.changed.get_or_init(|| changed))
-    }
-
-    /// Gets ready to track what a commit changes, if the options ask for it.
-    pub(super) fn prepare_tracking(&mut self) -> Result<()> {
-        if !self.options.track_changes {
-            return Ok(());
-        }
-        let cells = self.views.cells_mut(&self.kernel)?;
-        if cells.since_commit.is_none() {
-            cells.since_commit = Some(Tracker::of(cells.corners.len())?);
-        }
-        Ok(())
-    }
-
-    /// Puts the cells in the order of the sites, and the arrays follow.
-    pub(super) fn sort_cells(&mut self) -> Result<()> {
-        if let Some(index) = self.kernel.sort_cells()? {
-            self.views.renumber_slots(&index);
-        }
-        Ok(())
+            + self.visibilities.memory_bytes()
     }
 }

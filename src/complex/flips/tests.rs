@@ -184,21 +184,21 @@ fn flips_need_all_their_cells() {
     for start in 1..n - 3 {
         let mut tried = [None; 2];
         complex
-            .divided(&[0, start], &mut tried, |_, stretch, tried| {
-                *tried = stretch.flip_2_3(facet).err();
+            .divided(&[0, start], &mut tried, |_, range, tried| {
+                *tried = range.flip_2_3(facet).err();
             })
             .unwrap();
         assert_eq!(tried, [Some(Obstacle::Elsewhere); 2]);
         assert_eq!(cells(&complex), before);
         assert_eq!(complex.free_cells().len(), 3);
     }
-    // The first stretch has all cells, and of the free ones one or none.
+    // The first range has all cells, and of the free ones one or none.
     for (start, expected) in [(n - 3, Some(Obstacle::Full)), (n - 2, None)] {
         let mut tried = [None; 2];
         complex
-            .divided(&[0, start], &mut tried, |k, stretch, tried| {
-                assert_eq!(stretch.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
-                *tried = stretch.flip_2_3(facet).err();
+            .divided(&[0, start], &mut tried, |k, range, tried| {
+                assert_eq!(range.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
+                *tried = range.flip_2_3(facet).err();
             })
             .unwrap();
         assert_eq!(tried[0], expected);

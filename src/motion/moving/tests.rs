@@ -5,7 +5,7 @@ use crate::delaunay::{Plane, Space};
 use crate::error::Error;
 use crate::motion::Options;
 use crate::motion::regions::Filter;
-use crate::motion::{Algorithm, CommitReport, Level};
+use crate::motion::{Algorithm, Level};
 use crate::random::Rng;
 
 /// Small whole numbers, and the same ones again.
@@ -28,10 +28,8 @@ fn staged<G: Dimension>(
     rng: &mut Rng,
 ) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<u32>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
-    let elsewhere = t.staging.positions.clone();
-    t.regions
-        .compute(&mut t.kernel, n, Filter::Tolerance, &elsewhere, &mut CommitReport::default())
-        .expect("room");
+    let other_positions = t.staging.positions().to_vec();
+    t.regions.prepare(Filter::Tolerance, &mut t.kernel, n, &other_positions).expect("room");
     let mut places = positions(&t);
     let far = points::<G>(n, rng);
     for (p, far) in places.iter_mut().zip(far) {
@@ -73,16 +71,20 @@ fn agree<G: Dimension>() {
             assert_eq!(t.move_and_queue::<false>(most, given).expect("room"), None, "{n} vertices");
             assert_eq!(t.move_and_queue::<true>(most, given).expect("room"), None, "{n} vertices");
             t.stage_given(given).expect("good places");
-            assert!(t.staging.vertices.is_empty() && !t.staging.others_applied);
-            assert_eq!([&positions(&t), &t.staging.positions], [&before, &places], "{n} vertices");
+            assert!(t.staging.vertices().is_empty() && !t.staging.others_applied());
+            assert_eq!(
+                [&positions(&t)[..], t.staging.positions()],
+                [&before[..], &places[..]],
+                "{n} vertices"
+            );
         }
 
         let moved = t.move_and_queue::<false>(beyond.len(), &mut given_unless(at_once, &places));
         assert_eq!(moved.expect("room"), Some(n_of(false) as u64));
-        assert_eq!(t.staging.vertices, beyond, "{n} vertices");
+        assert_eq!(t.staging.vertices(), beyond, "{n} vertices");
         for v in 0..n {
             let expected = if is_beyond(v) { [before[v], places[v]] } else { [places[v], before[v]] };
-            assert_eq!([positions(&t)[v], t.staging.positions[v]], expected, "vertex {v} of {n}");
+            assert_eq!([positions(&t)[v], t.staging.positions()[v]], expected, "vertex {v} of {n}");
         }
 
         for moved_by in 0..3 {
@@ -92,17 +94,20 @@ fn agree<G: Dimension>() {
             let n_moved = (0..n).filter(|&v| before[v] != places[v]).count() as u64;
             if moved_by == 0 {
                 assert_eq!(t.move_and_queue::<true>(n, given).expect("room"), Some(n_moved));
-                assert_eq!(t.staging.vertices, beyond, "{n} vertices");
+                assert_eq!(t.staging.vertices(), beyond, "{n} vertices");
             } else if moved_by == 1 {
                 assert_eq!(t.move_all_staged(given).expect("good places"), n_moved);
             } else {
-                let elsewhere = vec![G::Point::default(); n];
-                let report = &mut CommitReport::default();
-                let computed = t.regions.compute(&mut t.kernel, n, Filter::Slack, &elsewhere, report);
+                let other_positions = vec![G::Point::default(); n];
+                let computed = t.regions.prepare(Filter::Slack, &mut t.kernel, n, &other_positions);
                 computed.expect("room");
-                assert_eq!(t.move_all_on_record(given).expect("good places").0, n_moved);
+                assert_eq!(t.move_all_on_record(given).expect("good places").moved, n_moved);
             }
-            assert_eq!([&positions(&t), &t.staging.positions], [&places, &before], "{n} vertices");
+            assert_eq!(
+                [&positions(&t)[..], t.staging.positions()],
+                [&places[..], &before[..]],
+                "{n} vertices"
+            );
         }
     }
     assert!(n_beyond > 200 && n_moved > 400, "{n_beyond} beyond, {n_moved} moved");
@@ -128,7 +133,7 @@ fn threads_share_the_moves() {
         let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
         t.move_all(&second).expect("good places");
         assert_eq!(t.move_all_staged(&mut Given::nothing()).expect("good places"), 2_000);
-        assert_eq!([&positions(&t), &t.staging.positions], [&second, &first]);
+        assert_eq!([&positions(&t)[..], t.staging.positions()], [&second[..], &first[..]]);
     }
 }
 

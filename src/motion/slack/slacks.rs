@@ -18,16 +18,16 @@
 //! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these. Memory:
 //! as many bytes for a cell, and 2 for a site.
 
-mod entries;
-
-use self::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
-use super::bicell::BiCell;
+use super::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
+use super::pass::{Check, Pass};
 use crate::complex::{Complex, Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
-use crate::predicates::{LANES, Tolerances, distance_above};
+use crate::motion::bicell::{BiCell, for_bicells};
+use crate::motion::regions::{Margin, Store};
+use crate::predicates::distance_above;
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;
@@ -42,16 +42,22 @@ const UNFIT: u32 = 32;
 const ENOUGH: f64 = 64.0;
 /// How many cells or bi-cells in advance to ask for.
 const AHEAD: usize = 8;
-/// Bi-cells whose tolerances are to be computed together.
-#[derive(Debug, Default)]
-struct Batch<G: Dimension> {
-    bicells: <G::Point as Tolerances>::BiCells,
-    facets: [[u32; 2]; LANES],
-    n: usize,
+
+/// What has become of the bi-cells that have no slack left.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Expired {
+    /// They are checked, as many as so; those that hold have slack again.
+    Checked(u64),
+    /// They are in too many cells, and none is checked.
+    TooMany,
 }
 
 #[derive(Debug)]
-pub(super) struct Slacks<G: Dimension> {
+pub(in crate::motion) struct Slacks<G: Dimension> {
+    margin: Margin,
+    /// How far every vertex may still go until the kernel's static filter must cover more.
+    room: f64,
     /// Units in a length of 1: a power of two.
     per_length: f64,
     /// For how many timestamps the unit has not fitted.
@@ -69,12 +75,13 @@ pub(super) struct Slacks<G: Dimension> {
     /// Cells that are *open*: referred to the present, with odometers in place of deadlines. A bit for each.
     open: Vec<u32>,
     is_open: Vec<u64>,
-    batch: Batch<G>,
 }
 
 impl<G: Dimension> Default for Slacks<G> {
     fn default() -> Self {
         Slacks {
+            margin: Margin::default(),
+            room: 0.0,
             per_length: 0.0,
             unfit: 0,
             enough: 0.0,
@@ -84,47 +91,13 @@ impl<G: Dimension> Default for Slacks<G> {
             facets: Vec::new(),
             open: Vec::new(),
             is_open: Vec::new(),
-            batch: Batch::default(),
-        }
-    }
-}
-
-/// Whether bi-cells that are computed are checked before.
-enum Check<'c, G: Dimension> {
-    /// They are known to hold.
-    Not,
-    /// After a motion from where the vertices were before, by id, none of which has gone farther than so. Last, why they
-    /// could not be.
-    Moved(&'c [G::Point], f64, &'c mut Failures, &'c mut Result<()>),
-}
-
-impl<G: Dimension> Check<'_, G> {
-    #[cold]
-    #[inline(never)]
-    fn holds(&mut self, kernel: &Delaunay<G>, facet: Facet) -> bool {
-        match self {
-            Check::Not => true,
-            Check::Moved(before, _, failures, checked) => {
-                let holds = kernel.check_bicell(facet, before, failures);
-                holds.unwrap_or_else(|error| {
-                    **checked = Err(error);
-                    false
-                })
-            }
         }
     }
 }
 
 impl<G: Dimension> Slacks<G> {
-    /// Forgets everything; keeps the memory.
-    pub(super) fn clear(&mut self) {
-        self.travelled.clear();
-        self.entries.clear();
-        self.is_open.clear();
-    }
-
     /// Follows the number of sites and cells.
-    pub(super) fn grow(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+    fn grow(&mut self, kernel: &Delaunay<G>) -> Result<()> {
         let more_sites = kernel.sites().len().saturating_sub(self.travelled.len());
         let more_cells = kernel.complex().n_slots().saturating_sub(self.entries.len());
         memory::reserve(&mut self.travelled, more_sites)?;
@@ -137,33 +110,22 @@ impl<G: Dimension> Slacks<G> {
         Ok(())
     }
 
-    /// Computes the bi-cells of all facets; returns how many. The vertices were `elsewhere`, by id, a timestamp ago, or
-    /// will be at the next.
-    pub(super) fn compute(&mut self, kernel: &Delaunay<G>, elsewhere: &[G::Point]) -> Result<u64> {
-        self.clear();
-        self.grow(kernel)?;
-        self.choose_unit(kernel, elsewhere);
+    /// Computes the bi-cells of all facets; returns how many.
+    fn compute_all(&mut self, kernel: &Delaunay<G>) -> u64 {
         let complex = kernel.complex();
-        let mut n = 0;
         self.is_open.fill(u64::MAX);
-        for c in complex.live() {
-            for i in 0..G::Corners::N {
-                if c < complex.cell(c).neighbour(i).cell() {
-                    self.push(kernel, Facet::new(c, i), &mut Check::Not);
-                    n += 1;
-                }
-            }
-        }
-        self.enter_batch(kernel, &mut Check::Not);
+        let mut pass = Pass::new(Check::Not);
+        let n = for_bicells(kernel, |facet| self.push(kernel, facet, &mut pass));
+        self.enter_batch(kernel, &mut pass);
         self.is_open.fill(0);
         complex.live().for_each(|c| self.set_deadlines(complex, c));
-        Ok(n)
+        n
     }
 
-    fn choose_unit(&mut self, kernel: &Delaunay<G>, elsewhere: &[G::Point]) {
+    fn choose_unit(&mut self, kernel: &Delaunay<G>, other_positions: &[G::Point]) {
         let (mut sum, mut n) = (0.0, 0.0);
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
-            let there = elsewhere.get(site.id as usize);
+            let there = other_positions.get(site.id as usize);
             sum += there.map_or(0.0, |p| distance_above(&site.point, p));
             n += 1.0;
         }
@@ -175,24 +137,25 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// Computes the bi-cells of all facets of these cells, each listed once; returns how many.
-    pub(super) fn compute_anew(&mut self, kernel: &mut Delaunay<G>, cells: &[u32]) -> Result<u64> {
+    fn recompute(&mut self, kernel: &mut Delaunay<G>, cells: &[u32]) -> Result<u64> {
         memory::reserve(&mut self.open, (1 + G::Corners::N) * cells.len())?;
         for &c in cells {
             self.is_open[c as usize / 64] |= 1 << (c % 64);
             self.open.push(c);
         }
+        let mut pass = Pass::new(Check::Not);
         let mut n = 0;
         kernel.for_facets_of(cells, |kernel, facet| {
-            self.push(kernel, facet, &mut Check::Not);
+            self.push(kernel, facet, &mut pass);
             n += 1;
         });
-        self.enter_batch(kernel, &mut Check::Not);
+        self.enter_batch(kernel, &mut pass);
         self.close(kernel.complex());
         Ok(n)
     }
 
-    /// The vertices have moved by about so much in a timestamp. Whether the unit still fits.
-    pub(super) fn expect(&mut self, step: f64) -> bool {
+    /// The vertices are going to move by about so much in a timestamp. Whether the unit still fits.
+    fn expect(&mut self, step: f64) -> bool {
         self.enough = ENOUGH * step;
         let units = step * self.per_length / UNITS;
         let fits = units * FITTING > 1.0 && units < FITTING;
@@ -200,9 +163,24 @@ impl<G: Dimension> Slacks<G> {
         self.unfit < UNFIT
     }
 
+    /// All vertices have moved, by these distances on average and at most: the kernel's static filter follows. Whether the
+    /// unit still fits.
+    pub(in crate::motion) fn end_motion(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        mean: f64,
+        greatest: f64,
+    ) -> bool {
+        self.room = (self.room - greatest).next_down();
+        if self.room < 0.0 {
+            self.tighten_filter(kernel);
+        }
+        self.expect(mean)
+    }
+
     /// Adds to the way of a site; `distance` is an upper bound.
     #[inline(always)]
-    pub(super) fn travel(&mut self, s: u32, distance: f64) {
+    pub(in crate::motion) fn travel(&mut self, s: u32, distance: f64) {
         // The cut is that of a conversion to less than the range.
         let way = ((distance * self.per_length) as u32).min(u32::from(LIMIT)) as u16 + 1;
         let travelled = &mut self.travelled[s as usize];
@@ -210,8 +188,7 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// Checks the bi-cells that have no slack left after a motion from where the vertices were `before`, by id, by at most
-    /// `greatest` each, and recomputes those that hold; returns how many there were. `None`, and nothing checked, if
-    /// more than `most` cells are concerned.
+    /// `greatest` each, and recomputes those that hold, unless more than `most` cells are concerned.
     pub(super) fn check_expired(
         &mut self,
         kernel: &Delaunay<G>,
@@ -219,22 +196,23 @@ impl<G: Dimension> Slacks<G> {
         greatest: f64,
         most: usize,
         failures: &mut Failures,
-    ) -> Result<Option<u64>> {
+    ) -> Result<Expired> {
         let complex = kernel.complex();
         let mut expired = std::mem::take(&mut self.expired);
         let mut facets = std::mem::take(&mut self.facets);
         let are_few = self.list_expired(kernel, most, &mut expired);
-        let (mut n, mut checked) = (0, Ok(()));
-        let can = are_few && self.reserve(expired.len(), &mut facets).is_ok();
-        if can {
+        let mut outcome = Ok(Expired::TooMany);
+        if are_few && self.reserve(expired.len(), &mut facets).is_ok() {
             self.list_facets(complex, &expired, &mut facets);
-            let check = &mut Check::Moved(before, greatest, failures, &mut checked);
-            n = self.check_facets(kernel, &facets, check);
+            let mut checked = Ok(());
+            let mut pass = Pass::new(Check::Moved(before, greatest, failures, &mut checked));
+            let n = self.check_facets(kernel, &facets, &mut pass);
             self.close(complex);
+            outcome = checked.map(|()| Expired::Checked(n));
         }
         self.expired = expired;
         self.facets = facets;
-        checked.map(|()| can.then_some(n))
+        outcome
     }
 
     /// Makes room for the facets of `n_cells` cells, and for these and their neighbours to be open.
@@ -278,7 +256,7 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// Checks and computes the listed bi-cells; returns how many they are. Each may be listed from both sides.
-    fn check_facets(&mut self, kernel: &Delaunay<G>, facets: &[u32], check: &mut Check<'_, G>) -> u64 {
+    fn check_facets(&mut self, kernel: &Delaunay<G>, facets: &[u32], pass: &mut Pass<'_, G>) -> u64 {
         let complex = kernel.complex();
         let mut n = 0;
         for (k, &code) in facets.iter().enumerate() {
@@ -290,32 +268,28 @@ impl<G: Dimension> Slacks<G> {
             }
             let facet = Facet::from_code(code);
             if slack(self.entries[facet.cell() as usize][facet.index()]) < 0 {
-                self.push(kernel, facet, check);
+                self.push(kernel, facet, pass);
                 n += 1;
             }
         }
-        self.enter_batch(kernel, check);
+        self.enter_batch(kernel, pass);
         n
     }
 
     /// Has a bi-cell computed, given from an open cell; until then it has the greatest slack.
     #[inline(always)]
-    fn push(&mut self, kernel: &Delaunay<G>, facet: Facet, check: &mut Check<'_, G>) {
+    fn push(&mut self, kernel: &Delaunay<G>, facet: Facet, pass: &mut Pass<'_, G>) {
         let complex = kernel.complex();
         let across = complex.cell(facet.cell()).neighbour(facet.index());
         self.open(complex, across.cell());
         self.enter([facet, across], LIMIT);
         let bicell = BiCell::of(kernel, facet);
         let Some(points) = bicell.interior() else {
-            self.enter_at_hull(kernel, [facet, across], bicell.hull_tolerance(), check);
+            self.enter_at_hull(kernel, [facet, across], bicell.hull_tolerance(), pass);
             return;
         };
-        let batch = &mut self.batch;
-        G::Point::set_bicell(&mut batch.bicells, batch.n, points);
-        batch.facets[batch.n] = [facet, across].map(Facet::code);
-        batch.n += 1;
-        if batch.n == LANES {
-            self.enter_batch(kernel, check);
+        if pass.push([facet, across], points) {
+            self.enter_batch(kernel, pass);
         }
     }
 
@@ -325,31 +299,17 @@ impl<G: Dimension> Slacks<G> {
         kernel: &Delaunay<G>,
         sides: [Facet; 2],
         tolerance: f64,
-        check: &mut Check<'_, G>,
+        pass: &mut Pass<'_, G>,
     ) {
-        // What tolerates the way back was positive all the way.
-        let tolerates = matches!(check, Check::Moved(_, greatest, ..) if tolerance > *greatest);
-        let holds = tolerates || check.holds(kernel, sides[0]);
+        let holds = pass.holds_at_hull(kernel, sides[0], tolerance);
         self.enter(sides, if holds { self.slack_of(tolerance) } else { NONE_LEFT });
     }
 
-    /// Checks the bi-cells of the batch, if they are to be checked, and computes their tolerances. It is empty then.
-    fn enter_batch(&mut self, kernel: &Delaunay<G>, check: &mut Check<'_, G>) {
-        let n = std::mem::take(&mut self.batch.n);
-        if n == 0 {
-            return;
-        }
-        let hold = match check {
-            Check::Moved(..) => G::Point::bicells_hold(kernel.filter(), &self.batch.bicells),
-            Check::Not => [true; LANES],
-        };
-        let tolerances = G::Point::tolerances(&self.batch.bicells, [self.enough; LANES]);
-        for k in 0..n {
-            let sides = self.batch.facets[k].map(Facet::from_code);
-            let holds = hold[k] || check.holds(kernel, sides[0]);
-            let slack = if holds { self.slack_of(tolerances[k]) } else { NONE_LEFT };
-            self.enter(sides, slack);
-        }
+    /// Enters the slacks of the bi-cells that wait in a pass.
+    fn enter_batch(&mut self, kernel: &Delaunay<G>, pass: &mut Pass<'_, G>) {
+        pass.empty(kernel, self.enough, |sides, tolerance| {
+            self.enter(sides, tolerance.map_or(NONE_LEFT, |tolerance| self.slack_of(tolerance)));
+        });
     }
 
     fn slack_of(&self, tolerance: f64) -> u16 {
@@ -409,8 +369,42 @@ impl<G: Dimension> Slacks<G> {
             entries[k] = entry(travelled.wrapping_add(least as u16), slack(entries[k]));
         }
     }
+}
 
-    pub(super) fn memory_bytes(&self) -> usize {
+impl<G: Dimension> Store<G> for Slacks<G> {
+    fn prepare(&mut self, kernel: &mut Delaunay<G>, _: usize, other_positions: &[G::Point]) -> Result<u64> {
+        self.travelled.clear();
+        self.entries.clear();
+        self.is_open.clear();
+        self.margin = Margin::around_all(kernel);
+        self.room = self.margin.distance();
+        self.grow(kernel)?;
+        self.choose_unit(kernel, other_positions);
+        Ok(self.compute_all(kernel))
+    }
+
+    fn follow(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        _: usize,
+        _: &[G::Point],
+        cells: &[u32],
+        relocated: &[u32],
+    ) -> Result<u64> {
+        self.grow(kernel)?;
+        for &s in relocated {
+            let point = kernel.site(s).point;
+            self.margin.cover(kernel, &point);
+        }
+        self.recompute(kernel, cells)
+    }
+
+    fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
+        self.margin.tighten(kernel);
+        self.room = self.margin.distance();
+    }
+
+    fn memory_bytes(&self) -> usize {
         self.travelled.capacity() * size_of::<u16>()
             + (self.expired.capacity() + self.facets.capacity() + self.open.capacity()) * size_of::<u32>()
             + self.is_open.capacity() * size_of::<u64>()

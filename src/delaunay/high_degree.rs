@@ -1,4 +1,4 @@
-//! Removal of a *hub*, a vertex of high degree: gift wrapping, which is quadratic in the degree, would be too slow.
+//! Removal of a vertex of high degree: gift wrapping, which is quadratic in the degree, would be too slow.
 //!
 //! The cells that fill the hole are cells of the Delaunay triangulation of the link's sites: their spheres are empty
 //! of all sites but the removed one, so of those of the link. Triangulate the link, start behind each facet of the
@@ -15,7 +15,7 @@ use crate::machine::threads::Threads;
 impl<G: Dimension> Delaunay<G> {
     /// Fills the hole of the gathered star by the triangulation of its link. After an error nothing has changed.
     #[cold]
-    pub(super) fn remove_hub(&mut self) -> Result<()> {
+    pub(super) fn remove_high_degree(&mut self) -> Result<()> {
         self.link_sites += self.hole.sites.len() as u64;
         let made = self.cells_of_link()?;
         // Orientation is part of a facet seen from one side: the two sides have their sorted corners in common.

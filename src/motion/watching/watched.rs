@@ -48,7 +48,7 @@ impl Watched {
     }
 
     /// Puts a facet, given from both sides, into the set or takes it out; whether it is in the set.
-    pub(super) fn set(&mut self, facet: Facet, across: Facet, is_member: bool) -> bool {
+    pub(super) fn set(&mut self, [facet, across]: [Facet; 2], is_member: bool) -> bool {
         let (name, other) = if facet.code() < across.code() { (facet, across) } else { (across, facet) };
         self.bits[other.cell() as usize] &= !(1 << other.index());
         let bits = &mut self.bits[name.cell() as usize];

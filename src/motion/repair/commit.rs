@@ -20,18 +20,20 @@
 //! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
 //! threads, all else by one.
 
-use super::staging::Given;
-use super::{CommitReport, MovingTriangulation};
-use crate::complex::{Corners, Facet, INFINITE};
-use crate::delaunay::{Dimension, Failures, Shortcut};
+use super::Repair;
+use super::scratch::At;
+use crate::complex::{Corners, INFINITE};
+use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
 
 /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
 /// vertex rebuilt, and flips are never stuck there.)
-const fn placed<G: Dimension>() -> usize {
+const fn rebuilt_per_placement<G: Dimension>() -> usize {
     if G::D == 2 { 8 } else { 20 }
 }
 
@@ -42,68 +44,26 @@ const fn certified<G: Dimension>() -> u64 {
 }
 
 /// Times that flips may be stuck before the triangulation is rebuilt.
-const ROUNDS: usize = 8;
-
-/// Where a vertex is while a commit is under way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum At {
-    /// It has not moved.
-    Rest,
-    New,
-    /// As `New`, but listed to be taken back.
-    Listed,
-    /// Taken back, or never moved because it shares its place: to be placed.
-    Old,
-}
-
-/// Scratch memory of repairs.
-#[derive(Debug, Default)]
-pub(super) struct Repair {
-    pub(super) failures: Failures,
-    /// Cells that may have failed, each once.
-    pub(super) touched: Vec<u32>,
-    suspects: Vec<Facet>,
-    stuck: Vec<Facet>,
-    /// By vertex id.
-    at: Vec<At>,
-    n_new: usize,
-    n_old: usize,
-    /// Sites to be taken back.
-    sites: Vec<u32>,
-    /// Vertices to be placed.
-    queue: Vec<u32>,
-}
-
-impl Repair {
-    pub(super) fn memory_bytes(&self) -> usize {
-        self.failures.memory_bytes()
-            + memory::bytes_of(&self.touched)
-            + memory::bytes_of(&self.suspects)
-            + memory::bytes_of(&self.stuck)
-            + memory::bytes_of(&self.at)
-            + memory::bytes_of(&self.sites)
-            + memory::bytes_of(&self.queue)
-    }
-}
+const MAX_ROUNDS: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
     /// may be taken back like the others.
-    pub(super) fn commit_by_repair(
+    pub(in crate::motion) fn commit_by_repair(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
         let can_move_all = self.kernel.has_cells()
             && self.staging.is_whole()
-            && !self.staging.others_applied
+            && !self.staging.others_applied()
             && self.hidden.count() == 0;
         if !can_move_all {
             self.stage_given(given)?;
             self.staging.list()?;
         }
         if !self.kernel.has_cells() {
-            return self.commit_by_rebuilding(self.staging.applied, report);
+            return self.commit_by_rebuilding(self.staging.applied(), report);
         }
         self.regions.invalidate();
         let accepted = report.moved;
@@ -114,7 +74,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         } else {
             self.move_staged(&mut repair)
         };
-        repair.failures.are_open = true;
+        repair.failures.is_sweep_due = true;
         let mended = begun.and_then(|()| {
             if repair.n_new == 0 {
                 // No vertex of the cells has moved.
@@ -127,16 +87,20 @@ impl<G: Dimension> MovingTriangulation<G> {
         report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
         if !mended? {
-            return self.commit_by_rebuilding(self.staging.applied, report);
+            return self.commit_by_rebuilding(self.staging.applied(), report);
         }
-        self.transaction.wants_order = true;
+        self.transaction.want_order();
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
     }
 
     /// Mends a triangulation all staged vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
     /// does, after a check that has found failures. `false` if too many vertices would have to be placed; otherwise
     /// those that are to be are not applied.
-    pub(super) fn mend_moved(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
+    pub(in crate::motion) fn mend_moved(
+        &mut self,
+        repair: &mut Repair,
+        report: &mut CommitReport,
+    ) -> Result<bool> {
         self.begin_moves(repair, report.moved)?;
         self.mend(repair, report)
     }
@@ -150,11 +114,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
-        let most = self.n_present / placed::<G>();
+        let most = self.n_present / rebuilt_per_placement::<G>();
         // A vertex taken back mends about three cells.
-        if repair.failures.are_open {
+        if repair.failures.is_sweep_due {
             // Of a whole staging all applied, the positions staged are now those before.
-            let before = self.staging.others_applied.then_some(&self.staging.positions[..]);
+            let before = self.staging.others_applied().then_some(self.staging.positions());
             if !self.kernel.sweep(&mut repair.failures, 3 * most, before)? {
                 return Ok(false);
             }
@@ -163,7 +127,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             if !(is_triangulation || self.take_back_failed(repair, most)? && self.winds_once(repair)?) {
                 return Ok(false);
             }
@@ -195,7 +159,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Whether a convex hull winds once.
     fn winds_once(&self, repair: &mut Repair) -> Result<bool> {
         let failures = &mut repair.failures;
-        if !failures.may_wind {
+        if !failures.may_wind_twice {
             return Ok(true);
         }
         if failures.ghosts.is_empty() {
@@ -216,8 +180,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(());
         }
         repair.at.resize(self.site_of.len(), At::Rest);
-        for &v in &self.staging.vertices[..self.staging.applied] {
-            if self.kernel.site(self.site_of[v as usize]).point != self.staging.positions[v as usize] {
+        for &v in &self.staging.vertices()[..self.staging.applied()] {
+            if self.kernel.site(self.site_of[v as usize]).point != self.staging.positions()[v as usize] {
                 repair.at[v as usize] = At::New;
                 repair.n_new += 1;
             }
@@ -229,12 +193,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_staged(&mut self, repair: &mut Repair) -> Result<()> {
         self.begin_moves(repair, 0)?;
         // At shared places there are the hidden vertices, and no more representatives than these.
-        memory::reserve(&mut repair.queue, self.staging.vertices.len().min(2 * self.hidden.count()))?;
+        memory::reserve(&mut repair.queue, self.staging.vertices().len().min(2 * self.hidden.count()))?;
         // As in the test for tolerances: sites are asked for in advance, as they are in another order than the vertices.
-        let (site_of, positions) = (&self.site_of[..], &mut self.staging.positions[..]);
+        let (site_of, applied) = (&self.site_of[..], self.staging.applied());
+        let (positions, queued) = self.staging.parts_mut();
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
         let sites = self.kernel.sites_mut();
-        let queued = &self.staging.vertices[self.staging.applied..];
+        let queued = &queued[applied..];
         for (k, &v) in queued.iter().enumerate() {
             if let Some(&next) = queued.get(k + AHEAD) {
                 prefetch(sites, site_of[next as usize] as usize);
@@ -277,7 +242,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     return Ok(false);
                 }
             }
-            let (at, before) = (&repair.at, &self.staging.positions);
+            let (at, before) = (&repair.at, self.staging.positions());
             let before = |id: u32| (at[id as usize] != At::Old).then(|| &before[id as usize]);
             self.kernel.check_ridges(&mut repair.failures, before)?;
             if repair.failures.ridges.is_empty() {
@@ -311,7 +276,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn farthest(&self, repair: &Repair, sites: &[u32]) -> Option<u32> {
         let displacement = |s: u32| {
             let site = self.kernel.site(s);
-            let other = &self.staging.positions[site.id as usize];
+            let other = &self.staging.positions()[site.id as usize];
             let is_new = repair.at[site.id as usize] == At::New && site.point != *other;
             is_new.then(|| squared_distance(&site.point, other))
         };
@@ -324,7 +289,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn take_back(&mut self, repair: &mut Repair, s: u32) -> Result<()> {
         memory::reserve(&mut repair.queue, 1)?;
         // The queue has to fit where the staged vertices are listed.
-        let listed = &mut self.staging.vertices;
+        let listed = self.staging.vertices_mut();
         memory::reserve(listed, (repair.queue.len() + 1).saturating_sub(listed.len()))?;
         let v = self.kernel.site(s).id;
         self.exchange_position(v);
@@ -371,14 +336,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// room for them.
     fn settle(&mut self, repair: &mut Repair) {
         let is_whole = self.staging.is_whole();
-        let vertices = &mut self.staging.vertices;
+        let vertices = self.staging.vertices_mut();
         if is_whole {
             vertices.clear();
         } else if repair.n_old > 0 {
             vertices.retain(|&v| repair.at[v as usize] != At::Old);
         }
-        self.staging.applied = vertices.len();
+        let applied = vertices.len();
         vertices.append(&mut repair.queue);
+        self.staging.set_applied(applied);
         self.order_queue_by_site();
     }
 }

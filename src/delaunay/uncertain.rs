@@ -1,4 +1,4 @@
-//! The screen that holds back only what does not surely hold, four cells at a time, by AVX2 and FMA.
+//! The cells of which not all certificates surely hold, found four cells at a time, by AVX2 and FMA.
 //!
 //! Nearly all cells hold after a motion. They are taken in blocks: first the sites beyond the facets of all
 //! cells of a block are looked up, then the certificates of four cells are evaluated together. The loads of
@@ -23,14 +23,14 @@ struct Block {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// As [`screen`](Self::screen). `IS_FAR` if the cells are too many to stay in a cache near the processor:
+    /// As [`visit_uncertain`](Self::visit_uncertain). `IS_FAR` if the cells are too many to stay in a cache near the processor:
     /// then neighbours and sites are asked for in advance, which would only cost time otherwise.
     #[inline(always)]
-    pub(super) fn screen_in_lanes<const IS_FAR: bool>(
+    pub(super) fn visit_uncertain_in_lanes<const IS_FAR: bool>(
         &self,
         avx2: Avx2,
         mut cells: impl Iterator<Item = u32> + Clone,
-        mut look: impl FnMut(u32) -> bool,
+        mut visit: impl FnMut(u32) -> bool,
     ) {
         let mut ahead = cells.clone().skip(AHEAD);
         let mut block = Block::default();
@@ -46,7 +46,7 @@ impl<G: Dimension> Delaunay<G> {
                     continue;
                 }
                 if cell.is_ghost() {
-                    if !look(c) {
+                    if !visit(c) {
                         return;
                     }
                     continue;
@@ -71,7 +71,7 @@ impl<G: Dimension> Delaunay<G> {
                 let n = (block.n - k * LANES).min(LANES);
                 let mut open = !hold & (ALL >> (LANES - n));
                 while open != 0 {
-                    if !look(block.cells[k][open.trailing_zeros() as usize]) {
+                    if !visit(block.cells[k][open.trailing_zeros() as usize]) {
                         return;
                     }
                     open &= open - 1;
@@ -143,13 +143,13 @@ mod tests {
         t.cover(&lower, &upper);
     }
 
-    /// What is found by a look at the cells that this passes on.
+    /// What is found in the cells that this visits.
     fn failures<G: Dimension>(
         t: &Delaunay<G>,
-        screen: impl FnOnce(&mut dyn FnMut(u32) -> bool),
+        visit_uncertain: impl FnOnce(&mut dyn FnMut(u32) -> bool),
     ) -> [Vec<u32>; 3] {
         let mut failures = Failures::default();
-        screen(&mut |c| {
+        visit_uncertain(&mut |c| {
             t.sweep_cell(c, None, &mut failures).expect("room for it");
             true
         });
@@ -160,24 +160,26 @@ mod tests {
     /// Returns how many of each have failed, and how many cells there were to look at.
     fn agree<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 3] {
         let all = 0..t.complex.n_slots() as u32;
-        let expected = failures(t, |look| t.complex.live().for_each(|c| assert!(look(c))));
-        let found = failures(t, |look| t.screen_singly(all.clone(), look));
+        let expected = failures(t, |visit| t.complex.live().for_each(|c| assert!(visit(c))));
+        let found = failures(t, |visit| t.visit_uncertain_singly(all.clone(), visit));
         assert_eq!(found, expected, "{context}, singly");
         let Some(avx2) = Avx2::new() else { return [0; 3] };
-        let found = failures(t, |look| avx2.run(|| t.screen_in_lanes::<false>(avx2, all.clone(), look)));
+        let found =
+            failures(t, |visit| avx2.run(|| t.visit_uncertain_in_lanes::<false>(avx2, all.clone(), visit)));
         assert_eq!(found, expected, "{context}, near");
-        let found = failures(t, |look| avx2.run(|| t.screen_in_lanes::<true>(avx2, all.clone(), look)));
+        let found =
+            failures(t, |visit| avx2.run(|| t.visit_uncertain_in_lanes::<true>(avx2, all.clone(), visit)));
         assert_eq!(found, expected, "{context}, far");
         let mut n_open = 0;
         let count = |_| {
             n_open += 1;
             true
         };
-        avx2.run(|| t.screen_in_lanes::<false>(avx2, all, count));
+        avx2.run(|| t.visit_uncertain_in_lanes::<false>(avx2, all, count));
         [expected[0].len(), expected[1].len(), n_open - expected[2].len()]
     }
 
-    /// All screens lead to the failures that a look at all cells finds.
+    /// All ways to find uncertain cells lead to the failures that a visit of all cells finds.
     fn all_agree<G: Dimension>() {
         let rng = &mut Rng::new(3);
         for kind in 0..3 {
@@ -210,16 +212,16 @@ mod tests {
     }
 
     #[test]
-    fn screens_of_triangles_agree() {
+    fn uncertain_triangles_agree() {
         all_agree::<Plane>();
     }
 
     #[test]
-    fn screens_of_tetrahedra_agree() {
+    fn uncertain_tetrahedra_agree() {
         all_agree::<Space>();
     }
 
-    /// A random triangulation at rest leaves almost nothing to check, so that the screen is worth it.
+    /// A random triangulation at rest leaves almost nothing to check, so that finding the uncertain cells is worth it.
     #[test]
     fn cells_at_rest_pass() {
         fn n_open<G: Dimension>() -> usize {
@@ -321,9 +323,9 @@ mod tests {
         assert!(n_outside > 10_000 && 1000 * n_dropped > 999 * n_outside, "{n_dropped} of {n_outside}");
     }
 
-    /// Nothing is passed on after a look that wants no more.
+    /// No cell is visited after a visit that wants no more.
     #[test]
-    fn looks_end_the_screen() {
+    fn visits_end() {
         let mut t = Delaunay::<Plane>::default();
         t.add_sites(&points::<Plane>(0, 500, &mut Rng::new(7))).expect("room for it");
         t.rebuild(&mut |_| true).expect("room for it");
@@ -331,7 +333,7 @@ mod tests {
         for most in [1, 2, 5, 100] {
             let mut n = 0;
             let all = 0..t.complex.n_slots() as u32;
-            t.screen(all, |_| {
+            t.visit_uncertain(all, |_| {
                 n += 1;
                 n < most
             });

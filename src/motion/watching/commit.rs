@@ -13,7 +13,7 @@
 //! In the tolerance algorithm a bi-cell of hardly any tolerance sends its D + 2 vertices to the queue at each
 //! timestamp, and each of them has a whole star of bi-cells that are far from failing. Here such a bi-cell costs one
 //! test, and the vertices have the tolerance of the others. Which are watched follows from how fast the vertices move
-//! ([`Regions`](super::regions::Regions)).
+//! ([`Watching`](super::Watching)).
 //!
 //! # What a timestamp proves
 //!
@@ -38,78 +38,84 @@
 //! Cost: 2 ns a vertex; about 5 or 20 ns for a watched bi-cell; and for a vertex beyond its star and the bi-cells
 //! there. Both counts shrink with the root of the displacement.
 
-use super::regions::Filter;
-use super::repair::Repair;
-use super::staging::Given;
-use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 use crate::machine::memory;
+use crate::motion::attempt::Attempt;
+use crate::motion::regions::Filter;
+use crate::motion::repair::Repair;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
 
-/// With more than one vertex in `MANY` beyond its tolerance, a sweep of everything is cheaper.
-const MANY: usize = 4;
+/// With more than this share of the vertices beyond their tolerance, a sweep of everything is cheaper.
+const MAX_SHARE_BEYOND: f64 = 0.25;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
-    pub(super) fn watch_or_repair(
+    pub(in crate::motion) fn watch_or_repair(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
         let can_watch = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if can_watch && self.commit_by_watching(self.n_present / MANY, given, report)? {
+        if can_watch && self.commit_by_watching(MAX_SHARE_BEYOND, given, report)? == Attempt::Committed {
             return Ok(());
         }
         self.commit_by_repair(given, report)
     }
 
-    /// Brings all vertices of a whole staging to their new positions if no more than `most` leave their tolerance; `false`
-    /// otherwise, and nothing has moved. No two vertices may share a site.
-    pub(super) fn commit_by_watching(
+    /// Brings all vertices of a whole staging to their new positions, or none if more than this
+    /// share of them leave their tolerance. No
+    /// two vertices may share a site.
+    pub(in crate::motion) fn commit_by_watching(
         &mut self,
-        most: usize,
+        max_share_beyond: f64,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
-    ) -> Result<bool> {
+    ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Watch) {
             self.stage_given(given)?;
             self.sort_cells()?;
-            let (n_ids, elsewhere) = (self.site_of.len(), &self.staging.positions);
-            self.regions.compute(&mut self.kernel, n_ids, Filter::Watch, elsewhere, report)?;
+            self.prepare_regions(Filter::Watch, report)?;
         }
+        let most = (self.n_present as f64 * max_share_beyond) as usize;
         let Some(moved) = self.move_and_queue::<true>(most, given)? else {
-            return Ok(false);
+            return Ok(Attempt::NotBegun);
         };
         report.moved += moved;
-        let n_beyond = self.staging.vertices.len();
+        let n_beyond = self.staging.vertices().len();
         report.within_tolerance += (self.n_present - n_beyond) as u64;
-        self.staging.applied = n_beyond;
-        if n_beyond + self.regions.n_watched() == 0 {
-            return Ok(true);
+        self.staging.set_applied(n_beyond);
+        if n_beyond + self.regions.n_watched() > 0 {
+            let mut repair = std::mem::take(&mut self.repair);
+            let done = self.check_and_mend(&mut repair, report);
+            self.repair = repair;
+            done?;
         }
+        Ok(Attempt::Committed)
+    }
 
-        let mut repair = std::mem::take(&mut self.repair);
-        let checked = self.check_moved(&mut repair);
-        let done = if checked.is_err() {
-            checked
-        } else if repair.failures.are_none() {
-            report.unchanged += n_beyond as u64;
-            let sites = self.staging.vertices.iter().map(|&v| self.site_of[v as usize]);
-            let (kernel, elsewhere) = (&mut self.kernel, &self.staging.positions);
-            self.regions.compute_anew(kernel, Filter::Watch, &repair.touched, sites, elsewhere, report)
-        } else {
-            self.mend_checked(&mut repair, report)
-        };
-        self.repair = repair;
-        done.map(|()| true)
+    /// Checks the bi-cells that may have failed. If all hold, those of the vertices beyond are computed; else what has
+    /// failed is mended.
+    fn check_and_mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<()> {
+        self.check_moved(repair)?;
+        if !repair.is_unneeded() {
+            return self.mend_checked(repair, report);
+        }
+        report.unchanged += self.staging.vertices().len() as u64;
+        if let Some(watching) = self.regions.watching() {
+            let sites = self.staging.vertices().iter().map(|&v| self.site_of[v as usize]);
+            let other_positions = self.staging.positions();
+            report.tolerances +=
+                watching.recompute(&mut self.kernel, other_positions, repair.touched(), sites);
+        }
+        Ok(())
     }
 
     /// Checks the bi-cells that are not held; lists the cells of the stars of the vertices beyond, each once.
     fn check_moved(&mut self, repair: &mut Repair) -> Result<()> {
-        let Repair { failures, touched, .. } = repair;
-        failures.clear();
-        touched.clear();
-        for &v in &self.staging.vertices {
+        let (failures, touched) = repair.begin_check();
+        for &v in self.staging.vertices() {
             let s = self.site_of[v as usize];
             let point = self.kernel.site(s).point;
             self.kernel.cover(&point, &point);
@@ -117,14 +123,16 @@ impl<G: Dimension> MovingTriangulation<G> {
             memory::collect(touched, self.kernel.gathered_star().iter().map(|&(c, _)| c))?;
         }
         self.kernel.tidy_changes(touched);
-        let (kernel, before) = (&self.kernel, &self.staging.positions);
+        let (kernel, before) = (&self.kernel, self.staging.positions());
         let mut waiting = Waiting::default();
         let mut checked = Ok(());
-        self.regions.for_watched(kernel, |facet| {
-            if checked.is_ok() {
-                checked = kernel.check_bicell_of_many(facet, &mut waiting, before, failures);
-            }
-        });
+        if let Some(watching) = self.regions.watching() {
+            watching.for_watched(kernel, |facet| {
+                if checked.is_ok() {
+                    checked = kernel.check_bicell_of_many(facet, &mut waiting, before, failures);
+                }
+            });
+        }
         checked?;
         kernel.check_waiting(&mut waiting, before, failures)?;
         self.kernel.check_cells(touched, before, failures)?;
@@ -134,14 +142,18 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Repairs what a check of some certificates of a whole staging has found. The listed vertices and those placed have their
     /// bi-cells recomputed, like all new cells.
-    pub(super) fn mend_checked(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<()> {
+    pub(in crate::motion) fn mend_checked(
+        &mut self,
+        repair: &mut Repair,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         self.with_regions(report, |t, report| {
-            for &v in &t.staging.vertices {
+            for &v in t.staging.vertices() {
                 t.regions.note_relocated(v)?;
             }
-            t.kernel.record_all(&repair.touched)?;
+            t.kernel.record_all(repair.touched())?;
             if !t.mend_moved(repair, report)? {
-                return t.commit_by_rebuilding(t.staging.applied, report);
+                return t.commit_by_rebuilding(t.staging.applied(), report);
             }
             t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
         })

@@ -6,40 +6,15 @@
 //!
 //! The sample is drawn by a seeded generator, so a run can be repeated.
 
-use super::MovingTriangulation;
-use super::regions::Filter;
-use super::staging::Given;
-use super::{CommitReport, SwitchingRule};
+use super::Switching;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation, SwitchingRule};
 use crate::predicates::{displacement_limit, squared_distance};
 
-/// Where the algorithm is.
-#[derive(Debug, Default)]
-pub(super) struct Switching {
-    has_switched: bool,
-    commits: u64,
-    draws: u64,
-}
-
-impl Switching {
-    /// Whether it is *tolerance*'s turn.
-    pub(super) fn has_switched(&self) -> bool {
-        self.has_switched
-    }
-
-    /// A number below `n`, by SplitMix64 (Steele, Lea and Flood, 10.1145/2714064.2660195).
-    fn draw(&mut self, seed: u64, n: usize) -> usize {
-        self.draws += 1;
-        let mut z = seed.wrapping_add(self.draws.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((u128::from(z ^ z >> 31) * n as u128) >> 64) as usize
-    }
-}
-
 impl<G: Dimension> MovingTriangulation<G> {
-    pub(super) fn commit_by_switching(
+    pub(in crate::motion) fn commit_by_switching(
         &mut self,
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
@@ -47,19 +22,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.stage_given(given)?;
         let rule = self.options.switching;
         let group = u64::from(rule.period.max(1));
-        if !self.switching.has_switched && self.switching.commits.is_multiple_of(group) {
-            self.switching.has_switched = self.sampled_share(&rule) >= rule.share_for::<G>();
+        if self.switching.begin_commit(group) && self.sampled_share(&rule) >= rule.share_for::<G>() {
+            self.switching.switch();
         }
-        self.switching.commits += 1;
-        if self.switching.has_switched {
-            self.commit_by_filter(Filter::Tolerance, given, report)
+        if self.switching.has_switched() {
+            self.commit_by_tolerance(given, report)
         } else {
             self.rebuild_staged(report)
         }
     }
 
     /// Share of a sample of the vertices whose displacement is within their tolerance.
-    pub(super) fn sampled_share(&mut self, rule: &SwitchingRule) -> f64 {
+    pub(in crate::motion) fn sampled_share(&mut self, rule: &SwitchingRule) -> f64 {
         if self.site_of.is_empty() || !self.kernel.has_cells() {
             return 0.0;
         }
@@ -72,14 +46,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let s = self.site_of[v as usize];
             let displacement =
-                squared_distance(&self.kernel.site(s).point, &self.staging.positions[v as usize]);
+                squared_distance(&self.kernel.site(s).point, &self.staging.positions()[v as usize]);
             within += u32::from(displacement < displacement_limit(self.tolerance_of_site(s)));
         }
         f64::from(within) / f64::from(rule.sample.max(1))
     }
 
     /// Starts over with rebuilding, when the algorithm is chosen again.
-    pub(super) fn reset_switching(&mut self) {
+    pub(in crate::motion) fn reset_switching(&mut self) {
         self.switching = Switching::default();
     }
 }

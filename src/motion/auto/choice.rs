@@ -1,0 +1,294 @@
+//! Which certificates a commit checks, and what the last ones tell about that.
+
+use crate::delaunay::Dimension;
+use crate::motion::report::{CommitReport, Evaluations};
+
+/// Shortest and longest wait for another try, in commits.
+const MIN_WAIT_COMMITS: u32 = 16;
+const MAX_WAIT_COMMITS: u32 = 256;
+
+/// Weight of the last commit in the mean number of changes of a commit.
+const WEIGHT_OF_LAST: f64 = 0.125;
+
+/// What the parts of a commit cost, in nanoseconds.
+#[derive(Clone, Copy, Debug)]
+struct Costs {
+    /// A watched bi-cell.
+    watched: f64,
+    /// A vertex beyond its tolerance.
+    beyond: f64,
+    /// Per vertex, what a sweep costs that is spared.
+    sweep: f64,
+    /// Per vertex, checking the slack of all cells; none if that never pays.
+    slack: Option<f64>,
+    /// A bi-cell that has used up its slack.
+    used_up: f64,
+    /// Per vertex, to compute all tolerances.
+    computed: f64,
+    /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices.
+    vertices_per_change: f64,
+    /// A vertex rebuilt, exact evaluations apart; also one of the link of a vertex of high degree.
+    rebuilt: f64,
+    /// A vertex placed.
+    placed: f64,
+    /// An exact evaluation.
+    exact: f64,
+}
+
+/// Measured with 1,000 vertices in the plane, 13,000 in space, in Lloyd's iterations; only the ratios matter.
+const fn costs<G: Dimension>() -> Costs {
+    if G::D == 2 {
+        Costs {
+            watched: 5.0,
+            beyond: 1000.0,
+            sweep: 11.0,
+            slack: None,
+            used_up: 0.0,
+            computed: 90.0,
+            vertices_per_change: 1500.0,
+            rebuilt: 230.0,
+            placed: 1000.0,
+            exact: 50.0,
+        }
+    } else {
+        let slack = Some(18.0);
+        Costs {
+            watched: 20.0,
+            beyond: 7000.0,
+            sweep: 60.0,
+            slack,
+            used_up: 100.0,
+            computed: 500.0,
+            vertices_per_change: 250.0,
+            rebuilt: 1500.0,
+            placed: 5000.0,
+            exact: 130.0,
+        }
+    }
+}
+
+/// Watching is tried without slack before it after commits with at most one flip or placement per this number of vertices.
+const VERTICES_PER_CHANGE_TO_WATCH: f64 = 4000.0;
+/// Watching is tried when less than one bi-cell per this number of vertices uses up its slack.
+const VERTICES_PER_USED_UP_TO_WATCH: u64 = 60;
+
+/// Which certificates a commit checks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Scope {
+    /// Repair: everything.
+    #[default]
+    All,
+    /// Slack: all cells, and the bi-cells that have none left.
+    Slack,
+    /// Watching: all vertices, those beyond, and what is watched.
+    Watched,
+}
+
+/// Most commits rebuilt without trying to repair.
+const MAX_REBUILDS: u32 = 15;
+
+/// What the last commits found.
+#[derive(Debug, Default)]
+pub(in crate::motion) struct Auto {
+    scope: Scope,
+    /// By how much that has cost more than the expensive way would have, and what the watched bi-cells have cost more than the
+    /// vertices beyond, in nanoseconds.
+    excess: f64,
+    imbalance: f64,
+    /// Whether all tolerances are to be computed again, for balance.
+    is_due: bool,
+    /// Flips and placements in a commit, a mean with decreasing weights, and what it was when a way was given up.
+    changes: f64,
+    changes_at_stop: f64,
+    /// Commits until a cheaper way may be tried again, and how many they will be next time.
+    wait: u32,
+    next_wait: u32,
+    /// Commits still to be rebuilt without trying to repair, and how many they were last time.
+    rebuilds: u32,
+    last_rebuilds: u32,
+    /// Exact evaluations of the last commit that rebuilt without trying to repair, if there was one.
+    exact_of_rebuild: Option<u64>,
+    /// Immediate relocations in this round, those within tolerance, and those that changed no cell.
+    relocated: u64,
+    within: u64,
+    unchanged: u64,
+}
+
+/// What immediate relocations of a round have done.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Round {
+    /// Whether most were within tolerance.
+    pub(super) are_most_within: bool,
+    /// Whether most changed no cell.
+    pub(super) are_most_unchanged: bool,
+}
+
+impl Auto {
+    /// Which certificates a commit checks.
+    pub(super) fn scope(&self) -> Scope {
+        self.scope
+    }
+
+    /// Whether the next commit is to rebuild without trying to repair; counts it.
+    pub(super) fn take_rebuild(&mut self) -> bool {
+        let rebuilds = self.rebuilds > 0;
+        self.rebuilds = self.rebuilds.saturating_sub(1);
+        rebuilds
+    }
+
+    /// Whether all tolerances are to be computed again, for balance; not any more after that.
+    pub(super) fn take_due(&mut self) -> bool {
+        std::mem::take(&mut self.is_due)
+    }
+
+    /// All tolerances are going to be forgotten, though not for anything that the vertices do.
+    pub(super) fn note_oblivion(&mut self) {
+        self.is_due |= self.scope == Scope::Watched;
+    }
+
+    /// Weighs what watching this number of bi-cells has cost, for `n` vertices, against the more expensive way, and what is
+    /// watched against what is recomputed. Whether all tolerances are to be computed again.
+    pub(super) fn weigh_watching<G: Dimension>(
+        &mut self,
+        n_watched: usize,
+        n: usize,
+        report: &CommitReport,
+    ) -> bool {
+        let costs = costs::<G>();
+        let vertices = n as f64;
+        let watched = n_watched as f64 * costs.watched;
+        let beyond = (vertices - report.within_tolerance as f64) * costs.beyond;
+        self.imbalance += watched - beyond;
+        self.weigh::<G>(n, report, watched + beyond - vertices * costs.slack.unwrap_or(costs.sweep));
+        if 2.0 * self.imbalance.abs() <= vertices * costs.computed {
+            return false;
+        }
+        self.imbalance = 0.0;
+        self.is_due = true;
+        true
+    }
+
+    /// Weighs what slack has cost, for `n` vertices, against a sweep.
+    pub(super) fn weigh_slack<G: Dimension>(&mut self, n: usize, report: &CommitReport) {
+        let costs = costs::<G>();
+        let spared = costs.sweep - costs.slack.unwrap_or_default();
+        self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared);
+        if self.wait == 0 && report.tolerances * VERTICES_PER_USED_UP_TO_WATCH < n as u64 {
+            self.scope = Scope::Watched;
+        }
+    }
+
+    /// Enters by how much a commit has cost more than the more expensive way, which is taken when the sum is too large.
+    fn weigh<G: Dimension>(&mut self, n: usize, report: &CommitReport, excess: f64) {
+        self.follow_changes(report);
+        self.excess = (self.excess + excess).max(0.0);
+        self.wait = self.wait.saturating_sub(1);
+        if 4.0 * self.excess > n as f64 * costs::<G>().computed {
+            self.give_up::<G>();
+        } else {
+            self.next_wait = self.next_wait.saturating_sub(1);
+        }
+    }
+
+    /// From now on the more expensive way is taken.
+    pub(super) fn give_up<G: Dimension>(&mut self) {
+        self.scope = if self.scope == Scope::Watched && costs::<G>().slack.is_some() {
+            Scope::Slack
+        } else {
+            Scope::All
+        };
+        self.changes_at_stop = self.changes;
+        (self.excess, self.imbalance, self.is_due) = (0.0, 0.0, false);
+        self.next_wait = (2 * self.next_wait + MIN_WAIT_COMMITS).min(MAX_WAIT_COMMITS);
+        self.wait = self.next_wait;
+    }
+
+    /// Whether the next immediate relocation is the last of a round of so many.
+    #[inline(always)]
+    pub(super) fn is_round_ending(&self, round: u64) -> bool {
+        self.relocated + 1 >= round
+    }
+
+    /// Counts immediate relocations within tolerance, none of them the last of its round.
+    #[inline(always)]
+    pub(super) fn count_within(&mut self, relocated: u64) {
+        self.relocated += relocated;
+        self.within += relocated;
+        self.unchanged += relocated;
+    }
+
+    /// Counts an immediate relocation in a round of so many; what has become of the round if it was the last.
+    pub(super) fn count_relocation(&mut self, round: u64, done: &CommitReport) -> Option<Round> {
+        let is_last = self.is_round_ending(round);
+        self.relocated += 1;
+        self.within += done.within_tolerance;
+        self.unchanged += done.within_tolerance + done.unchanged;
+        if !is_last {
+            return None;
+        }
+        let are_most = |some: u64| 20 * some >= 17 * self.relocated;
+        let ended =
+            Round { are_most_within: are_most(self.within), are_most_unchanged: are_most(self.unchanged) };
+        (self.relocated, self.within, self.unchanged) = (0, 0, 0);
+        Some(ended)
+    }
+
+    /// Whether a cheaper way may be tried again; a round has passed.
+    pub(super) fn has_waited(&mut self) -> bool {
+        let has_waited = self.wait == 0;
+        self.wait = self.wait.saturating_sub(1);
+        has_waited
+    }
+
+    fn follow_changes(&mut self, report: &CommitReport) {
+        let mended = (report.flips + report.placements) as f64;
+        self.changes += WEIGHT_OF_LAST * (mended - self.changes);
+    }
+
+    /// Notes what a commit that rebuilt without trying to repair has evaluated.
+    pub(super) fn note_rebuild(&mut self, [before, after]: [Evaluations; 2]) {
+        self.exact_of_rebuild = Some(after.exact - before.exact);
+    }
+
+    /// Whether a repair of `n` vertices has cost more than rebuilding would have.
+    fn is_too_expensive<G: Dimension>(
+        &self,
+        n: usize,
+        report: &CommitReport,
+        [before, after]: [Evaluations; 2],
+    ) -> bool {
+        let (costs, exact) = (costs::<G>(), after.exact - before.exact);
+        let spent = n as f64 * costs.sweep
+            + report.placements as f64 * costs.placed
+            + (after.link_sites - before.link_sites) as f64 * costs.rebuilt
+            + exact as f64 * costs.exact;
+        // While it is not known it counts as equal.
+        let exact_of_rebuild = self.exact_of_rebuild.unwrap_or(exact);
+        spent > n as f64 * costs.rebuilt + exact_of_rebuild as f64 * costs.exact
+    }
+
+    /// Draws conclusions from a repair, for `n` vertices.
+    pub(super) fn learn<G: Dimension>(
+        &mut self,
+        n: usize,
+        report: &CommitReport,
+        evaluations: [Evaluations; 2],
+    ) {
+        self.follow_changes(report);
+        if report.rebuilds > 0 || self.is_too_expensive::<G>(n, report, evaluations) {
+            self.last_rebuilds = (2 * self.last_rebuilds + 1).min(MAX_REBUILDS);
+            self.rebuilds = self.last_rebuilds;
+            return;
+        }
+        self.last_rebuilds = 0;
+        self.wait = self.wait.saturating_sub(1);
+        // Also before the wait is over if changes have become much rarer.
+        let may_try = self.wait == 0 || 3.0 * self.changes < self.changes_at_stop;
+        let costs = costs::<G>();
+        if may_try && self.changes * costs.vertices_per_change <= n as f64 {
+            let are_changes_rare = self.changes * VERTICES_PER_CHANGE_TO_WATCH <= n as f64;
+            self.scope =
+                if costs.slack.is_none() || are_changes_rare { Scope::Watched } else { Scope::Slack };
+        }
+    }
+}

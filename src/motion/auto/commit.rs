@@ -1,0 +1,129 @@
+//! One commit, by the algorithm chosen for it.
+
+use super::choice::Scope;
+use crate::delaunay::{Dimension, Shortcut};
+use crate::error::Result;
+use crate::motion::attempt::Attempt;
+use crate::motion::regions::Filter;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation, SwitchingRule};
+
+/// Vertices that are swept in the time of a placement: where fewer than one in so many is staged, these are placed.
+const SWEPT_PER_PLACEMENT: usize = 20;
+
+/// Watching pays only while less than this share of the vertices is beyond its tolerance.
+const MAX_SHARE_BEYOND: f64 = 0.125;
+
+/// Vertices sampled before all tolerances are computed, and the share of them that must be within.
+const SAMPLED_VERTICES: u32 = 64;
+const MIN_SHARE_WITHIN: f64 = 0.8;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    pub(in crate::motion) fn commit_by_auto(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.rebuild_given(given, report);
+        }
+        if self.staging.count() * SWEPT_PER_PLACEMENT < self.n_present {
+            return if self.regions.kept_for() == Some(Filter::Tolerance) {
+                self.commit_by_tolerance(given, report)
+            } else {
+                self.commit_by_placement(Shortcut::Flips, given, report)
+            };
+        }
+        let before = self.evaluations();
+        if self.auto.take_rebuild() {
+            self.rebuild_given(given, report)?;
+            let after = self.evaluations();
+            self.auto.note_rebuild([before, after]);
+            return Ok(());
+        }
+        if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_scope(given, report)? {
+            return Ok(());
+        }
+        self.commit_by_repair(given, report)?;
+        let after = self.evaluations();
+        self.auto.learn::<G>(self.n_present, report, [before, after]);
+        Ok(())
+    }
+
+    /// Commits by watching or by slack, if that is in force; `false` if a repair has to follow.
+    fn commit_by_scope(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<bool> {
+        if self.auto.scope() == Scope::Watched {
+            let is_kept = self.regions.kept_for() == Some(Filter::Watch);
+            if (is_kept || self.auto.take_due() || self.is_sample_within(given)?)
+                && self.commit_by_watching(MAX_SHARE_BEYOND, given, report)? == Attempt::Committed
+            {
+                if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.n_present, report) {
+                    self.regions.invalidate();
+                }
+                return Ok(true);
+            }
+            self.auto.give_up::<G>();
+        }
+        if self.auto.scope() == Scope::Slack {
+            let was_kept = self.regions.kept_for() == Some(Filter::Slack);
+            if self.commit_by_slack(given, report)? == Attempt::Committed {
+                if was_kept {
+                    self.auto.weigh_slack::<G>(self.n_present, report);
+                }
+                return Ok(true);
+            }
+            self.auto.give_up::<G>();
+        }
+        Ok(false)
+    }
+
+    /// All tolerances are going to be forgotten, though not for anything that the vertices do.
+    pub(in crate::motion) fn note_oblivion(&mut self) {
+        if self.regions.kept_for() == Some(Filter::Watch) {
+            self.auto.note_oblivion();
+        }
+    }
+
+    /// Whether all but a few of a sample of the vertices stay within tolerance.
+    fn is_sample_within(&mut self, given: &mut Given<'_, G>) -> Result<bool> {
+        self.stage_given(given)?;
+        Ok(self.sampled_share(&SwitchingRule { sample: SAMPLED_VERTICES, ..SwitchingRule::default() })
+            >= MIN_SHARE_WITHIN)
+    }
+
+    /// Immediate relocations in a round.
+    #[inline(always)]
+    fn round(&self) -> u64 {
+        self.n_present.max(SAMPLED_VERTICES as usize) as u64
+    }
+
+    /// Whether the next immediate relocation is the last of its round.
+    #[inline(always)]
+    pub(in crate::motion) fn is_round_ending(&self) -> bool {
+        self.auto.is_round_ending(self.round())
+    }
+
+    /// Counts immediate relocations within tolerance, none of them the last of its round.
+    #[inline(always)]
+    pub(in crate::motion) fn count_within(&mut self, relocated: u64) {
+        self.auto.count_within(relocated);
+    }
+
+    /// Counts an immediate relocation, and decides after a round of them whether tolerances are to be kept.
+    pub(in crate::motion) fn follow_relocation(&mut self, done: &CommitReport) {
+        let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
+        let round = self.round();
+        let Some(ended) = self.auto.count_relocation(round, done) else {
+            return;
+        };
+        if is_kept {
+            if !ended.are_most_within {
+                self.regions.invalidate();
+                self.auto.give_up::<G>();
+            }
+        } else if self.auto.has_waited() && ended.are_most_unchanged {
+            // Without the memory for them all goes on as it did.
+            let _ = self.prepare_regions(Filter::Tolerance, &mut CommitReport::default());
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! *Auto*: the algorithm for each commit, from what the last ones found.
+//!
+//! | commit | algorithm |
+//! |---|---|
+//! | of few of the vertices | tolerance if it is up to date, else placement by flips |
+//! | of all vertices, while few leave their tolerance | watching |
+//! | of all vertices, while few bi-cells use theirs up, in space | slack |
+//! | otherwise | repair, which rebuilds where too much fails |
+//! | after such a rebuild | rebuilding, for a while |
+//!
+//! **Checking everything or not.** Few flips in the last commits announce that most bi-cells have tolerance left. To
+//! compute that of all costs eight sweeps. What is recomputed after that, and watched, is counted and weighed by
+//! measured costs (`choice`). When it has cost more than the expensive way would have, by a quarter of a computation of all
+//! tolerances, the expensive way is taken, and the cheaper one is tried more and more rarely. In space the way down is
+//! repair, slack, watching, without slack where almost nothing changes; in the plane a sweep is so cheap that slack would seldom pay. Before watching
+//! a sample of the vertices is checked. When what is watched or what is recomputed has cost more than the other
+//! by half a computation of all, all tolerances are computed again, so that what is watched follows from how far the
+//! vertices go now.
+//!
+//! **Rebuilding.** After a repair that had to rebuild, or has cost more than that, as many commits rebuild at once as have
+//! failed in a row, and twice as many the next time. What a repair has cost is estimated from what it has counted: on
+//! lattices that is exact evaluations and removals of vertices of high degree, near the hull, more than flips.
+//!
+//! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
+//! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a
+//! look at the star, a vertex beyond some eight looks.
+
+mod choice;
+mod commit;
+
+pub(super) use choice::Auto;

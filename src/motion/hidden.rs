@@ -1,0 +1,115 @@
+//! Which vertices are hidden: chains of those at the same place.
+//!
+//! The vertices at a place form a chain in ascending order: each names the next one. A vertex without a next one is the
+//! last at its place, and most are alone there. So nothing is kept until the first vertex is hidden, and then 4 bytes
+//! for each id.
+
+use crate::complex::NONE;
+use crate::delaunay::Merge;
+use crate::error::Result;
+use crate::machine::memory;
+
+/// Which vertices are hidden.
+#[derive(Debug, Default)]
+pub(super) struct Hidden {
+    /// By vertex id, the next one at the same place; [`NONE`] for the last one, and for ids beyond the end.
+    next: Vec<u32>,
+    count: usize,
+}
+
+impl Hidden {
+    /// Number of hidden vertices.
+    #[inline(always)]
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The next vertex at the place of this one.
+    #[inline(always)]
+    pub(super) fn next(&self, vertex: u32) -> u32 {
+        self.next.get(vertex as usize).copied().unwrap_or(NONE)
+    }
+
+    /// Whether a representative has others behind it.
+    #[inline(always)]
+    pub(super) fn is_followed(&self, representative: u32) -> bool {
+        self.count != 0 && self.next(representative) != NONE
+    }
+
+    /// The one of the vertices at a representative's place after which this one comes.
+    pub(super) fn before(&self, representative: u32, vertex: u32) -> u32 {
+        let mut before = representative;
+        while self.next(before) < vertex {
+            before = self.next(before);
+        }
+        before
+    }
+
+    /// Makes room for `n_ids` ids.
+    pub(super) fn reserve(&mut self, n_ids: usize) -> Result<()> {
+        let missing = n_ids.saturating_sub(self.next.len());
+        if missing > 0 {
+            memory::reserve(&mut self.next, missing)?;
+            self.next.resize(n_ids, NONE);
+        }
+        Ok(())
+    }
+
+    /// Sets the next vertex after one that there is room for.
+    pub(super) fn set_next(&mut self, vertex: u32, next: u32) {
+        if let Some(entry) = self.next.get_mut(vertex as usize) {
+            *entry = next;
+        }
+    }
+
+    /// Sets the number of hidden vertices.
+    pub(super) fn set_count(&mut self, count: usize) {
+        self.count = count;
+    }
+
+    /// The chains of merged vertices, by their representatives' ids.
+    pub(super) fn of_merges(
+        mut merges: Vec<Merge>,
+        n_ids: usize,
+        representative: impl Fn(u32) -> u32,
+    ) -> Result<Self> {
+        let mut hidden = Hidden::default();
+        if merges.is_empty() {
+            return Ok(hidden);
+        }
+        hidden.reserve(n_ids)?;
+        merges.sort_unstable_by_key(|merge| std::cmp::Reverse(merge.hidden));
+        for merge in &merges {
+            let first = representative(merge.site);
+            let after = hidden.next(first);
+            hidden.set_next(merge.hidden, after);
+            hidden.set_next(first, merge.hidden);
+        }
+        hidden.count = merges.len();
+        Ok(hidden)
+    }
+
+    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones.
+    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
+        let mut hidden = Hidden { next: Vec::new(), count: self.count };
+        if self.count > 0 {
+            memory::reserve_exact(&mut hidden.next, n)?;
+            hidden.next.resize(n, NONE);
+            for (&id, &next) in ids.iter().zip(&self.next).filter(|(_, next)| **next != NONE) {
+                hidden.next[id as usize] = ids[next as usize];
+            }
+        }
+        Ok(hidden)
+    }
+
+    /// The first representative with hidden vertices behind it, and the first of them.
+    pub(super) fn first_pair(&self) -> Option<(u32, u32)> {
+        // A vertex that another one names is no representative; those come in ascending order.
+        let first = (0..).zip(&self.next).find(|&(_, &next)| next != NONE)?;
+        Some((first.0, *first.1))
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        self.next.capacity() * 4
+    }
+}

@@ -1,0 +1,105 @@
+//! What programs read: the cells, and what has changed.
+
+use super::MovingTriangulation;
+use super::cells::Cells;
+use super::changes::Changes;
+use super::views::CellsView;
+use crate::complex::NONE;
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The finite cells and their neighbours.
+    ///
+    /// The first call after a change costs what that has changed, others constant time.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn cells(&self) -> Result<CellsView<'_, G>> {
+        let cells = self.cell_arrays()?;
+        Ok(CellsView { corners: cells.corners(), neighbours: cells.neighbours() })
+    }
+
+    pub(super) fn cell_arrays(&self) -> Result<&Cells<G>> {
+        self.views.cells(&self.kernel)
+    }
+
+    /// Indices, ascending, of the finite cells that did not exist when the latest commit began: of none before the
+    /// first one. Immediate relocations, insertions and removals since then count.
+    ///
+    /// # Errors
+    /// [`Error::ChangesNotTracked`] unless the options ask for it, [`Error::OutOfMemory`].
+    pub fn changed_cells(&self) -> Result<&[u32]> {
+        if !self.options.track_changes {
+            return Err(Error::ChangesNotTracked);
+        }
+        // A tracker may be there from a first commit that failed.
+        let has_committed = self.timestamp() > 0;
+        self.views
+            .changed(&self.kernel, |cells| if has_committed { cells.list_created() } else { Ok(Vec::new()) })
+    }
+
+    /// Gets ready to track what a commit changes, if the options ask for it.
+    pub(super) fn prepare_tracking(&mut self) -> Result<()> {
+        if !self.options.track_changes {
+            return Ok(());
+        }
+        self.views.cells_mut(&self.kernel)?.track_commit()
+    }
+
+    /// Puts the cells in the order of the sites, and the arrays follow.
+    pub(super) fn sort_cells(&mut self) -> Result<()> {
+        if let Some(index) = self.kernel.sort_cells()? {
+            self.views.renumber_slots(&index);
+        }
+        Ok(())
+    }
+
+    /// What has changed since this was last called: everything, as created, at the first call. Commits and immediate
+    /// calls count alike. A program that never calls this pays nothing for it.
+    ///
+    /// The cost is that of what has changed.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
+    pub fn take_changes(&mut self) -> Result<Changes<'_, G::Corners>> {
+        let cells = self.views.cells_mut(&self.kernel)?;
+        cells.take(&mut self.taken, self.site_of.len())?;
+        self.list_visibilities()?;
+        self.views.visibilities().truncate(0);
+        self.takes_changes = true;
+        self.views.cells_mut(&self.kernel).expect("they are up to date").end_taking();
+        Ok(self.taken.changes())
+    }
+
+    /// Notes that a vertex is about to be hidden or shown, if the program takes changes.
+    pub(super) fn note_visibility(&mut self, vertex: u32, was_hidden: bool) -> Result<()> {
+        if !self.takes_changes {
+            return Ok(());
+        }
+        self.views.visibilities().note(vertex, was_hidden)
+    }
+
+    /// Lists the vertices that have been hidden or shown; at the first call all that are hidden.
+    fn list_visibilities(&mut self) -> Result<()> {
+        if !self.takes_changes {
+            self.taken.reserve_vertices(self.hidden.count())?;
+            for v in 0..self.site_of.len() as u32 {
+                if self.is_present(v) {
+                    self.taken.list_vertex(v, false, self.is_hidden(v));
+                }
+            }
+            return Ok(());
+        }
+        self.taken.reserve_vertices(self.views.visibilities().len())?;
+        self.views.visibilities().keep_first();
+        for (vertex, was_hidden) in self.views.visibilities().iter() {
+            let s = self.site_of[vertex as usize];
+            if s != NONE {
+                let is_hidden = self.kernel.site(s).id != vertex;
+                self.taken.list_vertex(vertex, was_hidden, is_hidden);
+            }
+        }
+        Ok(())
+    }
+}

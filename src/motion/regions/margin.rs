@@ -1,0 +1,42 @@
+//! How far the kernel's static filter reaches beyond the vertices, so that one that stays in its region need not be
+//! looked at for that.
+
+use crate::delaunay::{Delaunay, Dimension};
+
+/// The margin, as a share of the least extent of all vertices.
+const SHARE_OF_EXTENT: f64 = 1.0 / 16.0;
+
+/// A distance from fixed positions that the static filter covers. No tolerance is greater.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::motion) struct Margin(f64);
+
+impl Margin {
+    /// The margin for the vertices where they are, which the filter covers from now on.
+    pub(in crate::motion) fn around_all<G: Dimension>(kernel: &mut Delaunay<G>) -> Margin {
+        kernel.tighten_filter();
+        let (lower, upper) = (kernel.lower(), kernel.upper());
+        let extents = (0..G::D).map(|axis| upper[axis] - lower[axis]);
+        let margin = extents.fold(f64::INFINITY, f64::min) * SHARE_OF_EXTENT;
+        kernel.cover_around(&lower, &upper, margin);
+        Margin(margin)
+    }
+
+    /// Makes the filter cover the margin around a vertex that has been relocated.
+    #[inline(always)]
+    pub(in crate::motion) fn cover<G: Dimension>(self, kernel: &mut Delaunay<G>, point: &G::Point) {
+        kernel.cover_around(point, point, self.0);
+    }
+
+    /// Makes the filter as sharp as what the regions may let pass allows.
+    pub(in crate::motion) fn tighten<G: Dimension>(self, kernel: &mut Delaunay<G>) {
+        kernel.tighten_filter();
+        // A vertex is within its tolerance of where it was fixed, and may go as far to the other side of that.
+        let (lower, upper) = (kernel.lower(), kernel.upper());
+        kernel.cover_around(&lower, &upper, 2.0 * self.0);
+    }
+
+    #[inline(always)]
+    pub(in crate::motion) fn distance(self) -> f64 {
+        self.0
+    }
+}

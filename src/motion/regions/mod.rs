@@ -1,0 +1,271 @@
+//! Regions: what lets a vertex move without checking its certificates (report, sections 2.3, 2.4).
+//!
+//! | room | keeps |
+//! |---|---|
+//! | [`tolerance`](super::tolerance) | a tolerance for each vertex |
+//! | [`safe_region`](super::safe_region) | a delimiter for each bi-cell, and tolerances |
+//! | [`watching`](super::watching) | tolerances, and the bi-cells that would make them too small |
+//! | [`slack`](super::slack) | a tolerance for each bi-cell |
+//!
+//! A room has a [`Store`], what it keeps, and a commit. Those of one room are kept at a time, and only while they are valid.
+//!
+//! Invariant of what is kept: the ball around the fixed position of each vertex, of its tolerance, is inside all its safe
+//! regions, or, when watching, inside those of the bi-cells that are not watched.
+//!
+//! While cells change (a queue, an insertion, a removal) no regions are kept. They are again once
+//! every bi-cell that has a new cell or a relocated vertex has been computed at the positions of that moment
+//! ([`with_regions`]): the points of all other bi-cells have stayed, since they were last known to be on
+//! their sides, or moved within their regions. Where most bi-cells are concerned all are computed, which
+//! also makes good for tolerances that have only been lowered for long.
+//!
+//! [`with_regions`]: super::MovingTriangulation::with_regions
+
+mod following;
+mod margin;
+mod store;
+
+pub(super) use margin::Margin;
+pub(super) use store::Store;
+
+use super::safe_region::{Admission, SafeRegions};
+use super::slack::Slacks;
+use super::tolerance::{Fixed, Tolerances};
+use super::watching::Watching;
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::machine::memory;
+
+/// Which regions let a vertex pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Filter {
+    /// Algorithm 1, T.
+    Tolerance,
+    /// Algorithm 2, S.
+    SafeRegion,
+    /// S+T: the safe region only where the tolerance fails.
+    Both,
+    /// The tolerance, of those bi-cells that are not [watched](super::watching).
+    Watch,
+    /// The tolerance of each bi-cell for itself.
+    Slack,
+}
+
+/// Regions that are valid.
+#[derive(Debug)]
+pub(super) enum Kept<G: Dimension> {
+    Tolerance(Tolerances<G>),
+    SafeRegion(SafeRegions<G>),
+    Watching(Watching<G>),
+    Slack(Slacks<G>),
+}
+
+impl<G: Dimension> Kept<G> {
+    /// Nothing yet for a filter.
+    fn empty(filter: Filter) -> Self {
+        match filter {
+            Filter::Tolerance => Kept::Tolerance(Tolerances::default()),
+            Filter::SafeRegion => Kept::SafeRegion(SafeRegions::new(false)),
+            Filter::Both => Kept::SafeRegion(SafeRegions::new(true)),
+            Filter::Watch => Kept::Watching(Watching::default()),
+            Filter::Slack => Kept::Slack(Slacks::default()),
+        }
+    }
+
+    /// The filter that they are for.
+    #[inline(always)]
+    fn filter(&self) -> Filter {
+        match self {
+            Kept::Tolerance(_) => Filter::Tolerance,
+            Kept::SafeRegion(regions) if regions.tests_tolerance() => Filter::Both,
+            Kept::SafeRegion(_) => Filter::SafeRegion,
+            Kept::Watching(_) => Filter::Watch,
+            Kept::Slack(_) => Filter::Slack,
+        }
+    }
+
+    fn store(&self) -> &dyn Store<G> {
+        match self {
+            Kept::Tolerance(store) => store,
+            Kept::SafeRegion(store) => store,
+            Kept::Watching(store) => store,
+            Kept::Slack(store) => store,
+        }
+    }
+
+    fn store_mut(&mut self) -> &mut dyn Store<G> {
+        match self {
+            Kept::Tolerance(store) => store,
+            Kept::SafeRegion(store) => store,
+            Kept::Watching(store) => store,
+            Kept::Slack(store) => store,
+        }
+    }
+}
+
+/// The regions of one filter, if any are kept.
+#[derive(Debug)]
+pub(super) struct Regions<G: Dimension> {
+    kept: Option<Kept<G>>,
+    /// Regions that are no longer valid: their memory serves the next ones for the same filter.
+    spare: Option<Kept<G>>,
+    /// The kernel's record of changed cells, or its memory.
+    changed: Vec<u32>,
+    /// Vertices that have been relocated during the change under way.
+    relocated: Vec<u32>,
+}
+
+impl<G: Dimension> Default for Regions<G> {
+    fn default() -> Self {
+        Regions { kept: None, spare: None, changed: Vec::new(), relocated: Vec::new() }
+    }
+}
+
+impl<G: Dimension> Regions<G> {
+    /// The filter that regions are kept for.
+    #[inline(always)]
+    pub(super) fn kept_for(&self) -> Option<Filter> {
+        self.kept.as_ref().map(Kept::filter)
+    }
+
+    /// The report's pre-computations, for a filter; returns the number of bi-cells computed. `other_positions` as for a
+    /// [`Store`].
+    pub(super) fn prepare(
+        &mut self,
+        filter: Filter,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        other_positions: &[G::Point],
+    ) -> Result<u64> {
+        self.invalidate();
+        let spare = self.spare.take().filter(|spare| spare.filter() == filter);
+        let mut kept = spare.unwrap_or_else(|| Kept::empty(filter));
+        let n = kept.store_mut().prepare(kernel, n_ids, other_positions)?;
+        self.kept = Some(kept);
+        Ok(n)
+    }
+
+    /// The triangulation has changed without the regions.
+    #[inline(always)]
+    pub(super) fn invalidate(&mut self) {
+        if let Some(kept) = self.kept.take() {
+            self.spare = Some(kept);
+        }
+    }
+
+    /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`.
+    #[inline(always)]
+    pub(super) fn admit(
+        &self,
+        kernel: &mut Delaunay<G>,
+        vertex: u32,
+        s: u32,
+        p: &G::Point,
+    ) -> Option<Admission> {
+        match &self.kept {
+            Some(Kept::Tolerance(tolerances)) => {
+                tolerances.fixed()[vertex as usize].holds(p).then_some(Admission::WithinTolerance)
+            }
+            Some(Kept::SafeRegion(regions)) => regions.admit(kernel, vertex, s, p),
+            // All vertices move, and their bi-cells are checked after that.
+            Some(Kept::Watching(_) | Kept::Slack(_)) | None => None,
+        }
+    }
+
+    /// Fixed positions and tolerances by vertex id, of the tolerance algorithm or of watching.
+    #[inline(always)]
+    pub(super) fn fixed(&self) -> &[Fixed<G>] {
+        match &self.kept {
+            Some(Kept::Tolerance(tolerances)) => tolerances.fixed(),
+            Some(Kept::Watching(watching)) => watching.fixed(),
+            Some(Kept::SafeRegion(_) | Kept::Slack(_)) | None => &[],
+        }
+    }
+
+    /// Those of the tolerance algorithm.
+    #[inline(always)]
+    pub(super) fn tolerances(&self) -> Option<&Tolerances<G>> {
+        if let Some(Kept::Tolerance(tolerances)) = &self.kept { Some(tolerances) } else { None }
+    }
+
+    /// Those of watching.
+    pub(super) fn watching(&mut self) -> Option<&mut Watching<G>> {
+        if let Some(Kept::Watching(watching)) = &mut self.kept { Some(watching) } else { None }
+    }
+
+    /// About how many bi-cells are watched.
+    pub(super) fn n_watched(&self) -> usize {
+        if let Some(Kept::Watching(watching)) = &self.kept { watching.n_watched() } else { 0 }
+    }
+
+    /// Those of slack.
+    pub(super) fn slacks(&mut self) -> Option<&mut Slacks<G>> {
+        if let Some(Kept::Slack(slacks)) = &mut self.kept { Some(slacks) } else { None }
+    }
+
+    /// Makes the kernel's static filter as sharp as what the regions, if any are kept, may let pass allows.
+    pub(super) fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
+        match &mut self.kept {
+            Some(kept) => kept.store_mut().tighten_filter(kernel),
+            None => kernel.tighten_filter(),
+        }
+    }
+
+    /// A vertex has been relocated: all bi-cells of its site are among the changes.
+    pub(super) fn note_relocated(&mut self, vertex: u32) -> Result<()> {
+        memory::push(&mut self.relocated, vertex)
+    }
+
+    /// Makes sure that a vertex can be [noted](Self::note_relocated) without a failure.
+    pub(super) fn make_room_to_note(&mut self) -> Result<()> {
+        memory::reserve(&mut self.relocated, 1)
+    }
+
+    /// A change begins, during which no regions are kept. Returns those that can [follow](Self::follow) it, and memory for
+    /// the record of cells that this takes.
+    fn begin_change(&mut self) -> Option<(Kept<G>, Vec<u32>)> {
+        self.relocated.clear();
+        let kept = self.kept.take()?;
+        Some((kept, std::mem::take(&mut self.changed)))
+    }
+
+    /// The vertices relocated during the change, which is over.
+    fn end_change(&mut self) -> Vec<u32> {
+        std::mem::take(&mut self.relocated)
+    }
+
+    /// Computes the bi-cells of all facets of the `changed` cells, and keeps the regions again; returns the number of
+    /// bi-cells.
+    fn follow(
+        &mut self,
+        mut kept: Kept<G>,
+        mut changed: Vec<u32>,
+        relocated: Vec<u32>,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        other_positions: &[G::Point],
+    ) -> Result<u64> {
+        let store = kept.store_mut();
+        store.forget_cells(&changed);
+        kernel.tidy_changes(&mut changed);
+        let n = if 2 * changed.len() > kernel.complex().n_finite() {
+            store.prepare(kernel, n_ids, other_positions)
+        } else {
+            store.follow(kernel, n_ids, other_positions, &changed, &relocated)
+        }?;
+        (self.changed, self.relocated) = (changed, relocated);
+        self.kept = Some(kept);
+        Ok(n)
+    }
+
+    /// What was kept when a change began cannot follow it.
+    fn give_up(&mut self, kept: Kept<G>) {
+        self.spare = Some(kept);
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        let stores = [&self.kept, &self.spare].into_iter().flatten();
+        stores.map(|kept| kept.store().memory_bytes()).sum::<usize>()
+            + memory::bytes_of(&self.changed)
+            + memory::bytes_of(&self.relocated)
+    }
+}

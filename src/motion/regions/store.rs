@@ -1,0 +1,36 @@
+//! What every kind of regions does.
+
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+
+/// Regions of one kind. `other_positions` are those of the vertices, by id, at the timestamp before or the next one: they
+/// tell how far vertices go in a timestamp.
+pub(in crate::motion) trait Store<G: Dimension> {
+    /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell is computed. Returns the
+    /// number of bi-cells.
+    fn prepare(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        other_positions: &[G::Point],
+    ) -> Result<u64>;
+
+    /// Computes the bi-cells of all facets of these cells, each listed once; returns their number. Among the cells are
+    /// the stars of the sites that have been relocated.
+    fn follow(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        other_positions: &[G::Point],
+        cells: &[u32],
+        relocated: &[u32],
+    ) -> Result<u64>;
+
+    /// These cells have changed, or are free.
+    fn forget_cells(&mut self, _cells: &[u32]) {}
+
+    /// Makes the kernel's static filter as sharp as what the regions may let pass allows.
+    fn tighten_filter(&mut self, kernel: &mut Delaunay<G>);
+
+    fn memory_bytes(&self) -> usize;
+}

@@ -1,0 +1,6 @@
+//! *Repair*: everything moves at once, every certificate is checked, and what has failed is repaired.
+
+mod commit;
+mod scratch;
+
+pub(super) use scratch::Repair;

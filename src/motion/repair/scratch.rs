@@ -1,0 +1,64 @@
+//! Memory of repairs.
+
+use crate::complex::Facet;
+use crate::delaunay::Failures;
+use crate::machine::memory;
+
+/// Where a vertex is while a commit is under way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum At {
+    /// It has not moved.
+    Rest,
+    New,
+    /// As `New`, but listed to be taken back.
+    Listed,
+    /// Taken back, or never moved because it shares its place: to be placed.
+    Old,
+}
+
+/// Scratch memory of repairs.
+#[derive(Debug, Default)]
+pub(in crate::motion) struct Repair {
+    pub(super) failures: Failures,
+    /// Cells that may have failed, each once.
+    pub(super) touched: Vec<u32>,
+    pub(super) suspects: Vec<Facet>,
+    pub(super) stuck: Vec<Facet>,
+    /// By vertex id.
+    pub(super) at: Vec<At>,
+    pub(super) n_new: usize,
+    pub(super) n_old: usize,
+    /// Sites to be taken back.
+    pub(super) sites: Vec<u32>,
+    /// Vertices to be placed.
+    pub(super) queue: Vec<u32>,
+}
+
+impl Repair {
+    /// A check begins: nothing has failed, and no cell is touched.
+    pub(in crate::motion) fn begin_check(&mut self) -> (&mut Failures, &mut Vec<u32>) {
+        self.failures.clear();
+        self.touched.clear();
+        (&mut self.failures, &mut self.touched)
+    }
+
+    /// Whether the check has found no failure.
+    pub(in crate::motion) fn is_unneeded(&self) -> bool {
+        self.failures.are_none()
+    }
+
+    /// Cells that may have failed, each once.
+    pub(in crate::motion) fn touched(&self) -> &[u32] {
+        &self.touched
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        self.failures.memory_bytes()
+            + memory::bytes_of(&self.touched)
+            + memory::bytes_of(&self.suspects)
+            + memory::bytes_of(&self.stuck)
+            + memory::bytes_of(&self.at)
+            + memory::bytes_of(&self.sites)
+            + memory::bytes_of(&self.queue)
+    }
+}

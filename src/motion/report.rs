@@ -1,0 +1,48 @@
+//! What a commit reports.
+
+/// What one commit did; summed over all commits and immediate calls in
+/// [`statistics`](super::MovingTriangulation::statistics).
+///
+/// The report counts how often a vertex joins the queue again. None ever does here, as relocations are made
+/// at the moving positions, so there is no counter for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CommitReport {
+    /// Number of the timestamp reached: 0 at creation, one more at each commit.
+    pub timestamp: u64,
+    /// Vertices whose position differs from that of the timestamp before.
+    pub moved: u64,
+    /// Moved vertices for which only coordinates changed.
+    pub unchanged: u64,
+    /// Vertices removed and inserted again.
+    pub placements: u64,
+    /// Flips made.
+    pub flips: u64,
+    /// 1 if the triangulation was rebuilt (a sum in the statistics).
+    pub rebuilds: u64,
+    /// Vertices that were certainly within their tolerance.
+    pub within_tolerance: u64,
+    /// Vertices that were certainly within their safe region, where the algorithm tests that.
+    pub within_safe_region: u64,
+    /// Delimiters computed: bi-cells whose tolerance was computed.
+    pub tolerances: u64,
+    /// Certificates evaluated: orientations and in-sphere tests of stars whose vertex was relocated.
+    pub certificates: u64,
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic. Ties are among them.
+    pub exact_calls: u64,
+    /// Hidden vertices at the end: those that are at the place of a vertex with a lower id.
+    pub coincident: u64,
+    /// Vertices inserted.
+    pub inserted: u64,
+    /// Vertices removed.
+    pub removed: u64,
+}
+
+/// Sums of what has been evaluated.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Evaluations {
+    pub(super) certificates: u64,
+    /// Exact signs.
+    pub(super) exact: u64,
+    /// Sites of links that were triangulated in removals of vertices of high degree.
+    pub(super) link_sites: u64,
+}

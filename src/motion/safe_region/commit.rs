@@ -1,0 +1,42 @@
+//! One commit of the safe region algorithm.
+//!
+//! ```text
+//! for each relocation of z to p:
+//!     m_z <- p
+//!     if m_z is certainly in the safe region of z: done
+//!     else: z joins the queue
+//! for each z in the queue:
+//!     move z with the placement algorithm
+//! for each bi-cell B of a queued vertex or a new cell:
+//!     compute and store c_B and r_B
+//! ```
+//!
+//! As in the [tolerance algorithm](crate::motion::tolerance) vertices are placed at the moving positions, and none is
+//! queued twice. With tolerances, the safe region is tested only where the tolerance test fails.
+//!
+//! Cost: a test is a squared distance for each bi-cell of the star; a queued vertex costs as in the tolerance algorithm.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::motion::regions::Filter;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Algorithm 2, with a filter that has safe regions.
+    pub(in crate::motion) fn commit_by_safe_region(
+        &mut self,
+        filter: Filter,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.rebuild_given(given, report);
+        }
+        self.stage_given(given)?;
+        self.prepare_regions(filter, report)?;
+        self.staging.list()?;
+        self.accept_listed(report);
+        self.place_queued(report)
+    }
+}

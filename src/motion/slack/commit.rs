@@ -1,0 +1,90 @@
+//! *Slack*: a tolerance for each bi-cell; each timestamp checks those that have used it up.
+//!
+//! ```text
+//! move all vertices, and add to their ways
+//! for each cell with a vertex that has gone as far as one of its bi-cells allows:
+//!     check the bi-cells that have no slack left; compute the tolerances of those that hold
+//! if something failed: mend it, as a repair does, and compute the bi-cells of all new cells
+//! ```
+//!
+//! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star recomputed, in
+//! space 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
+//! ([`Slacks`](super::slacks::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers each.
+//!
+//! What a timestamp proves is what it proves in [watching](super::super::watching): read "held" for a bi-cell that has slack left,
+//! "watched" for one that has none.
+//!
+//! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the displacement, but
+//! for a logarithm.
+
+use super::slacks::Expired;
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::motion::attempt::Attempt;
+use crate::motion::moving::Motion;
+use crate::motion::regions::Filter;
+use crate::motion::repair::Repair;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
+
+/// With more than this share of the cells past their deadlines, a sweep of everything is cheaper.
+const MAX_SHARE_EXPIRED: f64 = 1.0 / 3.0;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Commits by slack where that is possible, else by repair.
+    pub(in crate::motion) fn slack_or_repair(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let can = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
+        if can && self.commit_by_slack(given, report)? == Attempt::Committed {
+            return Ok(());
+        }
+        self.commit_by_repair(given, report)
+    }
+
+    /// Brings all vertices of a whole staging to their new positions, and that alone if too many bi-cells have no slack
+    /// left. No two vertices may share a site.
+    pub(in crate::motion) fn commit_by_slack(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Attempt> {
+        if self.regions.kept_for() != Some(Filter::Slack) {
+            self.stage_given(given)?;
+            self.sort_cells()?;
+            self.prepare_regions(Filter::Slack, report)?;
+        }
+        let mut repair = std::mem::take(&mut self.repair);
+        let done = self.move_check_and_mend(&mut repair, given, report);
+        self.repair = repair;
+        done
+    }
+
+    fn move_check_and_mend(
+        &mut self,
+        repair: &mut Repair,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Attempt> {
+        let Motion { moved, greatest, fits } = self.move_all_on_record(given)?;
+        let most = (self.kernel.complex().n_finite() as f64 * MAX_SHARE_EXPIRED) as usize;
+        let (before, (failures, _)) = (self.staging.positions(), repair.begin_check());
+        let slacks = self.regions.slacks().expect("they have been prepared");
+        let expired = slacks.check_expired(&self.kernel, before, greatest, most, failures)?;
+        if !fits {
+            self.regions.invalidate();
+        }
+        let Expired::Checked(n) = expired else {
+            return Ok(Attempt::OnlyMoved);
+        };
+        report.moved += moved;
+        report.tolerances += n;
+        self.kernel.count_certificates(3 * n as usize);
+        if !repair.is_unneeded() {
+            self.mend_checked(repair, report)?;
+        }
+        Ok(Attempt::Committed)
+    }
+}

@@ -1,0 +1,71 @@
+//! One commit of the tolerance algorithm.
+//!
+//! ```text
+//! for each relocation of z to p:
+//!     m_z <- p
+//!     if m_z is certainly in the tolerance region of z: done
+//!     else: z joins the queue
+//! for each z in the queue:
+//!     move z with the placement algorithm
+//! for each bi-cell B of a queued vertex or a new cell:
+//!     ε' <- half the width of the standard delimiter of B
+//!     for each vertex w of B: ε_w <- min(ε_w, ε')
+//! ```
+//!
+//! **One embedding.** The report places vertices in the embedding at *fixed* positions, T_f, and so has to
+//! queue a vertex again when a new bi-cell's tolerance falls below its displacement. Here the queue is
+//! worked off in the embedding at the *moving* positions: once every accepted vertex has moved, that is a
+//! Delaunay triangulation by Proposition 1, the queued vertices being where they were; predicates are exact, so it
+//! stays one after each placement, without checking any delimiter. So delimiters are computed once, after the last placement, and no vertex
+//! is ever queued again. They are taken at the moving positions, which lie within them by construction. A
+//! vertex *w* that gets a smaller tolerance is fixed again where it is: the ball around `f_w` of radius ε_w
+//! holds the ball around `m_w` of radius `ε_w − |m_w − f_w|`, so
+//! `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
+//!
+//! **Certified.** Tolerances are lower bounds and displacements are compared as upper bounds
+//! ([`predicates::tolerance`](crate::predicates)), so an accepted vertex *provably* changes nothing.
+//!
+//! **Coincident vertices** always take the queue.
+//!
+//! Cost: a test is a squared distance; a queued vertex costs a
+//! placement, and up to about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in
+//! the queue. `examples/tolerance_share` measures both.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::motion::regions::Filter;
+use crate::motion::staging::Given;
+use crate::motion::{CommitReport, MovingTriangulation};
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Algorithm 1.
+    pub(in crate::motion) fn commit_by_tolerance(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.rebuild_given(given, report);
+        }
+        if self.regions.kept_for() != Some(Filter::Tolerance) {
+            self.stage_given(given)?;
+            self.prepare_regions(Filter::Tolerance, report)?;
+        }
+        if self.staging.is_whole() && self.hidden.count() == 0 {
+            self.accept_all(given, report)?;
+        } else {
+            self.stage_given(given)?;
+            self.staging.list()?;
+            self.accept_listed(report);
+        }
+        self.place_queued(report)
+    }
+
+    /// Of a whole staging, moves the vertices that stay within tolerance, and queues the others.
+    fn accept_all(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
+        let moved = self.move_and_queue::<false>(usize::MAX, given)?;
+        report.moved += moved.expect("there is room for all in the queue");
+        report.within_tolerance += (self.site_of.len() - self.staging.vertices().len()) as u64;
+        Ok(())
+    }
+}

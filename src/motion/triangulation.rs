@@ -1,0 +1,170 @@
+//! The triangulation: the place where its parts meet.
+
+use super::auto::Auto;
+use super::changes::Taken;
+use super::edits::Edits;
+use super::hidden::Hidden;
+use super::options::Options;
+use super::regions::Regions;
+use super::repair::Repair;
+use super::report::{CommitReport, Evaluations};
+use super::staging::{Staging, check_position};
+use super::switching::Switching;
+use super::transaction::Transaction;
+use super::views::Views;
+use crate::complex::NONE;
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::machine::threads::Threads;
+use crate::predicates::exact_calls;
+
+/// Greatest number of vertex ids.
+pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
+
+/// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex it is
+/// fitted to the points again, which takes as long as a small part of one commit.
+const MOVES_PER_VERTEX: u64 = 64;
+
+/// A Delaunay triangulation whose vertices move.
+#[derive(Debug)]
+pub struct MovingTriangulation<G: Dimension> {
+    pub(super) kernel: Delaunay<G>,
+    /// Site of each id; [`NONE`] once removed.
+    pub(super) site_of: Vec<u32>,
+    pub(super) hidden: Hidden,
+    pub(super) n_present: usize,
+    pub(super) staging: Staging<G>,
+    pub(super) edits: Edits<G>,
+    pub(super) regions: Regions<G>,
+    pub(super) switching: Switching,
+    pub(super) repair: Repair,
+    pub(super) auto: Auto,
+    pub(super) options: Options,
+    pub(super) statistics: CommitReport,
+    /// Moves and insertions since the kernel's static filter was made as sharp as possible.
+    pub(super) n_moved: u64,
+    /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
+    pub(super) sorted_stride: f64,
+    pub(super) transaction: Transaction<G>,
+    pub(super) views: Views<G>,
+    /// The changes taken last, and whether any ever were.
+    pub(super) taken: Taken<G::Corners>,
+    pub(super) takes_changes: bool,
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Triangulates `positions`; vertex `i` is the `i`-th of them.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`], [`Error::Coincident`] if the options reject that.
+    pub fn new(positions: &[G::Point], options: Options) -> Result<Self> {
+        if positions.len() > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
+        }
+        let mut t = MovingTriangulation {
+            kernel: Delaunay::on(Threads::at_most(options.threads))?,
+            site_of: Vec::new(),
+            hidden: Hidden::default(),
+            n_present: positions.len(),
+            staging: Staging::default(),
+            edits: Edits::default(),
+            regions: Regions::default(),
+            switching: Switching::default(),
+            repair: Repair::default(),
+            auto: Auto::default(),
+            options,
+            statistics: CommitReport::default(),
+            n_moved: 0,
+            sorted_stride: 0.0,
+            transaction: Transaction::default(),
+            views: Views::default(),
+            taken: Taken::default(),
+            takes_changes: false,
+        };
+        for (i, p) in positions.iter().enumerate() {
+            check_position::<G>("positions", i, p)?;
+        }
+        t.kernel.add_sites(positions)?;
+        memory::reserve_exact(&mut t.site_of, positions.len())?;
+        t.site_of.resize(positions.len(), NONE);
+        t.build_first()?;
+        t.statistics.coincident = t.hidden.count() as u64;
+        Ok(t)
+    }
+
+    /// The site of a vertex that must be present and not about to be removed.
+    #[inline(always)]
+    pub(super) fn site_of_vertex(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
+        let s = self.present_site(argument, index, vertex)?;
+        if self.edits.is_leaving(vertex) {
+            return Err(Error::RemovedVertex { argument, index, vertex });
+        }
+        Ok(s)
+    }
+
+    /// The site of a vertex that must be present.
+    pub(super) fn present_site(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
+        match self.site_of.get(vertex as usize) {
+            None => Err(Error::NoSuchVertex { argument, index, vertex, ids: self.site_of.len() }),
+            Some(&NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
+            Some(&s) => Ok(s),
+        }
+    }
+
+    /// Builds the cells of sites in sorted storage for the first time.
+    fn build_first(&mut self) -> Result<()> {
+        let mut kernel = Delaunay::on(Threads::ONE)?;
+        std::mem::swap(&mut kernel, &mut self.kernel);
+        let stride = kernel.mean_stride();
+        let mut unmonitored = |_| true;
+        let merges = match &mut self.options.monitor {
+            Some(monitor) => kernel.rebuild(monitor)?,
+            None => kernel.rebuild(&mut unmonitored)?,
+        };
+        let hidden = self.hide_merged(&kernel, merges)?;
+        self.adopt(kernel, hidden, stride);
+        self.find_sites();
+        Ok(())
+    }
+
+    /// What has been evaluated so far.
+    pub(super) fn evaluations(&self) -> Evaluations {
+        Evaluations {
+            certificates: self.kernel.certificates(),
+            exact: exact_calls(),
+            link_sites: self.kernel.link_sites(),
+        }
+    }
+
+    /// Enters what was evaluated since then.
+    pub(super) fn enter_evaluations(&self, report: &mut CommitReport, before: Evaluations) {
+        let now = self.evaluations();
+        report.certificates = now.certificates - before.certificates;
+        report.exact_calls = now.exact - before.exact;
+    }
+
+    /// Adds what was done to the sums.
+    pub(super) fn count(&mut self, report: CommitReport) {
+        let sum = &mut self.statistics;
+        sum.moved += report.moved;
+        sum.unchanged += report.unchanged;
+        sum.placements += report.placements;
+        sum.flips += report.flips;
+        sum.rebuilds += report.rebuilds;
+        sum.inserted += report.inserted;
+        sum.removed += report.removed;
+        sum.within_tolerance += report.within_tolerance;
+        sum.within_safe_region += report.within_safe_region;
+        sum.tolerances += report.tolerances;
+        sum.certificates += report.certificates;
+        sum.exact_calls += report.exact_calls;
+        sum.coincident = self.hidden.count() as u64;
+        self.n_moved += report.moved + report.inserted;
+        if self.n_moved > MOVES_PER_VERTEX * self.n_present as u64 {
+            self.n_moved = 0;
+            self.regions.tighten_filter(&mut self.kernel);
+        }
+    }
+}

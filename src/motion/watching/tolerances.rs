@@ -1,0 +1,122 @@
+//! A tolerance for each vertex, and the bi-cells that are watched instead of lowering it.
+
+use super::watched::Watched;
+use crate::complex::Facet;
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::motion::regions::Store;
+use crate::motion::tolerance::{Fixed, Tolerances};
+use crate::predicates::squared_distance;
+
+/// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices' steps
+/// and of its size. Found by measurement (Lloyd's iterations); half and double are hardly slower.
+const fn watched_share<G: Dimension>() -> f64 {
+    if G::D == 2 { 1.0 } else { 0.1 }
+}
+
+/// A bi-cell is either watched, and lowers no tolerance, or has lowered those of its vertices.
+#[derive(Debug)]
+pub(in crate::motion) struct Watching<G: Dimension> {
+    tolerances: Tolerances<G>,
+    watched: Watched,
+}
+
+impl<G: Dimension> Default for Watching<G> {
+    fn default() -> Self {
+        Watching { tolerances: Tolerances::default(), watched: Watched::default() }
+    }
+}
+
+impl<G: Dimension> Watching<G> {
+    /// Fixed positions and tolerances by vertex id.
+    #[inline(always)]
+    pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {
+        self.tolerances.fixed()
+    }
+
+    /// About how many facets are watched.
+    pub(in crate::motion) fn n_watched(&self) -> usize {
+        self.watched.len()
+    }
+
+    /// Visits the facets that are watched.
+    pub(super) fn for_watched(&mut self, kernel: &Delaunay<G>, visit: impl FnMut(Facet)) {
+        self.watched.for_each(kernel, visit);
+    }
+
+    /// Computes the bi-cells of all facets of these cells, each listed once; returns their number. Among the cells are
+    /// the stars of the sites that have been relocated.
+    pub(super) fn recompute(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        other_positions: &[G::Point],
+        cells: &[u32],
+        relocated: impl Iterator<Item = u32>,
+    ) -> u64 {
+        let Watching { tolerances, watched } = self;
+        relocated.for_each(|s| tolerances.fix(kernel, s));
+        tolerances.measure_around(kernel, cells, |fixed, facets, vertices, tolerance| {
+            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions))
+        })
+    }
+}
+
+/// Whether a bi-cell's tolerance is so small, next to its size h and the displacement u of its vertices from one
+/// timestamp to the next, that watching it is cheaper than recomputing stars now and then. Watching those
+/// below θ costs in proportion to θ / h, what is recomputed in proportion to u / θ; so the best θ² is in
+/// proportion to u h.
+fn is_soon_beyond<G: Dimension>(
+    fixed: &[Fixed<G>],
+    vertices: &[u32],
+    tolerance: f64,
+    other_positions: &[G::Point],
+) -> bool {
+    let here = |v: u32| fixed[v as usize].point();
+    let step = |&v: &u32| other_positions.get(v as usize).map_or(0.0, |p| squared_distance(here(v), p));
+    let steps = vertices.iter().map(step).fold(0.0, f64::max);
+    let square = squared_distance(here(vertices[1]), here(vertices[2]));
+    let t = tolerance * tolerance;
+    t * t <= watched_share::<G>() * steps * square
+}
+
+impl<G: Dimension> Store<G> for Watching<G> {
+    fn prepare(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        other_positions: &[G::Point],
+    ) -> Result<u64> {
+        let Watching { tolerances, watched } = self;
+        watched.clear();
+        tolerances.fix_all(kernel, n_ids)?;
+        watched.grow(kernel.complex().n_slots())?;
+        Ok(tolerances.measure_all(kernel, |fixed, facets, vertices, tolerance| {
+            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions))
+        }))
+    }
+
+    fn follow(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        other_positions: &[G::Point],
+        cells: &[u32],
+        relocated: &[u32],
+    ) -> Result<u64> {
+        self.tolerances.grow(n_ids)?;
+        self.watched.grow(kernel.complex().n_slots())?;
+        Ok(self.recompute(kernel, other_positions, cells, relocated.iter().copied()))
+    }
+
+    fn forget_cells(&mut self, cells: &[u32]) {
+        self.watched.forget(cells);
+    }
+
+    fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
+        self.tolerances.tighten_filter(kernel);
+    }
+
+    fn memory_bytes(&self) -> usize {
+        self.tolerances.memory_bytes() + self.watched.memory_bytes()
+    }
+}
