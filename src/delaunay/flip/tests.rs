@@ -92,7 +92,7 @@ fn diagonals_change_in_space() {
         assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
         let mut flips = AllFlips::default();
         flips.own.suspects.clone_from(&failures.facets);
-        t.flip_as_far_as_possible(&mut flips, 1).expect("room for it");
+        t.flip_as_far_as_possible(&mut flips, 1, u64::MAX).expect("room for it");
         t.flips = flips;
         t.undo_flips();
         t.validate(Level::Embedding).expect("cells as they were");
@@ -122,7 +122,7 @@ fn flips_come_back() {
         let (before, free) = (places(&t), t.complex.free_cells().to_vec());
         let mut flips = std::mem::take(&mut t.flips);
         flips.own.suspects.append(&mut suspects);
-        t.flip_as_far_as_possible(&mut flips, threads as usize).expect("room for it");
+        t.flip_as_far_as_possible(&mut flips, threads as usize, u64::MAX).expect("room for it");
         let n_flips =
             flips.own.journal.len() + flips.parts.iter().map(|part| part.journal.len()).sum::<usize>();
         assert!(n_flips > 100, "{n_flips}");
