@@ -32,8 +32,8 @@ pub enum Obstacle {
     Memory,
 }
 
-/// Cells that follow each other in storage, for one thread to flip while others flip the rest. A flip changes two to four
-/// cells and the neighbours' side of their gluings; it is done only if all of these are of the range.
+/// Cells that follow each other in storage, for one thread to flip while others flip the rest. A flip changes two to
+/// four cells and the neighbours' side of their gluings; it is done only if all of these are of the range.
 #[derive(Debug)]
 pub struct CellRange<'c, C: Corners> {
     /// Index of the first one.
@@ -49,8 +49,8 @@ impl<C: Corners> Complex<C> {
         CellRange { first: 0, cells: &mut self.cells, free: &mut self.free }
     }
 
-    /// Works on the ranges that begin at these cells, the first of them cell 0, each on a thread of its own and with its
-    /// own one of `parts`. After an error the list of free cells [has to be restored](Self::restore_free).
+    /// Works on the ranges that begin at these cells, the first of them cell 0, each on a thread of its own and with
+    /// its own one of `parts`. After an error the list of free cells [has to be restored](Self::restore_free).
     pub(crate) fn divided<P: Send>(
         &mut self,
         starts: &[u32],
@@ -140,9 +140,9 @@ impl<C: Corners> CellRange<'_, C> {
 type Swapped = ([Facet; 4], [Row<[u32; 3]>; 2]);
 
 impl CellRange<'_, [u32; 3]> {
-    /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on the
-    /// boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`, then `a`,
-    /// and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
+    /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on
+    /// the boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`,
+    /// then `a`, and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
     pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<Swapped, Obstacle> {
         let (c, i) = (facet.cell(), facet.index());
         let old = *self.cell(c)?;
@@ -244,10 +244,10 @@ impl CellRange<'_, [u32; 4]> {
 type Both = [([Facet; 6], Undo); 2];
 
 impl CellRange<'_, [u32; 4]> {
-    /// Replaces the edge opposite the corners `k` and that of `facet` in the cell of `facet`, with the four cells around
-    /// it, by the edge between the opposing vertices of `facet`, and returns what both flips do. The caller knows
-    /// that the corners of both edges are in one plane, where the edges cross. No change if the edge has not exactly four
-    /// cells; the two that are not at `facet` may be ghosts.
+    /// Replaces the edge opposite the corners `k` and that of `facet` in the cell of `facet`, with the four cells
+    /// around it, by the edge between the opposing vertices of `facet`, and returns what both flips do. The caller
+    /// knows that the corners of both edges are in one plane, where the edges cross. No change if the edge has not
+    /// exactly four cells; the two that are not at `facet` may be ghosts.
     pub(crate) fn flip_4_4(&mut self, facet: Facet, k: usize) -> Result<Both, Obstacle> {
         let old = *self.cell(facet.cell())?;
         let across = old.neighbour(facet.index());

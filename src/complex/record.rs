@@ -1,9 +1,9 @@
 //! The change record: what the cells were before a change.
 //!
-//! Between [`begin_record`](Complex::begin_record) and [`end_record`](Complex::end_record) the row of a slot (its corners
-//! and its neighbours' facets) is noted before its corners change for the first time. The memory for that is reserved
-//! before anything changes. The record has two readers: [`undo_record`](Complex::undo_record), which needs no memory,
-//! and those who follow the cells, to whom [`rows`](Complex::rows) tells which slots hold other cells now.
+//! Between [`begin_record`](Complex::begin_record) and [`end_record`](Complex::end_record) the row of a slot (its
+//! corners and its neighbours' facets) is noted before its corners change for the first time. The memory for that is
+//! reserved before anything changes. The record has two readers: [`undo_record`](Complex::undo_record), which needs
+//! no memory, and those who follow the cells, to whom [`rows`](Complex::rows) tells which slots hold other cells now.
 //!
 //! **Gluings are not noted.** A cell that keeps its corners while the one across a facet changes is glued again when
 //! that one is put back. Rows are put back in the opposite order: a row that was noted after a neighbour had changed

@@ -9,8 +9,8 @@ use crate::machine::memory;
 pub struct Failures {
     /// Finite cells that are not positively oriented.
     pub cells: Vec<u32>,
-    /// Facets between finite cells that fail the empty-sphere test, those of cells that are not positively oriented left
-    /// out: they are to be tested once these are.
+    /// Facets between finite cells that fail the empty-sphere test, those of cells that are not positively oriented
+    /// left out: they are to be tested once these are.
     pub facets: Vec<Facet>,
     /// Ridges of the hull that are not convex, as facets of ghost cells.
     pub ridges: Vec<Facet>,
@@ -20,8 +20,8 @@ pub struct Failures {
     pub ghosts: Vec<u32>,
     /// Whether a sweep has to find out what has failed.
     pub is_sweep_due: bool,
-    /// Whether, even if the hull is convex at every ridge, it may wind more than once: some may not have been convex all
-    /// the way.
+    /// Whether, even if the hull is convex at every ridge, it may wind more than once: some may not have been convex
+    /// all the way.
     pub may_wind_twice: bool,
 }
 

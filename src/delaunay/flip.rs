@@ -2,18 +2,18 @@
 //!
 //! A facet that fails the empty-sphere test is flipped. In the plane that is always possible and leads to the Delaunay
 //! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3, 3-2 or 4-4 flip there
-//! makes positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an end, but that
-//! can be short of the Delaunay triangulation. The cells that a flip is about to change are kept in a journal, so that all
-//! can be as it was; flips that stay are entered into the record of the complex from there.
+//! makes positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an
+//! end, but that can be short of the Delaunay triangulation. The cells that a flip is about to change are kept in a
+//! journal, so that all can be as it was; flips that stay are entered into the record of the complex from there.
 //!
-//! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each thread
-//! flips in a range of the cells, all with about as many failing facets, and leaves flips that need cells of others
-//! alone. As flips of different threads have no cell in common, it is as if they had been done one after the other. What
-//! is left is flipped by one thread. For 300,000 points that move by a fiftieth of a spacing two threads are 1.7 and 1.5
-//! times as fast as one, all of the repair included (`examples/thread_scaling`).
+//! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each
+//! thread flips in a range of the cells, all with about as many failing facets, and leaves flips that need cells of
+//! others alone. As flips of different threads have no cell in common, it is as if they had been done one after the
+//! other. What is left is flipped by one thread. For 300,000 points that move by a fiftieth of a spacing two threads
+//! are 1.7 and 1.5 times as fast as one, all of the repair included (`examples/thread_scaling`).
 //!
-//! Invariant: a facet whose cells have changed since it was found to hold is a suspect, or listed as stuck or as one for
-//! later. Sites keep their old cells until no flip will be taken back.
+//! Invariant: a facet whose cells have changed since it was found to hold is a suspect, or listed as stuck or as one
+//! for later. Sites keep their old cells until no flip will be taken back.
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
@@ -23,8 +23,8 @@ use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::predicates::StaticFilter;
 
-/// Failing facets for each thread that take longer to flip than the thread to start; and as many if the number of threads
-/// is the caller's choice.
+/// Failing facets for each thread that take longer to flip than the thread to start; and as many if the number of
+/// threads is the caller's choice.
 const FLIPPED_AT_LEAST: usize = 500;
 const FLIPPED_IF_ASKED: usize = 32;
 
@@ -255,7 +255,8 @@ impl<G: Dimension> Delaunay<G> {
         done
     }
 
-    /// Flips from the facets of the gathered star outwards, until no facet fails; `None`, and no change, if flips are stuck.
+    /// Flips from the facets of the gathered star outwards, until no facet fails; `None`, and no change, if flips are
+    /// stuck.
     pub(super) fn flip_star(&mut self) -> Result<Option<u64>> {
         let mut flips = std::mem::take(&mut self.flips);
         let done = self.flip_star_with(&mut flips);

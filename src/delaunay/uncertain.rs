@@ -23,8 +23,8 @@ struct Block {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// As [`visit_uncertain`](Self::visit_uncertain). `IS_FAR` if the cells are too many to stay in a cache near the processor:
-    /// then neighbours and sites are asked for in advance, which would only cost time otherwise.
+    /// As [`visit_uncertain`](Self::visit_uncertain). `IS_FAR` if the cells are too many to stay in a cache near the
+    /// processor: then neighbours and sites are asked for in advance, which would only cost time otherwise.
     #[inline(always)]
     pub(super) fn visit_uncertain_in_lanes<const IS_FAR: bool>(
         &self,
@@ -254,8 +254,8 @@ mod tests {
         n
     }
 
-    /// What is said of facets is so, and almost nothing that is so is left unsaid, also where the cells are so small next to
-    /// all that a bound for all says nothing.
+    /// What is said of facets is so, and almost nothing that is so is left unsaid, also where the cells are so small
+    /// next to all that a bound for all says nothing.
     fn facets_are_certain<G: Dimension>() {
         let Some(avx2) = Avx2::new() else { return };
         let rng = &mut Rng::new(11);

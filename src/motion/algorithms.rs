@@ -63,144 +63,144 @@ pub(super) enum Immediate {
 macro_rules! for_algorithms {
     ($macro:ident) => {
         $macro! {
-            default Auto;
+        default Auto;
 
-            /// Chooses at each commit by what the last ones found. Where all vertices are staged: repair, of only those
-            /// certificates that can fail while displacements are small compared with the spacing, or rebuilding where too
-            /// much would fail. Where fewer than one vertex in twenty is staged: tolerance if that is up to date, else
-            /// placement with flips.
-            Auto = 0 {
-                name: "auto",
-                purpose: Use,
-                commits: ByOthers,
-                keeps: "what the last commits have cost, and what those algorithms keep",
-                immediate: WhileKept(Tolerance),
-                by: commit_by_auto(),
-            }
+        /// Chooses at each commit by what the last ones found. Where all vertices are staged: repair, of only those
+        /// certificates that can fail while displacements are small compared with the spacing, or rebuilding where too
+        /// much would fail. Where fewer than one vertex in twenty is staged: tolerance if that is up to date, else
+        /// placement with flips.
+        Auto = 0 {
+            name: "auto",
+            purpose: Use,
+            commits: ByOthers,
+            keeps: "what the last commits have cost, and what those algorithms keep",
+            immediate: WhileKept(Tolerance),
+            by: commit_by_auto(),
+        }
 
-            /// Builds the triangulation again from all positions (RR-6750, section 1).
-            Rebuilding = 1 {
-                name: "rebuilding",
-                purpose: Use,
-                commits: Rebuild,
-                keeps: "",
-                immediate: None,
-                by: rebuild_given(),
-            }
+        /// Builds the triangulation again from all positions (RR-6750, section 1).
+        Rebuilding = 1 {
+            name: "rebuilding",
+            purpose: Use,
+            commits: Rebuild,
+            keeps: "",
+            immediate: None,
+            by: rebuild_given(),
+        }
 
-            /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
-            /// the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are then
-            /// undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
-            /// that move far.
-            PlacementFlips = 2 {
-                name: "placement_flips",
-                purpose: Use,
-                commits: OneByOne,
-                keeps: "",
-                immediate: None,
-                by: commit_by_placement(Shortcut::Flips),
-            }
+        /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
+        /// the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are then
+        /// undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
+        /// that move far.
+        PlacementFlips = 2 {
+            name: "placement_flips",
+            purpose: Use,
+            commits: OneByOne,
+            keeps: "",
+            immediate: None,
+            by: commit_by_placement(Shortcut::Flips),
+        }
 
-            /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
-            /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the
-            /// tolerances around it (RR-6750, Algorithm 1). For displacements so small that nearly all vertices stay
-            /// within, and for schemes that converge. All tolerances are computed by the first commit, and by the first
-            /// one after another algorithm's.
-            Tolerance = 3 {
-                name: "tolerance",
-                purpose: Use,
-                commits: OneByOne,
-                keeps: "tolerances per vertex",
-                immediate: By(Tolerance),
-                by: commit_by_tolerance(),
-            }
+        /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
+        /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the
+        /// tolerances around it (RR-6750, Algorithm 1). For displacements so small that nearly all vertices stay
+        /// within, and for schemes that converge. All tolerances are computed by the first commit, and by the first
+        /// one after another algorithm's.
+        Tolerance = 3 {
+            name: "tolerance",
+            purpose: Use,
+            commits: OneByOne,
+            keeps: "tolerances per vertex",
+            immediate: By(Tolerance),
+            by: commit_by_tolerance(),
+        }
 
-            /// All vertices move at once, every certificate is checked, and what fails is repaired by flips and
-            /// placements. Rebuilds where too much fails.
-            Repair = 4 {
-                name: "repair",
-                purpose: Use,
-                commits: Together,
-                keeps: "",
-                immediate: None,
-                by: commit_by_repair(),
-            }
+        /// All vertices move at once, every certificate is checked, and what fails is repaired by flips and
+        /// placements. Rebuilds where too much fails.
+        Repair = 4 {
+            name: "repair",
+            purpose: Use,
+            commits: Together,
+            keeps: "",
+            immediate: None,
+            by: commit_by_repair(),
+        }
 
-            /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report
-            /// slower than that in 61 of 74 rows.
-            Placement = 16 {
-                name: "placement",
-                purpose: Comparison,
-                commits: OneByOne,
-                keeps: "",
-                immediate: None,
-                by: commit_by_placement(Shortcut::Certificates),
-            }
+        /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report
+        /// slower than that in 61 of 74 rows.
+        Placement = 16 {
+            name: "placement",
+            purpose: Comparison,
+            commits: OneByOne,
+            keeps: "",
+            immediate: None,
+            by: commit_by_placement(Shortcut::Certificates),
+        }
 
-            /// For comparison: as DELDRIFT_TOLERANCE, with a larger region for each vertex: inside the delimiters of the
-            /// facets it is on, outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not
-            /// so far that delimiters prove too little (RR-6750, Algorithm 2). More vertices stay within, at the cost of a
-            /// distance for every facet of the star of each, and of the memory of a delimiter for every facet of every
-            /// cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
-            SafeRegion = 17 {
-                name: "safe_region",
-                purpose: Comparison,
-                commits: OneByOne,
-                keeps: "delimiters per facet",
-                immediate: By(SafeRegion),
-                by: commit_by_safe_region(Filter::SafeRegion),
-            }
+        /// For comparison: as DELDRIFT_TOLERANCE, with a larger region for each vertex: inside the delimiters of the
+        /// facets it is on, outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not
+        /// so far that delimiters prove too little (RR-6750, Algorithm 2). More vertices stay within, at the cost of a
+        /// distance for every facet of the star of each, and of the memory of a delimiter for every facet of every
+        /// cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
+        SafeRegion = 17 {
+            name: "safe_region",
+            purpose: Comparison,
+            commits: OneByOne,
+            keeps: "delimiters per facet",
+            immediate: By(SafeRegion),
+            by: commit_by_safe_region(Filter::SafeRegion),
+        }
 
-            /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within as
-            /// with either, and most cost one distance. Memory as for the safe region. In the recorded report slower than
-            /// DELDRIFT_TOLERANCE in 69 of 74 rows.
-            SafeRegionTolerance = 18 {
-                name: "safe_region_tolerance",
-                purpose: Comparison,
-                commits: OneByOne,
-                keeps: "tolerances per vertex, delimiters per facet",
-                immediate: By(Both),
-                by: commit_by_safe_region(Filter::Both),
-            }
+        /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within as
+        /// with either, and most cost one distance. Memory as for the safe region. In the recorded report slower than
+        /// DELDRIFT_TOLERANCE in 69 of 74 rows.
+        SafeRegionTolerance = 18 {
+            name: "safe_region_tolerance",
+            purpose: Comparison,
+            commits: OneByOne,
+            keeps: "tolerances per vertex, delimiters per facet",
+            immediate: By(Both),
+            by: commit_by_safe_region(Filter::Both),
+        }
 
-            /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
-            /// rule is that of switch_share and the options behind it (RR-6750, section 5.2). A sample costs the tolerances
-            /// of a few vertices. To choose another algorithm and this one again starts over. In the recorded report slower
-            /// than DELDRIFT_AUTO in 71 of 74 rows.
-            RebuildingTolerance = 19 {
-                name: "rebuilding_tolerance",
-                purpose: Comparison,
-                commits: ByOthers,
-                keeps: "tolerances per vertex",
-                immediate: OnceSwitched(Tolerance),
-                by: commit_by_switching(),
-            }
+        /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
+        /// rule is that of switch_share and the options behind it (RR-6750, section 5.2). A sample costs the tolerances
+        /// of a few vertices. To choose another algorithm and this one again starts over. In the recorded report slower
+        /// than DELDRIFT_AUTO in 71 of 74 rows.
+        RebuildingTolerance = 19 {
+            name: "rebuilding_tolerance",
+            purpose: Comparison,
+            commits: ByOthers,
+            keeps: "tolerances per vertex",
+            immediate: OnceSwitched(Tolerance),
+            by: commit_by_switching(),
+        }
 
-            /// As repair, but only the certificates of vertices that leave their tolerance are checked, and those
-            /// that would make it too small. For displacements of up to about a thousandth of the spacing in 2D, and a
-            /// ten-thousandth in 3D. Commits that do not move all vertices at once, or while vertices share a place,
-            /// are those of repair.
-            Watching = 1000 {
-                name: "watching",
-                purpose: Internal,
-                commits: Together,
-                keeps: "tolerances per vertex, watched bi-cells",
-                immediate: None,
-                by: watch_or_repair(),
-            }
+        /// As repair, but only the certificates of vertices that leave their tolerance are checked, and those
+        /// that would make it too small. For displacements of up to about a thousandth of the spacing in 2D, and a
+        /// ten-thousandth in 3D. Commits that do not move all vertices at once, or while vertices share a place,
+        /// are those of repair.
+        Watching = 1000 {
+            name: "watching",
+            purpose: Internal,
+            commits: Together,
+            keeps: "tolerances per vertex, watched bi-cells",
+            immediate: None,
+            by: watch_or_repair(),
+        }
 
-            /// As repair, but only the certificates of those bi-cells are checked whose own tolerance is used up by
-            /// the ways that their vertices have gone. For displacements of up to a few ten-thousandths of the spacing
-            /// in 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
-            /// while vertices share a place, are those of repair.
-            Slack = 1001 {
-                name: "slack",
-                purpose: Internal,
-                commits: Together,
-                keeps: "tolerances per bi-cell, distances travelled per vertex",
-                immediate: None,
-                by: slack_or_repair(),
-            }
+        /// As repair, but only the certificates of those bi-cells are checked whose own tolerance is used up by
+        /// the ways that their vertices have gone. For displacements of up to a few ten-thousandths of the spacing
+        /// in 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
+        /// while vertices share a place, are those of repair.
+        Slack = 1001 {
+            name: "slack",
+            purpose: Internal,
+            commits: Together,
+            keeps: "tolerances per bi-cell, distances travelled per vertex",
+            immediate: None,
+            by: slack_or_repair(),
+        }
         }
     };
 }

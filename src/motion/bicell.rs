@@ -13,8 +13,8 @@ pub(super) struct BiCell<'k, G: Dimension> {
 }
 
 impl<'k, G: Dimension> BiCell<'k, G> {
-    /// The bi-cell of a facet: the opposing vertices are the first and the last of the `D + 2` corners of an interior one;
-    /// the vertices of the facet and then the first of all are in the order of a positive orientation.
+    /// The bi-cell of a facet: the opposing vertices are the first and the last of the `D + 2` corners of an interior
+    /// one; the vertices of the facet and then the first of all are in the order of a positive orientation.
     /// At the hull only the `D + 1` finite corners are listed, in the order of a positive orientation.
     #[inline(always)]
     pub(super) fn of(kernel: &'k Delaunay<G>, facet: Facet) -> Self {

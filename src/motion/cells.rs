@@ -1,15 +1,15 @@
 //! The cells as callers see them: by vertex id, finite cells only, in dense arrays that are brought up to date.
 //!
-//! **Identity.** A cell is its set of vertices. One that is there before and after keeps its index, and the order of its
-//! corners unless it has been turned over, whatever has become of its slot: rows of slots that have changed are compared
-//! first with what the slot holds now, and what is left on both sides is matched by corners. Only where cells have become
-//! fewer, the last ones are *renumbered* to fill the holes.
+//! **Identity.** A cell is its set of vertices. One that is there before and after keeps its index, and the order of
+//! its corners unless it has been turned over, whatever has become of its slot: rows of slots that have changed are
+//! compared first with what the slot holds now, and what is left on both sides is matched by corners. Only where
+//! cells have become fewer, the last ones are *renumbered* to fill the holes.
 //!
 //! Invariants: `slots` and `index_of` are inverse to each other for all cells that have not changed since. The order of
 //! the corners in a row, beside that in its slot, is in `orderings`.
 //!
-//! Cost: in proportion to the slots that have changed; when most have, one pass over all. `make bench` times steps, which
-//! read the cells and what has changed, beside commits alone.
+//! Cost: in proportion to the slots that have changed; when most have, one pass over all. `make bench` times steps,
+//! which read the cells and what has changed, beside commits alone.
 
 mod comparing;
 mod gluing;
@@ -49,7 +49,8 @@ pub(super) struct Cells<G: Dimension> {
     slots: Vec<u32>,
     /// By index; there may be more than cells.
     orderings: Vec<Ordering>,
-    /// A bit for each lost cell that has been found, or whose index has been given to another one. All are 0 between calls.
+    /// A bit for each lost cell that has been found, or whose index has been given to another one. All are 0 between
+    /// calls.
     is_settled: Bits,
     /// What has changed since the program last took the changes, if it ever did.
     since_taken: Option<Tracker<G::Corners>>,
@@ -72,7 +73,8 @@ struct Found<C> {
 struct Scratch<C> {
     /// Indices whose slot no longer holds their cell.
     lost: Vec<u32>,
-    /// Slots that hold another finite cell than before, if they are known; else, those that hold one that was not there.
+    /// Slots that hold another finite cell than before, if they are known; else, those that hold one that was not
+    /// there.
     found: Vec<Found<C>>,
     matcher: Matcher<C>,
     /// Slots of cells that have other indices.
@@ -266,8 +268,8 @@ impl<G: Dimension> Cells<G> {
         Ok(())
     }
 
-    /// Gives every cell its index: those found again theirs; new ones that of the cell which was in their slot, a hole, or
-    /// one at the end. What is left of the holes is filled from the end.
+    /// Gives every cell its index: those found again theirs; new ones that of the cell which was in their slot, a
+    /// hole, or one at the end. What is left of the holes is filled from the end.
     fn renumber(
         &mut self,
         kernel: &Delaunay<G>,

@@ -1,8 +1,8 @@
 //! The change list: what a program that keeps something for each cell has to know.
 //!
 //! A tracker compares the cells of now with those of an earlier moment, its *base*, by what every refreshment of the
-//! arrays ([`cells`](super::cells)) tells it. It knows of each index under which one its cell was at the base, and of each
-//! cell of the base that is gone its index and corners. So it never holds more than there were cells, however long
+//! arrays ([`cells`](super::cells)) tells it. It knows of each index under which one its cell was at the base, and of
+//! each cell of the base that is gone its index and corners. So it never holds more than there were cells, however long
 //! nobody asks.
 
 use super::marks::Marks;
@@ -152,8 +152,8 @@ impl<C: Corners> Tracker<C> {
         self.turned.clear();
     }
 
-    /// A copy in which the vertices have other ids, listed by the old ones. A removed vertex has none any more: no cell of
-    /// now or later has it, so a row with [`NONE`] is never there again.
+    /// A copy in which the vertices have other ids, listed by the old ones. A removed vertex has none any more: no
+    /// cell of now or later has it, so a row with [`NONE`] is never there again.
     pub(super) fn renumbered(&self, ids: &[u32]) -> Result<Self> {
         let mut removed = memory::copy_of(&self.removed)?;
         for (_, row) in &mut removed {
@@ -254,8 +254,8 @@ pub struct Changes<'t, C> {
     pub renumbered_from: &'t [u32],
     /// The new ones.
     pub renumbered_to: &'t [u32],
-    /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed, after the latest
-    /// compaction if there was one.
+    /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed, after the
+    /// latest compaction if there was one.
     pub stars: &'t [u32],
     /// Vertices that are hidden and were not.
     pub hidden: &'t [u32],

@@ -1,4 +1,5 @@
-//! Vertices at the same place: the lowest id represents it, the others are [hidden](super::hidden) until they move apart.
+//! Vertices at the same place: the lowest id represents it, the others are [hidden](super::hidden) until they move
+//! apart.
 
 use super::{CoincidencePolicy, MovingTriangulation};
 use crate::complex::NONE;

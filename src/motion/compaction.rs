@@ -1,15 +1,16 @@
 //! Compaction: what removed vertices have left behind goes.
 //!
-//! The id of a removed vertex is not given again, nor is its place in arrays by id, and free sites and cells stay where they
-//! are. So a triangulation grows with the number of insertions. A compaction gives the present vertices the ids from 0 on,
-//! in the order of those that they have: ties are broken by the order of ids, so the cells stay the same.
+//! The id of a removed vertex is not given again, nor is its place in arrays by id, and free sites and cells stay
+//! where they are. So a triangulation grows with the number of insertions. A compaction gives the present vertices
+//! the ids from 0 on, in the order of those that they have: ties are broken by the order of ids, so the cells stay
+//! the same.
 //!
-//! All that is to be kept is copied, with sites and cells in the order of a fresh build, and then takes the place of what
-//! there was: a compaction that fails has changed nothing. Scratch memory goes, and so do tolerances: the next commit that
-//! wants some computes them.
+//! All that is to be kept is copied, with sites and cells in the order of a fresh build, and then takes the place of
+//! what there was: a compaction that fails has changed nothing. Scratch memory goes, and so do tolerances: the next
+//! commit that wants some computes them.
 //!
-//! Cost: the sort of a fresh build, without its insertions, and a pass over all old ids, sites and cells; while it lasts,
-//! the memory of a second triangulation.
+//! Cost: the sort of a fresh build, without its insertions, and a pass over all old ids, sites and cells; while it
+//! lasts, the memory of a second triangulation.
 
 use super::MovingTriangulation;
 use super::changes::Taken;
@@ -22,8 +23,8 @@ use crate::error::Result;
 use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones alone.
-    /// Returns the new id of each old one, [`NO_VERTEX`](super::NO_VERTEX) for vertices that have been removed.
+    /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones
+    /// alone. Returns the new id of each old one, [`NO_VERTEX`](super::NO_VERTEX) for vertices that have been removed.
     ///
     /// All else stays: positions, cells with their indices in [`cells`](Self::cells), what is staged, the timestamp.
     /// [`changed_cells`](Self::changed_cells) and [`take_changes`](Self::take_changes) go on as they would have, with

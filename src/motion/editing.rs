@@ -1,8 +1,8 @@
 //! Insertions and removals that wait for the next commit, with the moves.
 //!
-//! A staged insertion gets its id at once; the vertex is present from the commit on. The commit removes and inserts first,
-//! at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or go it
-//! rebuilds. Either way all of it is one transaction.
+//! A staged insertion gets its id at once; the vertex is present from the commit on. The commit removes and inserts
+//! first, at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or
+//! go it rebuilds. Either way all of it is one transaction.
 
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
@@ -17,8 +17,8 @@ use crate::machine::memory;
 const REBUILT_PER_EDIT: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those of the
-    /// others follow. They are present from the next commit on.
+    /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those
+    /// of the others follow. They are present from the next commit on.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
@@ -43,8 +43,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(first as u32)
     }
 
-    /// Stages the removal of vertices, all of them or, on an error, none. Moves staged for them are forgotten, and no more
-    /// can be staged.
+    /// Stages the removal of vertices, all of them or, on an error, none. Moves staged for them are forgotten, and no
+    /// more can be staged.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`]; [`Error::RemovedVertex`] also if the removal is staged already; [`Error::OutOfMemory`].

@@ -120,15 +120,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// The short way of [`relocate_vertex`](Self::relocate_vertex): moves a vertex that certainly stays within the tolerance
-    /// kept of it if nothing follows from that but a few counts. Otherwise it does nothing and says `false`; the long
-    /// way finds out what is to be done, or is wrong. It cannot panic, so C needs no fence around it.
+    /// The short way of [`relocate_vertex`](Self::relocate_vertex): moves a vertex that certainly stays within the
+    /// tolerance kept of it if nothing follows from that but a few counts. Otherwise it does nothing and says
+    /// `false`; the long way finds out what is to be done, or is wrong. It cannot panic, so C needs no fence around it.
     ///
     /// No other vertex can be at the new place. All are within their tolerances, so the cells still are a triangulation
     /// when this one has moved, and positive; if two of its vertices were at one place, cells of theirs would overlap.
     ///
-    /// Sites are not stored in the order of ids, so what they hold comes late. Nothing waits for it here: a vertex that is
-    /// there already is moved like the others, and counts nothing.
+    /// Sites are not stored in the order of ids, so what they hold comes late. Nothing waits for it here: a vertex
+    /// that is there already is moved like the others, and counts nothing.
     #[inline(always)]
     pub(crate) fn relocate_within_tolerance(&mut self, vertex: u32, position: &G::Point) -> bool {
         let v = vertex as usize;

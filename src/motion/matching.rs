@@ -8,8 +8,9 @@ use crate::error::Result;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 
-/// From `MIN_CELLS_LISTED` on, cells are listed by their lowest corner, unless the ids are more than `MAX_IDS_PER_CELL` times as many as the cells,
-/// or more than `MAX_CELLS_PER_CORNER` cells have the same lowest corner: a search goes through all of these.
+/// From `MIN_CELLS_LISTED` on, cells are listed by their lowest corner, unless the ids are more than
+/// `MAX_IDS_PER_CELL` times as many as the cells, or more than `MAX_CELLS_PER_CORNER` cells have the same lowest
+/// corner: a search goes through all of these.
 const MIN_CELLS_LISTED: usize = 1 << 12;
 const MAX_IDS_PER_CELL: usize = 8;
 const MAX_CELLS_PER_CORNER: u32 = 256;

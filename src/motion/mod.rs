@@ -1,8 +1,8 @@
 //! Triangulations of moving points: staging, timestamps, and the algorithms of the report.
 //!
-//! A vertex has an id, for life or until a compaction, and a position at each timestamp. Relocations are staged; a commit
-//! makes all of them the next timestamp, by one of the algorithms. `algorithms` has a row for each; they are in these
-//! files:
+//! A vertex has an id, for life or until a compaction, and a position at each timestamp. Relocations are staged; a
+//! commit makes all of them the next timestamp, by one of the algorithms. `algorithms` has a row for each; they are
+//! in these files:
 //!
 //! | file | report | what |
 //! |---|---|---|
@@ -16,15 +16,16 @@
 //! | `slack` | | as repair, but of bi-cells whose own tolerance is used up |
 //! | `auto` | | watching, slack, repair or rebuilding, by what the last commits found |
 //!
-//! Each of `tolerance`, `safe_region`, `watching` and `slack` has a store and a commit; `regions` keeps one of the stores, and
-//! lets it follow changes. `immediate` relocates, inserts and removes one vertex at a time; `moving` has the loops that move
-//! all vertices; `transaction` what undoes a change; `cells` and `changes` what callers read of it; `compaction` forgets
-//! removed vertices.
+//! Each of `tolerance`, `safe_region`, `watching` and `slack` has a store and a commit; `regions` keeps one of the
+//! stores, and lets it follow changes. `immediate` relocates, inserts and removes one vertex at a time; `moving` has
+//! the loops that move all vertices; `transaction` what undoes a change; `cells` and `changes` what callers read of
+//! it; `compaction` forgets removed vertices.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
 //! - the vertices at one place share a site; the lowest id represents it, the others are *hidden*;
-//! - a call that fails has no effect: every change is a transaction (`transaction`), which is undone from its own record.
+//! - a call that fails has no effect: every change is a transaction (`transaction`), which is undone from its own
+//!   record.
 //!
 //! Memory per vertex: the kernel's, 4 bytes for the site of an id, and once moves are staged a position, a flag and
 //! an id.

@@ -12,8 +12,8 @@ pub struct SwitchingRule {
     pub sample: u32,
     /// Commits from one sample to the next.
     pub period: u32,
-    /// Share of the sample, from 0 to 1, that must be within tolerance; `None` for the report's: 0.75 in the plane, 0.55
-    /// in space.
+    /// Share of the sample, from 0 to 1, that must be within tolerance; `None` for the report's: 0.75 in the plane,
+    /// 0.55 in space.
     pub share: Option<f64>,
     /// Seed of the sample.
     pub seed: u64,

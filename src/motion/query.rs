@@ -71,7 +71,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
-    /// Indices of the finite cells around the place of a vertex, in no particular order, in `out`, which is cleared first.
+    /// Indices of the finite cells around the place of a vertex, in no particular order, in `out`, which is cleared
+    /// first.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),

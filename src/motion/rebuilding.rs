@@ -1,7 +1,7 @@
 //! *Rebuilding* (report, section 1): triangulate all positions again.
 //!
-//! The storage order of the sites is kept while it serves: motions are small, so what was near still is. Where sites next
-//! to each other in storage have gone apart, they are sorted first.
+//! The storage order of the sites is kept while it serves: motions are small, so what was near still is. Where sites
+//! next to each other in storage have gone apart, they are sorted first.
 //!
 //! The new triangulation is built beside the old one and takes its place when it is complete, so what fails or is
 //! cancelled on the way has changed nothing.
@@ -19,8 +19,8 @@ use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 
 /// Sites are sorted when the mean distance of those next to each other has become so much greater. Measured with
-/// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): with less, it sorts without need; with more
-/// the walks take longer than to sort.
+/// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): with less, it sorts
+/// without need; with more the walks take longer than to sort.
 const MAX_STRIDE_RATIO: f64 = 1.7;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -110,8 +110,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         differ
     }
 
-    /// Gives every hidden vertex a site of its own in a new kernel, at the place where it is. Returns vertices and sites, by
-    /// vertex.
+    /// Gives every hidden vertex a site of its own in a new kernel, at the place where it is. Returns vertices and
+    /// sites, by vertex.
     pub(super) fn spread_hidden(&self, next: &mut Delaunay<G>) -> Result<Vec<(u32, u32)>> {
         let mut spread = Vec::new();
         if self.hidden.count() == 0 {
@@ -126,7 +126,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(spread)
     }
 
-    /// The site that a vertex has for itself in a new kernel where the hidden ones have been [spread](Self::spread_hidden).
+    /// The site that a vertex has for itself in a new kernel where the hidden ones have been
+    /// [spread](Self::spread_hidden).
     pub(super) fn own_site(&self, spread: &[(u32, u32)], vertex: u32) -> u32 {
         let at = spread.binary_search_by_key(&vertex, |&(hidden, _)| hidden);
         at.map_or(self.site_of[vertex as usize], |k| spread[k].1)
@@ -156,8 +157,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Triangulates the sites of a new kernel. Returns the hidden vertices, the mean stride of sorted sites, and whether the
-    /// sites have their indices from before.
+    /// Triangulates the sites of a new kernel. Returns the hidden vertices, the mean stride of sorted sites, and
+    /// whether the sites have their indices from before.
     fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64, bool)> {
         let (mut stride, mut keeps_sites) = (self.sorted_stride, next.keeps_sites());
         if next.mean_stride() > MAX_STRIDE_RATIO * stride || !next.has_even_parts() {
@@ -214,8 +215,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Puts a new kernel, which is complete, in the place of the present one; unless its sites have the indices from before,
-    /// [`find_sites`](Self::find_sites) must follow. Cannot fail.
+    /// Puts a new kernel, which is complete, in the place of the present one; unless its sites have the indices from
+    /// before, [`find_sites`](Self::find_sites) must follow. Cannot fail.
     pub(super) fn adopt(&mut self, next: Delaunay<G>, hidden: Hidden, stride: f64) {
         self.kernel = next;
         self.hidden = hidden;

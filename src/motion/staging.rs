@@ -26,7 +26,8 @@ pub(super) struct Staging<G: Dimension> {
 }
 
 /// Positions of all vertices as the caller of a commit has given them, until they are staged: all at once
-/// ([`stage_given`](super::MovingTriangulation::stage_given)), or block by block as the vertices move ([`moving`](super::moving)).
+/// ([`stage_given`](super::MovingTriangulation::stage_given)), or block by block as the vertices move
+/// ([`moving`](super::moving)).
 #[derive(Debug)]
 pub(super) struct Given<'p, G: Dimension>(Option<&'p [G::Point]>);
 
@@ -204,8 +205,8 @@ impl<G: Dimension> Staging<G> {
         Ok(())
     }
 
-    /// Follows the number of ids once there is something to follow, and [room](Self::make_room). The staging must not be
-    /// whole.
+    /// Follows the number of ids once there is something to follow, and [room](Self::make_room). The staging must not
+    /// be whole.
     pub(super) fn grow(&mut self, n_ids: usize) {
         debug_assert!(!self.is_whole);
         if !self.positions.is_empty() {
@@ -300,8 +301,8 @@ impl<G: Dimension> Staging<G> {
         }
     }
 
-    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones, [`NONE`] for those removed.
-    /// Of no moves nothing is kept.
+    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones, [`NONE`] for those
+    /// removed. Of no moves nothing is kept.
     pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
         let mut staging = Staging::default();
         if self.count() == 0 {

@@ -22,8 +22,8 @@ use crate::predicates::exact_calls;
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
 
-/// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex it is
-/// fitted to the points again, which takes as long as a small part of one commit.
+/// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex
+/// it is fitted to the points again, which takes as long as a small part of one commit.
 const MOVES_PER_VERTEX: u64 = 64;
 
 /// A Delaunay triangulation whose vertices move.

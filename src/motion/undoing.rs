@@ -8,8 +8,8 @@
 //! ```
 //!
 //! What is kept for undoing: the rows of cells and the sites that were removed, added or renamed
-//! ([`Delaunay::begin`]), the site and the successor of each vertex that came to or left a shared place, and, of a commit,
-//! where the moved vertices were ([`staging`](super::staging): applying a move exchanges the two positions). A
+//! ([`Delaunay::begin`]), the site and the successor of each vertex that came to or left a shared place, and, of a
+//! commit, where the moved vertices were ([`staging`](super::staging): applying a move exchanges the two positions). A
 //! [rebuilding](super::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
 //!
 //! Memory is reserved before a change, so [`undo`](MovingTriangulation::undo) needs none, and cannot fail.

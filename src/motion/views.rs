@@ -1,8 +1,8 @@
 //! Who reads the cells: arrays that are kept, and follow the changes.
 //!
-//! The [arrays](super::cells) are made when they are first asked for, and kept. A change leaves a list of the slots whose
-//! corners it has changed; the next one who asks brings the arrays up to date, at the cost of these. Who never asks pays
-//! nothing, and a change of no cell costs nobody anything.
+//! The [arrays](super::cells) are made when they are first asked for, and kept. A change leaves a list of the slots
+//! whose corners it has changed; the next one who asks brings the arrays up to date, at the cost of these. Who never
+//! asks pays nothing, and a change of no cell costs nobody anything.
 //!
 //! Several threads may ask at the same time, the first one after a change included: it works while the others wait.
 

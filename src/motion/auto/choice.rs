@@ -67,7 +67,8 @@ const fn costs<G: Dimension>() -> Costs {
     }
 }
 
-/// Watching is tried without slack before it after commits with at most one flip or placement per this number of vertices.
+/// Watching is tried without slack before it after commits with at most one flip or placement per this number of
+/// vertices.
 const VERTICES_PER_CHANGE_TO_WATCH: f64 = 4000.0;
 /// Watching is tried when less than one bi-cell per this number of vertices uses up its slack.
 const VERTICES_PER_USED_UP_TO_WATCH: u64 = 60;
@@ -91,8 +92,8 @@ const MAX_REBUILDS: u32 = 15;
 #[derive(Debug, Default)]
 pub(in crate::motion) struct Auto {
     scope: Scope,
-    /// By how much that has cost more than the expensive way would have, and what the watched bi-cells have cost more than the
-    /// vertices beyond, in nanoseconds.
+    /// By how much that has cost more than the expensive way would have, and what the watched bi-cells have cost more
+    /// than the vertices beyond, in nanoseconds.
     excess: f64,
     imbalance: f64,
     /// Whether all tolerances are to be computed again, for balance.
@@ -146,8 +147,8 @@ impl Auto {
         self.is_due |= self.scope == Scope::Watched;
     }
 
-    /// Weighs what watching this number of bi-cells has cost, for `n` vertices, against the more expensive way, and what is
-    /// watched against what is recomputed. Whether all tolerances are to be computed again.
+    /// Weighs what watching this number of bi-cells has cost, for `n` vertices, against the more expensive way, and
+    /// what is watched against what is recomputed. Whether all tolerances are to be computed again.
     pub(super) fn weigh_watching<G: Dimension>(
         &mut self,
         n_watched: usize,

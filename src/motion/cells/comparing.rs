@@ -8,8 +8,8 @@ use crate::machine::prefetch::prefetch;
 use crate::motion::matching::{Matcher, are_same};
 use crate::motion::ordering::Ordering;
 
-/// Rows that are compared first when any may have changed: where most of these are gone from their slots, so are most of
-/// the others.
+/// Rows that are compared first when any may have changed: where most of these are gone from their slots, so are most
+/// of the others.
 const SAMPLE: usize = 512;
 
 /// Slots that are compared at a time when any may have changed.

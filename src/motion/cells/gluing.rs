@@ -14,7 +14,8 @@ use crate::motion::ordering::Ordering;
 const GLUED_AT_LEAST: usize = 1 << 13;
 
 impl<G: Dimension> Cells<G> {
-    /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours' sides.
+    /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours'
+    /// sides.
     pub(super) fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Marks, moved: &[u32]) {
         let complex = kernel.complex();
         let last = complex.n_slots() as u32 - 1;

@@ -7,10 +7,11 @@
 //! | [`watching`](super::watching) | tolerances, and the bi-cells that would make them too small |
 //! | [`slack`](super::slack) | a tolerance for each bi-cell |
 //!
-//! A room has a [`Store`], what it keeps, and a commit. Those of one room are kept at a time, and only while they are valid.
+//! A room has a [`Store`], what it keeps, and a commit. Those of one room are kept at a time, and only while they are
+//! valid.
 //!
-//! Invariant of what is kept: the ball around the fixed position of each vertex, of its tolerance, is inside all its safe
-//! regions, or, when watching, inside those of the bi-cells that are not watched.
+//! Invariant of what is kept: the ball around the fixed position of each vertex, of its tolerance, is inside all its
+//! safe regions, or, when watching, inside those of the bi-cells that are not watched.
 //!
 //! While cells change (a queue, an insertion, a removal) no regions are kept. They are again once
 //! every bi-cell that has a new cell or a relocated vertex has been computed at the positions of that moment
@@ -220,8 +221,8 @@ impl<G: Dimension> Regions<G> {
         memory::reserve(&mut self.relocated, 1)
     }
 
-    /// A change begins, during which no regions are kept. Returns those that can [follow](Self::follow) it, and memory for
-    /// the record of cells that this takes.
+    /// A change begins, during which no regions are kept. Returns those that can [follow](Self::follow) it, and
+    /// memory for the record of cells that this takes.
     fn begin_change(&mut self) -> Option<(Kept<G>, Vec<u32>)> {
         self.relocated.clear();
         let kept = self.kept.take()?;

@@ -3,8 +3,8 @@
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 
-/// Regions of one kind. `other_positions` are those of the vertices, by id, at the timestamp before or the next one: they
-/// tell how far vertices go in a timestamp.
+/// Regions of one kind. `other_positions` are those of the vertices, by id, at the timestamp before or the next one:
+/// they tell how far vertices go in a timestamp.
 pub(in crate::motion) trait Store<G: Dimension> {
     /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell is computed. Returns the
     /// number of bi-cells.

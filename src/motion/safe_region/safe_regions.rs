@@ -2,9 +2,9 @@
 //!
 //! Every interior bi-cell has a delimiter: a sphere with its interior facet inside and its opposing vertices outside.
 //!
-//! **In space a safe region is not enough.** The report's Proposition 1 fails there for bi-cells whose flip would be 3-2
-//! (see [`predicates::Delimiter::reach`](crate::predicates::Delimiter)): a vertex must also stay within the *reach* of its
-//! bi-cells, which is infinite in the plane.
+//! **In space a safe region is not enough.** The report's Proposition 1 fails there for bi-cells whose flip would be
+//! 3-2 (see [`predicates::Delimiter::reach`](crate::predicates::Delimiter)): a vertex must also stay within the
+//! *reach* of its bi-cells, which is infinite in the plane.
 //!
 //! At the hull a bi-cell has no sphere. Its certificate is the orientation of `D + 1` points, and its tolerance and its
 //! reach are half the least width of their simplex.
@@ -113,10 +113,12 @@ impl<G: Dimension> SafeRegions<G> {
         }
     }
 
-    /// Computes a bi-cell: keeps its delimiter, and lets it lower the tolerance and the reach of its vertices, which are
-    /// fixed where they are.
+    /// Computes a bi-cell: keeps its delimiter, and lets it lower the tolerance and the reach of its vertices, which
+    /// are fixed where they are.
     #[inline(always)]
     fn measure(&mut self, kernel: &Delaunay<G>, facet: Facet, bicell: BiCell<'_, G>) {
+        let vertices = bicell.vertices(kernel);
+        let finite = &vertices[..bicell.sites().len()];
         let (tolerance, reach) = match bicell.delimiter() {
             Some(delimiter) => {
                 let across = kernel.complex().cell(facet.cell()).neighbour(facet.index());
@@ -129,8 +131,6 @@ impl<G: Dimension> SafeRegions<G> {
                 (width, width)
             }
         };
-        let vertices = bicell.vertices(kernel);
-        let finite = &vertices[..bicell.sites().len()];
         self.tolerances.lower(finite, tolerance);
         for &v in finite {
             let least = &mut self.reach[v as usize];

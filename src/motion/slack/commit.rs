@@ -9,13 +9,14 @@
 //!
 //! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star recomputed, in
 //! space 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
-//! ([`Slacks`](super::slacks::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers each.
+//! ([`Slacks`](super::slacks::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers
+//! each.
 //!
-//! What a timestamp proves is what it proves in [watching](super::super::watching): read "held" for a bi-cell that has slack left,
-//! "watched" for one that has none.
+//! What a timestamp proves is what it proves in [watching](super::super::watching): read "held" for a bi-cell that
+//! has slack left, "watched" for one that has none.
 //!
-//! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the displacement, but
-//! for a logarithm.
+//! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the
+//! displacement, but for a logarithm.
 
 use super::slacks::Expired;
 use crate::delaunay::Dimension;

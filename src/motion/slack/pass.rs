@@ -9,8 +9,8 @@ use crate::predicates::{LANES, Tolerances};
 pub(super) enum Check<'c, G: Dimension> {
     /// They are known to hold.
     Not,
-    /// After a motion from where the vertices were before, by id, none of which has gone farther than so. Last, why they
-    /// could not be.
+    /// After a motion from where the vertices were before, by id, none of which has gone farther than so. Last, why
+    /// they could not be.
     Moved(&'c [G::Point], f64, &'c mut Failures, &'c mut Result<()>),
 }
 
@@ -36,8 +36,8 @@ impl<'c, G: Dimension> Pass<'c, G> {
         self.n == LANES
     }
 
-    /// Checks the bi-cells of the batch, if they are to be checked, and hands each on with its tolerance, none if it has
-    /// failed. Tolerances need not be sharp if they are `enough`. The batch is empty then.
+    /// Checks the bi-cells of the batch, if they are to be checked, and hands each on with its tolerance, none if it
+    /// has failed. Tolerances need not be sharp if they are `enough`. The batch is empty then.
     #[inline(always)]
     pub(super) fn empty(
         &mut self,

@@ -1,22 +1,22 @@
 //! The slack of each bi-cell: what is left of its tolerance.
 //!
-//! Every site has an odometer, an upper bound of the way it has gone. For each cell are kept the slacks of the bi-cells of
-//! its facets, and for each corner a *deadline*: the odometer of the corner when these slacks were entered, plus the
-//! least of them. While no corner has passed its deadline in either of two cells with a common facet, none of the D + 2
-//! vertices has gone farther than the tolerance that their bi-cell had when it was computed: each is a corner of one of
-//! the cells, and both have at most that slack for the facet.
+//! Every site has an odometer, an upper bound of the way it has gone. For each cell are kept the slacks of the
+//! bi-cells of its facets, and for each corner a *deadline*: the odometer of the corner when these slacks were
+//! entered, plus the least of them. While no corner has passed its deadline in either of two cells with a common
+//! facet, none of the D + 2 vertices has gone farther than the tolerance that their bi-cell had when it was computed:
+//! each is a corner of one of the cells, and both have at most that slack for the facet.
 //!
-//! When a corner passes its deadline the cell is *referred* to the present: the longest way of a corner since is taken off
-//! its slacks, which is exact, and new deadlines follow. The bi-cells that have none left are checked and computed
-//! recomputed; they concern only the two cells.
+//! When a corner passes its deadline the cell is *referred* to the present: the longest way of a corner since is
+//! taken off its slacks, which is exact, and new deadlines follow. The bi-cells that have none left are checked and
+//! computed recomputed; they concern only the two cells.
 //!
-//! **Units.** Ways and slacks are integers of 16 bits. The unit is a power of two of about a sixteenth of the mean way of
-//! a timestamp, chosen when all are computed, and again when it has not fitted for long. Ways are rounded up, slacks down.
-//! Odometers may overflow: only differences count, which are below 2¹⁵ in magnitude as slacks are cut at 2¹⁴ and the
-//! ways of one timestamp at one more.
+//! **Units.** Ways and slacks are integers of 16 bits. The unit is a power of two of about a sixteenth of the mean
+//! way of a timestamp, chosen when all are computed, and again when it has not fitted for long. Ways are rounded up,
+//! slacks down. Odometers may overflow: only differences count, which are below 2¹⁵ in magnitude as slacks are cut at
+//! 2¹⁴ and the ways of one timestamp at one more.
 //!
-//! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these. Memory:
-//! as many bytes for a cell, and 2 for a site.
+//! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these.
+//! Memory: as many bytes for a cell, and 2 for a site.
 
 use super::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
 use super::pass::{Check, Pass};
@@ -66,8 +66,8 @@ pub(in crate::motion) struct Slacks<G: Dimension> {
     enough: f64,
     /// By site, odometers.
     travelled: Vec<u16>,
-    /// By cell: in the lower half of entry `i` the deadline of corner `i`, in the upper half the slack of facet `i`, as a
-    /// signed number, since the cell was last referred.
+    /// By cell: in the lower half of entry `i` the deadline of corner `i`, in the upper half the slack of facet `i`,
+    /// as a signed number, since the cell was last referred.
     entries: Vec<G::Corners>,
     /// Cells of which a corner has passed its deadline, and the facets of bi-cells that have no slack left.
     expired: Vec<u32>,
@@ -163,8 +163,8 @@ impl<G: Dimension> Slacks<G> {
         self.unfit < UNFIT
     }
 
-    /// All vertices have moved, by these distances on average and at most: the kernel's static filter follows. Whether the
-    /// unit still fits.
+    /// All vertices have moved, by these distances on average and at most: the kernel's static filter follows.
+    /// Whether the unit still fits.
     pub(in crate::motion) fn end_motion(
         &mut self,
         kernel: &mut Delaunay<G>,
@@ -187,8 +187,8 @@ impl<G: Dimension> Slacks<G> {
         *travelled = travelled.wrapping_add(way);
     }
 
-    /// Checks the bi-cells that have no slack left after a motion from where the vertices were `before`, by id, by at most
-    /// `greatest` each, and recomputes those that hold, unless more than `most` cells are concerned.
+    /// Checks the bi-cells that have no slack left after a motion from where the vertices were `before`, by id, by at
+    /// most `greatest` each, and recomputes those that hold, unless more than `most` cells are concerned.
     pub(super) fn check_expired(
         &mut self,
         kernel: &Delaunay<G>,

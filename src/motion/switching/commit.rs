@@ -1,8 +1,9 @@
 //! *Rebuilding + tolerance* (report, section 5.2): rebuild while most vertices leave their tolerance, then swap.
 //!
-//! "We sample 40 random vertices at each group of four iterations, and we compute their tolerance. We then compare their
-//! tolerance with their displacement size, and check if at least 75 % of those vertices have their tolerance larger than
-//! their displacement size" (75 % in the plane, 55 % in space). In this case the algorithms are swapped, for good.
+//! "We sample 40 random vertices at each group of four iterations, and we compute their tolerance. We then compare
+//! their tolerance with their displacement size, and check if at least 75 % of those vertices have their tolerance
+//! larger than their displacement size" (75 % in the plane, 55 % in space). In this case the algorithms are swapped,
+//! for good.
 //!
 //! The sample is drawn by a seeded generator, so a run can be repeated.
 

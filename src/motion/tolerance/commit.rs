@@ -16,10 +16,10 @@
 //! queue a vertex again when a new bi-cell's tolerance falls below its displacement. Here the queue is
 //! worked off in the embedding at the *moving* positions: once every accepted vertex has moved, that is a
 //! Delaunay triangulation by Proposition 1, the queued vertices being where they were; predicates are exact, so it
-//! stays one after each placement, without checking any delimiter. So delimiters are computed once, after the last placement, and no vertex
-//! is ever queued again. They are taken at the moving positions, which lie within them by construction. A
-//! vertex *w* that gets a smaller tolerance is fixed again where it is: the ball around `f_w` of radius ε_w
-//! holds the ball around `m_w` of radius `ε_w − |m_w − f_w|`, so
+//! stays one after each placement, without checking any delimiter. So delimiters are computed once, after the last
+//! placement, and no vertex is ever queued again. They are taken at the moving positions, which lie within them by
+//! construction. A vertex *w* that gets a smaller tolerance is fixed again where it is: the ball around `f_w` of
+//! radius ε_w holds the ball around `m_w` of radius `ε_w − |m_w − f_w|`, so
 //! `(f_w, ε_w) <- (m_w, min(ε_w − |m_w − f_w|, ε'))`.
 //!
 //! **Certified.** Tolerances are lower bounds and displacements are compared as upper bounds
@@ -27,9 +27,8 @@
 //!
 //! **Coincident vertices** always take the queue.
 //!
-//! Cost: a test is a squared distance; a queued vertex costs a
-//! placement, and up to about 12 (plane) or 66 (space) delimiters, which it shares with its neighbours in
-//! the queue. `examples/tolerance_share` measures both.
+//! Cost: a test is a squared distance; a queued vertex costs a placement, and up to about 12 (plane) or 66 (space)
+//! delimiters, which it shares with its neighbours in the queue. `examples/tolerance_share` measures both.
 
 use crate::delaunay::Dimension;
 use crate::error::Result;

@@ -9,9 +9,9 @@ use crate::motion::bicell::BiCell;
 use crate::predicates::Delimiter;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Tolerance of a vertex at its current position: a certified lower bound of the distance that all vertices may move
-    /// without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it shares its
-    /// place with another, infinite while there are no cells.
+    /// Tolerance of a vertex at its current position: a certified lower bound of the distance that all vertices may
+    /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
+    /// shares its place with another, infinite while there are no cells.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).

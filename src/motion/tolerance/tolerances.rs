@@ -82,8 +82,8 @@ impl<G: Dimension> Tolerances<G> {
         self.fixed[id as usize] = Fixed { point, tolerance: self.margin.distance() };
     }
 
-    /// Fixes the vertex of a site where it is: what is left of its ball, as a lower bound, is its tolerance. Returns how
-    /// far that is from where it was fixed, as an upper bound, unless it is there.
+    /// Fixes the vertex of a site where it is: what is left of its ball, as a lower bound, is its tolerance. Returns
+    /// how far that is from where it was fixed, as an upper bound, unless it is there.
     #[inline(always)]
     pub(in crate::motion) fn fix_again(&mut self, &Site { point, id, .. }: &Site<G>) -> Option<f64> {
         let fixed = &mut self.fixed[id as usize];

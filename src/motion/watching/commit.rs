@@ -28,8 +28,8 @@
 //!   space, two segments `ab` and `ec` that cross at x: if no bi-cell has a plane between them, those of the facets
 //!   at `ab` have a ball with `a` and `b` inside and `e` and `c` outside, those at `ec` the opposite; the difference
 //!   of the powers, an affine function, is negative at `a` and `b` and positive at `e` and `c`, and both at x.
-//! - *Every facet is locally Delaunay.* It is checked if it is watched, or one of the D + 2 vertices beyond, as it is then
-//!   a facet of a cell at that vertex. Otherwise all of them are on their sides, and both cells positive.
+//! - *Every facet is locally Delaunay.* It is checked if it is watched, or one of the D + 2 vertices beyond, as it is
+//!   then a facet of a cell at that vertex. Otherwise all of them are on their sides, and both cells positive.
 //! - *The hull is convex and winds once.* Each ridge has the orientation of D + 1 points for certificate, which is held
 //!   or checked, in both cases all the way: the dihedral angles have never been 0 or π, so the hull was never folded.
 //!
@@ -140,8 +140,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Repairs what a check of some certificates of a whole staging has found. The listed vertices and those placed have their
-    /// bi-cells recomputed, like all new cells.
+    /// Repairs what a check of some certificates of a whole staging has found. The listed vertices and those placed
+    /// have their bi-cells recomputed, like all new cells.
     pub(in crate::motion) fn mend_checked(
         &mut self,
         repair: &mut Repair,

@@ -1,7 +1,7 @@
 //! A set of facets that is gone through at each timestamp.
 //!
-//! A list of facet codes, and by cell and index a bit for being a member and a bit for being listed: what leaves the set
-//! stays listed until the list is gone through. A facet may be named from either side.
+//! A list of facet codes, and by cell and index a bit for being a member and a bit for being listed: what leaves the
+//! set stays listed until the list is gone through. A facet may be named from either side.
 
 use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension};
