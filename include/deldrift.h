@@ -324,7 +324,8 @@ typedef struct deldrift_commit_report {
     uint64_t tolerances;
     /// Orientations and in-sphere tests of the stars of relocated vertices.
     uint64_t certificates;
-    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them.
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them, but
+    /// those on a lattice, in builds, need none.
     uint64_t exact_calls;
     /// Vertices inserted.
     uint64_t inserted;

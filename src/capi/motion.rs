@@ -38,7 +38,8 @@ pub struct deldrift_commit_report {
     pub tolerances: u64,
     /// Orientations and in-sphere tests of the stars of relocated vertices.
     pub certificates: u64,
-    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them.
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic; ties are among them, but
+    /// those on a lattice, in builds, need none.
     pub exact_calls: u64,
     /// Vertices inserted.
     pub inserted: u64,
