@@ -2,7 +2,8 @@
 //!
 //! - *static*: random points of the unit box, nearly all decided by the static filter;
 //! - *semi-static*: the same points with the filter of a box too large to decide anything;
-//! - *tie*: points of a small lattice, degenerate and decided exactly.
+//! - *tie*: points of a small lattice, degenerate and decided exactly; their differences have some fifty bits;
+//! - *short tie*: those of a lattice whose differences have one bit.
 //!
 //! Times are per call, over inputs that fit the first-level cache.
 
@@ -29,6 +30,11 @@ fn uniform(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1u64 << 53) as f64
 }
 
+/// Corners of the unit box.
+fn binary(bits: u64) -> f64 {
+    (bits >> 63) as f64
+}
+
 /// Corners of the unit box, off the binary grid by the same amount, so that sums are rounded.
 fn corner(bits: u64) -> f64 {
     (bits >> 63) as f64 + 0.1
@@ -45,7 +51,7 @@ fn bench<T, R>(group: &mut BenchmarkGroup<WallTime>, name: &str, cases: &[T], ca
     });
 }
 
-/// One predicate on its three kinds of input, ours and robust's.
+/// One predicate on its kinds of input, ours and robust's.
 fn bench_stages<const D: usize, const N: usize>(
     criterion: &mut Criterion,
     name: &str,
@@ -55,11 +61,12 @@ fn bench_stages<const D: usize, const N: usize>(
 ) {
     let tight = filter([0.0; D], [1.25; D]);
     let wide = filter([0.0; D], [MAX_MAGNITUDE; D]);
-    let (random, ties) = (cases(uniform), cases(corner));
+    let (random, ties, short_ties) = (cases(uniform), cases(corner), cases(binary));
     let mut group = criterion.benchmark_group(name);
     bench(&mut group, "static", &random, |p| ours(&tight, p));
     bench(&mut group, "semi-static", &random, |p| ours(&wide, p));
     bench(&mut group, "tie", &ties, |p| ours(&tight, p));
+    bench(&mut group, "short tie", &short_ties, |p| ours(&tight, p));
     bench(&mut group, "robust", &random, &robust);
     bench(&mut group, "robust, tie", &ties, &robust);
     group.finish();

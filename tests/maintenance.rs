@@ -154,6 +154,40 @@ fn exact_signs_are_counted() {
     }
 }
 
+/// Filters are made for where vertices are, now and then in the middle of a commit. One that fails after that puts vertices
+/// back to places far away from there: the filters have to hold for these as well.
+#[test]
+fn filters_hold_for_where_vertices_are_put_back() {
+    fn check<G: Dimension>(algorithm: Algorithm) {
+        let rng = &mut Rng::new(11);
+        let mut now: Vec<G::Point> = positions::<G>(0, 200, rng).into_iter().flatten().collect();
+        let options = Options { algorithm, coincidence: CoincidencePolicy::Reject, ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(&now, options).expect("a build");
+        for _ in 0..3 {
+            now.iter_mut().for_each(|p| nudge(p, G::D, 1e-3, rng));
+            t.commit_positions(&now).expect("a commit");
+        }
+        let mut far = now.clone();
+        for p in &mut far {
+            (0..G::D).for_each(|k| p[k] += 1000.0);
+            nudge(p, G::D, 3.0, rng);
+        }
+        far[199] = far[0];
+        t.commit_positions(&far).expect_err("two vertices at one place");
+        t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{algorithm:?}: {violation}"));
+        t.discard_moves();
+        now.iter_mut().for_each(|p| nudge(p, G::D, 0.3, rng));
+        t.commit_positions(&now).expect("a commit");
+        t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{algorithm:?}: {violation}"));
+        let expected: Vec<_> = now.iter().copied().map(Some).collect();
+        assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&expected), || format!("{algorithm:?}"));
+    }
+    for algorithm in Algorithm::ALL {
+        check::<Plane>(algorithm);
+        check::<Space>(algorithm);
+    }
+}
+
 /// An insertion and a removal compute the bi-cells of new cells, and no others: the next commit has nothing
 /// to compute.
 #[test]

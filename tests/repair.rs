@@ -208,8 +208,8 @@ fn walks_begin_in_a_cell_after_flips() {
     assert!(flips > 4000, "there were hardly any flips: {flips}");
 }
 
-/// Where all cells change at once flips would be quadratic in their number: a repair gives up in time, in proportion to the
-/// number of vertices. Without a limit this one evaluates 700 certificates a vertex.
+/// Where all cells change at once flips would be quadratic in their number: a repair gives up in time, in proportion to
+/// the number of vertices.
 #[test]
 fn repairs_that_would_flip_without_end_rebuild() {
     let mut rng = Rng::new(3);

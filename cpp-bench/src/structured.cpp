@@ -247,6 +247,7 @@ void print_structured(std::ostream &out, const std::vector<StructuredLine> &line
     TextTable clouds({"bulk motion, ns/vertex", "n", "CGAL, moved", "translation", "x", "rotation", "x", "1 % teleport",
                       "x", "half by 0.01", "x", "scaling", "x"});
     TextTable small({"created and destroyed", "n", "CGAL, us/set", "deldrift", "x"});
+    bool has_clouds = false;
     for (const Group &group : groups_of(lines)) {
         std::vector<std::string> entries = {group.title(), fmt::to_string(group.any->n)};
         if (group.any->timed == "create_destroy") {
@@ -266,11 +267,14 @@ void print_structured(std::ostream &out, const std::vector<StructuredLine> &line
         group.add_cgal_to(cloud, "translation");
         for (const char *timed : {"translation", "rotation", "teleport", "half", "scaling"}) group.add_to(cloud, timed);
         clouds.add(cloud);
+        has_clouds = true;
     }
     meshes.print(out);
     out << '\n';
-    clouds.print(out);
-    out << '\n';
+    if (has_clouds) {
+        clouds.print(out);
+        out << '\n';
+    }
     small.print(out);
 }
 

@@ -5,7 +5,7 @@
 //! sites that are next to each other in storage tells when to sort again.
 
 use super::cavity::{Cavity, Insert};
-use super::order::{self, in_rounds};
+use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE, NONE};
 use crate::error::{Error, Result};
@@ -151,11 +151,10 @@ impl<G: Dimension> Delaunay<G> {
         Ok(coincident)
     }
 
-    /// Bounds for the sites if they are on a lattice, and few steps of it apart.
+    /// Bounds for the box of the filter if it and the sites are on a lattice, and few steps of it apart.
     fn exact_filter(&self) -> Option<StaticFilter> {
-        let points = || self.sites[1..].iter().filter(|site| site.is_live()).map(|site| &site.point);
-        let (lower, upper) = order::bounding_box::<G>(points())?;
-        G::exact_filter(&lower, &upper, points())
+        let places = self.sites[1..].iter().filter(|site| site.is_live()).map(|site| &site.point);
+        G::exact_filter(&self.lower, &self.upper, places)
     }
 
     /// Inserts those sites that are in no cell yet; returns pairs of coincident sites, the second in the

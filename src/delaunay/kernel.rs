@@ -27,10 +27,10 @@ pub trait Kernel<G: Dimension> {
     /// Error bounds for points inside the box.
     fn filter(lower: &G::Point, upper: &G::Point) -> StaticFilter;
 
-    /// As [`exact_filter`](crate::predicates::exact_filter), of points whose box this is.
+    /// As [`exact_filter`](crate::predicates::exact_filter).
     fn exact_filter<'p>(
-        lower: &G::Point,
-        upper: &G::Point,
+        lower: &'p G::Point,
+        upper: &'p G::Point,
         points: impl Iterator<Item = &'p G::Point>,
     ) -> Option<StaticFilter>
     where

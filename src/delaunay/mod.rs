@@ -324,13 +324,17 @@ impl<G: Dimension> Delaunay<G> {
         self.cover(&lower, &upper);
     }
 
-    /// Makes the static filter as sharp as the places of the live sites allow.
-    pub fn tighten_filter(&mut self) {
-        let box_of_sites =
-            order::bounding_box::<G>(self.sites[1..].iter().filter(|s| s.is_live()).map(|s| &s.point));
-        let (lower, upper) = box_of_sites.unwrap_or_default();
+    /// Makes the static filter as sharp as the places of the live sites allow, and, while there is a change that may be
+    /// undone, those where they were before. Returns the box of the live sites.
+    pub fn tighten_filter(&mut self) -> (G::Point, G::Point) {
+        let places = self.sites[1..].iter().filter(|s| s.is_live()).map(|s| &s.point);
+        let (lower, upper) = order::bounding_box::<G>(places).unwrap_or_default();
         (self.lower, self.upper) = (lower, upper);
         self.filter = G::filter(&lower, &upper);
+        if let Some((lower, upper)) = self.box_before() {
+            self.cover(&lower, &upper);
+        }
+        (lower, upper)
     }
 
     /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.

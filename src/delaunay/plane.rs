@@ -19,8 +19,8 @@ impl Kernel<Plane> for Plane {
     }
 
     fn exact_filter<'p>(
-        lower: &[f64; 2],
-        upper: &[f64; 2],
+        lower: &'p [f64; 2],
+        upper: &'p [f64; 2],
         points: impl Iterator<Item = &'p [f64; 2]>,
     ) -> Option<StaticFilter> {
         predicates::exact_filter(StaticFilter::plane, lower, upper, points)

@@ -19,8 +19,8 @@ impl Kernel<Space> for Space {
     }
 
     fn exact_filter<'p>(
-        lower: &[f64; 3],
-        upper: &[f64; 3],
+        lower: &'p [f64; 3],
+        upper: &'p [f64; 3],
         points: impl Iterator<Item = &'p [f64; 3]>,
     ) -> Option<StaticFilter> {
         predicates::exact_filter(StaticFilter::space, lower, upper, points)

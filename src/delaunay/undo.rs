@@ -4,8 +4,12 @@
 //! cells, and sites that are removed, added or renamed are *logged*: what they were is kept, in the order of the changes.
 //! [`undo`](Delaunay::undo) goes back through both and needs no memory.
 //!
+//! The filter holds for all places before as well, whatever it is made for meanwhile ([`tighten_filter`]).
+//!
 //! Places are not kept: who moves a site and leaves the cells as they are, or lets flips repair them, knows where it was.
 //! Those of sites that are removed are, be it that they come back elsewhere.
+//!
+//! [`tighten_filter`]: Delaunay::tighten_filter
 
 use super::flat::Flat;
 use super::{Delaunay, Dimension, Site};
@@ -26,6 +30,9 @@ struct Logged<G: Dimension> {
 #[derive(Debug)]
 pub(super) struct Log<G: Dimension> {
     is_on: bool,
+    /// The box for which the filter held before.
+    lower: G::Point,
+    upper: G::Point,
     sites: Vec<Logged<G>>,
     /// The cells, where the change has given up all of them.
     cells: Option<Complex<G::Corners>>,
@@ -33,7 +40,8 @@ pub(super) struct Log<G: Dimension> {
 
 impl<G: Dimension> Default for Log<G> {
     fn default() -> Self {
-        Log { is_on: false, sites: Vec::new(), cells: None }
+        let none = G::Point::default();
+        Log { is_on: false, lower: none, upper: none, sites: Vec::new(), cells: None }
     }
 }
 
@@ -49,7 +57,13 @@ impl<G: Dimension> Delaunay<G> {
         debug_assert!(!self.log.is_on);
         self.complex.begin_record()?;
         self.log.is_on = true;
+        (self.log.lower, self.log.upper) = (self.lower, self.upper);
         Ok(())
+    }
+
+    /// The box in which the sites were before the change, while there is one.
+    pub(super) fn box_before(&self) -> Option<(G::Point, G::Point)> {
+        self.log.is_on.then_some((self.log.lower, self.log.upper))
     }
 
     /// Logs a site that is about to be removed, or to be added: then it is free.

@@ -128,6 +128,11 @@ impl<G: Dimension> Delaunay<G> {
 
     fn check_structure(&self) -> Check {
         let level = Level::Structure;
+        for site in self.sites[1..].iter().filter(|site| site.is_live()) {
+            ensure(self.is_covered(&site.point), level, || {
+                text!("vertex {} is outside the box for which the filters hold", site.id)
+            })?;
+        }
         let n = G::Corners::N;
         for c in self.complex.live() {
             let cell = self.complex.cell(c);

@@ -27,8 +27,8 @@ pub struct CommitReport {
     pub tolerances: u64,
     /// Certificates evaluated: orientations and in-sphere tests of stars whose vertex was relocated.
     pub certificates: u64,
-    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic. Ties are among them, but those on
-    /// a lattice, in builds, need none.
+    /// Signs, of whatever purpose, that floating-point filters left to exact arithmetic. Ties are among them, but those
+    /// on a lattice, in builds, need none.
     pub exact_calls: u64,
     /// Hidden vertices at the end: those that are at the place of a vertex with a lower id.
     pub coincident: u64,

@@ -28,15 +28,15 @@ const _: () = {
     assert!(magnitude_3d * ROUND_UP * space * space * space * space * space <= mantissa);
 };
 
-/// Bounds for points between `lower` and `upper` that are multiples of one unit and so few apart that
+/// Bounds for points between `lower` and `upper` if these and all of them are multiples of one unit and so few apart that
 /// determinants are computed without rounding; `None` if they are not. `bounds` gives those of a box.
 ///
 /// Where points are in no such order, that is found out after a few of them.
 pub fn exact_filter<'p, const D: usize>(
     bounds: fn([f64; D], [f64; D]) -> StaticFilter,
-    lower: &[f64; D],
-    upper: &[f64; D],
-    mut points: impl Iterator<Item = &'p [f64; D]>,
+    lower: &'p [f64; D],
+    upper: &'p [f64; D],
+    points: impl Iterator<Item = &'p [f64; D]>,
 ) -> Option<StaticFilter> {
     let extent = largest(box_extents(lower, upper));
     // So that products of five neither underflow nor overflow.
@@ -51,7 +51,9 @@ pub fn exact_filter<'p, const D: usize>(
         let scaled = x / unit;
         scaled == scaled.trunc()
     };
-    points.all(|p| p.iter().all(|&x| is_multiple(x))).then(|| StaticFilter {
+    let is_on_lattice = |p: &[f64; D]| p.iter().all(|&x| is_multiple(x));
+    let mut points = [lower, upper].into_iter().chain(points);
+    points.all(is_on_lattice).then(|| StaticFilter {
         orient: 0.0,
         in_sphere: 0.0,
         prepared: 0.0,
@@ -83,6 +85,11 @@ mod tests {
         (integers, points)
     }
 
+    fn box_of<const D: usize>(points: &[[f64; D]]) -> [[f64; D]; 2] {
+        [f64::min, f64::max]
+            .map(|of| std::array::from_fn(|axis| points.iter().map(|p| p[axis]).reduce(of).expect("points")))
+    }
+
     fn minor(p: &[i128], q: &[i128]) -> i128 {
         p[0] * q[1] - p[1] * q[0]
     }
@@ -93,11 +100,7 @@ mod tests {
         let mut n_ties = 0;
         for _ in 0..1_000_000 {
             let (integers, points) = lattice_points::<3, 5>(rng, 512);
-            let (mut lower, mut upper) = (points[0], points[0]);
-            for p in &points {
-                lower = std::array::from_fn(|axis| lower[axis].min(p[axis]));
-                upper = std::array::from_fn(|axis| upper[axis].max(p[axis]));
-            }
+            let [lower, upper] = box_of(&points);
             if lower == upper {
                 continue;
             }
@@ -130,11 +133,7 @@ mod tests {
         let mut n_ties = 0;
         for _ in 0..1_000_000 {
             let (integers, points) = lattice_points::<2, 4>(rng, 4096);
-            let (mut lower, mut upper) = (points[0], points[0]);
-            for p in &points {
-                lower = std::array::from_fn(|axis| lower[axis].min(p[axis]));
-                upper = std::array::from_fn(|axis| upper[axis].max(p[axis]));
-            }
+            let [lower, upper] = box_of(&points);
             if lower == upper {
                 continue;
             }
@@ -155,9 +154,7 @@ mod tests {
     #[test]
     fn points_off_a_lattice_or_too_far_apart_have_no_exact_filter() {
         let exact = |points: [[f64; 2]; 3]| {
-            let [lower, upper] = [f64::min, f64::max].map(|of| -> [f64; 2] {
-                std::array::from_fn(|axis| points.iter().map(|p| p[axis]).reduce(of).expect("points"))
-            });
+            let [lower, upper] = box_of(&points);
             exact_filter(StaticFilter::plane, &lower, &upper, points.iter()).is_some()
         };
         assert!(exact([[0.0, 0.0], [4096.0, 1.0], [2.0, 3.0]]));

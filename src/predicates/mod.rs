@@ -64,12 +64,14 @@
 //!
 //! Time per call on one core of a recent x86-64 server (only the ratios travel), by the stage that decides:
 //!
-//! | | operations | bound / extents | static | semi-static | tie, integer | tie, expansions |
-//! |---|---|---|---|---|---|---|
-//! | [`orient2d`] | 7 | 6 u | 0.8 ns | 2.2 ns | | 7 ns |
-//! | [`incircle`] | 25 | 72 u | 3.5 ns | 5.2 ns | 32 ns | 1,900 ns |
-//! | [`orient3d`] | 23 | 40 u | 2.4 ns | 5.0 ns | 18 ns | 160 ns |
-//! | [`insphere`] | 74 | 756 u | 7.7 ns | 11.5 ns | 79 ns | 2,800 ns |
+//! | | operations | bound / extents | static | semi-static | tie, integer | short tie | tie, expansions |
+//! |---|---|---|---|---|---|---|---|
+//! | [`orient2d`] | 7 | 6 u | 0.8 ns | 2.2 ns | | | 7 ns |
+//! | [`incircle`] | 25 | 72 u | 3.5 ns | 5.2 ns | 28 ns | 20 ns | 1,900 ns |
+//! | [`orient3d`] | 23 | 40 u | 2.4 ns | 5.0 ns | 13 ns | 12 ns | 160 ns |
+//! | [`insphere`] | 74 | 756 u | 7.7 ns | 11.5 ns | 79 ns | 46 ns | 2,800 ns |
+//!
+//! `cargo bench --bench predicates` measures them. A *short tie* is one whose differences have few bits.
 
 mod bicells;
 mod big;

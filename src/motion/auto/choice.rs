@@ -35,7 +35,9 @@ struct Costs {
     exact: f64,
 }
 
-/// Measured with 1,000 vertices in the plane, 13,000 in space, in Lloyd's iterations; only the ratios matter.
+/// Measured with 1,000 vertices in the plane, 13,000 in space, in Lloyd's iterations; only the ratios matter. The last
+/// three are estimates from `cpp-bench/run --structured`: what a rebuild of random points takes, and what exact
+/// evaluations add to that on a rotated grid.
 const fn costs<G: Dimension>() -> Costs {
     if G::D == 2 {
         Costs {

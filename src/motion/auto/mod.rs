@@ -17,9 +17,10 @@
 //! recomputed has cost more than the other by half a computation of all, all tolerances are computed again, so that
 //! what is watched follows from how far the vertices go now.
 //!
-//! **Rebuilding.** After a repair that had to rebuild, or has cost more than that, as many commits rebuild at once as have
-//! failed in a row, and twice as many the next time. What a repair has cost is estimated from what it has counted: on
-//! lattices that is exact evaluations and removals of vertices of high degree, near the hull, more than flips.
+//! **Rebuilding.** After a repair that had to rebuild, or has cost more than that, the next commits rebuild at once: one
+//! after the first such repair, and twice as many and one more after each that follows. What a repair has cost is
+//! estimated from what it has counted. On lattices exact evaluations, and removals of vertices of high degree near the
+//! hull, cost more than flips.
 //!
 //! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
 //! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a

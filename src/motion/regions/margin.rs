@@ -13,8 +13,7 @@ pub(in crate::motion) struct Margin(f64);
 impl Margin {
     /// The margin for the vertices where they are, which the filter covers from now on.
     pub(in crate::motion) fn around_all<G: Dimension>(kernel: &mut Delaunay<G>) -> Margin {
-        kernel.tighten_filter();
-        let (lower, upper) = (kernel.lower(), kernel.upper());
+        let (lower, upper) = kernel.tighten_filter();
         let extents = (0..G::D).map(|axis| upper[axis] - lower[axis]);
         let margin = extents.fold(f64::INFINITY, f64::min) * SHARE_OF_EXTENT;
         kernel.cover_around(&lower, &upper, margin);
@@ -29,9 +28,8 @@ impl Margin {
 
     /// Makes the filter as sharp as what the regions may let pass allows.
     pub(in crate::motion) fn tighten<G: Dimension>(self, kernel: &mut Delaunay<G>) {
-        kernel.tighten_filter();
+        let (lower, upper) = kernel.tighten_filter();
         // A vertex is within its tolerance of where it was fixed, and may go as far to the other side of that.
-        let (lower, upper) = (kernel.lower(), kernel.upper());
         kernel.cover_around(&lower, &upper, 2.0 * self.0);
     }
 

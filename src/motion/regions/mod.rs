@@ -205,9 +205,10 @@ impl<G: Dimension> Regions<G> {
 
     /// Makes the kernel's static filter as sharp as what the regions, if any are kept, may let pass allows.
     pub(super) fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
-        match &mut self.kept {
-            Some(kept) => kept.store_mut().tighten_filter(kernel),
-            None => kernel.tighten_filter(),
+        if let Some(kept) = &mut self.kept {
+            kept.store_mut().tighten_filter(kernel);
+        } else {
+            kernel.tighten_filter();
         }
     }
 

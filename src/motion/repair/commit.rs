@@ -37,8 +37,8 @@ const fn rebuilt_per_placement<G: Dimension>() -> usize {
     if G::D == 2 { 8 } else { 20 }
 }
 
-/// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all cells
-/// change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
+/// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
+/// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
 const fn certified<G: Dimension>() -> u64 {
     if G::D == 2 { 20 } else { 40 }
 }
@@ -127,6 +127,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
+        let last_certificate = self.kernel.certificates() + certified::<G>() * self.n_present as u64;
         for _ in 0..MAX_ROUNDS {
             if !(is_triangulation || self.take_back_failed(repair, most)? && self.winds_once(repair)?) {
                 return Ok(false);
@@ -134,8 +135,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             repair.suspects.clear();
             memory::reserve(&mut repair.suspects, repair.failures.facets.len())?;
             repair.suspects.extend_from_slice(&repair.failures.facets);
-            let most_certificates = certified::<G>() * self.n_present as u64;
-            let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck, most_certificates)?;
+            let left = last_certificate.saturating_sub(self.kernel.certificates());
+            let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck, left)?;
             let Some(flips) = flips else {
                 self.kernel.undo_flips();
                 return Ok(false);
