@@ -13,6 +13,7 @@
 
 mod comparing;
 mod gluing;
+mod renumbering;
 
 use super::changes::{Taken, Tracker, renumber};
 use super::marks::{Bits, Marks};
@@ -22,7 +23,6 @@ use crate::complex::{Corners, Facet, NONE};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::machine::memory;
-use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: u32 = NONE;
@@ -266,125 +266,6 @@ impl<G: Dimension> Cells<G> {
             tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n)?;
         }
         Ok(())
-    }
-
-    /// Gives every cell its index: those found again theirs; new ones that of the cell which was in their slot, a
-    /// hole, or one at the end. What is left of the holes is filled from the end.
-    fn renumber(
-        &mut self,
-        kernel: &Delaunay<G>,
-        Scratch { lost, found, moved, turned, .. }: &mut Scratch<G::Corners>,
-    ) {
-        let n = kernel.complex().n_finite();
-        self.index_of.resize(kernel.complex().n_slots(), NO_CELL);
-        let Cells {
-            corners,
-            neighbours,
-            index_of,
-            slots,
-            orderings,
-            is_settled,
-            since_taken,
-            since_commit,
-            ..
-        } = self;
-        let mut trackers = [since_taken, since_commit];
-        let mut trackers = trackers.iter_mut().filter_map(|tracker| tracker.as_mut());
-        let (mut first, mut second) = (trackers.next(), trackers.next());
-        let mut tell = |event: &dyn Fn(&mut Tracker<G::Corners>)| {
-            first.iter_mut().chain(&mut second).for_each(|tracker| event(tracker));
-        };
-        // Slots give up what they have lost before others take it.
-        for &Found { index, .. } in found.iter().filter(|found| found.index != NO_CELL) {
-            let slot = slots[index as usize] as usize;
-            if index_of.get(slot) == Some(&index) {
-                index_of[slot] = NO_CELL;
-            }
-        }
-        for (k, &Found { slot, index, ids }) in found.iter().enumerate() {
-            if let Some(next) = found.get(k + 2 * AHEAD) {
-                prefetch(index_of, next.slot as usize);
-            }
-            if let Some(next) = found.get(k + AHEAD) {
-                let later = index_of[next.slot as usize] as usize;
-                prefetch(corners, later);
-                prefetch(orderings, later);
-                tell(&|tracker| tracker.prefetch(later));
-            }
-            if index != NO_CELL {
-                // It has been found in another slot.
-                (slots[index as usize], index_of[slot as usize]) = (slot, index);
-                continue;
-            }
-            // A new one takes the place of the one before in its slot.
-            let index = index_of[slot as usize];
-            if (index as usize) < n {
-                is_settled.insert(index);
-                orderings[index as usize] = Ordering::SAME;
-                let row = std::mem::replace(&mut corners[index as usize], ids);
-                tell(&|tracker| tracker.replace(index, row));
-            }
-        }
-        let holes = &mut *lost;
-        holes.retain(|&index| !is_settled.remove(index));
-        for &index in holes.iter() {
-            let slot = slots[index as usize] as usize;
-            if index_of.get(slot) == Some(&index) {
-                index_of[slot] = NO_CELL;
-            }
-            slots[index as usize] = NONE;
-            let row = corners[index as usize];
-            tell(&|tracker| tracker.remove(index, row));
-        }
-        // Those that have to be filled come first: holes beyond the end go with it.
-        let mut n_low = 0;
-        for k in 0..holes.len() {
-            if (holes[k] as usize) < n {
-                holes.swap(k, n_low);
-                n_low += 1;
-            }
-        }
-        let mut next_hole = holes.iter().copied();
-        for &Found { slot, ids, .. } in found.iter() {
-            if index_of[slot as usize] != NO_CELL {
-                continue;
-            }
-            let index = next_hole.next().unwrap_or(corners.len() as u32);
-            if index as usize == corners.len() {
-                corners.push(ids);
-                neighbours.push(ids);
-                slots.push(slot);
-            } else {
-                corners[index as usize] = ids;
-            }
-            orderings[index as usize] = Ordering::SAME;
-            tell(&|tracker| tracker.create(index));
-            slots[index as usize] = slot;
-            index_of[slot as usize] = index;
-        }
-        for &slot in turned.iter() {
-            let index = index_of[slot as usize];
-            let row = std::mem::replace(&mut corners[index as usize], ids_of(kernel, slot));
-            orderings[index as usize] = Ordering::SAME;
-            tell(&|tracker| tracker.turn(index, row));
-        }
-        for from in (n..corners.len()).rev() {
-            if slots[from] == NONE {
-                continue;
-            }
-            let to = next_hole.next().expect("as many holes as cells beyond the end");
-            corners[to as usize] = corners[from];
-            neighbours[to as usize] = neighbours[from];
-            slots[to as usize] = slots[from];
-            orderings[to as usize] = orderings[from];
-            index_of[slots[from] as usize] = to;
-            moved.push(slots[from]);
-            tell(&|tracker| tracker.renumber(from as u32, to));
-        }
-        corners.truncate(n);
-        neighbours.truncate(n);
-        slots.truncate(n);
-        tell(&|tracker| tracker.truncate(n));
     }
 
     /// The index, in the complex, of a corner of a cell.
