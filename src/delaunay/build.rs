@@ -164,6 +164,7 @@ impl<G: Dimension> Delaunay<G> {
         order: &[u32],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(u32, u32)>> {
+        debug_assert!(!self.complex.is_recording());
         self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;
         let inserted = self.insert_while_begun(order, monitor);
         self.cavity.scratch.end_build();
