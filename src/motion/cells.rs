@@ -154,6 +154,11 @@ impl<G: Dimension> Cells<G> {
         &self.index_of
     }
 
+    /// The slot of the cell of an index, if there is such a cell.
+    pub(super) fn slot(&self, index: u32) -> Option<u32> {
+        self.slots.get(index as usize).copied()
+    }
+
     /// Tracks what changes from now on, which is when a commit begins.
     pub(super) fn track_commit(&mut self) -> Result<()> {
         if self.since_commit.is_none() {
