@@ -225,7 +225,8 @@ const std::vector<std::string> &target_names() {
         "tolerance_test", "half_within", "immediate_still", "converged",     "swept",
         "threads_swept",  "leap_1",      "leap_10",         "threads_build", "step_0",
         "step_1e-5",      "step_1e-4",   "step_1e-3",       "step_1e-2",     "loop",
-        "grown_cells",    "grown_star",  "grown_relocate_vertex", "grown_commit_one"};
+        "grown_cells",    "grown_star",  "grown_relocate_vertex", "grown_commit_one",
+        "locate_path",    "locate",      "insert"};
     return names;
 }
 

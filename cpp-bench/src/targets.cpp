@@ -168,6 +168,7 @@ public:
             append(step_targets(dimension, sizes_, seed_, checks_, progress_));
             if (sizes_.has("loop")) append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
             append(growth_targets(dimension, sizes_, seed_, progress_));
+            append(location_targets(dimension, sizes_, seed_, progress_));
         }
         return targets_;
     }

@@ -58,6 +58,10 @@ std::vector<Target> loop_targets(unsigned dimension, const TargetSizes &sizes, s
 std::vector<Target> growth_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
                                    Progress &progress);
 
+/// Point location beside CGAL's, and insertions anywhere. The cells found are compared; throws Mismatch.
+std::vector<Target> location_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
+                                     Progress &progress);
+
 /// Steps beside commits alone.
 std::vector<Target> step_targets(unsigned dimension, const TargetSizes &sizes, std::uint64_t seed,
                                  std::vector<Checks> &checks, Progress &progress);
