@@ -121,7 +121,7 @@ impl<C: Corners> Complex<C> {
 
     /// Whether a record is kept.
     #[inline(always)]
-    pub(super) fn is_recording(&self) -> bool {
+    pub(crate) fn is_recording(&self) -> bool {
         self.record.is_on
     }
 

@@ -166,6 +166,7 @@ impl<G: Dimension> Delaunay<G> {
         order: &[SiteId],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
+        debug_assert!(!self.complex.is_recording());
         self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;
         let inserted = self.insert_while_begun(order, monitor);
         self.cavity.scratch.end_build();

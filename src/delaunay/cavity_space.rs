@@ -76,7 +76,7 @@ impl Insert<Space> for Scratch {
         let Cavity { cells, scratch, .. } = cavity;
         let mut ridges = Vec::new();
         let dug = dig::<BUILD>(t, scratch, start, s);
-        if let Err(error) = dug.and_then(|()| reserve(t, cells, &mut ridges, scratch)) {
+        if let Err(error) = dug.and_then(|()| reserve::<BUILD>(t, cells, &mut ridges, scratch)) {
             for &c in &scratch.zone[..scratch.n_zone] {
                 t.complex.set_mark(c, 0);
             }
@@ -123,7 +123,7 @@ fn joined([a, b, c, d]: [SiteId; 4], i: usize, s: SiteId) -> [SiteId; 4] {
 
 /// Makes room for all that the new cells need.
 #[inline(always)]
-fn reserve(
+fn reserve<const BUILD: bool>(
     t: &mut Delaunay<Space>,
     cells: &mut Vec<Slot>,
     ridges: &mut Vec<Ridge>,
@@ -131,8 +131,12 @@ fn reserve(
 ) -> Result<()> {
     let n_rim = scratch.n_rim;
     t.complex.reserve(n_rim)?;
-    t.complex.note_all(scratch.zone[..scratch.n_zone].iter().copied())?;
-    t.complex.reserve_rows(n_rim)?;
+    if BUILD {
+        t.complex.reserve_free(scratch.n_zone)?;
+    } else {
+        t.complex.note_all(scratch.zone[..scratch.n_zone].iter().copied())?;
+        t.complex.reserve_rows(n_rim)?;
+    }
     t.reserve_record(n_rim)?;
     cells.clear();
     memory::reserve(cells, n_rim)?;

@@ -107,8 +107,8 @@ fn sort_in_box<'p, G: Dimension>(
 /// Up to this number, items are sorted by comparisons: about as fast as by digits, and without spare memory.
 const FEW: usize = 256;
 
-/// Bits of a digit at most: more would be more places to write to than the processor keeps at hand.
-const DIGIT: u32 = 11;
+/// Up to this number of items digits have at most 8 bits: counting by more takes longer than another pass.
+const FEW_FOR_LONG_DIGITS: usize = 1 << 12;
 
 /// Sorts items by their keys, which have `bits` bits; items of the same key keep their order.
 ///
@@ -117,14 +117,26 @@ const DIGIT: u32 = 11;
 fn sort_by_key(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
     if keyed.len() <= FEW {
         keyed.sort_unstable_by_key(|k| k.0);
-        return;
+    } else if keyed.len() <= FEW_FOR_LONG_DIGITS {
+        sort_by_digits::<{ 1 << 8 }, 4>(keyed, spare, bits);
+    } else {
+        // Longer ones would be more places to write to than the processor keeps at hand.
+        sort_by_digits::<{ 1 << 11 }, 3>(keyed, spare, bits);
     }
-    let n_digits = bits.div_ceil(DIGIT);
+}
+
+/// As [`sort_by_key`], by digits that have `PLACES` values at most, of which `DIGITS` make up 32 bits.
+fn sort_by_digits<const PLACES: usize, const DIGITS: usize>(
+    keyed: &mut [Keyed],
+    spare: &mut [Keyed],
+    bits: u32,
+) {
+    let n_digits = bits.div_ceil(PLACES.ilog2());
     // Digits of like lengths.
     let digit = bits.div_ceil(n_digits);
     let mask = (1 << digit) - 1;
-    let at = |k: &Keyed, d: u32| (k.key() >> (d * digit) & mask) as usize % (1 << DIGIT);
-    let mut counts = [[0u32; 1 << DIGIT]; 32u32.div_ceil(DIGIT) as usize];
+    let at = |k: &Keyed, d: u32| (k.key() >> (d * digit) & mask) as usize % PLACES;
+    let mut counts = [[0u32; PLACES]; DIGITS];
     for k in keyed.iter() {
         for (d, counts) in (0..n_digits).zip(&mut counts) {
             counts[at(k, d)] += 1;

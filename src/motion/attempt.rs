@@ -1,6 +1,7 @@
-//! What a commit has come to that gives up where too much would have to be done.
+//! How the parts of a commit end: each may give up where too much would have to be done, and says what it leaves behind.
 
-/// How far it has come. Where it has given up, all that is kept is as it was but for the positions.
+/// How far a commit that checks only some certificates has come. Where it has given up, all that is kept is as it was but
+/// for the positions.
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Attempt {
@@ -10,4 +11,46 @@ pub(super) enum Attempt {
     NotBegun,
     /// It has given up; all vertices are at their new positions, and no cell has changed.
     OnlyMoved,
+}
+
+/// What has become of the vertices of a whole staging when those beyond their tolerance are queued.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Advance {
+    /// They have moved, so many of them to another position; those beyond are queued.
+    Moved(u64),
+    /// Too many are beyond; none has moved, and none is queued.
+    TooManyBeyond,
+}
+
+/// What has become of the cells of vertices that have been moved.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mending {
+    /// They are the triangulation of the vertices where these are now. Vertices taken back are queued, to be placed.
+    Mended,
+    /// Too many vertices would have to be placed, or flips took too long: they have to be built again. They are neither
+    /// the cells from before nor those of the vertices where these are now; vertices taken back are queued all the same.
+    TooMuch,
+}
+
+/// What has become of the staged insertions and removals.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Edited {
+    /// There were none, or they have been made one by one; staged vertices have not moved.
+    WithoutMoves,
+    /// A kernel has been built with them, and with all staged vertices at their new positions.
+    WithMoves,
+}
+
+/// What has become of edits that are made one by one.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SingleEdits {
+    /// All have been made.
+    Made,
+    /// A vertex has left the hyperplane of all others, so that a kernel has to be built. Some have been made, and have to
+    /// be undone.
+    NeedBuild,
 }

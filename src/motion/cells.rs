@@ -13,6 +13,7 @@
 
 mod comparing;
 mod gluing;
+mod renumbering;
 
 use super::changes::{Taken, Tracker, renumber};
 use super::marks::{Bits, Marks};
@@ -23,7 +24,6 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
-use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: CellId = CellId::NONE;
@@ -270,125 +270,6 @@ impl<G: Dimension> Cells<G> {
             tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n)?;
         }
         Ok(())
-    }
-
-    /// Gives every cell its index: those found again theirs; new ones that of the cell which was in their slot, a
-    /// hole, or one at the end. What is left of the holes is filled from the end.
-    fn renumber(
-        &mut self,
-        kernel: &Delaunay<G>,
-        Scratch { lost, found, moved, turned, .. }: &mut Scratch<G::Vertices>,
-    ) {
-        let n = kernel.complex().n_finite();
-        self.index_of.resize(kernel.complex().n_slots(), NO_CELL);
-        let Cells {
-            corners,
-            neighbours,
-            index_of,
-            slots,
-            orderings,
-            is_settled,
-            since_taken,
-            since_commit,
-            ..
-        } = self;
-        let mut trackers = [since_taken, since_commit];
-        let mut trackers = trackers.iter_mut().filter_map(|tracker| tracker.as_mut());
-        let (mut first, mut second) = (trackers.next(), trackers.next());
-        let mut tell = |event: &dyn Fn(&mut Tracker<G::Vertices>)| {
-            first.iter_mut().chain(&mut second).for_each(|tracker| event(tracker));
-        };
-        // Slots give up what they have lost before others take it.
-        for &Found { index, .. } in found.iter().filter(|found| found.index != NO_CELL) {
-            let slot = slots[index];
-            if index_of.get(slot.index()) == Some(&index) {
-                index_of[slot] = NO_CELL;
-            }
-        }
-        for (k, &Found { slot, index, ids }) in found.iter().enumerate() {
-            if let Some(next) = found.get(k + 2 * AHEAD) {
-                prefetch(index_of, next.slot.index());
-            }
-            if let Some(next) = found.get(k + AHEAD) {
-                let later = index_of[next.slot].index();
-                prefetch(corners, later);
-                prefetch(orderings, later);
-                tell(&|tracker| tracker.prefetch(later));
-            }
-            if index != NO_CELL {
-                // It has been found in another slot.
-                (slots[index], index_of[slot]) = (slot, index);
-                continue;
-            }
-            // A new one takes the place of the one before in its slot.
-            let index = index_of[slot];
-            if index.index() < n {
-                is_settled.insert(index);
-                orderings[index] = Ordering::SAME;
-                let row = std::mem::replace(&mut corners[index], ids);
-                tell(&|tracker| tracker.replace(index, row));
-            }
-        }
-        let holes = &mut *lost;
-        holes.retain(|&index| !is_settled.remove(index));
-        for &index in holes.iter() {
-            let slot = slots[index];
-            if index_of.get(slot.index()) == Some(&index) {
-                index_of[slot] = NO_CELL;
-            }
-            slots[index] = Slot::NONE;
-            let row = corners[index];
-            tell(&|tracker| tracker.remove(index, row));
-        }
-        // Those that have to be filled come first: holes beyond the end go with it.
-        let mut n_low = 0;
-        for k in 0..holes.len() {
-            if holes[k].index() < n {
-                holes.swap(k, n_low);
-                n_low += 1;
-            }
-        }
-        let mut next_hole = holes.iter().copied();
-        for &Found { slot, ids, .. } in found.iter() {
-            if index_of[slot] != NO_CELL {
-                continue;
-            }
-            let index = next_hole.next().unwrap_or(CellId::at(corners.len()));
-            if index.index() == corners.len() {
-                corners.push(ids);
-                neighbours.push(G::Neighbours::filled(NO_CELL));
-                slots.push(slot);
-            } else {
-                corners[index] = ids;
-            }
-            orderings[index] = Ordering::SAME;
-            tell(&|tracker| tracker.create(index));
-            slots[index] = slot;
-            index_of[slot] = index;
-        }
-        for &slot in turned.iter() {
-            let index = index_of[slot];
-            let row = std::mem::replace(&mut corners[index], ids_of(kernel, slot));
-            orderings[index] = Ordering::SAME;
-            tell(&|tracker| tracker.turn(index, row));
-        }
-        for from in CellId::range(n..corners.len()).rev() {
-            if slots[from] == Slot::NONE {
-                continue;
-            }
-            let to = next_hole.next().expect("as many holes as cells beyond the end");
-            corners[to] = corners[from];
-            neighbours[to] = neighbours[from];
-            slots[to] = slots[from];
-            orderings[to] = orderings[from];
-            index_of[slots[from]] = to;
-            moved.push(slots[from]);
-            tell(&|tracker| tracker.renumber(from, to));
-        }
-        corners.truncate(n);
-        neighbours.truncate(n);
-        slots.truncate(n);
-        tell(&|tracker| tracker.truncate(n));
     }
 
     /// The index, in the complex, of a corner of a cell.

@@ -1,6 +1,7 @@
 //! The commit: one timestamp, all or nothing.
 
 use super::algorithms::for_algorithms;
+use super::attempt::Edited;
 use super::regions::Filter;
 use super::staging::Given;
 use super::{Algorithm, CommitReport, MovingTriangulation};
@@ -71,7 +72,10 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Makes the edits, and brings the staged vertices to their new positions.
     fn edit_and_advance(&mut self, given: Given<'_, G>, report: &mut CommitReport) -> Result<()> {
-        if self.make_edits(report)? { Ok(()) } else { self.advance(given, report) }
+        match self.make_edits(report)? {
+            Edited::WithMoves => Ok(()),
+            Edited::WithoutMoves => self.advance(given, report),
+        }
     }
 
     /// Brings the staged vertices to their new positions.

@@ -4,6 +4,7 @@
 //! first, at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or
 //! go it rebuilds. Either way all of it is one transaction.
 
+use super::attempt::{Edited, SingleEdits};
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
 use crate::delaunay::order::{Keyed, hilbert_order};
@@ -90,27 +91,27 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.edits.clear();
     }
 
-    /// Makes all edits, and all moves as well if that returns `true`.
-    pub(super) fn make_edits(&mut self, report: &mut CommitReport) -> Result<bool> {
+    /// Makes all edits, and all moves as well where a kernel is built for them.
+    pub(super) fn make_edits(&mut self, report: &mut CommitReport) -> Result<Edited> {
         if self.edits.are_none() {
-            return Ok(false);
+            return Ok(Edited::WithoutMoves);
         }
         let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
         if self.kernel.has_cells() && REBUILT_PER_EDIT * n_edits <= self.n_present {
-            if self.edit_cells(report)? {
-                return Ok(false);
+            if self.edit_cells(report)? == SingleEdits::Made {
+                return Ok(Edited::WithoutMoves);
             }
-            // Vertices have gone out of a hyperplane where all others are: once more from the beginning.
+            // Once more from the beginning.
             self.undo();
             self.begin()?;
             (report.inserted, report.removed) = (0, 0);
         }
         self.rebuild_edited(report)?;
-        Ok(true)
+        Ok(Edited::WithMoves)
     }
 
-    /// Removes and inserts one vertex after the other; `false` if a kernel has to be built instead.
-    fn edit_cells(&mut self, report: &mut CommitReport) -> Result<bool> {
+    /// Removes and inserts one vertex after the other.
+    fn edit_cells(&mut self, report: &mut CommitReport) -> Result<SingleEdits> {
         self.order_insertions()?;
         self.with_regions(report, |t, report| {
             for k in 0..t.edits.removals().len() {
@@ -126,13 +127,13 @@ impl<G: Dimension> MovingTriangulation<G> {
                 match t.kernel.insert_site(s, near)? {
                     Insertion::New => near = t.kernel.site(s).cell,
                     Insertion::Coincident(at) => t.hide(id, at)?,
-                    Insertion::Spans => return Ok(false),
+                    Insertion::Spans => return Ok(SingleEdits::NeedBuild),
                 }
                 t.n_present += 1;
                 t.regions.note_relocated(id)?;
                 report.inserted += 1;
             }
-            Ok(true)
+            Ok(SingleEdits::Made)
         })
     }
 

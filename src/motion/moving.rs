@@ -15,6 +15,7 @@
 use std::ops::ControlFlow;
 
 use super::MovingTriangulation;
+use super::attempt::Advance;
 use super::staging::{Given, first_bad, stage_block};
 use super::tolerance::Fixed;
 use crate::delaunay::{Dimension, Site};
@@ -107,8 +108,7 @@ impl<G: Dimension> Movers<'_, G> {
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Of a whole staging, moves the vertices within their tolerance, or all if `MOVES_ALL`, and queues the others; the
-    /// staging holds the old positions of those that have moved. Returns how many positions differ. `None`, and no queue,
-    /// and nothing has moved, if those to be queued are more than `most`.
+    /// staging holds the old positions of those that have moved. None moves if those to be queued are more than `most`.
     ///
     /// This loop is what a timestamp costs that changes nothing.
     ///
@@ -117,14 +117,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         most: usize,
         given: &mut Given<'_, G>,
-    ) -> Result<Option<u64>> {
+    ) -> Result<Advance> {
         let mut blocks = Blocks { given: given.positions(), are_good: true };
         let moved = if size_of_val(self.kernel.sites()) > FAR {
             self.move_and_queue_from::<MOVES_ALL, true>(most, &mut blocks)?
         } else {
             self.move_and_queue_from::<MOVES_ALL, false>(most, &mut blocks)?
         };
-        if moved.is_some() {
+        if moved != Advance::TooManyBeyond {
             blocks.end(given)?;
         }
         Ok(moved)
@@ -135,7 +135,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         most: usize,
         blocks: &mut Blocks<'_, G>,
-    ) -> Result<Option<u64>> {
+    ) -> Result<Advance> {
         if let Some(avx2) = Avx2::new() {
             return avx2.run_with(
                 self,
@@ -176,7 +176,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         blocks: &mut Blocks<'_, G>,
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
         exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[SiteId; LANES]) -> u64,
-    ) -> Result<Option<u64>> {
+    ) -> Result<Advance> {
         let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
         let (positions, queue) = self.staging.parts_mut();
@@ -219,7 +219,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n_moved = movers.n_moved;
         let Some((end, room)) = ended else {
             self.staging.apply_others();
-            return Ok(Some(n_moved));
+            return Ok(Advance::Moved(n_moved));
         };
         let queue = std::mem::take(self.staging.vertices_mut());
         let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
@@ -229,7 +229,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         *self.staging.vertices_mut() = queue;
         self.staging.vertices_mut().clear();
-        room.map(|()| None)
+        room.map(|()| Advance::TooManyBeyond)
     }
 
     /// Moves all vertices of a whole staging, on several threads where that pays; returns how many positions differ.

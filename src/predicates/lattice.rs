@@ -54,8 +54,9 @@ pub fn exact_filter<'p, const D: usize>(
     let is_on_lattice = |p: &[f64; D]| p.iter().all(|&x| is_multiple(x));
     let mut points = [lower, upper].into_iter().chain(points);
     points.all(is_on_lattice).then(|| StaticFilter {
-        orient: 0.0,
-        in_sphere: 0.0,
+        // Every magnitude is above that, zero too.
+        orient: -1.0,
+        in_sphere: -1.0,
         prepared: 0.0,
         is_exact: true,
         ..bounds(*lower, *upper)

@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 #[inline(always)]
 pub fn orient2d(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
     let det = minor(&minus(b, a), &minus(c, a));
-    if det.abs() > f.orient || f.is_exact { det } else { orient2d_uncertain(det, [a, b, c]) }
+    if det.abs() > f.orient { det } else { orient2d_uncertain(det, [a, b, c]) }
 }
 
 /// In-circle determinant: positive iff `d` is strictly inside the circle of the counter-clockwise triangle
@@ -24,7 +24,7 @@ pub fn orient2d(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f
 #[inline(always)]
 pub fn incircle(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2], d: &[f64; 2]) -> f64 {
     let det = incircle_rounded([a, b, c, d]);
-    if det.abs() > f.in_sphere || f.is_exact { det } else { incircle_uncertain(det, [a, b, c, d]) }
+    if det.abs() > f.in_sphere { det } else { incircle_uncertain(det, [a, b, c, d]) }
 }
 
 /// The later stages, after the rounded determinant.

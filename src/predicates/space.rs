@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 #[inline(always)]
 pub fn orient3d(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> f64 {
     let det = volume(&minus(b, a), &minus(c, a), &minus(d, a));
-    if det.abs() > f.orient || f.is_exact { det } else { orient3d_uncertain(det, [a, b, c, d]) }
+    if det.abs() > f.orient { det } else { orient3d_uncertain(det, [a, b, c, d]) }
 }
 
 /// In-sphere determinant: positive iff `e` is strictly inside the sphere of the positive tetrahedron
@@ -36,7 +36,7 @@ pub fn insphere(
     e: &[f64; 3],
 ) -> f64 {
     let det = insphere_rounded([a, b, c, d, e]);
-    if det.abs() > f.in_sphere || f.is_exact { det } else { insphere_uncertain(det, [a, b, c, d, e]) }
+    if det.abs() > f.in_sphere { det } else { insphere_uncertain(det, [a, b, c, d, e]) }
 }
 
 /// The later stages, after the rounded determinant.

@@ -41,7 +41,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.auto.note_rebuild([before, after]);
             return Ok(());
         }
-        if self.staging.is_whole() && self.hidden.count() == 0 && self.commit_by_scope(given, report)? {
+        if self.staging.is_whole()
+            && self.hidden.count() == 0
+            && self.commit_by_scope(given, report)? == Attempt::Committed
+        {
             return Ok(());
         }
         self.commit_by_repair(given, report)?;
@@ -50,8 +53,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Commits by watching or by slack, if that is in force; `false` if a repair has to follow.
-    fn commit_by_scope(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<bool> {
+    /// Commits by watching or by slack, if that is in force.
+    fn commit_by_scope(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<Attempt> {
+        let mut ended = Attempt::NotBegun;
         if self.auto.scope() == Scope::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
             if (is_kept || self.auto.take_due() || self.is_sample_within(given)?)
@@ -60,21 +64,22 @@ impl<G: Dimension> MovingTriangulation<G> {
                 if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.n_present, report) {
                     self.regions.invalidate();
                 }
-                return Ok(true);
+                return Ok(Attempt::Committed);
             }
             self.auto.give_up::<G>();
         }
         if self.auto.scope() == Scope::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
-            if self.commit_by_slack(given, report)? == Attempt::Committed {
+            ended = self.commit_by_slack(given, report)?;
+            if ended == Attempt::Committed {
                 if was_kept {
                     self.auto.weigh_slack::<G>(self.n_present, report);
                 }
-                return Ok(true);
+                return Ok(ended);
             }
             self.auto.give_up::<G>();
         }
-        Ok(false)
+        Ok(ended)
     }
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.

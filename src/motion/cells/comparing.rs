@@ -1,11 +1,11 @@
 //! Which cells are in their slots as before, which have gone, and which are in another slot.
 
-use super::{AHEAD, Cells, Found, NO_CELL, Scratch, ids_of, is_finite};
+use super::{Cells, Found, NO_CELL, Scratch, ids_of, is_finite};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{CellId, Slot};
 use crate::machine::memory;
-use crate::machine::prefetch::prefetch;
+use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::matching::{Matcher, are_same};
 use crate::motion::ordering::Ordering;
 

@@ -1,12 +1,12 @@
 //! The neighbours of the cells.
 
-use super::{AHEAD, Cells, NO_CELL, ids_of};
+use super::{Cells, NO_CELL, ids_of};
 use crate::complex::Corners;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
-use crate::machine::prefetch::prefetch;
+use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::machine::threads;
 use crate::motion::marks::Marks;
 use crate::motion::ordering::Ordering;

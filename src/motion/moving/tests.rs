@@ -69,8 +69,16 @@ fn agree<G: Dimension>() {
 
         if !beyond.is_empty() {
             let (most, given) = (beyond.len() - 1, &mut given_unless(at_once, &places));
-            assert_eq!(t.move_and_queue::<false>(most, given).expect("room"), None, "{n} vertices");
-            assert_eq!(t.move_and_queue::<true>(most, given).expect("room"), None, "{n} vertices");
+            assert_eq!(
+                t.move_and_queue::<false>(most, given).expect("room"),
+                Advance::TooManyBeyond,
+                "{n} vertices"
+            );
+            assert_eq!(
+                t.move_and_queue::<true>(most, given).expect("room"),
+                Advance::TooManyBeyond,
+                "{n} vertices"
+            );
             t.stage_given(given).expect("good places");
             assert!(t.staging.vertices().is_empty() && !t.staging.others_applied());
             assert_eq!(
@@ -81,7 +89,7 @@ fn agree<G: Dimension>() {
         }
 
         let moved = t.move_and_queue::<false>(beyond.len(), &mut given_unless(at_once, &places));
-        assert_eq!(moved.expect("room"), Some(n_of(false) as u64));
+        assert_eq!(moved.expect("room"), Advance::Moved(n_of(false) as u64));
         assert_eq!(t.staging.vertices(), beyond, "{n} vertices");
         for v in 0..n {
             let expected = if is_beyond(v) { [before[v], places[v]] } else { [places[v], before[v]] };
@@ -94,7 +102,7 @@ fn agree<G: Dimension>() {
             let before = positions(&t);
             let n_moved = (0..n).filter(|&v| before[v] != places[v]).count() as u64;
             if moved_by == 0 {
-                assert_eq!(t.move_and_queue::<true>(n, given).expect("room"), Some(n_moved));
+                assert_eq!(t.move_and_queue::<true>(n, given).expect("room"), Advance::Moved(n_moved));
                 assert_eq!(t.staging.vertices(), beyond, "{n} vertices");
             } else if moved_by == 1 {
                 assert_eq!(t.move_all_staged(given).expect("good places"), n_moved);

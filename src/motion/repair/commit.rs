@@ -28,6 +28,7 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::motion::attempt::Mending;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
@@ -81,13 +82,13 @@ impl<G: Dimension> MovingTriangulation<G> {
                 // No vertex of the cells has moved.
                 self.settle(&mut repair);
                 report.moved = 0;
-                return Ok(true);
+                return Ok(Mending::Mended);
             }
             self.mend(&mut repair, report)
         });
         report.unchanged += report.moved.saturating_sub(accepted);
         self.repair = repair;
-        if !mended? {
+        if mended? == Mending::TooMuch {
             return self.commit_by_rebuilding(self.staging.applied(), report);
         }
         self.transaction.want_order();
@@ -95,33 +96,32 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Mends a triangulation all staged vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
-    /// does, after a check that has found failures. `false` if too many vertices would have to be placed; otherwise
-    /// those that are to be are not applied.
+    /// does, after a check that has found failures.
     pub(in crate::motion) fn mend_moved(
         &mut self,
         repair: &mut Repair,
         report: &mut CommitReport,
-    ) -> Result<bool> {
+    ) -> Result<Mending> {
         self.begin_moves(repair, report.moved)?;
         self.mend(repair, report)
     }
 
-    /// Takes back what must be, and flips; `false` if too many vertices would have to be placed.
-    fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
+    /// Takes back what must be, and flips.
+    fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let mended = self.mend_failures(repair, report);
         self.settle(repair);
         report.moved = repair.n_new as u64;
         mended
     }
 
-    fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
+    fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let most = self.n_present / rebuilt_per_placement::<G>();
         // A vertex taken back mends about three cells.
         if repair.failures.is_sweep_due {
             // Of a whole staging all applied, the positions staged are now those before.
             let before = self.staging.others_applied().then_some(self.staging.positions());
             if !self.kernel.sweep(&mut repair.failures, 3 * most, before)? {
-                return Ok(false);
+                return Ok(Mending::TooMuch);
             }
         }
         let mut is_triangulation = repair.failures.is_triangulation();
@@ -130,8 +130,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let last_certificate = self.kernel.certificates() + certified::<G>() * self.n_present as u64;
         for _ in 0..MAX_ROUNDS {
-            if !(is_triangulation || self.take_back_failed(repair, most)? && self.winds_once(repair)?) {
-                return Ok(false);
+            let is_mended = is_triangulation
+                || self.take_back_failed(repair, most)? == Mending::Mended && self.winds_once(repair)?;
+            if !is_mended {
+                return Ok(Mending::TooMuch);
             }
             repair.suspects.clear();
             memory::reserve(&mut repair.suspects, repair.failures.facets.len())?;
@@ -140,22 +142,22 @@ impl<G: Dimension> MovingTriangulation<G> {
             let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck, left)?;
             let Some(flips) = flips else {
                 self.kernel.undo_flips();
-                return Ok(false);
+                return Ok(Mending::TooMuch);
             };
             if repair.stuck.is_empty() {
                 report.flips += flips;
-                return Ok(true);
+                return Ok(Mending::Mended);
             }
             let listed = self.list_stuck(repair);
             self.kernel.undo_flips();
             listed?;
             if repair.sites.is_empty() {
-                return Ok(false);
+                return Ok(Mending::TooMuch);
             }
             is_triangulation = false;
             self.take_back_listed(repair)?;
         }
-        Ok(false)
+        Ok(Mending::TooMuch)
     }
 
     /// Whether a convex hull winds once.
@@ -229,8 +231,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Takes vertices back until every cell is positive and the hull convex; `false` if more than `most` are back.
-    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> Result<bool> {
+    /// Takes vertices back until every cell is positive and the hull convex; too much if more than `most` are back.
+    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> Result<Mending> {
         loop {
             while let Some(c) = repair.failures.cells.pop() {
                 if self.kernel.is_positive(c) {
@@ -241,14 +243,14 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.failures.cells.push(c);
                 self.take_back(repair, s)?;
                 if repair.n_old > most {
-                    return Ok(false);
+                    return Ok(Mending::TooMuch);
                 }
             }
             let (at, before) = (&repair.at, self.staging.positions());
             let before = |id: VertexId| (at[id] != At::Old).then(|| &before[id]);
             self.kernel.check_ridges(&mut repair.failures, before)?;
             if repair.failures.ridges.is_empty() {
-                return Ok(true);
+                return Ok(Mending::Mended);
             }
             while let Some(ridge) = repair.failures.ridges.pop() {
                 if self.kernel.is_convex(ridge) {
@@ -265,7 +267,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.failures.ridges.push(ridge);
                 self.take_back(repair, s)?;
                 if repair.n_old > most {
-                    return Ok(false);
+                    return Ok(Mending::TooMuch);
                 }
                 if !repair.failures.cells.is_empty() {
                     break;

@@ -32,6 +32,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::motion::attempt::Advance;
 use crate::motion::regions::Filter;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
@@ -62,8 +63,10 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Of a whole staging, moves the vertices that stay within tolerance, and queues the others.
     fn accept_all(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
-        let moved = self.move_and_queue::<false>(usize::MAX, given)?;
-        report.moved += moved.expect("there is room for all in the queue");
+        let Advance::Moved(moved) = self.move_and_queue::<false>(usize::MAX, given)? else {
+            unreachable!("there is room for all in the queue");
+        };
+        report.moved += moved;
         report.within_tolerance += (self.site_of.len() - self.staging.vertices().len()) as u64;
         Ok(())
     }

@@ -41,7 +41,7 @@
 use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 use crate::machine::memory;
-use crate::motion::attempt::Attempt;
+use crate::motion::attempt::{Advance, Attempt, Mending};
 use crate::motion::regions::Filter;
 use crate::motion::repair::Repair;
 use crate::motion::staging::Given;
@@ -64,9 +64,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.commit_by_repair(given, report)
     }
 
-    /// Brings all vertices of a whole staging to their new positions, or none if more than this
-    /// share of them leave their tolerance. No
-    /// two vertices may share a site.
+    /// Brings all vertices of a whole staging to their new positions, or none if more than this share of them leave their
+    /// tolerance. No two vertices may share a site.
     pub(in crate::motion) fn commit_by_watching(
         &mut self,
         max_share_beyond: f64,
@@ -79,7 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.prepare_regions(Filter::Watch, report)?;
         }
         let most = (self.n_present as f64 * max_share_beyond) as usize;
-        let Some(moved) = self.move_and_queue::<true>(most, given)? else {
+        let Advance::Moved(moved) = self.move_and_queue::<true>(most, given)? else {
             return Ok(Attempt::NotBegun);
         };
         report.moved += moved;
@@ -152,7 +151,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 t.regions.note_relocated(v)?;
             }
             t.kernel.record_all(repair.touched())?;
-            if !t.mend_moved(repair, report)? {
+            if t.mend_moved(repair, report)? == Mending::TooMuch {
                 return t.commit_by_rebuilding(t.staging.applied(), report);
             }
             t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
