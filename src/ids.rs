@@ -11,10 +11,16 @@ use std::ops::{Index, IndexMut, Range};
 /// Any of the types, for what is written once for all of them.
 pub(crate) trait Id: Copy + Debug + Eq + Hash + Ord + Send + Sync + 'static {
     /// The one of a number.
-    fn of(number: u32) -> Self;
+    fn new(number: u32) -> Self;
 
     /// Its number.
-    fn number(self) -> u32;
+    fn get(self) -> u32;
+
+    /// Its position in an array.
+    #[inline(always)]
+    fn index(self) -> usize {
+        self.get() as usize
+    }
 }
 
 macro_rules! ids {
@@ -37,6 +43,7 @@ macro_rules! ids {
             /// The one at a position in an array.
             #[inline(always)]
             pub const fn at(index: usize) -> Self {
+                debug_assert!(index <= u32::MAX as usize);
                 $name(index as u32)
             }
 
@@ -84,12 +91,12 @@ macro_rules! ids {
 
         impl Id for $name {
             #[inline(always)]
-            fn of(number: u32) -> Self {
+            fn new(number: u32) -> Self {
                 $name(number)
             }
 
             #[inline(always)]
-            fn number(self) -> u32 {
+            fn get(self) -> u32 {
                 self.0
             }
         }

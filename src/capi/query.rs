@@ -359,6 +359,7 @@ pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, lev
 
 fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_cells_view, Failure> {
     let CellsView { corners, neighbours } = t.cells()?;
+    // A row of ids is a row of their numbers.
     Ok(deldrift_cells_view {
         count: corners.len(),
         corners_per_cell: G::D as u32 + 1,

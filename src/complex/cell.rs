@@ -7,6 +7,7 @@ use crate::ids::{SiteId, Slot};
 
 /// A facet as seen from one of its two cells: the cell, and the index of the corner opposite the facet.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
 pub struct Facet(u32);
 
 impl Facet {

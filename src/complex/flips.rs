@@ -148,7 +148,7 @@ type Swapped = ([Facet; 4], [Row<[SiteId; 3]>; 2]);
 
 impl CellRange<'_, [SiteId; 3]> {
     /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on
-    /// the boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`,
+    /// the boundary of both; the two cells keep their slots. With `p` at index `i` of `facet`'s cell `c`, then `b`,
     /// then `a`, and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
     pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<Swapped, Obstacle> {
         let (c, i) = (facet.cell(), facet.index());

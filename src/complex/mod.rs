@@ -3,6 +3,8 @@
 //! A complex is a closed pseudo-manifold: the *ghost* (infinite) vertex [`INFINITE`] completes the convex
 //! hull, so that every facet has exactly two cells. A *ghost cell* has the ghost vertex as its last corner.
 //!
+//! A cell is named by its [`Slot`].
+//!
 //! Invariants, for every live cell `c` and index `i`:
 //! - neighbours are mutual: if `neighbour(c, i)` is facet `j` of `d`, then
 //!   `neighbour(d, j)` is facet `i` of `c`;
@@ -12,8 +14,8 @@
 //! A neighbour is stored with the index of the shared facet seen from the other side, in the two low bits:
 //! crossing a facet costs no search. That bounds the number of cells by [`MAX_CELLS`].
 //!
-//! Methods that take a cell's index are for this crate alone and do not check it (checks cost 5 % of a 3D
-//! build): by the invariants, an index read from a live cell is that of a live cell.
+//! Methods that take a cell's slot are for this crate alone and do not check it (checks cost 5 % of a 3D
+//! build): by the invariants, a slot read from a live cell is that of a live cell.
 
 #![allow(unsafe_code)]
 
@@ -86,7 +88,7 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts
     }
 
-    /// One above the highest index of a cell.
+    /// One above the highest slot of a cell.
     pub fn n_slots(&self) -> usize {
         self.cells.len()
     }
@@ -96,15 +98,15 @@ impl<C: Corners> Complex<C> {
         self.cells.capacity()
     }
 
-    /// The cell of an index below [`n_slots`](Self::n_slots).
+    /// The cell of a slot below [`n_slots`](Self::n_slots).
     #[inline(always)]
     pub(crate) fn cell(&self, cell: Slot) -> &Cell<C> {
         debug_assert!(cell.index() < self.cells.len());
-        // SAFETY: the index is that of a cell (module's documentation).
+        // SAFETY: the slot is that of a cell (module's documentation).
         unsafe { self.cells.get_unchecked(cell.index()) }
     }
 
-    /// All cells by index, free ones included.
+    /// All cells by slot, free ones included.
     pub(crate) fn cells(&self) -> &[Cell<C>] {
         &self.cells
     }
@@ -137,27 +139,27 @@ impl<C: Corners> Complex<C> {
     #[inline(always)]
     fn cell_mut(&mut self, cell: Slot) -> &mut Cell<C> {
         debug_assert!(cell.index() < self.cells.len());
-        // SAFETY: the index is that of a cell (module's documentation).
+        // SAFETY: the slot is that of a cell (module's documentation).
         unsafe { self.cells.get_unchecked_mut(cell.index()) }
     }
 
-    /// Whether the index has no cell at present.
+    /// Whether the slot has no cell at present.
     #[inline(always)]
     pub(crate) fn is_free(&self, cell: Slot) -> bool {
         self.cell(cell).is_free()
     }
 
-    /// Whether there is a cell of this index.
+    /// Whether there is a cell in this slot.
     pub fn is_live(&self, cell: Slot) -> bool {
         cell.index() < self.cells.len() && !self.is_free(cell)
     }
 
-    /// Indices of all cells, ghost cells included.
+    /// Slots of all cells, ghost cells included.
     pub fn live(&self) -> impl Iterator<Item = Slot> + '_ {
         Slot::range(0..self.cells.len()).filter(|&c| !self.is_free(c))
     }
 
-    /// Indices of the cells that are not ghosts.
+    /// Slots of the cells that are not ghosts.
     pub fn finite(&self) -> impl Iterator<Item = Slot> + '_ {
         self.live().filter(|&c| !self.cell(c).is_ghost())
     }
@@ -225,7 +227,7 @@ impl<C: Corners> Complex<C> {
         cell
     }
 
-    /// An index for a cell that is [put](Self::put) there next.
+    /// A slot for a cell that is [put](Self::put) there next.
     #[inline(always)]
     pub(crate) fn create_blank(&mut self) -> Slot {
         let cell = self.free.pop().unwrap_or_else(|| {
@@ -270,7 +272,7 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts -= n;
     }
 
-    /// Frees the index of a retired cell; there must be [room](Self::reserve_free) for it.
+    /// Frees the slot of a retired cell; there must be [room](Self::reserve_free) for it.
     #[inline(always)]
     pub(crate) fn release(&mut self, cell: Slot) {
         self.cell_mut(cell).corners = C::filled(SiteId::NONE);

@@ -131,7 +131,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets
-    /// to cells of higher indices are left to those.
+    /// to cells of higher slots are left to those.
     #[cold]
     #[inline(never)]
     pub(super) fn sweep_cell(

@@ -89,7 +89,7 @@ impl<G: Dimension> Delaunay<G> {
         );
         // The local cells inside, which are marked.
         let mut inside = Vec::new();
-        for c in (Slot::range(0..local.complex.n_slots())).filter(|&c| local.complex.is_live(c)) {
+        for c in Slot::range(0..local.complex.n_slots()).filter(|&c| local.complex.is_live(c)) {
             let corners = map_corners(local.complex.cell(c).corners, global);
             let is_behind = |i: usize| {
                 rim.get(&sorted_without(corners, i)).is_some_and(|&(facing, at)| {

@@ -122,7 +122,7 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Enters the cells around a site, ghost cells included, into an empty set. Calls `found` as soon as the index of a
+    /// Enters the cells around a site, ghost cells included, into an empty set. Calls `found` as soon as the slot of a
     /// cell is known, for some of them more than once.
     #[inline(always)]
     pub(crate) fn list_star(

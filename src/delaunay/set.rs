@@ -30,12 +30,12 @@ const GOLDEN: u32 = 0x9e37_79b9;
 /// Where to look for one of few.
 #[inline(always)]
 fn place_of(index: impl Id) -> usize {
-    usize::from((index.number().wrapping_mul(GOLDEN) >> 24) as u8)
+    usize::from((index.get().wrapping_mul(GOLDEN) >> 24) as u8)
 }
 
 impl<I: Id> IndexSet<I> {
     pub(crate) fn new() -> Self {
-        IndexSet { n: 0, few: [I::of(0); FEW + 1], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
+        IndexSet { n: 0, few: [I::new(0); FEW + 1], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
     }
 
     /// The indices.
@@ -105,7 +105,7 @@ impl<I: Id> IndexSet<I> {
         let at = place_of(index);
         let position = self.places[at];
         // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its place.
-        let difference = self.few[usize::from(position) & FEW].number() ^ index.number();
+        let difference = self.few[usize::from(position) & FEW].get() ^ index.get();
         if u64::from(position) * u64::from(difference) != 0 {
             return false;
         }
@@ -168,8 +168,7 @@ impl<I: Id> IndexSet<I> {
     /// Where the index is, or its entry would be.
     fn find(&self, index: I) -> usize {
         let mask = self.table.len() - 1;
-        let mut at =
-            ((u64::from(index.number().wrapping_mul(GOLDEN)) * self.table.len() as u64) >> 32) as usize;
+        let mut at = ((u64::from(index.get().wrapping_mul(GOLDEN)) * self.table.len() as u64) >> 32) as usize;
         while self.table[at] != 0 && self.all[self.table[at] as usize - 1] != index {
             at = (at + 1) & mask;
         }

@@ -2,7 +2,7 @@
 //!
 //! A build along a curve tests the cells of one neighbourhood again and again. A cell's sphere, prepared once, makes
 //! each of these tests a few operations on one line of cache (see [`predicates::sphere`]). They are kept in a table of
-//! fixed size, each at its cell's index modulo that; what is not there is prepared when it is asked for. The table is
+//! fixed size, each at its cell's slot modulo that; what is not there is prepared when it is asked for. The table is
 //! valid while sites do not move and every cell made is [`put`](Table::put) there.
 
 #![allow(unsafe_code)]

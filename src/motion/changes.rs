@@ -184,8 +184,8 @@ impl<C: Corners<VertexId>> Tracker<C> {
         Ok(())
     }
 
-    /// The index at the base of a cell, [`CellId::NONE`] if it is new, and which of the removed ones it is if it has come back;
-    /// nothing beyond the end.
+    /// The index at the base of a cell, [`CellId::NONE`] if it is new, and which of the removed ones it is if it has
+    /// come back; nothing beyond the end.
     fn origin_of(&self, index: CellId, corners: &[C], removed: &[(C, u32)]) -> Option<(CellId, Option<u32>)> {
         let origin = *self.origin.get(index.index())?;
         if origin != CellId::NONE || removed.is_empty() {

@@ -15,13 +15,13 @@ pub(super) struct Bits(Vec<u64>);
 impl Bits {
     #[inline(always)]
     pub(super) fn has(&self, k: impl Id) -> bool {
-        self.0.get(k.number() as usize / 64).is_some_and(|word| word >> (k.number() % 64) & 1 == 1)
+        self.0.get(k.index() / 64).is_some_and(|word| word >> (k.index() % 64) & 1 == 1)
     }
 
     /// Sets a bit within the end; whether it was not set.
     #[inline(always)]
     pub(super) fn insert(&mut self, k: impl Id) -> bool {
-        let (word, bit) = (&mut self.0[k.number() as usize / 64], 1 << (k.number() % 64));
+        let (word, bit) = (&mut self.0[k.index() / 64], 1 << (k.index() % 64));
         let is_new = *word & bit == 0;
         *word |= bit;
         is_new
@@ -30,7 +30,7 @@ impl Bits {
     /// Clears a bit within the end; whether it was set.
     #[inline(always)]
     pub(super) fn remove(&mut self, k: impl Id) -> bool {
-        let (word, bit) = (&mut self.0[k.number() as usize / 64], 1 << (k.number() % 64));
+        let (word, bit) = (&mut self.0[k.index() / 64], 1 << (k.index() % 64));
         let was_set = *word & bit != 0;
         *word &= !bit;
         was_set
@@ -39,7 +39,7 @@ impl Bits {
     /// Clears a bit within the end, and maybe some next to it.
     #[inline(always)]
     pub(super) fn clear_around(&mut self, k: impl Id) {
-        self.0[k.number() as usize / 64] = 0;
+        self.0[k.index() / 64] = 0;
     }
 
     /// Makes room for the bits of the numbers below `n`.
@@ -111,7 +111,7 @@ impl<I: Id> Marks<I> {
             list.sort_unstable();
         } else {
             list.clear();
-            list.extend(self.bits.iter().map(I::of));
+            list.extend(self.bits.iter().map(I::new));
         }
     }
 

@@ -301,8 +301,8 @@ impl<G: Dimension> Staging<G> {
         }
     }
 
-    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones, [`VertexId::NONE`] for those
-    /// removed. Of no moves nothing is kept.
+    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones, [`VertexId::NONE`] for
+    /// those removed. Of no moves nothing is kept.
     pub(super) fn renumbered(&self, ids: &[VertexId], n: usize) -> Result<Self> {
         let mut staging = Staging::default();
         if self.count() == 0 {
