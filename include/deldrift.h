@@ -806,6 +806,22 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
                                 const double *position,
                                 deldrift_location *location);
 
+/// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
+/// and faster if each point is near the one before it.
+///
+/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. near: where to begin to look
+/// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
+/// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also
+/// does what the first deldrift_cells does.
+deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
+                                       const double *positions,
+                                       size_t count,
+                                       const deldrift_location *near,
+                                       deldrift_location *locations);
+
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
 /// triangulation has no vertices.
 ///

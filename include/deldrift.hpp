@@ -245,6 +245,13 @@ public:
     deldrift_location locate(span<const double> position) const {
         return ask<deldrift_location>(deldrift_locate, point(position));
     }
+    // Faster if each point is near the one before it, and the first one near a location that is known.
+    std::vector<deldrift_location> locate_points(span<const double> positions,
+                                                 const deldrift_location *near = nullptr) const {
+        std::vector<deldrift_location> locations(count_of("positions", positions));
+        check(deldrift_locate_points(native(), positions.data(), locations.size(), near, locations.data()));
+        return locations;
+    }
     // DELDRIFT_NONE if there are no vertices.
     std::uint32_t nearest_vertex(span<const double> position) const {
         return ask<std::uint32_t>(deldrift_nearest_vertex, point(position));

@@ -267,7 +267,7 @@ int main(void) {
         other_functions_ask_for_nothing(dimension);
         for (size_t which = 0; which < N_SETTINGS; which++) {
             for (kind k = 0; k < N_KINDS; k++) {
-                bool is_of_one = k == RELOCATE || k == INSERT || k == REMOVE || k == LOCATE || k == NEAREST;
+                bool is_of_one = k == RELOCATE || k == INSERT || k == REMOVE || k == LOCATE || k == LOCATE_POINTS || k == NEAREST;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
                 if (is_commit(k)) {

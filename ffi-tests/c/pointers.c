@@ -68,6 +68,7 @@ static void handles(void) {
     REFUSES("t", deldrift_triangulation,
             deldrift_standard_delimiter(pointer, 0, 0, coordinates, coordinates, coordinates));
     REFUSES("t", deldrift_triangulation, deldrift_locate(pointer, position, &location));
+    REFUSES("t", deldrift_triangulation, deldrift_locate_points(pointer, position, 1, NULL, &location));
     REFUSES("t", deldrift_triangulation, deldrift_nearest_vertex(pointer, position, &number));
     REFUSES("t", deldrift_triangulation, deldrift_coincident_representative(pointer, 0, &number));
     REFUSES("t", deldrift_triangulation, deldrift_changed_cells(pointer, &indices));
@@ -91,6 +92,7 @@ static void inputs(void) {
     REFUSES("position", double, deldrift_relocate_vertex(t, 0, pointer));
     REFUSES("position", double, deldrift_insert_vertex(t, pointer, &number));
     REFUSES("position", double, deldrift_locate(t, pointer, &location));
+    REFUSES("positions", double, deldrift_locate_points(t, pointer, 1, NULL, &location));
     REFUSES("position", double, deldrift_nearest_vertex(t, pointer, &number));
     CHECK(other == NULL);
 
@@ -103,6 +105,9 @@ static void inputs(void) {
     CHECK_MESSAGE("options is 0x");
     CHECK_STATUS(deldrift_commit_timestamp(t, (deldrift_commit_report *)(size_t)odd), DELDRIFT_MISALIGNED_ARGUMENT);
     CHECK_MESSAGE("report is 0x");
+    CHECK_STATUS(deldrift_locate_points(t, positions, 1, (const deldrift_location *)odd, &location),
+                 DELDRIFT_MISALIGNED_ARGUMENT);
+    CHECK_MESSAGE("near is 0x");
 }
 
 static void outputs(void) {
@@ -136,6 +141,7 @@ static void outputs(void) {
     REFUSES("radius", double, deldrift_standard_delimiter(t, 0, 0, numbers, pointer, numbers));
     REFUSES("tolerance", double, deldrift_standard_delimiter(t, 0, 0, numbers, numbers, pointer));
     REFUSES("location", deldrift_location, deldrift_locate(t, position, pointer));
+    REFUSES("locations", deldrift_location, deldrift_locate_points(t, position, 1, NULL, pointer));
     REFUSES("vertex", uint32_t, deldrift_nearest_vertex(t, position, pointer));
     REFUSES("representative", uint32_t, deldrift_coincident_representative(t, 0, pointer));
 

@@ -159,6 +159,31 @@ static void places_are_found(void) {
     CHECK_STATUS(deldrift_locate(t, far, &location), DELDRIFT_OUT_OF_RANGE);
     CHECK(location.kind == DELDRIFT_LOCATION_OUTSIDE);
 
+    // The same for several, wherever they are said to be.
+    static const double points[] = {2, 1, 1, 2, -1, 2, 2, 1}, bad[] = {2, 1, NAN, 0};
+    deldrift_location found[4], one;
+    const deldrift_location nears[] = {{DELDRIFT_LOCATION_VERTEX, 3}, {DELDRIFT_LOCATION_CELL, 1},
+                                       {DELDRIFT_LOCATION_OUTSIDE, 0}, {DELDRIFT_LOCATION_NO_CELLS, DELDRIFT_NONE},
+                                       {DELDRIFT_LOCATION_CELL, 1000}, {DELDRIFT_LOCATION_VERTEX, DELDRIFT_NONE}};
+    for (size_t k = 0; k <= sizeof nears / sizeof *nears; k++) {
+        memset(found, 0x77, sizeof found);
+        OK(deldrift_locate_points(t, points, 4, k == 0 ? NULL : nears + k - 1, found));
+        for (int i = 0; i < 4; i++) {
+            OK(deldrift_locate(t, points + 2 * i, &one));
+            CHECK(found[i].kind == one.kind);
+            CHECK(one.kind == DELDRIFT_LOCATION_OUTSIDE || found[i].index == one.index);
+        }
+    }
+    OK(deldrift_locate_points(t, points, 2, found + 3, found + 2));
+    CHECK(found[2].kind == DELDRIFT_LOCATION_CELL && found[3].kind == DELDRIFT_LOCATION_VERTEX);
+    uint32_t any[2] = {0x12345678, 9};
+    OK(deldrift_locate_points(t, points, 1, (const deldrift_location *)(const void *)any, found));
+    OK(deldrift_locate_points(t, NULL, 0, NULL, NULL));
+    memset(found, 0x77, sizeof found);
+    CHECK_STATUS(deldrift_locate_points(t, bad, 2, NULL, found), DELDRIFT_NOT_FINITE);
+    CHECK(strstr(deldrift_last_error(), "positions[1], coordinate 0") != NULL);
+    CHECK(found[0].index == 0x77777777);
+
     uint32_t nearest = 77;
     OK(deldrift_nearest_vertex(t, inside, &nearest));
     CHECK(nearest == 4);

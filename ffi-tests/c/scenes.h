@@ -40,7 +40,7 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS, COMMIT,
     COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
-    DELIMITER, LOCATE, NEAREST, CHANGED_CELLS, N_KINDS } kind;
+    DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -48,7 +48,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_stage_removals", "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
     "deldrift_commit_positions", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_annulus_widths", "deldrift_standard_delimiter", "deldrift_locate",
-    "deldrift_nearest_vertex", "deldrift_changed_cells",
+    "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells",
 };
 
 // A call: `goal` is for those of one vertex, which goes near, far, or to a place that is taken.
@@ -251,6 +251,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case ANNULUS_WIDTHS: status = deldrift_annulus_widths(s->t, numbers_out, ROOM, &count); break;
         case DELIMITER: status = deldrift_standard_delimiter(s->t, 11, 1, centre, &radius, &tolerance); break;
         case LOCATE: status = deldrift_locate(s->t, to, &location); break;
+        case LOCATE_POINTS: status = deldrift_locate_points(s->t, to, 1, NULL, &location); break;
         case NEAREST: status = deldrift_nearest_vertex(s->t, to, &out); break;
         case CHANGED_CELLS: status = deldrift_changed_cells(s->t, &indices); break;
         case N_KINDS: break;
@@ -295,7 +296,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             for (size_t i = 0; i < count; i++) *given += digest_of(&numbers_out[i], sizeof *numbers_out);
             break;
         case TOLERANCE: *given = digest_of(&tolerance, sizeof tolerance); break;
-        case LOCATE: {
+        case LOCATE:
+        case LOCATE_POINTS: {
             bool is_cell = location.kind == DELDRIFT_LOCATION_CELL || location.kind == DELDRIFT_LOCATION_OUTSIDE;
             *given = mixed(location.kind, is_cell ? digest_of_cells(s->t, &location.index, 1) : location.index);
             break;

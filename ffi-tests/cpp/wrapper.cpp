@@ -97,6 +97,7 @@ static void queries() {
     options.track_changes = 1;
     Triangulation t(3, {0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.5, 0.5, 0.75}, options);
     CHECK(t.dimension() == 3 && t.star(4).size() == 4 && t.memory_bytes() > 0);
+    CHECK(t.locate_points(std::array<double, 6>{0.25, 0.5, 0.5, 9, 9, 9}).at(1).kind == DELDRIFT_LOCATION_OUTSIDE);
     CHECK(t.locate({0.25, 0.5, 0.5}).kind == DELDRIFT_LOCATION_CELL && t.nearest_vertex({0.5, 0.5, 1.0}) == 4);
     CHECK(t.changed_cells().empty());
     t.move_vertex(4, {0.0, 0.0, 4.0});

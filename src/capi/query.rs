@@ -1,7 +1,7 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
 use super::fence;
-use super::motion::point_for;
+use super::motion::{point_for, points_for};
 use super::pointers::{self, Room, copy_out, start_of};
 use super::state::pointer_for;
 use super::status::{Failure, deldrift_status};
@@ -78,6 +78,22 @@ impl From<Location> for deldrift_location {
         };
         Self { kind, index }
     }
+}
+
+const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
+
+/// A location that a program gives to begin a search at, if its kind has a meaning.
+fn hint(kind: u32, index: u32) -> Option<Location> {
+    use deldrift_location_kind::*;
+    let (vertex, cell) = (VertexId::new(index), CellId::new(index));
+    [
+        (DELDRIFT_LOCATION_VERTEX, Location::Vertex(vertex)),
+        (DELDRIFT_LOCATION_CELL, Location::Cell(cell)),
+        (DELDRIFT_LOCATION_OUTSIDE, Location::Outside(cell)),
+    ]
+    .into_iter()
+    .find(|&(code, _)| code as u32 == kind)
+    .map(|(_, location)| location)
 }
 
 /// The cells, without a copy, to *view.
@@ -278,6 +294,46 @@ pub unsafe extern "C" fn deldrift_locate(
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
     unsafe { tell!(t, location, t => t.locate(point_for(t, "position", position)?)?.into()) }
+}
+
+/// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
+/// and faster if each point is near the one before it.
+///
+/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. near: where to begin to look
+/// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
+/// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also
+/// does what the first deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_locate_points(
+    t: *const deldrift_triangulation,
+    positions: *const f64,
+    count: usize,
+    near: *const deldrift_location,
+    locations: *mut deldrift_location,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                if count == 0 {
+                    return Ok(());
+                }
+                let positions = points_for(t, "positions", positions, count)?;
+                // Its kind may be any number.
+                let near = near.cast::<[u32; 2]>();
+                let near = (!near.is_null()).then(|| pointers::reference("near", near)).transpose()?;
+                let near = near.and_then(|&[kind, index]| hint(kind, index));
+                let mut locations = pointers::buffer("locations", locations, count)?.iter_mut();
+                t.locate_points(positions, near, |location| {
+                    locations.next().expect("as many as positions").write(location.into());
+                })?;
+                Ok(())
+            })
+        })
+    }
 }
 
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the

@@ -136,6 +136,14 @@ impl<C: Corners> Complex<C> {
         }
     }
 
+    /// Asks for the marks of the neighbours of a cell.
+    #[inline(always)]
+    pub(crate) fn prefetch_marks(&self, cell: &Cell<C>) {
+        for i in 0..C::N {
+            prefetch(&self.marks, cell.neighbour(i).cell().index());
+        }
+    }
+
     #[inline(always)]
     fn cell_mut(&mut self, cell: Slot) -> &mut Cell<C> {
         debug_assert!(cell.index() < self.cells.len());

@@ -105,6 +105,21 @@ impl<G: Dimension> Delaunay<G> {
         inserted
     }
 
+    /// Inserts a site that has been added, anywhere: as [`insert_site`](Self::insert_site), by a walk from a cell
+    /// [towards](Self::cell_towards) it.
+    pub(crate) fn insert_site_anywhere(&mut self, s: SiteId) -> Result<Insertion> {
+        if !self.has_cells() {
+            return self.insert_site(s, Slot::NONE);
+        }
+        let q = self.site(s).point;
+        let near = self.cell_towards(&q, self.recent);
+        let before = self.cavity.steps;
+        let inserted = self.insert_site(s, near);
+        let steps = self.cavity.steps - before;
+        self.note_walk(&q, self.recent, steps);
+        inserted
+    }
+
     /// Inserts a site that has been added, walking from the cell `near`, with the scratch memory at hand. There must be
     /// cells, and the filter must cover the site. `BUILD` if between [`begin_build`](Insert::begin_build) and
     /// [`end_build`](Insert::end_build).

@@ -176,6 +176,11 @@ fn dig<const BUILD: bool>(
             } else {
                 known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
             };
+            // A site that comes alone finds nothing at hand.
+            if !BUILD && in_zone && known != IN_ZONE {
+                t.complex.prefetch_neighbours(out.cell());
+                t.complex.prefetch_marks(t.complex.cell(out.cell()));
+            }
             t.complex.set_mark(out.cell(), in_zone as u8);
             zone[n_zone] = out.cell();
             rim[n_rim] = Rim { corners: joined(cell.corners, i, s), out };

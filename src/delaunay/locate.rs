@@ -63,14 +63,16 @@ impl<G: Dimension> Delaunay<G> {
         (0..G::Corners::N).map(|i| c.corners[i]).find(|&s| self.site(s).point == *q)
     }
 
-    /// Where a point lies; `near` is a cell to walk from, [`Slot::NONE`] for any.
+    /// Where a point lies; `near` is a cell that may be near it, [`Slot::NONE`] if none is known.
     pub fn locate(&self, q: &G::Point, near: Slot) -> Place {
         if !self.has_cells() {
             return self.flat.site_at(q).map_or(Place::NoCells, Place::Site);
         }
         let filter = self.filter_for(q);
-        let start = if near == Slot::NONE { self.recent } else { near };
-        let cell = self.walk(&filter, q, start, &mut 0);
+        let start = self.cell_towards(q, if near == Slot::NONE { self.recent } else { near });
+        let mut steps = 0;
+        let cell = self.walk(&filter, q, start, &mut steps);
+        self.note_walk(q, cell, steps);
         match self.corner_at(cell, q) {
             Some(s) => Place::Site(s),
             None if self.complex.cell(cell).is_ghost() => Place::Outside(cell),

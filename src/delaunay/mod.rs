@@ -11,7 +11,7 @@
 //! | `order` | Hilbert curve and insertion rounds |
 //! | `build` | all sites at once |
 //! | `parts`, `parallel`, `unite` | the same on several threads |
-//! | `locate` | the walk |
+//! | `locate`, `landmarks` | the walk, and where it begins |
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
 //! | `remove` | removal: fill the star by gift wrapping |
 //! | `high_degree` | removal of a vertex of high degree |
@@ -44,6 +44,7 @@ mod flat;
 mod flip;
 mod high_degree;
 mod kernel;
+mod landmarks;
 mod locate;
 pub mod order;
 mod parallel;
@@ -104,6 +105,7 @@ pub struct Delaunay<G: Dimension> {
     is_sorted: bool,
     /// A live cell, near the latest change.
     recent: Slot,
+    landmarks: landmarks::Landmarks,
     cavity: Cavity<G>,
     hole: Hole<G>,
     /// The cells of the star gathered last.
@@ -145,6 +147,7 @@ impl<G: Dimension> Delaunay<G> {
             flat: Flat::default(),
             is_sorted: false,
             recent: Slot::new(0),
+            landmarks: Default::default(),
             cavity: Cavity::default(),
             hole: Hole::default(),
             around: IndexSet::new(),
@@ -413,6 +416,7 @@ impl<G: Dimension> Delaunay<G> {
             + self.parts.memory_bytes()
             + self.complex.memory_bytes()
             + self.flat.memory_bytes()
+            + self.landmarks.memory_bytes()
             + self.cavity.memory_bytes()
             + self.hole.memory_bytes()
             + self.around.memory_bytes()

@@ -44,5 +44,7 @@ impl<G: Dimension> Delaunay<G> {
         other.cavity = std::mem::take(&mut self.cavity);
         other.hole = std::mem::take(&mut self.hole);
         other.flips = std::mem::take(&mut self.flips);
+        // Most sites keep their indices, and any site will do.
+        other.landmarks = std::mem::take(&mut self.landmarks);
     }
 }

@@ -158,6 +158,11 @@ impl<G: Dimension> Cells<G> {
         &self.index_of
     }
 
+    /// The slot of the cell of an index, if there is such a cell.
+    pub(super) fn slot(&self, index: CellId) -> Option<Slot> {
+        self.slots.get(index.index()).copied()
+    }
+
     /// Tracks what changes from now on, which is when a commit begins.
     pub(super) fn track_commit(&mut self) -> Result<()> {
         if self.since_commit.is_none() {

@@ -8,7 +8,7 @@ use super::staging::check_position;
 use super::{Algorithm, CommitReport, MAX_VERTICES, MovingTriangulation};
 use crate::delaunay::{Dimension, Insertion, Shortcut};
 use crate::error::{Error, Result};
-use crate::ids::{SiteId, Slot, VertexId};
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -92,7 +92,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let inserted = self.with_regions(report, |t, _| {
             // Undoing does not know of a site that is in without cells, so nothing may fail after that.
             t.regions.make_room_to_note()?;
-            let inserted = t.kernel.insert_site(s, Slot::NONE)?;
+            let inserted = t.kernel.insert_site_anywhere(s)?;
             if let Insertion::Coincident(at) = inserted {
                 // The new id is the highest of all, so it is the one to hide: nothing else changes.
                 t.hide(id, at)?;

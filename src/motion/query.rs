@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::cells::Cells;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::INFINITE;
@@ -106,18 +107,65 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Where a point lies.
     ///
     /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn locate(&self, position: &G::Point) -> Result<Location> {
         let q = check_position::<G>("position", 0, position)?;
-        let index_of = |c: Slot| Ok(self.cell_arrays()?.index_of()[c]);
-        Ok(match self.kernel.locate(&q, Slot::NONE) {
+        let cells = self.cell_arrays()?;
+        Ok(self.location(cells, self.kernel.locate(&q, Slot::NONE)))
+    }
+
+    /// Where points lie, told to `found` one after the other. Each is looked for from the one before, the first from
+    /// `near`, if that is near it. This is only where to begin: it need not be right, nor name anything.
+    ///
+    /// # Errors
+    /// As [`locate`](Self::locate), before any is told.
+    pub fn locate_points(
+        &self,
+        positions: &[G::Point],
+        near: Option<Location>,
+        mut found: impl FnMut(Location),
+    ) -> Result<()> {
+        for (index, position) in positions.iter().enumerate() {
+            check_position::<G>("positions", index, position)?;
+        }
+        let cells = self.cell_arrays()?;
+        let mut near = near.map_or(Slot::NONE, |near| self.slot_of(cells, near));
+        for position in positions {
+            let place = self.kernel.locate(position, near);
+            near = match place {
+                Place::Site(s) => self.kernel.site(s).cell,
+                Place::Cell(c) | Place::Outside(c) => c,
+                Place::NoCells => Slot::NONE,
+            };
+            found(self.location(cells, place));
+        }
+        Ok(())
+    }
+
+    /// The name of a place.
+    fn location(&self, cells: &Cells<G>, place: Place) -> Location {
+        let index_of = |c: Slot| cells.index_of()[c];
+        match place {
             Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
-            Place::Cell(c) => Location::Cell(index_of(c)?),
+            Place::Cell(c) => Location::Cell(index_of(c)),
             Place::Outside(c) => {
-                Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell())?)
+                Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell()))
             }
             Place::NoCells => Location::NoCells,
-        })
+        }
+    }
+
+    /// The slot of a cell at a place that need not exist; [`Slot::NONE`] if there is no such place.
+    fn slot_of(&self, cells: &Cells<G>, location: Location) -> Slot {
+        match location {
+            Location::Vertex(v) => match self.present_site("near", 0, v) {
+                Ok(s) => self.kernel.site(s).cell,
+                Err(_) => Slot::NONE,
+            },
+            Location::Cell(index) | Location::Outside(index) => cells.slot(index).unwrap_or(Slot::NONE),
+            Location::NoCells => Slot::NONE,
+        }
     }
 
     /// The vertex nearest to a point, the lowest id among the nearest; `None` if there are no vertices. Distances
@@ -130,27 +178,31 @@ impl<G: Dimension> MovingTriangulation<G> {
         let start = match self.kernel.locate(&q, Slot::NONE) {
             Place::Site(s) => return Ok(Some(self.kernel.site(s).id)),
             Place::NoCells => return Ok(self.nearest_of(&q, self.kernel.live_sites())),
-            Place::Cell(c) | Place::Outside(c) => self.kernel.complex().cell(c).corners[0],
+            Place::Cell(c) | Place::Outside(c) => {
+                let corners = self.kernel.complex().cell(c).corners;
+                let finite = corners.as_ref().iter().copied().filter(|&s| s != INFINITE);
+                finite.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
+            }
         };
         // Some neighbour of a vertex that is not the nearest is nearer; the nearest ones are on an empty sphere
         // around the point, so they are connected by edges.
         let mut best = start;
-        let (mut nearest, mut link) = (IndexSet::new(), IndexSet::new());
+        let (mut nearest, mut star, mut link) = (IndexSet::new(), IndexSet::new(), IndexSet::new());
         nearest.insert(start)?;
         // Those before this one have been looked around.
         let mut next = 0;
         while let Some(&s) = nearest.as_slice().get(next) {
             next += 1;
             link.clear();
-            let mut listed = Ok(true);
-            self.kernel.for_star(s, |c, _| {
+            star.clear();
+            self.kernel.list_star(s, &mut star, |_| {})?;
+            for &c in star.as_slice() {
                 for &x in self.kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE) {
-                    if listed.is_ok() {
-                        listed = link.insert(x);
+                    if link.insert(x)? {
+                        prefetch(self.kernel.sites(), x.index());
                     }
                 }
-            })?;
-            listed?;
+            }
             for &x in link.as_slice() {
                 match self.compare(&q, x, best) {
                     Ordering::Less => {

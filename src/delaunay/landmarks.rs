@@ -1,0 +1,266 @@
+//! Landmarks: sites, a sample of all, near one of which a walk begins if nothing else is known of its goal (*jump and
+//! walk*: Mücke, Saias, Zhu, 10.1016/S0925-7721(98)00035-2).
+//!
+//! They are the leaves of a balanced tree of half-spaces, some six sites to a leaf wherever these are dense, so that a
+//! walk is as short in a cluster as elsewhere. All of it is hints: half-spaces are never checked, and a leaf may hold any
+//! site. So points may move, come and go without a word to the tree. A walk that was long leaves a site near its goal
+//! behind, for the next one that comes to this leaf. When walks together have been longer than that explains, there is a
+//! new tree.
+//!
+//! Invariant: a tree is used only to choose where to begin; what a walk finds does not depend on it.
+//!
+//! Cost: none before walks have crossed a cell for every [`SITES_PER_STEP`] sites. Then some 15 ns a site to make the tree
+//! and 2 bytes a site to keep it. A goal costs one path down, in an array that stays in a cache near the processor, and a walk
+//! through a few cells, however many there are. (Not so in space from the surface of a cluster: there half of the cells around
+//! a site reach other clusters, and a walk that begins in one of them first goes around the bundle.)
+
+use std::sync::RwLock;
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed};
+
+use super::{Delaunay, Dimension, Site};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot};
+use crate::machine::memory;
+
+/// A tree is made once walks have crossed one cell for this number of sites, beyond [`LONG_WALK`] each: that takes about
+/// as long as making it.
+const SITES_PER_STEP: usize = 8;
+
+/// After more steps a site near the goal becomes the landmark.
+const SHORT_WALK: u64 = 12;
+
+/// More steps than a walk from a good landmark has, but for one in a thousand.
+const LONG_WALK: u64 = 40;
+
+/// A goal no farther than this number of edges is reached in a few steps.
+const SHORT_IN_EDGES: f64 = 2.0;
+
+/// Fewer sites need no landmarks.
+const MIN_SITES: usize = 256;
+
+/// Where walks begin.
+#[derive(Debug, Default)]
+pub(super) struct Landmarks {
+    /// `None` before the first is made.
+    tree: RwLock<Option<Tree>>,
+    /// Cells crossed since the tree was made, or tried to.
+    steps: AtomicUsize,
+}
+
+/// A complete binary tree: below node `k` are `2 k` and `2 k + 1`, and the root is 1.
+#[derive(Debug)]
+struct Tree {
+    /// Of each inner node, where half of the sites below it begin, with the axis in the lowest two bits.
+    splits: Vec<f64>,
+    /// A site of each leaf.
+    leaves: Vec<AtomicU32>,
+}
+
+/// A coordinate with an axis in its lowest two bits.
+fn split(x: f64, axis: usize) -> f64 {
+    f64::from_bits(x.to_bits() & !3 | axis as u64)
+}
+
+impl Tree {
+    /// A tree of about one site in six.
+    fn new<G: Dimension>(sites: &[Site<G>]) -> Result<Option<Self>> {
+        let n = sites.len();
+        if n < MIN_SITES {
+            return Ok(None);
+        }
+        let depth = (n / 4).ilog2();
+        let n_leaves = 1 << depth;
+        // Sites are in an order of their places, so that every k-th is near each other one.
+        let mut items = Vec::new();
+        memory::reserve_exact(&mut items, n_leaves)?;
+        let is_in_cells = |site: &Site<G>| site.is_live() && site.cell != Slot::NONE;
+        let picked = (0..n_leaves).map(|k| 1 + (k as u64 * (n - 1) as u64 / n_leaves as u64) as usize);
+        items.extend(picked.filter(|&s| is_in_cells(&sites[s])).map(|s| (sites[s].point, s as u32)));
+        let Some(&last) = items.last() else {
+            return Ok(None);
+        };
+        items.resize(n_leaves, last);
+        let mut splits = Vec::new();
+        memory::reserve_exact(&mut splits, n_leaves)?;
+        splits.push(0.0);
+        for level in 0..depth {
+            for part in items.chunks_exact_mut(n_leaves >> level) {
+                let axis = widest::<G>(part);
+                let middle = part.len() / 2;
+                let (_, item, _) =
+                    part.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
+                splits.push(split(item.0[axis], axis));
+            }
+        }
+        let mut leaves = Vec::new();
+        memory::collect(&mut leaves, items.iter().map(|&(_, s)| AtomicU32::new(s)))?;
+        Ok(Some(Tree { splits, leaves }))
+    }
+
+    /// The leaf of a place.
+    #[inline(always)]
+    fn leaf<G: Dimension>(&self, q: &G::Point) -> usize {
+        let n = self.splits.len();
+        let mut node = 1;
+        while node < n {
+            let split = self.splits[node];
+            // Four axes, so that there is no check; the last is never asked for.
+            let axis = (split.to_bits() & 3) as usize % G::D;
+            node = 2 * node + usize::from(q[axis] >= split);
+        }
+        node - n
+    }
+}
+
+/// The axis along which these places extend farthest.
+fn widest<G: Dimension>(items: &[(G::Point, u32)]) -> usize {
+    let (mut lower, mut upper) = (items[0].0, items[0].0);
+    for (p, _) in items {
+        for axis in 0..G::D {
+            lower[axis] = lower[axis].min(p[axis]);
+            upper[axis] = upper[axis].max(p[axis]);
+        }
+    }
+    let extent = |&axis: &usize| upper[axis] - lower[axis];
+    (0..G::D).max_by(|a, b| extent(a).total_cmp(&extent(b))).unwrap_or_default()
+}
+
+impl Landmarks {
+    pub(super) fn memory_bytes(&self) -> usize {
+        let tree = self.tree.read().ok();
+        let tree = tree.as_ref().and_then(|tree| tree.as_ref());
+        tree.map_or(0, |tree| memory::bytes_of(&tree.splits) + memory::bytes_of(&tree.leaves))
+    }
+
+    /// A site that was near `q` once; [`SiteId::NONE`] if no tree has been made, or one is being made.
+    #[inline(always)]
+    fn near<G: Dimension>(&self, q: &G::Point) -> SiteId {
+        let Ok(tree) = self.tree.try_read() else {
+            return SiteId::NONE;
+        };
+        tree.as_ref().map_or(SiteId::NONE, |tree| SiteId::new(tree.leaves[tree.leaf::<G>(q)].load(Relaxed)))
+    }
+
+    /// Enters a walk of so many steps to `q`, near the site `s`.
+    #[inline(always)]
+    fn follow<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
+        if steps > SHORT_WALK {
+            self.follow_long(sites, q, s, steps);
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn follow_long<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
+        let Ok(tree) = self.tree.try_read() else {
+            return;
+        };
+        if let Some(tree) = tree.as_ref() {
+            tree.leaves[tree.leaf::<G>(q)].store(s.get(), Relaxed);
+        }
+        drop(tree);
+        let beyond = steps.saturating_sub(LONG_WALK) as usize;
+        let all = self.steps.fetch_add(beyond, Relaxed) + beyond;
+        if beyond > 0
+            && all * SITES_PER_STEP >= sites.len()
+            && let Ok(mut tree) = self.tree.try_write()
+        {
+            self.steps.store(0, Relaxed);
+            // Without the memory for it, walks go on as they did.
+            if let Ok(made) = Tree::new(sites) {
+                *tree = made;
+            }
+        }
+    }
+}
+
+impl<G: Dimension> Delaunay<G> {
+    /// A cell from which a walk to `q` is short: `near`, or one at a landmark if that is nearer.
+    #[inline(always)]
+    pub(super) fn cell_towards(&self, q: &G::Point, near: Slot) -> Slot {
+        let between =
+            |p: &G::Point, q: &G::Point| (0..G::D).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>();
+        // The last corner of a ghost cell is the ghost vertex.
+        let [p, other] = [0, 1].map(|i| self.place(self.complex.cell(near).corners[i]));
+        let to_near = between(p, q);
+        // Then the walk is shorter than the way down the tree.
+        if to_near <= SHORT_IN_EDGES * SHORT_IN_EDGES * between(p, other) {
+            return near;
+        }
+        let s = self.landmarks.near::<G>(q);
+        match self.sites.get(s.index()) {
+            Some(site) if site.is_live() && site.cell != Slot::NONE && between(&site.point, q) < to_near => {
+                site.cell
+            }
+            _ => near,
+        }
+    }
+
+    /// Enters a walk to `q` that has ended in `cell` after so many steps.
+    #[inline(always)]
+    pub(super) fn note_walk(&self, q: &G::Point, cell: Slot, steps: u64) {
+        // The last corner of a ghost cell is the ghost vertex.
+        self.landmarks.follow(&self.sites, q, self.complex.cell(cell).corners[0], steps);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::{Plane, Space};
+    use crate::machine::threads::Threads;
+    use crate::random::Rng;
+
+    fn place<G: Dimension>(rng: &mut Rng, is_clustered: bool) -> G::Point {
+        let mut p = G::Point::default();
+        let centre = rng.within(0, 9) as f64;
+        for axis in 0..G::D {
+            p[axis] = if is_clustered {
+                (centre * (axis + 3) as f64) % 10.0 + 1e-4 * rng.unit()
+            } else {
+                rng.unit()
+            };
+        }
+        p
+    }
+
+    /// Cells crossed, in the mean, by walks to random places.
+    fn mean_steps<G: Dimension>(t: &Delaunay<G>, rng: &mut Rng, is_clustered: bool) -> f64 {
+        let n = 500;
+        let mut steps = 0;
+        for _ in 0..n {
+            let q = place::<G>(rng, is_clustered);
+            let start = t.cell_towards(&q, t.recent);
+            t.walk(&G::filter(&t.lower, &t.upper), &q, start, &mut steps);
+        }
+        steps as f64 / f64::from(n)
+    }
+
+    /// Walks become short by themselves.
+    fn walks_become_short<G: Dimension>(is_clustered: &[bool]) {
+        for &is_clustered in is_clustered {
+            let rng = &mut Rng::new(1);
+            let mut t = Delaunay::<G>::on(Threads::ONE).expect("room");
+            let n = 20_000;
+            let places = std::iter::repeat_with(|| place::<G>(rng, is_clustered)).take(n).collect::<Vec<_>>();
+            t.add_sites(&places).expect("room");
+            t.rebuild(&mut |_| true).expect("room");
+            let without = mean_steps(&t, rng, is_clustered);
+            for _ in 0..2000 {
+                t.locate(&place::<G>(rng, is_clustered), Slot::NONE);
+            }
+            let with = mean_steps(&t, rng, is_clustered);
+            assert!(without > 20.0 && with < 12.0, "{without} steps, then {with}");
+        }
+    }
+
+    #[test]
+    fn walks_become_short_in_the_plane() {
+        walks_become_short::<Plane>(&[false, true]);
+    }
+
+    #[test]
+    fn walks_become_short_in_space() {
+        walks_become_short::<Space>(&[false]);
+    }
+}
