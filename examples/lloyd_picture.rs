@@ -9,6 +9,7 @@
 
 use deldrift::Error;
 use deldrift::Plane;
+use deldrift::VertexId;
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -56,7 +57,8 @@ fn main() -> Result<(), Error> {
         let edges = edges(t.cells().expect("room").corners);
         let next = centroids(&positions, &edges);
         if let Some(panel) = SHOWN.iter().position(|&shown| shown == iteration) {
-            let tolerances = (0..N as u32).map(|v| t.tolerance(v)).collect::<Result<Vec<f64>, Error>>()?;
+            let tolerances =
+                VertexId::range(0..N).map(|v| t.tolerance(v)).collect::<Result<Vec<f64>, Error>>()?;
             let shares: Vec<f64> = (0..N)
                 .map(|v| distance(&positions[v], &next[v]) / tolerances[v].max(f64::MIN_POSITIVE))
                 .collect();
@@ -91,13 +93,13 @@ fn distance(a: &Point, b: &Point) -> f64 {
 }
 
 /// The edges of triangles, each once, from the lower id to the higher.
-fn edges(triangles: &[[u32; 3]]) -> BTreeSet<[u32; 2]> {
-    let edge = |a: u32, b: u32| [a.min(b), a.max(b)];
+fn edges(triangles: &[[VertexId; 3]]) -> BTreeSet<[VertexId; 2]> {
+    let edge = |a: VertexId, b: VertexId| [a.min(b), a.max(b)];
     triangles.iter().flat_map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect()
 }
 
 /// Where Lloyd's iteration takes every point: to the centroid of its Voronoi cell in the disk.
-fn centroids(positions: &[Point], edges: &BTreeSet<[u32; 2]>) -> Vec<Point> {
+fn centroids(positions: &[Point], edges: &BTreeSet<[VertexId; 2]>) -> Vec<Point> {
     let corner = |i: usize| {
         let angle = TAU * i as f64 / N_SIDES as f64;
         [RADIUS * angle.cos(), RADIUS * angle.sin()]
@@ -105,9 +107,9 @@ fn centroids(positions: &[Point], edges: &BTreeSet<[u32; 2]>) -> Vec<Point> {
     let disk: Vec<Point> = (0..N_SIDES).map(corner).collect();
     let mut cells = vec![disk; positions.len()];
     for &[a, b] in edges {
-        let (p, q) = (positions[a as usize], positions[b as usize]);
-        clip(&mut cells[a as usize], &p, &q);
-        clip(&mut cells[b as usize], &q, &p);
+        let (p, q) = (positions[a], positions[b]);
+        clip(&mut cells[a], &p, &q);
+        clip(&mut cells[b], &q, &p);
     }
     cells.iter().map(|cell| centroid(cell)).collect()
 }
@@ -163,12 +165,12 @@ fn draw(
     panel: usize,
     iteration: usize,
     positions: &[Point],
-    edges: &BTreeSet<[u32; 2]>,
+    edges: &BTreeSet<[VertexId; 2]>,
     shares: &[f64],
 ) {
     let x = WIDTH * (panel as f64 + 0.5);
     let _ = writeln!(picture, "<g transform=\"translate({x} {})\">", HEIGHT / 2.0 + 4.0);
-    let corner = |v: u32| format!("{:.1} {:.1}", positions[v as usize][0], -positions[v as usize][1]);
+    let corner = |v: VertexId| format!("{:.1} {:.1}", positions[v][0], -positions[v][1]);
     let lines = edges.iter().fold(String::new(), |d, &[a, b]| d + &format!("M{}L{}", corner(a), corner(b)));
     let _ = writeln!(picture, "<path class=\"edges\" d=\"{lines}\"/>");
     for (p, &share) in positions.iter().zip(shares) {

@@ -10,6 +10,7 @@
 
 use deldrift::Error;
 use deldrift::Plane;
+use deldrift::VertexId;
 use deldrift::motion::{Algorithm, CommitReport, MovingTriangulation, Options};
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -58,7 +59,7 @@ fn main() -> Result<(), Error> {
             report = t.commit_timestamp()?;
         }
         let cells = t.cells().expect("room").corners.to_vec();
-        let changed: Vec<[u32; 3]> = t.changed_cells()?.iter().map(|&c| cells[c as usize]).collect();
+        let changed: Vec<[VertexId; 3]> = t.changed_cells()?.iter().map(|&c| cells[c]).collect();
         let all = edges(&cells);
         let shown = Panel {
             before: &before,
@@ -103,8 +104,8 @@ fn drift(p: &mut [f64; 2]) {
 }
 
 /// The edges of triangles, each once, from the lower id to the higher.
-fn edges(triangles: &[[u32; 3]]) -> BTreeSet<[u32; 2]> {
-    let edge = |a: u32, b: u32| [a.min(b), a.max(b)];
+fn edges(triangles: &[[VertexId; 3]]) -> BTreeSet<[VertexId; 2]> {
+    let edge = |a: VertexId, b: VertexId| [a.min(b), a.max(b)];
     triangles.iter().flat_map(|&[a, b, c]| [edge(a, b), edge(b, c), edge(c, a)]).collect()
 }
 
@@ -112,16 +113,16 @@ fn edges(triangles: &[[u32; 3]]) -> BTreeSet<[u32; 2]> {
 struct Panel<'a> {
     before: &'a [[f64; 2]],
     now: &'a [[f64; 2]],
-    changed: &'a [[u32; 3]],
-    kept_edges: Vec<[u32; 2]>,
-    new_edges: Vec<[u32; 2]>,
+    changed: &'a [[VertexId; 3]],
+    kept_edges: Vec<[VertexId; 2]>,
+    new_edges: Vec<[VertexId; 2]>,
 }
 
 impl Panel<'_> {
     /// From the back to the front: changed triangles, edges, trails, vertices.
     fn draw(&self, picture: &mut String) {
-        let corner = |v: u32| place(self.now[v as usize]);
-        let lines = |edges: &[[u32; 2]]| {
+        let corner = |v: VertexId| place(self.now[v]);
+        let lines = |edges: &[[VertexId; 2]]| {
             edges.iter().fold(String::new(), |d, &[a, b]| d + &format!("M{}L{}", corner(a), corner(b)))
         };
         let cells = self

@@ -19,7 +19,7 @@ use std::time::Instant;
 
 use common::{Rng, in_ball, in_cube};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 
 const N: usize = 10_000;
 const COMMITS: usize = 10;
@@ -66,7 +66,7 @@ fn time<G: Dimension>(algorithm: Algorithm, timestamps: &[Vec<G::Point>]) -> (f6
 /// Nanoseconds per vertex of a removal and an insertion.
 fn time_of_replacing<G: Dimension>(timestamps: &[Vec<G::Point>]) -> f64 {
     let mut t = MovingTriangulation::<G>::new(&timestamps[0], Options::default()).expect("points in range");
-    let mut ids: Vec<u32> = (0..timestamps[0].len() as u32).collect();
+    let mut ids: Vec<VertexId> = VertexId::range(0..timestamps[0].len()).collect();
     let start = Instant::now();
     for (id, p) in ids.iter_mut().zip(&timestamps[1]) {
         t.remove_vertex(*id).expect("present");
@@ -119,7 +119,7 @@ fn test_alone<G: Dimension>() {
     t.commit_timestamp().expect("a commit");
     // Vertices go to and fro by a part of their tolerances.
     let (mut staging, mut commit) = (f64::INFINITY, f64::INFINITY);
-    let there: Vec<f64> = (0..N as u32).map(|v| 0.4 * t.tolerance(v).expect("present")).collect();
+    let there: Vec<f64> = VertexId::range(0..N).map(|v| 0.4 * t.tolerance(v).expect("present")).collect();
     for k in 0..40 {
         for (p, by) in now.iter_mut().zip(&there) {
             p[0] += if k % 2 == 0 { *by } else { -by };

@@ -24,7 +24,7 @@ mod common;
 
 use common::{Rng, in_ball};
 use deldrift::motion::{MovingTriangulation, NO_CELL, Options};
-use deldrift::{Coordinates, Dimension, Plane, Space};
+use deldrift::{CellId, Coordinates, Dimension, Plane, Space, VertexId};
 
 const N: usize = 10_000;
 const SEEDS: u64 = 10;
@@ -162,20 +162,20 @@ fn measure<G: Dimension>(seed: u64, rows: &mut [[Mean; 2]; 8], ratios: &mut Vec<
     let random = &mut Rng::new(seed);
     let points: Vec<G::Point> = (0..N).map(|_| in_ball::<G>(random, radius)).collect();
     let t = MovingTriangulation::<G>::new(&points, Options::default()).expect("points in range");
-    let is_interior = |v: u32| norm(&points[v as usize]) < radius - MARGIN;
+    let is_interior = |v: VertexId| norm(&points[v]) < radius - MARGIN;
 
     let mut seen = vec![Seen { least: [f64::INFINITY; 2], greatest: [0.0; 2], bicells: 0.0 }; N];
     let (cells, standard) = (t.cells().expect("room"), t.annulus_widths().expect("room"));
     for (c, corners) in cells.corners.iter().enumerate() {
         let corners = corners.as_ref();
         for (i, &across) in cells.neighbours[c].as_ref().iter().enumerate() {
-            if across == NO_CELL || across < c as u32 {
+            if across == NO_CELL || across < CellId::at(c) {
                 continue;
             }
-            let beyond = cells.corners[across as usize];
+            let beyond = cells.corners[across];
             let apex = *beyond.as_ref().iter().find(|v| !corners.contains(v)).expect("another cell");
             let vertices = || corners.iter().copied().chain([apex]);
-            let bicell: Vec<G::Point> = vertices().map(|v| points[v as usize]).collect();
+            let bicell: Vec<G::Point> = vertices().map(|v| points[v]).collect();
             let widths = [standard[c * (G::D + 1) + i], least_width::<G>(&bicell)];
             if seed == 0 && c % (cells.corners.len() / SEARCHED) == 0 {
                 let searched = searched_width::<G>(&bicell, random) / widths[1];
@@ -192,7 +192,7 @@ fn measure<G: Dimension>(seed: u64, rows: &mut [[Mean; 2]; 8], ratios: &mut Vec<
                 }
             }
             for v in vertices() {
-                let seen = &mut seen[v as usize];
+                let seen = &mut seen[v];
                 for (k, width) in widths.into_iter().enumerate() {
                     seen.least[k] = seen.least[k].min(width);
                     seen.greatest[k] = seen.greatest[k].max(width);
@@ -201,7 +201,7 @@ fn measure<G: Dimension>(seed: u64, rows: &mut [[Mean; 2]; 8], ratios: &mut Vec<
             }
         }
     }
-    for (v, Seen { least, greatest, bicells }) in (0u32..).zip(seen) {
+    for (v, Seen { least, greatest, bicells }) in VertexId::range(0..N).zip(seen) {
         let certified = t.tolerance(v).expect("present");
         let values = [0.5 * least[0], 0.5 * least[1], certified, greatest[0], greatest[1], bicells];
         for (row, value) in rows[2..].iter_mut().zip(values) {

@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use crate::ids::VertexId;
+
 /// The reason for which a call had no effect.
 ///
 /// `argument` is the name of the parameter at fault as the C header spells it; `index` counts the
@@ -39,7 +41,7 @@ pub enum Error {
         /// Which entry of it.
         index: usize,
         /// What was given.
-        vertex: u32,
+        vertex: VertexId,
         /// How many ids have been given: valid ones are below it.
         ids: usize,
     },
@@ -50,7 +52,7 @@ pub enum Error {
         /// Which entry of it.
         index: usize,
         /// What was given.
-        vertex: u32,
+        vertex: VertexId,
     },
     /// A move is already staged for the vertex since the last commit.
     DuplicateMove {
@@ -59,7 +61,7 @@ pub enum Error {
         /// Which entry of it.
         index: usize,
         /// What was given.
-        vertex: u32,
+        vertex: VertexId,
     },
     /// An array that must have one entry per vertex has another length.
     WrongCount {
@@ -74,9 +76,9 @@ pub enum Error {
     /// [`CoincidencePolicy::Reject`](crate::motion::CoincidencePolicy::Reject) is in force.
     Coincident {
         /// The lower id of the two.
-        vertex: u32,
+        vertex: VertexId,
         /// The higher id of the two.
-        other: u32,
+        other: VertexId,
     },
     /// More vertices than ids of 32 bits can name.
     TooManyVertices {

@@ -20,6 +20,7 @@ pub mod capi;
 mod complex;
 mod delaunay;
 mod error;
+mod ids;
 mod machine;
 pub mod motion;
 mod predicates;
@@ -30,6 +31,7 @@ mod simd;
 
 pub use delaunay::{Dimension, Plane, Space};
 pub use error::{Error, Result};
+pub use ids::{CellId, VertexId};
 pub use predicates::Coordinates;
 
 /// The parts below [`motion`], for the crate's own tests and benchmarks. They trust their arguments, wrong indices are
@@ -38,6 +40,7 @@ pub use predicates::Coordinates;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::delaunay::{Delaunay, Insertion, Shortcut};
+    pub use crate::ids::{SiteId, Slot};
 
     pub mod predicates {
         pub use crate::predicates::*;

@@ -9,7 +9,7 @@ mod common;
 
 use common::{Rng, point};
 use deldrift::motion::{Algorithm, Commits, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
 use std::cell::Cell;
@@ -111,7 +111,7 @@ fn allocations<G: Dimension>(algorithm: Algorithm, displacement: f64) -> BTreeMa
     let timestamps = cycle::<G>(displacement);
     let options = Options { algorithm, ..Options::default() };
     let mut t = MovingTriangulation::<G>::new(&timestamps[0], options).expect("points in range");
-    let ids: Vec<u32> = (0..N as u32).collect();
+    let ids: Vec<VertexId> = VertexId::range(0..N).collect();
     for round in 0..WARM + COUNTED {
         IS_COUNTING.store(round >= WARM, Relaxed);
         for positions in &timestamps {

@@ -5,7 +5,7 @@ mod common;
 use common::exact::{Grid, delaunay_cells, orientation, representatives, to_point};
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 
 /// A point drawn by some rule.
 type Draw = fn(&mut Rng, usize) -> Grid;
@@ -77,11 +77,16 @@ fn check<G: Dimension>(t: &MovingTriangulation<G>, positions: &[Option<Grid>], c
     check_adjacency(t, context);
     for corners in t.cells().expect("room").corners {
         let points: Vec<&Grid> =
-            corners.as_ref().iter().map(|&v| positions[v as usize].as_ref().expect("present")).collect();
+            corners.as_ref().iter().map(|&v| positions[v].as_ref().expect("present")).collect();
         assert!(orientation(&points) > 0, "{}: cell {corners:?} is not positive", context());
     }
     for (v, representative) in representatives(positions).into_iter().enumerate() {
-        assert_eq!(t.coincident_representative(v as u32).ok(), representative, "{}: vertex {v}", context());
+        assert_eq!(
+            t.coincident_representative(VertexId::at(v)).ok(),
+            representative,
+            "{}: vertex {v}",
+            context()
+        );
     }
 }
 
@@ -119,19 +124,19 @@ fn histories_agree<G: Dimension>(n_seeds: u64, limit: usize) {
                     0 if present.len() < limit => {
                         history.push(format!("insert {q:?}"));
                         let id = t.insert_vertex(&to_point::<G>(&q)).expect("an insertion");
-                        assert_eq!(id as usize, positions.len());
+                        assert_eq!(id.index(), positions.len());
                         positions.push(Some(q));
                     }
                     1 if !present.is_empty() => {
                         let v = *rng.pick(&present);
                         history.push(format!("remove {v}"));
-                        t.remove_vertex(v as u32).expect("a removal");
+                        t.remove_vertex(VertexId::at(v)).expect("a removal");
                         positions[v] = None;
                     }
                     2 if !present.is_empty() => {
                         let v = *rng.pick(&present);
                         history.push(format!("relocate {v} to {q:?}"));
-                        t.relocate_vertex(v as u32, &to_point::<G>(&q)).expect("a relocation");
+                        t.relocate_vertex(VertexId::at(v), &to_point::<G>(&q)).expect("a relocation");
                         positions[v] = Some(q);
                     }
                     _ => {
@@ -143,7 +148,7 @@ fn histories_agree<G: Dimension>(n_seeds: u64, limit: usize) {
                             }
                             let q = draw(rng, G::D);
                             moves.push((v, q.clone()));
-                            t.move_vertices(&[v as u32], &[to_point::<G>(&q)]).expect("a move");
+                            t.move_vertices(&[VertexId::at(v)], &[to_point::<G>(&q)]).expect("a move");
                             positions[v] = Some(q);
                         }
                         history.push(format!("commit by {:?} {moves:?}", t.algorithm()));

@@ -8,12 +8,15 @@ mod common;
 use common::carried::{Carried, some_present, take};
 use common::exact::{Grid, orientation, representatives};
 use common::inputs::{KINDS, Kind, draw, draw_one, quantized, to_grid};
-use common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted};
+use common::{
+    CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted, vertex,
+    vertices,
+};
 use deldrift::Error;
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, Commits, Level, Location, Monitor, MovingTriangulation, Options,
 };
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, AtomicUsize, Ordering::Relaxed};
@@ -38,10 +41,10 @@ struct History<'c, G: Dimension> {
     t: MovingTriangulation<G>,
     kind: Kind,
     positions: Vec<Option<G::Point>>,
-    staged: BTreeMap<u32, G::Point>,
+    staged: BTreeMap<VertexId, G::Point>,
     /// Staged insertions and removals.
-    coming: BTreeMap<u32, G::Point>,
-    leaving: BTreeSet<u32>,
+    coming: BTreeMap<VertexId, G::Point>,
+    leaving: BTreeSet<VertexId>,
     carried: Carried,
     /// Cells when the latest commit began, if changes are tracked.
     baseline: Option<CellSet>,
@@ -62,7 +65,7 @@ impl<'c, G: Dimension> History<'c, G> {
         let points = draw::<G>(kind, n, &mut rng);
         let tracks = rng.one_in(3);
         let positions: Vec<Option<G::Point>> = points.iter().copied().map(Some).collect();
-        let is_merged = (0..).zip(representatives(&positions)).any(|(v, r)| r != Some(v));
+        let is_merged = vertices().zip(representatives(&positions)).any(|(v, r)| r != Some(v));
         let rejects = !is_merged && rng.one_in(3);
         let patience = Arc::new(AtomicI64::new(i64::MAX));
         let left = patience.clone();
@@ -100,16 +103,16 @@ impl<'c, G: Dimension> History<'c, G> {
         format!("{}, step {}: ... {}", self.name, self.log.len(), self.log[from..].join("; "))
     }
 
-    fn present(&self) -> Vec<u32> {
-        (0..self.positions.len() as u32).filter(|&v| self.positions[v as usize].is_some()).collect()
+    fn present(&self) -> Vec<VertexId> {
+        VertexId::range(0..self.positions.len()).filter(|&v| self.positions[v].is_some()).collect()
     }
 
-    fn at(&self, v: u32) -> G::Point {
-        self.positions[v as usize].expect("present")
+    fn at(&self, v: VertexId) -> G::Point {
+        self.positions[v].expect("present")
     }
 
     /// Where a vertex may go: a little off, onto another one, anywhere, or by a lattice step.
-    fn destination(&mut self, v: u32, how: usize) -> G::Point {
+    fn destination(&mut self, v: VertexId, how: usize) -> G::Point {
         let p = self.at(v);
         let other = some_present(&self.positions, &mut self.rng).expect("this one");
         let (other, rng) = (self.at(other), &mut self.rng);
@@ -156,9 +159,9 @@ impl<'c, G: Dimension> History<'c, G> {
         gone.retain(|v| !self.leaving.contains(v) && self.rng.one_in(share));
         self.log.push(format!("stage insertions of {places:?} and removals of {gone:?}"));
         let first = self.t.stage_insertions(&places).expect("room");
-        assert_eq!(first as usize, self.positions.len(), "{}", self.context());
+        assert_eq!(first.index(), self.positions.len(), "{}", self.context());
         self.positions.resize(self.positions.len() + places.len(), None);
-        self.coming.extend((first..).zip(places));
+        self.coming.extend(vertices().skip(first.index()).zip(places));
         self.t.stage_removals(&gone).expect("room");
         self.staged.retain(|v, _| !gone.contains(v));
         self.leaving.extend(gone);
@@ -207,10 +210,10 @@ impl<'c, G: Dimension> History<'c, G> {
         self.counts.commits += 1;
         self.baseline = baseline;
         for (v, q) in std::mem::take(&mut self.staged).into_iter().chain(std::mem::take(&mut self.coming)) {
-            self.positions[v as usize] = Some(q);
+            self.positions[v] = Some(q);
         }
         for v in std::mem::take(&mut self.leaving) {
-            self.positions[v as usize] = None;
+            self.positions[v] = None;
         }
     }
 
@@ -224,7 +227,7 @@ impl<'c, G: Dimension> History<'c, G> {
         self.log.push("given".to_string());
         assert_eq!(self.t.discard_moves(), n_present, "{}", self.context());
         self.counts.given += 1;
-        let positions = 0..self.positions.len() as u32;
+        let positions = VertexId::range(0..self.positions.len());
         Some(positions.map(|v| self.staged.get(&v).copied().unwrap_or_default()).collect())
     }
 
@@ -249,7 +252,7 @@ impl<'c, G: Dimension> History<'c, G> {
         self.staged.clear();
         self.leaving.clear();
         while let Some((id, _)) = self.coming.pop_last() {
-            if id as usize + 1 == self.positions.len() {
+            if id.index() + 1 == self.positions.len() {
                 self.positions.pop();
             }
         }
@@ -275,12 +278,12 @@ impl<'c, G: Dimension> History<'c, G> {
             return;
         }
         if self.leaving.remove(&v) {
-            self.positions[v as usize] = None;
+            self.positions[v] = None;
             return;
         }
         self.log.push(format!("remove {v}"));
         self.t.remove_vertex(v).expect("a removal");
-        self.positions[v as usize] = None;
+        self.positions[v] = None;
         self.staged.remove(&v);
         self.leaving.remove(&v);
     }
@@ -294,7 +297,7 @@ impl<'c, G: Dimension> History<'c, G> {
         let q = self.destination(v, how);
         self.log.push(format!("relocate {v} to {q:?}"));
         match self.t.relocate_vertex(v, &q) {
-            Ok(()) => self.positions[v as usize] = Some(q),
+            Ok(()) => self.positions[v] = Some(q),
             Err(error) => self.expect_rejection(&error),
         }
     }
@@ -323,7 +326,7 @@ impl<'c, G: Dimension> History<'c, G> {
         if self.rng.one_in(2) {
             self.check_star();
         }
-        for (v, p) in (0..).zip(&self.positions) {
+        for (v, p) in vertices().zip(&self.positions) {
             assert_eq!(self.t.position(v).ok(), *p, "{}: vertex {v}", self.context());
         }
         let cells = cell_set(&self.t);
@@ -343,7 +346,7 @@ impl<'c, G: Dimension> History<'c, G> {
         if self.tracks {
             let changed = self.t.changed_cells().expect("room");
             let corners = self.t.cells().expect("room").corners;
-            let changed: CellSet = changed.iter().map(|&c| sorted(corners[c as usize].as_ref())).collect();
+            let changed: CellSet = changed.iter().map(|&c| sorted(corners[c].as_ref())).collect();
             let expected = self.baseline.as_ref().map(|before| cells.difference(before).cloned().collect());
             assert_same_cells(&changed, &expected.unwrap_or_default(), || self.context());
         }
@@ -364,8 +367,8 @@ impl<'c, G: Dimension> History<'c, G> {
         self.t.star(v, &mut star).expect("room");
         star.sort_unstable();
         let corners = self.t.cells().expect("room").corners;
-        let has = |c: &u32| corners[*c as usize].as_ref().contains(&representative);
-        assert!((0..corners.len() as u32).filter(has).eq(star), "{}: star of {v}", self.context());
+        let has = |c: &CellId| corners[*c].as_ref().contains(&representative);
+        assert!(CellId::range(0..corners.len()).filter(has).eq(star), "{}: star of {v}", self.context());
         if let Location::Vertex(found) = self.t.locate(&self.at(v)).expect("room") {
             assert_eq!(found, representative, "{}", self.context());
         } else {
@@ -462,10 +465,10 @@ fn first_take_lists_all<G: Dimension>() {
     points[7] = points[3];
     let mut t = built::<G>(&points, Options::default());
     let list = take(&mut t).expect("room");
-    let n = t.cell_count() as u32;
-    assert!(list.created.iter().copied().eq(0..n) && list.removed.is_empty() && list.renumbered.is_empty());
-    assert_eq!((list.hidden, list.shown), (vec![7], vec![]));
-    let all: Vec<u32> = (0..80).filter(|&v| v != 7).collect();
+    let all = CellId::range(0..t.cell_count());
+    assert!(list.created.iter().copied().eq(all) && list.removed.is_empty() && list.renumbered.is_empty());
+    assert_eq!((list.hidden, list.shown), (vec![vertex(7)], vec![]));
+    let all: Vec<VertexId> = VertexId::range(0..80).filter(|&v| v != vertex(7)).collect();
     assert_eq!(list.stars, all);
     assert!(take(&mut t).expect("room").is_empty());
 
@@ -485,7 +488,7 @@ fn insertion_before_the_first_take<G: Dimension>() {
     let mut t = built::<G>(&corners.collect::<Vec<_>>(), Options::default());
     assert_eq!(t.cells().expect("room").corners.len(), 1);
     t.insert_vertex(&point::<G>(|_| 1.0)).expect("room");
-    t.move_vertices(&[G::D as u32 + 1], &[point::<G>(|_| 1.25)]).expect("room");
+    t.move_vertices(&[VertexId::new(G::D as u32 + 1)], &[point::<G>(|_| 1.25)]).expect("room");
     t.commit_timestamp().expect("room");
     let list = Carried::default().take(&mut t, NO_CONTEXT);
     assert_eq!((list.created.len(), list.removed.len()), (G::D + 1, 0));
@@ -527,8 +530,8 @@ fn commits_that_change_no_cell_keep_the_view() {
 }
 
 /// Whether two orders of the same corners have the same orientation.
-fn is_even(a: &[u32], b: &[u32]) -> bool {
-    let place = |x: &u32| b.iter().position(|y| x == y).expect("the same corners");
+fn is_even(a: &[VertexId], b: &[VertexId]) -> bool {
+    let place = |x: &VertexId| b.iter().position(|y| x == y).expect("the same corners");
     let places: Vec<usize> = a.iter().map(place).collect();
     let later = |i: usize| places[i + 1..].iter().filter(|&&x| x < places[i]).count();
     (0..a.len()).map(later).sum::<usize>().is_multiple_of(2)
@@ -539,7 +542,7 @@ fn rows_are_kept<G: Dimension>(algorithm: Algorithm, step: f64) {
     let points = cloud::<G>(500, 3);
     let mut t = built::<G>(&points, Options { algorithm, ..Options::default() });
     let mut carried = Carried::default();
-    let mut before: Vec<Vec<u32>> = Vec::new();
+    let mut before: Vec<Vec<VertexId>> = Vec::new();
     let mut n_kept = 0;
     for k in 0..6 {
         let rng = &mut Rng::new(40 + k);
@@ -547,15 +550,17 @@ fn rows_are_kept<G: Dimension>(algorithm: Algorithm, step: f64) {
             points.iter().map(|p| point::<G>(|k| p[k] + step * (rng.unit() - 0.5))).collect();
         t.move_all(&places).expect("room");
         t.commit_timestamp().expect("room");
-        let rows: Vec<Vec<u32>> =
+        let rows: Vec<Vec<VertexId>> =
             t.cells().expect("room").corners.iter().map(|row| row.as_ref().to_vec()).collect();
         let list = carried.take(&mut t, NO_CONTEXT);
-        let moved: BTreeMap<u32, u32> = list.renumbered.iter().copied().collect();
+        let moved: BTreeMap<CellId, CellId> = list.renumbered.iter().copied().collect();
         if k > 0 {
-            for (index, row) in (0..).zip(&before).filter(|(index, _)| !list.removed.contains(index)) {
+            for (index, row) in
+                (0..).map(CellId::new).zip(&before).filter(|(index, _)| !list.removed.contains(index))
+            {
                 let now = moved.get(&index).copied().unwrap_or(index);
-                let is_turned = !is_even(row, &rows[now as usize]);
-                assert!(is_turned || &rows[now as usize] == row, "{algorithm:?}: cell {index}");
+                let is_turned = !is_even(row, &rows[now]);
+                assert!(is_turned || &rows[now] == row, "{algorithm:?}: cell {index}");
                 n_kept += usize::from(!is_turned);
             }
         }
@@ -649,10 +654,10 @@ fn nothing_has_changed_before_the_first_commit() {
     let options =
         Options { track_changes: true, coincidence: CoincidencePolicy::Reject, ..Options::default() };
     let mut t = built::<Plane>(&points, options);
-    t.move_vertices(&[3], &[points[4]]).expect("room");
+    t.move_vertices(&[vertex(3)], &[points[4]]).expect("room");
     assert!(matches!(t.commit_timestamp(), Err(Error::Coincident { .. })));
     t.discard_moves();
-    t.relocate_vertex(3, &[3.0, 4.0]).expect("room");
+    t.relocate_vertex(vertex(3), &[3.0, 4.0]).expect("room");
     assert_eq!(t.changed_cells().expect("room"), &[]);
     points[3] = [3.0, 4.0];
     t.move_all(&points).expect("room");
@@ -669,13 +674,13 @@ fn sorting_keeps_indices<G: Dimension>(n: usize, algorithm: Algorithm, threads: 
     let options = Options { algorithm, threads, monitor: Some(monitor), ..Options::default() };
     let mut t = built::<G>(&points, options);
     // Cells are in another order than their sites, with holes between.
-    for v in 0..50 {
-        points[v as usize] = point::<G>(|k| (1 + v * (k as u32 + 1)) as f64 / 170.0 % 1.0);
-        t.relocate_vertex(v, &points[v as usize]).expect("room");
+    for v in VertexId::range(0..50) {
+        points[v] = point::<G>(|k| (1 + v.index() * (k + 1)) as f64 / 170.0 % 1.0);
+        t.relocate_vertex(v, &points[v]).expect("room");
     }
     let mut carried = Carried::default();
     carried.take(&mut t, NO_CONTEXT);
-    let ids: Vec<u32> = (0..n as u32).collect();
+    let ids: Vec<VertexId> = VertexId::range(0..n).collect();
     let size = 0.02 / (n as f64).powf(1.0 / G::D as f64);
     for round in 0..3 {
         let rng = &mut Rng::new(90 + round);

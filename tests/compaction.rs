@@ -7,10 +7,12 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
-use common::{Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted};
+use common::{
+    Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted, vertex, vertices,
+};
 use deldrift::Error;
 use deldrift::motion::{Algorithm, CommitReport, Level, MovingTriangulation, NO_VERTEX, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 
 thread_local! {
     /// Bytes that this thread may still have.
@@ -58,11 +60,11 @@ struct History<G: Dimension> {
     t: MovingTriangulation<G>,
     /// By id; `None` once removed.
     positions: Vec<Option<G::Point>>,
-    staged: Vec<(u32, G::Point)>,
+    staged: Vec<(VertexId, G::Point)>,
     /// The cells by index, as of the changes taken last, if any ever were; removed vertices are [`NO_VERTEX`].
-    mirror: Option<Vec<Vec<u32>>>,
+    mirror: Option<Vec<Vec<VertexId>>>,
     /// Which of its vertices the reader has been told are hidden.
-    hidden: Vec<u32>,
+    hidden: Vec<VertexId>,
     /// Coordinates are multiples of this, or anything if it is 0.
     grid: f64,
     is_flat: bool,
@@ -101,7 +103,7 @@ impl<G: Dimension> History<G> {
         let present = self.present();
         if !present.is_empty() && self.rng.one_in(8) {
             let other = *self.rng.pick(&present);
-            return self.positions[other as usize].expect("present");
+            return self.positions[other].expect("present");
         }
         let rng = &mut self.rng;
         point::<G>(|k| match k {
@@ -111,14 +113,14 @@ impl<G: Dimension> History<G> {
         })
     }
 
-    fn present(&self) -> Vec<u32> {
-        (0..self.positions.len() as u32).filter(|&v| self.positions[v as usize].is_some()).collect()
+    fn present(&self) -> Vec<VertexId> {
+        VertexId::range(0..self.positions.len()).filter(|&v| self.positions[v].is_some()).collect()
     }
 
     fn insert(&mut self) {
         let p = self.place();
         let v = self.t.insert_vertex(&p).expect("room");
-        assert_eq!(v as usize, self.positions.len());
+        assert_eq!(v.index(), self.positions.len());
         self.positions.push(Some(p));
     }
 
@@ -129,7 +131,7 @@ impl<G: Dimension> History<G> {
         }
         let v = *self.rng.pick(&present);
         self.t.remove_vertex(v).expect("it is present");
-        self.positions[v as usize] = None;
+        self.positions[v] = None;
         self.staged.retain(|&(staged, _)| staged != v);
     }
 
@@ -142,7 +144,7 @@ impl<G: Dimension> History<G> {
             let p = if self.rng.one_in(10) {
                 self.place()
             } else {
-                let (p, rng) = (self.positions[v as usize].expect("present"), &mut self.rng);
+                let (p, rng) = (self.positions[v].expect("present"), &mut self.rng);
                 point::<G>(|k| if k == 0 && self.is_flat { p[k] } else { p[k] + 1e-3 * rng.unit() })
             };
             self.t.move_vertices(&[v], &[p]).expect("a move");
@@ -153,7 +155,7 @@ impl<G: Dimension> History<G> {
     fn commit(&mut self) -> CommitReport {
         let report = self.t.commit_timestamp().expect("room");
         for (v, p) in self.staged.drain(..) {
-            self.positions[v as usize] = Some(p);
+            self.positions[v] = Some(p);
         }
         report
     }
@@ -162,15 +164,14 @@ impl<G: Dimension> History<G> {
     fn take_changes(&mut self) {
         let changes = self.t.take_changes().expect("room");
         let old = self.mirror.take().unwrap_or_default();
-        let mut old: Vec<Option<Vec<u32>>> = old.into_iter().map(Some).collect();
+        let mut old: Vec<Option<Vec<VertexId>>> = old.into_iter().map(Some).collect();
         let mut stars = BTreeSet::new();
         for (&index, corners) in changes.removed.iter().zip(changes.removed_corners) {
-            let row = old[index as usize].take().expect("it is removed once");
+            let row = old[index].take().expect("it is removed once");
             assert_eq!(row, sorted(corners.as_ref()), "the removed cell {index}");
             stars.extend(row);
         }
-        let from =
-            changes.renumbered_from.iter().map(|&from| old[from as usize].take().expect("it was there"));
+        let from = changes.renumbered_from.iter().map(|&from| old[from].take().expect("it was there"));
         let renumbered: Vec<_> = from.zip(changes.renumbered_to.iter().copied()).collect();
         let created = changes.created.to_vec();
         for v in changes.hidden {
@@ -182,22 +183,22 @@ impl<G: Dimension> History<G> {
         let listed = changes.stars.to_vec();
 
         let rows = self.t.cells().expect("room").corners;
-        let mut mirror: Vec<Option<Vec<u32>>> = old;
+        let mut mirror: Vec<Option<Vec<VertexId>>> = old;
         mirror.resize(rows.len().max(mirror.len()), None);
         for (row, to) in renumbered {
-            assert!(mirror[to as usize].replace(row).is_none());
+            assert!(mirror[to].replace(row).is_none());
         }
         for index in created {
-            let row = sorted(rows[index as usize].as_ref());
+            let row = sorted(rows[index].as_ref());
             stars.extend(row.iter().copied());
-            assert!(mirror[index as usize].replace(row).is_none());
+            assert!(mirror[index].replace(row).is_none());
         }
-        let mirror: Vec<Vec<u32>> = mirror.into_iter().flatten().collect();
+        let mirror: Vec<Vec<VertexId>> = mirror.into_iter().flatten().collect();
         assert_eq!(mirror, rows.iter().map(|row| sorted(row.as_ref())).collect::<Vec<_>>());
         stars.remove(&NO_VERTEX);
         assert_eq!(listed, stars.into_iter().collect::<Vec<_>>());
         self.mirror = Some(mirror);
-        let is_hidden = |v: &u32| self.t.coincident_representative(*v).is_ok_and(|r| r != *v);
+        let is_hidden = |v: &VertexId| self.t.coincident_representative(*v).is_ok_and(|r| r != *v);
         self.hidden.retain(|v| self.t.is_present(*v));
         self.hidden.sort_unstable();
         assert_eq!(self.hidden, self.present().into_iter().filter(is_hidden).collect::<Vec<_>>());
@@ -212,24 +213,25 @@ impl<G: Dimension> History<G> {
             let view = self.t.cells().expect("room");
             (view.corners.to_vec(), view.neighbours.to_vec())
         });
-        let representative: Vec<_> =
-            (0..self.positions.len() as u32).map(|v| self.t.coincident_representative(v).ok()).collect();
+        let representative: Vec<_> = VertexId::range(0..self.positions.len())
+            .map(|v| self.t.coincident_representative(v).ok())
+            .collect();
         let map = self.t.compact().expect("room");
 
-        let mut next = 0..;
-        let expected: Vec<u32> = self
+        let mut next = vertices();
+        let expected: Vec<VertexId> = self
             .positions
             .iter()
             .map(|p| if p.is_some() { next.next().expect("endless") } else { NO_VERTEX })
             .collect();
         assert_eq!(map, expected);
-        let named = |v: u32| map.get(v as usize).copied().unwrap_or(NO_VERTEX);
+        let named = |v: VertexId| map.get(v.index()).copied().unwrap_or(NO_VERTEX);
         for (v, r) in representative.into_iter().enumerate().filter_map(|(v, r)| Some((v, r?))) {
             assert_eq!(self.t.coincident_representative(map[v]), Ok(named(r)));
         }
         if let Some((corners, neighbours)) = before {
             let view = self.t.cells().expect("room");
-            let named = |row: &G::Corners| row.as_ref().iter().map(|&v| named(v)).collect::<Vec<_>>();
+            let named = |row: &G::Vertices| row.as_ref().iter().map(|&v| named(v)).collect::<Vec<_>>();
             assert!(corners.iter().map(named).eq(view.corners.iter().map(|row| row.as_ref().to_vec())));
             assert_eq!(neighbours, view.neighbours);
         }
@@ -249,7 +251,7 @@ impl<G: Dimension> History<G> {
         assert_eq!((self.t.id_count(), self.t.staged_count()), (self.positions.len(), self.staged.len()));
         assert_eq!(self.t.vertex_count(), self.present().len());
         for v in self.present() {
-            assert_eq!(self.t.position(v).ok(), self.positions[v as usize], "{}", context());
+            assert_eq!(self.t.position(v).ok(), self.positions[v], "{}", context());
         }
         check_adjacency(&self.t, context);
         assert_same_cells(&cell_set(&self.t), &fresh_cells::<G>(&self.positions), context);
@@ -315,7 +317,7 @@ fn places<G: Dimension>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
 fn worn<G: Dimension>(n: usize, times: usize, options: Options) -> MovingTriangulation<G> {
     let rng = &mut Rng::new(7);
     let mut t = MovingTriangulation::new(&places::<G>(n, rng), options).expect("room");
-    let mut present: Vec<u32> = (0..n as u32).collect();
+    let mut present: Vec<VertexId> = VertexId::range(0..n).collect();
     t.take_changes().expect("room");
     for _ in 0..n * times {
         let v = rng.below(n);
@@ -331,7 +333,7 @@ fn used<G: Dimension>(t: &mut MovingTriangulation<G>) -> usize {
     for _ in 0..2 {
         t.cells().expect("room");
         t.take_changes().expect("room");
-        let places: Vec<_> = (0..t.id_count() as u32)
+        let places: Vec<_> = VertexId::range(0..t.id_count())
             .map(|v| t.position(v).map(|p| point::<G>(|k| p[k] + 1e-4 * rng.unit())).unwrap_or_default())
             .collect();
         t.move_all(&places).expect("places in range");
@@ -350,7 +352,7 @@ fn memory_is_that_of_a_fresh_one<G: Dimension>() {
         let map = t.compact().expect("room");
         assert_eq!((map.len(), t.id_count()), (500 * 41, 500));
         let at_once = t.memory_bytes();
-        let places: Vec<_> = (0..500).map(|v| t.position(v).expect("dense ids")).collect();
+        let places: Vec<_> = VertexId::range(0..500).map(|v| t.position(v).expect("dense ids")).collect();
         let mut fresh = MovingTriangulation::<G>::new(&places, options()).expect("room");
         let (compacted, fresh) = (used(&mut t), used(&mut fresh));
         let context =
@@ -372,7 +374,7 @@ fn commits_after_a_compaction_are_those_of_a_fresh_triangulation() {
         let options = || Options { algorithm, ..Options::default() };
         let mut t = worn::<Plane>(300, 3, options());
         t.compact().expect("room");
-        let places: Vec<_> = (0..300).map(|v| t.position(v).expect("dense ids")).collect();
+        let places: Vec<_> = VertexId::range(0..300).map(|v| t.position(v).expect("dense ids")).collect();
         let mut fresh = MovingTriangulation::<Plane>::new(&places, options()).expect("room");
         let rng = &mut Rng::new(9);
         let moved: Vec<_> = places.iter().map(|p| point::<Plane>(|k| p[k] + 1e-4 * rng.unit())).collect();
@@ -394,13 +396,13 @@ fn moves_of_all_vertices_stay_staged() {
         MovingTriangulation::<Space>::new(&places::<Space>(60, rng), Options::default()).expect("room");
     let moved = places::<Space>(60, rng);
     t.move_all(&moved).expect("places in range");
-    assert_eq!(t.compact().expect("room"), (0..60).collect::<Vec<u32>>());
+    assert_eq!(t.compact().expect("room"), VertexId::range(0..60).collect::<Vec<_>>());
     assert_eq!(t.staged_count(), 60);
     t.insert_vertex(&[0.5; 3]).expect("room");
-    t.remove_vertex(0).expect("it is present");
-    assert_eq!((t.compact().expect("room")[60], t.staged_count()), (59, 59));
+    t.remove_vertex(vertex(0)).expect("it is present");
+    assert_eq!((t.compact().expect("room")[60], t.staged_count()), (vertex(59), 59));
     t.commit_timestamp().expect("room");
-    assert_eq!(t.position(0), Ok(moved[1]));
+    assert_eq!(t.position(vertex(0)), Ok(moved[1]));
     t.validate(Level::Delaunay).expect("valid");
 }
 
@@ -409,9 +411,9 @@ fn nothing_can_be_compacted() {
     let mut t = MovingTriangulation::<Plane>::new(&[], Options::default()).expect("room");
     assert_eq!(t.compact(), Ok(vec![]));
     t.insert_vertex(&[1.0, 2.0]).expect("room");
-    t.remove_vertex(0).expect("it is present");
+    t.remove_vertex(vertex(0)).expect("it is present");
     assert_eq!(t.compact(), Ok(vec![NO_VERTEX]));
-    assert_eq!(t.insert_vertex(&[1.0, 2.0]), Ok(0));
+    assert_eq!(t.insert_vertex(&[1.0, 2.0]), Ok(vertex(0)));
     t.validate(Level::Delaunay).expect("valid");
 }
 
@@ -421,7 +423,7 @@ fn compact_within_limits<G: Dimension>(is_flat: bool) {
     (history.is_flat, history.mirror) = (is_flat, None);
     for v in history.present() {
         history.t.remove_vertex(v).expect("it is present");
-        history.positions[v as usize] = None;
+        history.positions[v] = None;
     }
     (0..60).for_each(|_| history.insert());
     history.take_changes();
@@ -467,7 +469,7 @@ fn go_on_by_threads<G: Dimension>() {
         t.validate(Level::Delaunay).expect("valid");
         for step in [1e-4, 1e-2] {
             let rng = &mut Rng::new(6);
-            let places: Vec<_> = (0..2000)
+            let places: Vec<_> = VertexId::range(0..2000)
                 .map(|v| t.position(v).expect("dense ids"))
                 .map(|p| point::<G>(|k| p[k] + step * rng.unit()))
                 .collect();

@@ -6,11 +6,11 @@ mod common;
 use common::exact::representatives;
 use common::history::Snapshot;
 use common::inputs::{Kind, draw, draw_one};
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
+use common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
 use deldrift::Error;
 use deldrift::motion::Level;
 use deldrift::motion::{Algorithm, CoincidencePolicy, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
@@ -21,9 +21,9 @@ const KINDS: [Kind; 4] = [Kind::Random, Kind::Lattice, Kind::Sphere, Kind::Hyper
 struct Model<G: Dimension> {
     t: MovingTriangulation<G>,
     positions: Vec<Option<G::Point>>,
-    moves: BTreeMap<u32, G::Point>,
-    coming: BTreeMap<u32, G::Point>,
-    leaving: Vec<u32>,
+    moves: BTreeMap<VertexId, G::Point>,
+    coming: BTreeMap<VertexId, G::Point>,
+    leaving: Vec<VertexId>,
     /// Calls of the monitor until it cancels; negative if it never does.
     patience: Arc<AtomicI64>,
     rng: Rng,
@@ -60,13 +60,13 @@ impl<G: Dimension> Model<G> {
         let coming: Vec<G::Point> =
             (0..self.rng.below(1 + n_present / share + 3)).map(|_| self.place()).collect();
         let first = self.t.stage_insertions(&coming).expect("room");
-        assert_eq!(first as usize, self.positions.len(), "{}", self.name);
+        assert_eq!(first.index(), self.positions.len(), "{}", self.name);
         for (k, q) in coming.into_iter().enumerate() {
             self.positions.push(None);
-            self.coming.insert(first + k as u32, q);
+            self.coming.insert(VertexId::at(first.index() + k), q);
         }
-        let mut movable: Vec<u32> = (0..self.positions.len() as u32)
-            .filter(|v| self.positions[*v as usize].is_some() && !self.leaving.contains(v))
+        let mut movable: Vec<VertexId> = VertexId::range(0..self.positions.len())
+            .filter(|v| self.positions[*v].is_some() && !self.leaving.contains(v))
             .collect();
         self.rng.shuffle(&mut movable);
         let n_moves = self.rng.below(movable.len() + 1);
@@ -75,7 +75,7 @@ impl<G: Dimension> Model<G> {
                 continue;
             }
             let far = self.rng.one_in(8);
-            let p = self.positions[v as usize].expect("present");
+            let p = self.positions[v].expect("present");
             let q = if far { self.place() } else { point::<G>(|k| p[k] + self.rng.within(-1, 1) as f64) };
             self.t.move_vertices(&[v], &[q]).expect("room");
             self.moves.insert(v, q);
@@ -116,10 +116,10 @@ impl<G: Dimension> Model<G> {
             }
         }
         for (v, q) in std::mem::take(&mut self.moves).into_iter().chain(std::mem::take(&mut self.coming)) {
-            self.positions[v as usize] = Some(q);
+            self.positions[v] = Some(q);
         }
         for v in std::mem::take(&mut self.leaving) {
-            self.positions[v as usize] = None;
+            self.positions[v] = None;
         }
         self.check(algorithm);
     }
@@ -130,7 +130,7 @@ impl<G: Dimension> Model<G> {
             panic!("{}: {violation}", context());
         }
         assert_same_cells(&cell_set(&self.t), &fresh_cells::<G>(&self.positions), context);
-        for (v, (p, r)) in (0u32..).zip(self.positions.iter().zip(representatives(&self.positions))) {
+        for (v, (p, r)) in vertices().zip(self.positions.iter().zip(representatives(&self.positions))) {
             assert_eq!(self.t.position(v).ok(), *p, "{}: vertex {v}", context());
             assert_eq!(self.t.coincident_representative(v).ok(), r, "{}: vertex {v}", context());
         }
@@ -140,19 +140,19 @@ impl<G: Dimension> Model<G> {
 
     /// A few immediate calls, on vertices about to go as well.
     fn call(&mut self) {
-        let present: Vec<u32> =
-            (0..self.positions.len() as u32).filter(|v| self.positions[*v as usize].is_some()).collect();
+        let present: Vec<VertexId> =
+            VertexId::range(0..self.positions.len()).filter(|v| self.positions[*v].is_some()).collect();
         match self.rng.below(4) {
             0 => {
                 let q = self.place();
                 let v = self.t.insert_vertex(&q).expect("room");
-                assert_eq!(v as usize, self.positions.len());
+                assert_eq!(v.index(), self.positions.len());
                 self.positions.push(Some(q));
             }
             1 if !present.is_empty() => {
                 let v = *self.rng.pick(&present);
                 self.t.remove_vertex(v).expect("it is present");
-                self.positions[v as usize] = None;
+                self.positions[v] = None;
                 self.moves.remove(&v);
                 self.leaving.retain(|&w| w != v);
             }
@@ -161,7 +161,7 @@ impl<G: Dimension> Model<G> {
                 if !self.moves.contains_key(&v) {
                     let q = self.place();
                     self.t.relocate_vertex(v, &q).expect("it is present");
-                    self.positions[v as usize] = Some(q);
+                    self.positions[v] = Some(q);
                 }
             }
             _ => {
@@ -169,7 +169,7 @@ impl<G: Dimension> Model<G> {
                 self.moves.clear();
                 self.leaving.clear();
                 while let Some((id, _)) = self.coming.pop_last() {
-                    if id as usize + 1 == self.positions.len() {
+                    if id.index() + 1 == self.positions.len() {
                         self.positions.pop();
                     }
                 }
@@ -211,12 +211,12 @@ fn an_insertion_onto_a_vertex_is_rejected_and_stays_staged() {
     let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
     let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [2.0, 2.0]];
     let mut t = MovingTriangulation::<Plane>::new(&square, options).expect("a build");
-    assert_eq!(t.stage_insertions(&[[0.5, 0.25], [1.0, 0.0]]), Ok(4));
+    assert_eq!(t.stage_insertions(&[[0.5, 0.25], [1.0, 0.0]]), Ok(vertex(4)));
     let before = cell_set(&t);
-    assert_eq!(t.commit_timestamp(), Err(Error::Coincident { vertex: 1, other: 5 }));
+    assert_eq!(t.commit_timestamp(), Err(Error::Coincident { vertex: vertex(1), other: vertex(5) }));
     assert_eq!((cell_set(&t), t.staged_edits(), t.id_count()), (before, (2, 0), 6));
     // The vertex in the way goes, in the same commit.
-    t.stage_removals(&[1]).expect("it is present");
+    t.stage_removals(&[vertex(1)]).expect("it is present");
     let report = t.commit_timestamp().expect("nothing is in the way");
     assert_eq!((report.inserted, report.removed, t.vertex_count()), (2, 1, 5));
     t.validate(Level::Delaunay).expect("a Delaunay triangulation");
@@ -226,16 +226,17 @@ fn an_insertion_onto_a_vertex_is_rejected_and_stays_staged() {
 fn edits_survive_a_compaction() {
     let points: Vec<[f64; 2]> = (0..40).map(|i| [f64::from(i % 7), f64::from(i * i % 11)]).collect();
     let mut t = MovingTriangulation::<Plane>::new(&points, Options::default()).expect("a build");
-    t.remove_vertex(3).expect("it is present");
-    assert_eq!(t.stage_insertions(&[[0.5, 0.5], [20.0, 3.5]]), Ok(40));
-    t.stage_removals(&[5, 6]).expect("they are present");
-    t.move_vertices(&[7], &[[30.0, 30.0]]).expect("it is present");
-    let ids = t.compact().expect("room");
-    assert_eq!((ids[3], ids[4], ids[40], ids[41], t.id_count()), (u32::MAX, 3, 39, 40, 41));
-    assert_eq!((t.staged_edits(), t.staged_count(), t.is_present(39)), ((2, 2), 1, false));
+    t.remove_vertex(vertex(3)).expect("it is present");
+    assert_eq!(t.stage_insertions(&[[0.5, 0.5], [20.0, 3.5]]), Ok(vertex(40)));
+    t.stage_removals(&ids([5, 6])).expect("they are present");
+    t.move_vertices(&[vertex(7)], &[[30.0, 30.0]]).expect("it is present");
+    let map = t.compact().expect("room");
+    assert_eq!([map[3], map[4], map[40], map[41]], [VertexId::NONE, vertex(3), vertex(39), vertex(40)]);
+    assert_eq!((t.id_count(), t.staged_edits(), t.staged_count()), (41, (2, 2), 1));
+    assert!(!t.is_present(vertex(39)));
     t.commit_timestamp().expect("room");
-    assert_eq!((t.position(39), t.position(6)), (Ok([0.5, 0.5]), Ok([30.0, 30.0])));
-    assert_eq!((t.is_present(4), t.is_present(5), t.vertex_count()), (false, false, 39));
+    assert_eq!((t.position(vertex(39)), t.position(vertex(6))), (Ok([0.5, 0.5]), Ok([30.0, 30.0])));
+    assert_eq!((t.is_present(vertex(4)), t.is_present(vertex(5)), t.vertex_count()), (false, false, 39));
     t.validate(Level::Delaunay).expect("a Delaunay triangulation");
 }
 
@@ -243,19 +244,19 @@ fn edits_survive_a_compaction() {
 fn ids_of_discarded_insertions_are_given_again() {
     let mut t =
         MovingTriangulation::<Plane>::new(&[[0.0, 0.0], [1.0, 0.0]], Options::default()).expect("a build");
-    assert_eq!(t.stage_insertions(&[[3.0, 1.0]; 3]), Ok(2));
-    assert_eq!((t.id_count(), t.is_present(2)), (5, false));
+    assert_eq!(t.stage_insertions(&[[3.0, 1.0]; 3]), Ok(vertex(2)));
+    assert_eq!((t.id_count(), t.is_present(vertex(2))), (5, false));
     t.discard_moves();
-    assert_eq!((t.id_count(), t.stage_insertions(&[[0.0, 1.0]])), (2, Ok(2)));
+    assert_eq!((t.id_count(), t.stage_insertions(&[[0.0, 1.0]])), (2, Ok(vertex(2))));
     assert_eq!(
-        t.stage_removals(&[0, 2]),
-        Err(Error::RemovedVertex { argument: "vertices", index: 1, vertex: 2 })
+        t.stage_removals(&ids([0, 2])),
+        Err(Error::RemovedVertex { argument: "vertices", index: 1, vertex: vertex(2) })
     );
     assert_eq!(t.staged_edits(), (1, 0));
-    t.stage_removals(&[0]).expect("it is present");
-    let again = Error::RemovedVertex { argument: "vertices", index: 0, vertex: 0 };
-    assert_eq!(t.stage_removals(&[0]), Err(again.clone()));
-    assert_eq!(t.move_vertices(&[0], &[[5.0, 5.0]]), Err(again));
+    t.stage_removals(&[vertex(0)]).expect("it is present");
+    let again = Error::RemovedVertex { argument: "vertices", index: 0, vertex: vertex(0) };
+    assert_eq!(t.stage_removals(&[vertex(0)]), Err(again.clone()));
+    assert_eq!(t.move_vertices(&[vertex(0)], &[[5.0, 5.0]]), Err(again));
     t.commit_timestamp().expect("room");
-    assert_eq!((t.vertex_count(), t.is_present(0), t.is_present(2)), (2, false, true));
+    assert_eq!((t.vertex_count(), t.is_present(vertex(0)), t.is_present(vertex(2))), (2, false, true));
 }

@@ -11,9 +11,9 @@ mod common;
 
 use common::carried::{Carried, List};
 use common::history::Snapshot;
-use common::{Rng, point, seeds, sorted};
+use common::{Rng, ids, point, seeds, sorted, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Level, Location, Monitor, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 use deldrift::{Error, Result};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
@@ -303,12 +303,12 @@ struct Scene<G: Dimension> {
 #[derive(Debug, PartialEq)]
 enum Given {
     Nothing,
-    Id(u32),
-    Cells(BTreeSet<Vec<u32>>),
+    Id(VertexId),
+    Cells(BTreeSet<Vec<VertexId>>),
     Report(u64, u64, u64),
-    Where(Option<u32>),
+    Where(Option<VertexId>),
     Numbers(Vec<u64>),
-    Nearest(Option<u32>),
+    Nearest(Option<VertexId>),
 }
 
 fn cloud<G: Dimension>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
@@ -356,9 +356,9 @@ impl<G: Dimension> Scene<G> {
         }
         if setting.edits {
             t.insert_vertex(&point::<G>(|k| 0.3 + 0.1 * k as f64)).expect("an insertion");
-            t.remove_vertex(7).expect("a removal");
+            t.remove_vertex(vertex(7)).expect("a removal");
             let p = point::<G>(|k| 0.9 - 0.1 * k as f64);
-            t.relocate_vertex(8, &p).expect("a relocation");
+            t.relocate_vertex(vertex(8), &p).expect("a relocation");
             points[8] = p;
             points.push(point::<G>(|k| 0.3 + 0.1 * k as f64));
         }
@@ -366,28 +366,29 @@ impl<G: Dimension> Scene<G> {
             t.cells().expect("room");
             if setting.edits {
                 // The arrays are there, but not up to date.
-                t.remove_vertex(9).expect("a removal");
+                t.remove_vertex(vertex(9)).expect("a removal");
             }
         }
         let mut places = points.clone();
         nudge::<G>(&mut places, 0.3 * spacing, rng);
-        let present: Vec<u32> = (0..t.id_count() as u32).filter(|&v| t.is_present(v)).collect();
+        let present: Vec<VertexId> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
         match call {
             Call::Commit(_, true) if present.len() == places.len() => t.move_all(&places).expect("moves"),
             Call::Commit(_, is_whole) => {
-                let some: Vec<u32> = present.into_iter().filter(|v| is_whole || v % 3 == 0).collect();
-                let places: Vec<G::Point> = some.iter().map(|&v| places[v as usize]).collect();
+                let some: Vec<VertexId> =
+                    present.into_iter().filter(|v| is_whole || v.get() % 3 == 0).collect();
+                let places: Vec<G::Point> = some.iter().map(|&v| places[v]).collect();
                 t.move_vertices(&some, &places).expect("moves");
             }
             Call::MoveVertices | Call::MoveAll | Call::New => {}
             Call::StageInsertions | Call::StageRemovals => t.move_all(&points).expect("moves"),
-            _ => t.move_vertices(&[3, 4], &[places[3], places[4]]).expect("moves"),
+            _ => t.move_vertices(&ids([3, 4]), &[places[3], places[4]]).expect("moves"),
         }
         if matches!(call, Call::Commit(..)) {
             let coming: Vec<G::Point> = (0..setting.stages).map(|k| points[k * 3]).collect();
             let coming: Vec<G::Point> = (0..).zip(coming).map(|(k, p)| beside::<G>(&p, k)).collect();
             t.stage_insertions(&coming).expect("insertions");
-            let leaving: Vec<u32> = (0..setting.stages as u32).map(|k| 10 + 3 * k).collect();
+            let leaving: Vec<VertexId> = (0..setting.stages).map(|k| VertexId::at(10 + 3 * k)).collect();
             t.stage_removals(&leaving).expect("removals");
         }
         let options = Some(options());
@@ -419,21 +420,21 @@ impl<G: Dimension> Scene<G> {
                 Given::Cells(common::cell_set(&made))
             }
             Call::Relocate(to) => {
-                given(t.relocate_vertex(chosen(to), &goal(to)))?;
+                given(t.relocate_vertex(VertexId::new(chosen(to)), &goal(to)))?;
                 Given::Nothing
             }
             Call::Insert(to) => Given::Id(given(t.insert_vertex(&goal(to)))?),
             Call::Remove(to) => {
-                given(t.remove_vertex(chosen(to)))?;
+                given(t.remove_vertex(VertexId::new(chosen(to))))?;
                 Given::Nothing
             }
             Call::MoveVertices => {
-                given(t.move_vertices(&[1, 2, 5], &points[14..17]))?;
+                given(t.move_vertices(&ids([1, 2, 5]), &points[14..17]))?;
                 Given::Nothing
             }
             Call::StageInsertions => Given::Id(given(t.stage_insertions(&points[..20]))?),
             Call::StageRemovals => {
-                given(t.stage_removals(&[10, 20, 21, 22, 23]))?;
+                given(t.stage_removals(&ids([10, 20, 21, 22, 23])))?;
                 Given::Nothing
             }
             Call::MoveAll => {
@@ -450,9 +451,9 @@ impl<G: Dimension> Scene<G> {
             }
             Call::Star => {
                 let mut star = Vec::new();
-                given(t.star(12, &mut star))?;
+                given(t.star(vertex(12), &mut star))?;
                 let rows = t.cells()?.corners;
-                Given::Cells(star.iter().map(|&c| sorted(rows[c as usize].as_ref())).collect())
+                Given::Cells(star.iter().map(|&c| sorted(rows[c].as_ref())).collect())
             }
             Call::Locate => match given(t.locate(&point::<G>(|_| 0.51)))? {
                 Location::Vertex(v) => Given::Where(Some(v)),
@@ -477,7 +478,7 @@ impl<G: Dimension> Scene<G> {
                 Given::Numbers(bits)
             }
             Call::StandardDelimiter => {
-                given(t.standard_delimiter(0, 1).map(drop))?;
+                given(t.standard_delimiter(CellId::new(0), 1).map(drop))?;
                 Given::Nothing
             }
             Call::ChangedCells => {
@@ -488,7 +489,7 @@ impl<G: Dimension> Scene<G> {
                 }
                 changed?;
                 let (changed, rows) = (t.changed_cells()?, t.cells()?.corners);
-                Given::Cells(changed.iter().map(|&c| sorted(rows[c as usize].as_ref())).collect())
+                Given::Cells(changed.iter().map(|&c| sorted(rows[c].as_ref())).collect())
             }
             Call::TakeChanges => {
                 let taken = t.take_changes();
@@ -499,7 +500,7 @@ impl<G: Dimension> Scene<G> {
                 Given::Nothing
             }
             Call::Tolerance => {
-                let tolerance = given(t.tolerance(12))?;
+                let tolerance = given(t.tolerance(vertex(12)))?;
                 Given::Numbers(vec![tolerance.to_bits()])
             }
         })
@@ -524,12 +525,12 @@ impl<G: Dimension> Scene<G> {
         }
     }
 
-    fn rows(&self) -> Vec<G::Corners> {
+    fn rows(&self) -> Vec<G::Vertices> {
         self.t.cells().expect("room").corners.to_vec()
     }
 
     fn positions(&self) -> Vec<Option<G::Point>> {
-        (0..self.t.id_count() as u32).map(|v| self.t.position(v).ok()).collect()
+        VertexId::range(0..self.t.id_count()).map(|v| self.t.position(v).ok()).collect()
     }
 }
 

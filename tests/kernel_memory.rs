@@ -6,10 +6,10 @@
 mod random;
 
 use deldrift::Error;
-use deldrift::internals::{Delaunay, Insertion, Shortcut};
+use deldrift::internals::{Delaunay, Insertion, Shortcut, SiteId, Slot};
 use deldrift::motion::Level;
 use deldrift::motion::{MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 use random::Rng;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -106,7 +106,7 @@ fn built<G: Dimension>(points: &[G::Point]) -> Delaunay<G> {
     t
 }
 
-fn site_of<G: Dimension>(t: &Delaunay<G>, id: u32) -> u32 {
+fn site_of<G: Dimension>(t: &Delaunay<G>, id: VertexId) -> SiteId {
     t.live_sites().find(|&s| t.site(s).id == id).expect("a site of each vertex")
 }
 
@@ -152,15 +152,15 @@ fn inserts<G: Dimension>() {
         let n = without_each(
             || built::<G>(&points),
             |t| {
-                let s = t.add_site(q, 1000)?;
-                t.insert_site(s, u32::MAX)
+                let s = t.add_site(q, VertexId::new(1000))?;
+                t.insert_site(s, Slot::NONE)
                     .map(|_| ())
                     .inspect_err(|_| t.discard_site(s).expect("room was made for it"))
             },
             |t| {
                 is_valid(t);
-                let s = t.add_site(q, 1000).expect("room for it");
-                let inserted = t.insert_site(s, u32::MAX).expect("room for it");
+                let s = t.add_site(q, VertexId::new(1000)).expect("room for it");
+                let inserted = t.insert_site(s, Slot::NONE).expect("room for it");
                 assert_eq!(inserted == Insertion::New, !points.contains(&q));
                 is_valid(t);
             },
@@ -174,11 +174,11 @@ fn removes<G: Dimension>() {
         let n_corners = points.len();
         let n = without_each(
             || built::<G>(&points),
-            |t| t.remove_site(site_of(t, 0)),
+            |t| t.remove_site(site_of(t, VertexId::new(0))),
             |t| {
                 if n_corners > G::D + 1 {
                     is_valid(t);
-                    t.remove_site(site_of(t, 0)).expect("room for it");
+                    t.remove_site(site_of(t, VertexId::new(0))).expect("room for it");
                     is_valid(t);
                 }
             },
@@ -197,7 +197,7 @@ fn relocates<G: Dimension>() {
         ] {
             without_each(
                 || built::<G>(&points),
-                |t| t.relocate_site(site_of(t, 0), &q, 0, shortcut).map(|_| ()),
+                |t| t.relocate_site(site_of(t, VertexId::new(0)), &q, VertexId::new(0), shortcut).map(|_| ()),
                 |_| {},
             );
         }
@@ -209,7 +209,7 @@ fn answers<G: Dimension>() {
         let n = without_each(
             || MovingTriangulation::<G>::new(&points, Options::default()).expect("room for it"),
             |t| {
-                t.tolerance(0)?;
+                t.tolerance(VertexId::new(0))?;
                 t.nearest_vertex(&G::Point::default()).map(|nearest| assert!(nearest.is_some()))
             },
             |_| {},

@@ -16,7 +16,7 @@ use deldrift::Error;
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, CommitReport, Commits, Level, Monitor, MovingTriangulation, Options,
 };
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 
 /// Those that keep something, and those that move all vertices at once. Each has its own histories, and turns up now and
 /// then in those of the others.
@@ -203,17 +203,17 @@ impl<'c, G: Dimension> History<'c, G> {
         point::<G>(|k| (p[k] + self.offset) * self.scale)
     }
 
-    fn present(&self) -> Vec<u32> {
-        (0..self.now.len() as u32).filter(|&v| self.now[v as usize].is_some()).collect()
+    fn present(&self) -> Vec<VertexId> {
+        VertexId::range(0..self.now.len()).filter(|&v| self.now[v].is_some()).collect()
     }
 
-    fn any(&mut self) -> u32 {
+    fn any(&mut self) -> VertexId {
         let present = self.present();
         *self.rng.pick(&present)
     }
 
-    fn at(&self, v: u32) -> Point<G> {
-        self.now[v as usize].expect("present")
+    fn at(&self, v: VertexId) -> Point<G> {
+        self.now[v].expect("present")
     }
 
     /// Builds from what is present, without removed ids: while there are some no commit is of all vertices.
@@ -244,7 +244,7 @@ impl<'c, G: Dimension> History<'c, G> {
     fn check(&self) {
         let places: Vec<Option<Point<G>>> = self.now.iter().map(|p| p.map(|p| self.place(&p))).collect();
         for (v, p) in places.iter().enumerate() {
-            assert_eq!(self.t.position(v as u32).ok(), *p, "{}: vertex {v}", self.context());
+            assert_eq!(self.t.position(VertexId::at(v)).ok(), *p, "{}: vertex {v}", self.context());
         }
         // The fresh build has been validated in full, and its cells are the same.
         self.t.validate(Level::Structure).unwrap_or_else(|v| panic!("{}: {v}", self.context()));
@@ -294,7 +294,7 @@ impl<'c, G: Dimension> History<'c, G> {
             }
             if at_once {
                 for v in self.present() {
-                    self.relocate(v, next[v as usize].expect("present"));
+                    self.relocate(v, next[v].expect("present"));
                 }
             } else {
                 self.commit(next);
@@ -318,10 +318,10 @@ impl<'c, G: Dimension> History<'c, G> {
                     let share = 1 + self.rng.below(30);
                     order.truncate(order.len().div_ceil(share));
                 }
-                let moves: Vec<Point<G>> = order.iter().map(|&v| places[v as usize]).collect();
+                let moves: Vec<Point<G>> = order.iter().map(|&v| places[v]).collect();
                 self.t.move_vertices(&order, &moves).expect("moves");
                 for v in self.present().into_iter().filter(|v| !order.contains(v)) {
-                    next[v as usize] = self.now[v as usize];
+                    next[v] = self.now[v];
                 }
             }
             _ => self.t.move_all(&places).expect("moves"),
@@ -329,7 +329,7 @@ impl<'c, G: Dimension> History<'c, G> {
         if self.rng.one_in(60) && order.len() > G::D + 2 {
             // A staged move ends with its vertex.
             let v = self.remove();
-            next[v as usize] = None;
+            next[v] = None;
         }
         let algorithm =
             if self.rng.one_in(8) { *self.rng.pick(&lasting_algorithms()) } else { self.algorithm };
@@ -365,9 +365,9 @@ impl<'c, G: Dimension> History<'c, G> {
         self.counts.rejected += 1;
     }
 
-    fn relocate(&mut self, v: u32, q: Point<G>) {
+    fn relocate(&mut self, v: VertexId, q: Point<G>) {
         match self.t.relocate_vertex(v, &self.place(&q)) {
-            Ok(()) => self.now[v as usize] = Some(q),
+            Ok(()) => self.now[v] = Some(q),
             Err(error) => self.expect_rejection(&error),
         }
     }
@@ -379,11 +379,11 @@ impl<'c, G: Dimension> History<'c, G> {
         }
     }
 
-    fn remove(&mut self) -> u32 {
+    fn remove(&mut self) -> VertexId {
         let v = self.any();
         self.log.push(format!("remove {v}"));
         self.t.remove_vertex(v).expect("a removal");
-        self.now[v as usize] = None;
+        self.now[v] = None;
         v
     }
 

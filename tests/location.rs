@@ -4,8 +4,8 @@
 mod common;
 
 use common::{Rng, point};
-use deldrift::motion::{Level, Location, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::motion::{Level, Location, MovingTriangulation, NO_CELL, Options};
+use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 
 /// Coordinates are integers of at most this magnitude, so that determinants fit into 128 bits.
 const MOST: i64 = 1 << 20;
@@ -38,7 +38,7 @@ fn orientation<G: Dimension>(points: &[G::Point]) -> i128 {
 }
 
 /// The signs of `q` in place of each corner of a cell, by that of the cell.
-fn signs<G: Dimension>(t: &MovingTriangulation<G>, cell: usize, q: &G::Point) -> Vec<i128> {
+fn signs<G: Dimension>(t: &MovingTriangulation<G>, cell: CellId, q: &G::Point) -> Vec<i128> {
     let view = t.cells().expect("room");
     let corners = view.corners[cell].as_ref().to_vec();
     let points: Vec<G::Point> = corners.iter().map(|&v| t.position(v).expect("present")).collect();
@@ -55,12 +55,12 @@ fn signs<G: Dimension>(t: &MovingTriangulation<G>, cell: usize, q: &G::Point) ->
 fn check<G: Dimension>(t: &MovingTriangulation<G>, q: &G::Point, location: Location) {
     match location {
         Location::Vertex(v) => assert_eq!(t.position(v).expect("present"), *q),
-        Location::Cell(c) => assert!(signs(t, c as usize, q).iter().all(|&sign| sign >= 0)),
+        Location::Cell(c) => assert!(signs(t, c, q).iter().all(|&sign| sign >= 0)),
         Location::Outside(c) => {
             let view = t.cells().expect("room");
-            let neighbours = view.neighbours[c as usize].as_ref();
-            let beyond = signs(t, c as usize, q);
-            assert!(beyond.iter().zip(neighbours).any(|(&sign, &n)| sign < 0 && n == u32::MAX));
+            let neighbours = view.neighbours[c].as_ref();
+            let beyond = signs(t, c, q);
+            assert!(beyond.iter().zip(neighbours).any(|(&sign, &n)| sign < 0 && n == NO_CELL));
         }
         Location::NoCells => panic!("there are cells"),
     }
@@ -76,7 +76,7 @@ fn square_distance<G: Dimension>(p: &G::Point, q: &G::Point) -> i128 {
 }
 
 fn check_nearest<G: Dimension>(t: &MovingTriangulation<G>, q: &G::Point) {
-    let present = (0..t.id_count() as u32).filter(|&v| t.is_present(v));
+    let present = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v));
     let expected = present.min_by_key(|&v| (square_distance::<G>(&t.position(v).expect("present"), q), v));
     assert_eq!(t.nearest_vertex(q).expect("room"), expected);
 }
@@ -87,13 +87,14 @@ fn queries<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng, n: usize, cl
     places.push(point::<G>(|_| -3.0));
     places.push(point::<G>(|axis| if axis == 0 { (2 * MOST) as f64 } else { 5.0 }));
     places.extend(
-        (0..t.id_count() as u32)
+        VertexId::range(0..t.id_count())
             .filter(|&v| t.is_present(v))
             .take(5)
             .map(|v| t.position(v).expect("present")),
     );
     let mut found = Vec::new();
-    let near = [None, Some(Location::Cell(3)), Some(Location::Vertex(7)), Some(Location::Cell(u32::MAX - 1))];
+    let cell = |c: u32| Some(Location::Cell(CellId::new(c)));
+    let near = [None, cell(3), Some(Location::Vertex(VertexId::new(7))), cell(u32::MAX - 1)];
     t.locate_points(&places, *rng.pick(&near), |location| found.push(location)).expect("room");
     assert_eq!(found.len(), places.len());
     for (q, bulk) in places.iter().zip(found) {
@@ -120,7 +121,7 @@ fn histories<G: Dimension>(seed: u64, clustered: bool) {
                 t.commit_positions(&moved).expect("good places");
             }
             1 => {
-                for v in (0..t.id_count() as u32).filter(|v| v % 3 == round) {
+                for v in VertexId::range(0..t.id_count()).filter(|v| v.get() % 3 == round) {
                     if t.is_present(v) {
                         t.remove_vertex(v).expect("present");
                     }

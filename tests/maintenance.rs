@@ -5,11 +5,11 @@
 
 mod common;
 
-use common::{Rng, assert_same_cells, cell_set, fresh_cells};
+use common::{Rng, assert_same_cells, cell_set, fresh_cells, vertex};
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, CommitReport, Level, MovingTriangulation, Options, SwitchingRule,
 };
-use deldrift::{Coordinates, Dimension, Plane, Space};
+use deldrift::{Coordinates, Dimension, Plane, Space, VertexId};
 
 const MAINTENANCE: [Algorithm; 4] = [
     Algorithm::Tolerance,
@@ -60,34 +60,34 @@ fn agree<G: Dimension>(algorithm: Algorithm, seed: u64, n: usize) -> CommitRepor
         match rng.below(8) {
             0 => {
                 let v = present[rng.below(present.len())];
-                t.remove_vertex(v as u32).expect("a removal");
+                t.remove_vertex(VertexId::at(v)).expect("a removal");
                 now[v] = None;
             }
             1 => {
                 let mut p = now[present[rng.below(present.len())]].expect("present");
                 nudge(&mut p, G::D, size, rng);
-                assert_eq!(t.insert_vertex(&p).expect("an insertion") as usize, now.len());
+                assert_eq!(t.insert_vertex(&p).expect("an insertion").index(), now.len());
                 now.push(Some(p));
             }
             2 => {
                 for &v in present.iter().take(10) {
                     let p = now[v].as_mut().expect("present");
                     nudge(p, G::D, size, rng);
-                    t.relocate_vertex(v as u32, p).expect("a relocation");
+                    t.relocate_vertex(VertexId::at(v), p).expect("a relocation");
                 }
             }
             3 => {
                 // Two meet, or part again.
                 let [a, b] = [0, 1].map(|_| present[rng.below(present.len())]);
                 now[a] = now[b];
-                t.move_vertices(&[a as u32], &[now[b].expect("present")]).expect("a move");
+                t.move_vertices(&[VertexId::at(a)], &[now[b].expect("present")]).expect("a move");
                 t.commit_timestamp().expect("a commit");
             }
             _ => {
                 let share = 1 + rng.below(3);
                 for &v in present.iter().filter(|&v| v % share == 0) {
                     nudge(now[v].as_mut().expect("present"), G::D, size, rng);
-                    t.move_vertices(&[v as u32], &[now[v].expect("present")]).expect("a move");
+                    t.move_vertices(&[VertexId::at(v)], &[now[v].expect("present")]).expect("a move");
                 }
                 t.commit_timestamp().expect("a commit");
             }
@@ -138,10 +138,10 @@ fn exact_signs_are_counted() {
         for k in 0..G::D {
             half[k] = 0.5 * (half[k] + points[501][k]);
         }
-        t.move_vertices(&[500], &[half]).expect("a move");
+        t.move_vertices(&[vertex(500)], &[half]).expect("a move");
         let report = t.commit_timestamp().expect("a commit");
         assert_eq!(report.exact_calls, t.statistics().exact_calls);
-        t.relocate_vertex(500, &points[500]).expect("a relocation");
+        t.relocate_vertex(vertex(500), &points[500]).expect("a relocation");
         let v = t.insert_vertex(&points[3]).expect("an insertion");
         t.remove_vertex(v).expect("a removal");
         assert!(t.statistics().exact_calls >= report.exact_calls);
@@ -203,7 +203,7 @@ fn tolerances_follow_insertions_and_removals() {
             let before = t.statistics().tolerances;
             let v = rng.below(2000);
             if now[v].take().is_some() {
-                t.remove_vertex(v as u32).expect("a removal");
+                t.remove_vertex(VertexId::at(v)).expect("a removal");
                 assert!(t.statistics().tolerances > before, "{algorithm:?}, step {step}");
             }
             let removed = t.statistics().tolerances;
@@ -217,10 +217,10 @@ fn tolerances_follow_insertions_and_removals() {
             // The inserted vertex has a tolerance of its own, as good as new: it stays within it, and leaves
             // it.
             for (size, within) in [(0.5, 1), (4.0, 0)] {
-                let v = now.len() as u32 - 1;
-                let mut p = now[v as usize].expect("present");
+                let v = VertexId::at(now.len() - 1);
+                let mut p = now[v].expect("present");
                 p[0] += size * t.tolerance(v).expect("present");
-                now[v as usize] = Some(p);
+                now[v] = Some(p);
                 t.move_vertices(&[v], &[p]).expect("a move");
                 let report = t.commit_timestamp().expect("a commit");
                 assert_eq!(report.within_tolerance, within, "{algorithm:?}, step {step}");
@@ -247,8 +247,8 @@ fn ways_agree<G: Dimension>(algorithm: Algorithm, coincidence: CoincidencePolicy
         // A calm commit, after which rebuilding + tolerance has switched.
         t.move_all(&now).expect("moves");
         t.commit_timestamp().expect("a commit");
-        t.remove_vertex(5).expect("a removal");
-        t.move_vertices(&[7], &[now[7]]).expect("a move");
+        t.remove_vertex(vertex(5)).expect("a removal");
+        t.move_vertices(&[vertex(7)], &[now[7]]).expect("a move");
     }
     let mut refused = 0;
     for size in [1e-9, 1e-5, 1e-5, 1e-9, 1e-3, 0.3, 0.3, 0.3, 1e-6, 1e-6, 1e-6, 1e-6] {
@@ -261,9 +261,9 @@ fn ways_agree<G: Dimension>(algorithm: Algorithm, coincidence: CoincidencePolicy
                 _ => nudge(&mut q, G::D, size, rng),
             }
             let _ = long.cells().expect("room");
-            let done = long.relocate_vertex(v as u32, &q);
+            let done = long.relocate_vertex(VertexId::at(v), &q);
             // Not a number is not equal to itself.
-            assert_eq!(format!("{:?}", short.relocate_vertex(v as u32, &q)), format!("{done:?}"));
+            assert_eq!(format!("{:?}", short.relocate_vertex(VertexId::at(v), &q)), format!("{done:?}"));
             assert_eq!(short.statistics(), long.statistics(), "{algorithm:?}, vertex {v}, {size}");
             refused += u32::from(done.is_err());
             if done.is_ok() {

@@ -5,10 +5,10 @@ mod common;
 
 use common::history::{History, Snapshot, nudged};
 use common::inputs::{KINDS, Kind, draw, integer_sphere, on_sphere};
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
+use common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
 use deldrift::Error;
 use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -55,7 +55,7 @@ fn grows_and_vanishes<G: Dimension>() {
                 history.insert(q);
                 history.check();
             }
-            let mut order: Vec<u32> = (0..25).collect();
+            let mut order: Vec<VertexId> = VertexId::range(0..25).collect();
             history.rng.shuffle(&mut order);
             for v in order {
                 history.remove(v);
@@ -87,14 +87,14 @@ fn collapses_and_expands<G: Dimension>(side: i64) {
         let mut history = History::<G>::of(points.clone(), Kind::Lattice, name, Rng::new(3));
         // Flattened onto a hyperplane, a line, a point, then mirrored and back.
         for flat in (0..G::D).chain([G::D]).chain((0..G::D).rev()) {
-            for (v, p) in (0u32..).zip(&points) {
+            for (v, p) in vertices().zip(&points) {
                 history.stage(v, point::<G>(|k| if k < flat { 0.0 } else { p[k] }));
             }
             history.commit(algorithm);
             history.check();
         }
         for factor in [-1.0, 1.0, 0.5] {
-            for (v, p) in (0u32..).zip(&points) {
+            for (v, p) in vertices().zip(&points) {
                 history.stage(v, point::<G>(|k| if k == 0 { factor * p[k] } else { p[k] }));
             }
             history.commit(algorithm);
@@ -128,11 +128,11 @@ fn magnitudes_do_not_matter<G: Dimension>() {
         let mut t = MovingTriangulation::<G>::new(&points, Options::default()).expect("a build");
         for algorithm in Algorithm::ALL {
             t.set_algorithm(algorithm);
-            for v in 0..20 {
+            for v in VertexId::range(0..20) {
                 if rng.one_in(3) {
                     let q = point::<G>(|_| coordinate(rng));
                     t.move_vertices(&[v], &[q]).expect("a move");
-                    positions[v as usize] = Some(q);
+                    positions[v] = Some(q);
                 }
             }
             t.commit_timestamp().expect("a commit");
@@ -173,10 +173,10 @@ fn coincidence_is_rejected<G: Dimension>() {
             let mut t = rejecting::<G>(&points, algorithm);
             // A permutation of some of the vertices, but for one that goes
             // to the place of one that stays or comes.
-            let mut vertices: Vec<u32> = (0..25).collect();
+            let mut vertices: Vec<VertexId> = VertexId::range(0..25).collect();
             rng.shuffle(&mut vertices);
             vertices.truncate(2 + rng.below(20));
-            let mut targets: Vec<G::Point> = vertices.iter().map(|&v| points[v as usize]).collect();
+            let mut targets: Vec<G::Point> = vertices.iter().map(|&v| points[v]).collect();
             targets.rotate_left(1);
             let (staying, at) = (rng.below(25), rng.below(vertices.len()));
             let old = std::mem::replace(&mut targets[at], points[staying]);
@@ -185,12 +185,12 @@ fn coincidence_is_rejected<G: Dimension>() {
             let outcome = t.commit_timestamp();
             let mut then = points.clone();
             for (&v, &q) in vertices.iter().zip(&targets) {
-                then[v as usize] = q;
+                then[v] = q;
             }
             match outcome {
                 Ok(_) => assert_eq!(old, points[staying], "{algorithm:?}, seed {seed}: not rejected"),
                 Err(Error::Coincident { vertex, other }) => {
-                    assert!(vertex < other && then[vertex as usize] == then[other as usize]);
+                    assert!(vertex < other && then[vertex] == then[other]);
                     assert_eq!(Snapshot::of(&t), before, "{algorithm:?}, seed {seed}");
                     // Whoever gives way: with the vertices nudged apart the rest can be committed.
                     assert_eq!(t.discard_moves(), vertices.len());
@@ -198,7 +198,7 @@ fn coincidence_is_rejected<G: Dimension>() {
                     t.move_vertices(&vertices, &targets).expect("moves");
                     t.commit_timestamp().expect("a permutation, though vertices meet underway");
                     for (&v, &q) in vertices.iter().zip(&targets) {
-                        then[v as usize] = q;
+                        then[v] = q;
                     }
                     let expected = fresh_cells::<G>(&then.into_iter().map(Some).collect::<Vec<_>>());
                     assert_same_cells(&cell_set(&t), &expected, || format!("{algorithm:?}, seed {seed}"));
@@ -222,19 +222,22 @@ fn coincidence_is_rejected_in_space() {
 /// The immediate calls and creation reject an occupied place too, with and without cells.
 fn occupied_places_are_rejected<G: Dimension>() {
     for n in [2, 4, 25] {
-        let points = lattice::<G>(n);
+        let points = lattice::<G>(n as i64);
         let mut t = rejecting::<G>(&points, Algorithm::Auto);
         let before = Snapshot::of(&t);
-        let last = n as u32 - 1;
-        let onto_last = Err(Error::Coincident { vertex: 0, other: last });
-        assert_eq!(t.relocate_vertex(0, &points[last as usize]), onto_last);
-        assert_eq!(t.insert_vertex(&points[0]), Err(Error::Coincident { vertex: 0, other: n as u32 }));
+        let last = VertexId::at(n - 1);
+        let onto_last = Err(Error::Coincident { vertex: vertex(0), other: last });
+        assert_eq!(t.relocate_vertex(vertex(0), &points[last]), onto_last);
+        assert_eq!(
+            t.insert_vertex(&points[0]),
+            Err(Error::Coincident { vertex: vertex(0), other: VertexId::at(n) })
+        );
         assert_eq!(Snapshot::of(&t), before);
-        t.relocate_vertex(0, &points[0]).expect("its own place is free for it");
+        t.relocate_vertex(vertex(0), &points[0]).expect("its own place is free for it");
         let twice: Vec<G::Point> = points.iter().chain(&points[..1]).copied().collect();
         let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
         let error = MovingTriangulation::<G>::new(&twice, options).expect_err("a point twice");
-        assert_eq!(error, Error::Coincident { vertex: 0, other: n as u32 });
+        assert_eq!(error, Error::Coincident { vertex: vertex(0), other: VertexId::at(n) });
     }
 }
 
@@ -290,7 +293,7 @@ fn commits_are_cancelled_anywhere<G: Dimension>(n: usize) {
                 1 => points[v],
                 _ => nudged::<G>(&points[v], 1 << 18, rng),
             };
-            t.move_vertices(&[v as u32], &[targets[v]]).expect("a move");
+            t.move_vertices(&[VertexId::at(v)], &[targets[v]]).expect("a move");
         }
         let before = Snapshot::of(&t);
         let mut cancellations = 0;
@@ -308,7 +311,7 @@ fn commits_are_cancelled_anywhere<G: Dimension>(n: usize) {
         assert!(cancellations > 1, "{}: the monitor is not asked", context(0));
         let expected = fresh_cells::<G>(&targets.iter().copied().map(Some).collect::<Vec<_>>());
         assert_same_cells(&cell_set(&t), &expected, || context(cancellations));
-        let now: Vec<_> = (0..n).map(|v| t.position(v as u32).expect("present")).collect();
+        let now: Vec<_> = (0..n).map(|v| t.position(VertexId::at(v)).expect("present")).collect();
         assert!(now == targets);
     }
 }
@@ -344,15 +347,16 @@ fn creation_is_cancelled_anywhere() {
 fn bad_arguments_leave_no_trace<G: Dimension>() {
     let points = lattice::<G>(25);
     let mut t = MovingTriangulation::<G>::new(&points, Options::default()).expect("a build");
-    t.remove_vertex(7).expect("present");
-    t.move_vertices(&[3], &[points[4]]).expect("a move");
+    t.remove_vertex(vertex(7)).expect("present");
+    t.move_vertices(&[vertex(3)], &[points[4]]).expect("a move");
     let before = Snapshot::of(&t);
     let last = G::D - 1;
     let with = |x: f64| point::<G>(|k| if k == last { x } else { 1.0 });
     let is_refused = |t: &mut MovingTriangulation<G>,
                       q: &G::Point,
                       as_expected: &dyn Fn(&Error, usize) -> bool| {
-        let staged = t.move_vertices(&[0, 1, 2], &[points[1], *q, points[3]]).expect_err("a bad position");
+        let staged =
+            t.move_vertices(&ids([0, 1, 2]), &[points[1], *q, points[3]]).expect_err("a bad position");
         assert!(as_expected(&staged, 1), "{staged}");
         let mut all = points.clone();
         all[24] = *q;
@@ -360,9 +364,9 @@ fn bad_arguments_leave_no_trace<G: Dimension>() {
         let staged = t.move_all(&all).expect_err("a bad position");
         assert!(as_expected(&staged, 24), "{staged}");
         assert_eq!(t.staged_count(), 0);
-        t.move_vertices(&[3], &[points[4]]).expect("a move");
+        t.move_vertices(&[vertex(3)], &[points[4]]).expect("a move");
         for error in [
-            t.relocate_vertex(2, q).expect_err("a bad position"),
+            t.relocate_vertex(vertex(2), q).expect_err("a bad position"),
             t.insert_vertex(q).expect_err("a bad position"),
             t.locate(q).expect_err("a bad position"),
             t.nearest_vertex(q).expect_err("a bad position"),
@@ -386,36 +390,43 @@ fn bad_arguments_leave_no_trace<G: Dimension>() {
     }
     assert_eq!(Snapshot::of(&t), before);
 
-    for (vertex, name) in [(25, "no such vertex"), (u32::MAX, "no such vertex"), (7, "a removed vertex")] {
+    let removed = vertex(7);
+    for (bad, name) in
+        [(vertex(25), "no such vertex"), (VertexId::NONE, "no such vertex"), (removed, "a removed vertex")]
+    {
         let as_expected = |error: Error, i: usize| {
             let matches = match error {
-                Error::NoSuchVertex { index, vertex: v, ids, .. } => {
-                    vertex != 7 && v == vertex && index == i && ids == 25
+                Error::NoSuchVertex { index, vertex, ids, .. } => {
+                    bad != removed && vertex == bad && index == i && ids == 25
                 }
-                Error::RemovedVertex { index, vertex: v, .. } => vertex == 7 && v == 7 && index == i,
+                Error::RemovedVertex { index, vertex, .. } => [bad, vertex] == [removed; 2] && index == i,
                 _ => false,
             };
             assert!(matches, "{name}: {error}");
         };
-        as_expected(t.move_vertices(&[0, vertex], &[points[1], points[2]]).expect_err(name), 1);
-        as_expected(t.relocate_vertex(vertex, &points[1]).expect_err(name), 0);
-        as_expected(t.remove_vertex(vertex).expect_err(name), 0);
-        as_expected(t.position(vertex).expect_err(name), 0);
-        as_expected(t.star(vertex, &mut Vec::new()).expect_err(name), 0);
-        as_expected(t.coincident_representative(vertex).expect_err(name), 0);
+        as_expected(t.move_vertices(&[vertex(0), bad], &[points[1], points[2]]).expect_err(name), 1);
+        as_expected(t.relocate_vertex(bad, &points[1]).expect_err(name), 0);
+        as_expected(t.remove_vertex(bad).expect_err(name), 0);
+        as_expected(t.position(bad).expect_err(name), 0);
+        as_expected(t.star(bad, &mut Vec::new()).expect_err(name), 0);
+        as_expected(t.coincident_representative(bad).expect_err(name), 0);
     }
-    let is_duplicate = |error: Error, i: usize, v: u32| {
+    let is_duplicate = |error: Error, i: usize, v: VertexId| {
         assert!(
             matches!(error, Error::DuplicateMove { index, vertex, .. } if index == i && vertex == v),
             "{error}"
         );
     };
-    is_duplicate(t.move_vertices(&[0, 3], &points[..2]).expect_err("staged before"), 1, 3);
-    is_duplicate(t.move_vertices(&[0, 1, 0], &points[..3]).expect_err("twice in one call"), 2, 0);
-    is_duplicate(t.move_all(&points).expect_err("staged before"), 3, 3);
-    is_duplicate(t.relocate_vertex(3, &points[1]).expect_err("staged before"), 0, 3);
+    is_duplicate(t.move_vertices(&ids([0, 3]), &points[..2]).expect_err("staged before"), 1, vertex(3));
+    is_duplicate(
+        t.move_vertices(&ids([0, 1, 0]), &points[..3]).expect_err("twice in one call"),
+        2,
+        vertex(0),
+    );
+    is_duplicate(t.move_all(&points).expect_err("staged before"), 3, vertex(3));
+    is_duplicate(t.relocate_vertex(vertex(3), &points[1]).expect_err("staged before"), 0, vertex(3));
     let is_wrong_count = |error: Error| assert!(matches!(error, Error::WrongCount { .. }), "{error}");
-    is_wrong_count(t.move_vertices(&[0, 1], &points[..1]).expect_err("too few positions"));
+    is_wrong_count(t.move_vertices(&ids([0, 1]), &points[..1]).expect_err("too few positions"));
     is_wrong_count(t.move_all(&points[..24]).expect_err("too few positions"));
     assert_eq!(t.changed_cells(), Err(Error::ChangesNotTracked));
     assert_eq!(Snapshot::of(&t), before);
@@ -443,23 +454,24 @@ fn minus_zero_is_zero() {
     let mut t = MovingTriangulation::<Plane>::new(&[[0.0, -0.0], [1.0, 0.0], [0.0, 1.0]], Options::default())
         .unwrap();
     let v = t.insert_vertex(&[-0.0, 0.0]).unwrap();
-    assert_eq!(t.coincident_representative(v), Ok(0));
-    assert!(t.position(0).unwrap()[1].is_sign_positive());
+    assert_eq!(t.coincident_representative(v), Ok(vertex(0)));
+    assert!(t.position(vertex(0)).unwrap()[1].is_sign_positive());
 }
 
 /// Inserts, relocates and removes each of the hubs, with a check after each call.
 fn hubs_come_and_go<G: Dimension>(name: &str, rim: Vec<G::Point>, hubs: &[G::Point]) {
     let mut history = History::<G>::of(rim, Kind::Random, name.to_string(), Rng::new(4));
     let far = point::<G>(|k| 20000.0 + k as f64);
-    let first = history.positions.len() as u32;
-    for (v, &hub) in (first..).zip(hubs) {
+    let first = history.positions.len();
+    let new = || VertexId::range(first..first + hubs.len());
+    for (v, &hub) in new().zip(hubs) {
         history.insert(hub);
         history.check_cells();
         let mut star = Vec::new();
         history.t.star(v, &mut star).expect("present");
         assert!(star.len() > 64, "{name}: {hub:?} has only {} cells", star.len());
     }
-    for (v, &hub) in (first..).zip(hubs) {
+    for (v, &hub) in new().zip(hubs) {
         // In place, far away, back, out.
         let near = nudged::<G>(&hub, 100, &mut history.rng);
         for q in [near, far, hub] {
@@ -475,7 +487,7 @@ fn hubs_come_and_go<G: Dimension>(name: &str, rim: Vec<G::Point>, hubs: &[G::Poi
         }
     }
     history.check();
-    for v in (first..).take(hubs.len()) {
+    for v in new() {
         history.remove(v);
         history.check_cells();
     }
@@ -568,7 +580,7 @@ fn skew_lines_have_quadratically_many_cells() {
         history.remove(v);
         history.check();
     }
-    for v in 0..56 {
+    for v in VertexId::range(0..56) {
         history.remove(v);
         history.check_cells();
     }

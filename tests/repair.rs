@@ -6,9 +6,9 @@
 
 mod common;
 
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
+use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Commits, Level, Location, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 
 /// A motion of all positions; it gets the positions of the beginning and those of now.
 type Motion<G> = fn(&[Point<G>], &mut [Point<G>], &mut Rng);
@@ -169,7 +169,7 @@ fn relocations_agree<G: Dimension>() {
     for (round, size) in [1e-6, 1e-6, 1e-6, 1e-6, 0.3, 0.3, 0.3, 1e-7, 1e-7].into_iter().enumerate() {
         tremble::<G>(&mut now, size, &mut rng);
         for (v, p) in now.iter().enumerate() {
-            t.relocate_vertex(v as u32, p).expect("a relocation");
+            t.relocate_vertex(VertexId::at(v), p).expect("a relocation");
         }
         let context = || format!("{}D, round {round}", G::D);
         t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("{}: {v}", context()));
@@ -203,7 +203,7 @@ fn walks_begin_in_a_cell_after_flips() {
         t.move_all(&now).expect("moves");
         flips += t.commit_timestamp().expect("a commit").flips;
         t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("seed {seed}: {v}"));
-        assert_eq!(t.locate(&now[20]), Ok(Location::Vertex(20)), "seed {seed}");
+        assert_eq!(t.locate(&now[20]), Ok(Location::Vertex(vertex(20))), "seed {seed}");
     }
     assert!(flips > 4000, "there were hardly any flips: {flips}");
 }

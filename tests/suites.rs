@@ -4,10 +4,12 @@
 mod common;
 
 use common::files::{Json, npy, text};
-use common::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted};
+use common::{
+    CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted, vertex, vertices,
+};
 use deldrift::Error;
 use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 use spade::Triangulation;
 use std::collections::{BTreeMap, HashSet, VecDeque};
 
@@ -81,10 +83,10 @@ fn ukraine_has_as_many_triangles_as_published() {
     let mut t = build::<Plane>(&points_of::<Plane>(&Json::parse(&json).table()), "ukraine");
     assert_eq!(t.cell_count(), 1711);
     for algorithm in Algorithm::ALL {
-        let home = t.position(0).expect("present");
+        let home = t.position(vertex(0)).expect("present");
         for (place, count) in [([80.0, 220.0], 1713), (home, 1711)] {
             t.set_algorithm(algorithm);
-            t.move_vertices(&[0], &[place]).expect("a move");
+            t.move_vertices(&[vertex(0)], &[place]).expect("a move");
             t.commit_timestamp().expect("a commit");
             assert_eq!(t.cell_count(), count, "{algorithm:?}");
         }
@@ -107,7 +109,8 @@ fn inline_cases_of_other_codes() {
         }
         if let (Some(triangles), Some(Json::Truth(true))) = (case.get("exact_triangles"), case.get("unique"))
         {
-            let ids = |row: &Vec<f64>| sorted(&row.iter().map(|&x| x as u32).collect::<Vec<_>>());
+            let ids =
+                |row: &Vec<f64>| sorted(&row.iter().map(|&x| VertexId::new(x as u32)).collect::<Vec<_>>());
             let expected: CellSet = triangles.table().iter().map(ids).collect();
             assert_same_cells(&cell_set(&t), &expected, || name.to_string());
         }
@@ -153,7 +156,7 @@ fn a_rotated_grid_keeps_its_squares() {
         let t = build::<Plane>(&points, "rotated grid");
         let mut halves = 0;
         for corners in t.cells().expect("room").corners {
-            let [a, b, c] = corners.map(|v| grid[v as usize]);
+            let [a, b, c] = corners.map(|v| grid[v]);
             let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
             halves += usize::from(area == 0.5);
             let is_along_a_side = (0..2).any(|k| [0.0, 7.0].contains(&a[k]) && a[k] == b[k] && a[k] == c[k]);
@@ -195,7 +198,7 @@ fn octahedra_and_cubes() {
 fn one_of_two_points_is_replaced() {
     for removed in [0, 1] {
         let mut t = build::<Plane>(&[[2.0, 3.0], [6.0, 3.0]], "two points");
-        t.remove_vertex(removed).expect("present");
+        t.remove_vertex(VertexId::new(removed)).expect("present");
         t.insert_vertex(&[0.0, 4.0]).expect("an insertion");
         assert_eq!((t.vertex_count(), t.cell_count()), (2, 0));
         t.validate(Level::Delaunay).expect("valid");
@@ -210,7 +213,7 @@ fn cgal_moves<G: Dimension>(name: &str) {
         let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(&[], options).expect("an empty triangulation");
         t.set_algorithm(algorithm.unwrap_or_default());
-        let mut ids: BTreeMap<String, u32> = BTreeMap::new();
+        let mut ids: BTreeMap<String, VertexId> = BTreeMap::new();
         let mut positions: Vec<Option<G::Point>> = Vec::new();
         let mut count = 0;
         for line in operations.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty()) {
@@ -218,7 +221,7 @@ fn cgal_moves<G: Dimension>(name: &str) {
             let (verb, vertex, dimension) = (words[0], words[1], words[2 + G::D]);
             let q = point::<G>(|k| words[2 + k].parse().expect("a coordinate"));
             let context = || format!("{name}, {algorithm:?}: {line}");
-            let mut go = |id: u32| match algorithm {
+            let mut go = |id: VertexId| match algorithm {
                 None => t.relocate_vertex(id, &q),
                 Some(_) => {
                     t.move_vertices(&[id], &[q]).expect("a move");
@@ -234,11 +237,12 @@ fn cgal_moves<G: Dimension>(name: &str) {
                 "move" => {
                     let id = ids[vertex];
                     go(id).unwrap_or_else(|e| panic!("{}: {e}", context()));
-                    positions[id as usize] = Some(q);
+                    positions[id] = Some(q);
                 }
                 "moveblocked" => {
                     let id = ids[vertex];
-                    let there = positions.iter().position(|p| *p == Some(q)).expect("a vertex there") as u32;
+                    let there =
+                        positions.iter().position(|p| *p == Some(q)).map(VertexId::at).expect("a vertex");
                     let expected = Err(Error::Coincident { vertex: id.min(there), other: id.max(there) });
                     assert_eq!(go(id), expected, "{}", context());
                 }
@@ -282,7 +286,7 @@ fn comes_and_goes<G: Dimension>(points: &[G::Point], name: &str) {
         }
     }
     for i in 0..points.len() {
-        t.remove_vertex(i as u32).expect("present");
+        t.remove_vertex(VertexId::at(i)).expect("present");
         positions[i] = None;
         if i % every == 0 {
             t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("{name}: {i} removed: {v}"));
@@ -315,17 +319,17 @@ fn cgal_moves_among_22_places() {
     let places = points_of::<Space>(&Json::parse(&json).get("q22").expect("q22").table());
     let mut t = build::<Space>(&places, "q22");
     let mut positions: Vec<_> = places.iter().copied().map(Some).collect();
-    let mut queue: VecDeque<u32> = (0..places.len() as u32).collect();
+    let mut queue: VecDeque<VertexId> = VertexId::range(0..places.len()).collect();
     for i in 0..100 {
         let v = queue.pop_front().expect("a vertex");
         let q = places[3 * i % places.len()];
         t.relocate_vertex(v, &q).expect("a relocation");
-        let other = (0..).zip(&positions).find(|&(w, p)| w != v && *p == Some(q)).map(|(w, _)| w);
-        positions[v as usize] = Some(q);
+        let other = vertices().zip(&positions).find(|&(w, p)| w != v && *p == Some(q)).map(|(w, _)| w);
+        positions[v] = Some(q);
         if let Some(other) = other {
             assert_eq!(t.coincident_representative(v), Ok(v.min(other)), "move {i}");
             t.remove_vertex(v).expect("present");
-            positions[v as usize] = None;
+            positions[v] = None;
         } else {
             queue.push_back(v);
         }
@@ -365,7 +369,7 @@ fn spade_has_the_same_triangles() {
                 (0..n).map(|_| [scale * rng.unit(), scale * (rng.unit() - 0.5)]).collect();
             let mut peer = spade::DelaunayTriangulation::<spade::Point2<f64>>::new();
             let mut id_of = BTreeMap::new();
-            for (id, &[x, y]) in (0u32..).zip(&points) {
+            for (id, &[x, y]) in vertices().zip(&points) {
                 id_of.insert(peer.insert(spade::Point2::new(x, y)).expect("a fine point").index(), id);
             }
             let ids = |f: spade::handles::FaceHandle<'_, spade::handles::InnerTag, _, _, _, _>| {

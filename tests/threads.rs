@@ -9,7 +9,7 @@ use common::inputs::{KINDS, Kind, draw};
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, point, seeds};
 use deldrift::Error;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
@@ -39,7 +39,7 @@ fn assert_all_same<G: Dimension>(all: &[MovingTriangulation<G>], context: &dyn F
             panic!("{}, {k}: {violation}", context());
         }
         assert_same_cells(&cell_set(t), &expected, || format!("{}, {k}", context()));
-        for v in (0..t.id_count() as u32).filter(|&v| t.is_present(v)) {
+        for v in VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)) {
             assert_eq!(
                 t.coincident_representative(v),
                 all[0].coincident_representative(v),
@@ -135,7 +135,8 @@ fn histories<G: Dimension>(algorithm: Algorithm) {
                 t.move_first(&now).expect("positions in range");
                 t.commit_timestamp().expect("a commit");
                 t.insert_vertex(&extra).expect("a position in range");
-                t.remove_vertex(now.len() as u32 + step as u32).expect("the vertex just inserted");
+                t.remove_vertex(VertexId::new(now.len() as u32 + step as u32))
+                    .expect("the vertex just inserted");
             }
             assert_all_same(&all, &|| format!("{}D, {algorithm:?}, seed {seed}, step {step}", G::D));
         }
@@ -262,7 +263,7 @@ fn cancelled_commits_have_no_effect() {
         t.validate(Level::Delaunay).expect("the triangulation before");
         assert_same_cells(&cell_set(&t), &before, || format!("cancelled at call {last}"));
         for (v, p) in points.iter().enumerate() {
-            assert_eq!(t.position(v as u32), Ok(*p));
+            assert_eq!(t.position(VertexId::at(v)), Ok(*p));
         }
     }
 }

@@ -4,6 +4,7 @@ use super::fence;
 use super::pointers::{self, start_of};
 use super::status::deldrift_status;
 use super::triangulation::{deldrift_triangulation, in_its_dimension};
+use crate::ids::{CellId, VertexId};
 use crate::motion::Changes;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
@@ -56,19 +57,19 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
     fn from(changes: Changes<'_, C>) -> Self {
         Self {
             created_count: changes.created.len(),
-            created: start_of(changes.created),
+            created: start_of(CellId::numbers_of(changes.created)),
             removed_count: changes.removed.len(),
-            removed: start_of(changes.removed),
+            removed: start_of(CellId::numbers_of(changes.removed)),
             removed_vertices: start_of(changes.removed_corners).cast(),
             renumbered_count: changes.renumbered_from.len(),
-            renumbered_from: start_of(changes.renumbered_from),
-            renumbered_to: start_of(changes.renumbered_to),
+            renumbered_from: start_of(CellId::numbers_of(changes.renumbered_from)),
+            renumbered_to: start_of(CellId::numbers_of(changes.renumbered_to)),
             star_count: changes.stars.len(),
-            stars: start_of(changes.stars),
+            stars: start_of(VertexId::numbers_of(changes.stars)),
             hidden_count: changes.hidden.len(),
-            hidden: start_of(changes.hidden),
+            hidden: start_of(VertexId::numbers_of(changes.hidden)),
             shown_count: changes.shown.len(),
-            shown: start_of(changes.shown),
+            shown: start_of(VertexId::numbers_of(changes.shown)),
             reserved: [0; 4],
         }
     }

@@ -8,6 +8,7 @@ use super::status::{Failure, deldrift_status};
 use super::triangulation::{deldrift_triangulation, in_its_dimension, points};
 use crate::delaunay::Dimension;
 use crate::error::Error;
+use crate::ids::VertexId;
 use crate::motion::{CommitReport, MovingTriangulation};
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
@@ -90,7 +91,7 @@ pub unsafe extern "C" fn deldrift_move_vertex(
         fence::change(t, |kernel| {
             in_its_dimension!(kernel, t => {
                 let position = point_for(t, "position", position)?;
-                t.move_vertices(&[vertex], slice::from_ref(position)).map_err(of_one)?;
+                t.move_vertices(&[VertexId::new(vertex)], slice::from_ref(position)).map_err(of_one)?;
             });
             Ok(())
         })
@@ -126,7 +127,8 @@ pub unsafe extern "C" fn deldrift_move_vertices(
                 if vertices.is_null() {
                     t.move_first(positions)?;
                 } else {
-                    t.move_vertices(pointers::array("vertices", vertices, count)?, positions)?;
+                    let vertices = VertexId::of_numbers(pointers::array("vertices", vertices, count)?);
+                    t.move_vertices(vertices, positions)?;
                 }
             });
             Ok(())
@@ -158,7 +160,7 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
             let first_vertex = pointers::output("first_vertex", first_vertex)?;
             first_vertex.write(in_its_dimension!(kernel, t => {
                 let positions = points_for(t, "positions", positions, count)?;
-                t.stage_insertions(positions)?
+                t.stage_insertions(positions)?.get()
             }));
             Ok(())
         })
@@ -183,7 +185,7 @@ pub unsafe extern "C" fn deldrift_stage_removals(
     // SAFETY: the header's conditions on pointers.
     unsafe {
         fence::change(t, |kernel| {
-            let vertices = pointers::array("vertices", vertices, count)?;
+            let vertices = VertexId::of_numbers(pointers::array("vertices", vertices, count)?);
             in_its_dimension!(kernel, t => t.stage_removals(vertices))?;
             Ok(())
         })
@@ -285,9 +287,10 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers; the short way cannot panic.
     unsafe {
+        let id = VertexId::new(vertex);
         let is_done = fence::change_shortly(t, |kernel| {
             in_its_dimension!(kernel, t => {
-                point_for(t, "position", position).is_ok_and(|p| t.relocate_within_tolerance(vertex, p))
+                point_for(t, "position", position).is_ok_and(|p| t.relocate_within_tolerance(id, p))
             })
         });
         if is_done {
@@ -296,7 +299,7 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
         fence::change(t, |kernel| {
             in_its_dimension!(kernel, t => {
                 let position = point_for(t, "position", position)?;
-                t.relocate_vertex(vertex, position)?;
+                t.relocate_vertex(id, position)?;
             });
             Ok(())
         })
@@ -324,7 +327,7 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
             let out_vertex = pointers::output("out_vertex", out_vertex)?;
             out_vertex.write(in_its_dimension!(kernel, t => {
                 let position = point_for(t, "position", position)?;
-                t.insert_vertex(position)?
+                t.insert_vertex(position)?.get()
             }));
             Ok(())
         })
@@ -345,7 +348,7 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
     // SAFETY: the header's conditions on pointers.
     unsafe {
         fence::change(t, |kernel| {
-            in_its_dimension!(kernel, t => t.remove_vertex(vertex))?;
+            in_its_dimension!(kernel, t => t.remove_vertex(VertexId::new(vertex)))?;
             Ok(())
         })
     }
@@ -389,7 +392,7 @@ pub unsafe extern "C" fn deldrift_compact(
                 // Looked at before anything changes.
                 let places = if map.is_null() { &mut [] } else { pointers::buffer("map", map, needed)? };
                 for (place, id) in places.iter_mut().zip(t.compact()?) {
-                    place.write(id);
+                    place.write(id.get());
                 }
                 count.write(needed);
             });

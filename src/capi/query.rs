@@ -7,12 +7,13 @@ use super::state::pointer_for;
 use super::status::{Failure, deldrift_status};
 use super::triangulation::{deldrift_triangulation, dimension_of, in_its_dimension, tell};
 use crate::delaunay::{Dimension, IndexSet};
+use crate::ids::{CellId, VertexId};
 use crate::motion::{CellsView, Level, Location, MovingTriangulation, NO_CELL, cells_at};
 
 /// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
 /// an empty triangulation.
 pub const DELDRIFT_NONE: u32 = u32::MAX;
-const _: () = assert!(DELDRIFT_NONE == NO_CELL);
+const _: () = assert!(DELDRIFT_NONE == NO_CELL.get());
 
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
 /// until the next call that changes the triangulation.
@@ -70,9 +71,9 @@ pub struct deldrift_location {
 impl From<Location> for deldrift_location {
     fn from(location: Location) -> Self {
         let (kind, index) = match location {
-            Location::Vertex(vertex) => (deldrift_location_kind::DELDRIFT_LOCATION_VERTEX, vertex),
-            Location::Cell(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_CELL, cell),
-            Location::Outside(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_OUTSIDE, cell),
+            Location::Vertex(vertex) => (deldrift_location_kind::DELDRIFT_LOCATION_VERTEX, vertex.get()),
+            Location::Cell(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_CELL, cell.get()),
+            Location::Outside(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_OUTSIDE, cell.get()),
             Location::NoCells => (deldrift_location_kind::DELDRIFT_LOCATION_NO_CELLS, DELDRIFT_NONE),
         };
         Self { kind, index }
@@ -84,14 +85,15 @@ const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
 /// A location that a program gives to begin a search at, if its kind has a meaning.
 fn hint(kind: u32, index: u32) -> Option<Location> {
     use deldrift_location_kind::*;
+    let (vertex, cell) = (VertexId::new(index), CellId::new(index));
     [
-        (DELDRIFT_LOCATION_VERTEX, Location::Vertex as fn(u32) -> Location),
-        (DELDRIFT_LOCATION_CELL, Location::Cell),
-        (DELDRIFT_LOCATION_OUTSIDE, Location::Outside),
+        (DELDRIFT_LOCATION_VERTEX, Location::Vertex(vertex)),
+        (DELDRIFT_LOCATION_CELL, Location::Cell(cell)),
+        (DELDRIFT_LOCATION_OUTSIDE, Location::Outside(cell)),
     ]
     .into_iter()
     .find(|&(code, _)| code as u32 == kind)
-    .map(|(_, of)| of(index))
+    .map(|(_, location)| location)
 }
 
 /// The cells, without a copy, to *view.
@@ -169,11 +171,12 @@ pub unsafe extern "C" fn deldrift_star(
     unsafe {
         fence::read(t, |kernel| {
             let mut slots = IndexSet::new();
-            let (index_of, needed) = in_its_dimension!(kernel, t => t.list_star(vertex, &mut slots))?;
+            let (index_of, needed) =
+                in_its_dimension!(kernel, t => t.list_star(VertexId::new(vertex), &mut slots))?;
             copy_out(Room { capacity, count }, needed, &[("cells", cells.cast())], || {
                 let places = pointers::buffer("cells", cells, needed)?;
                 for (place, cell) in places.iter_mut().zip(cells_at(&slots, index_of)) {
-                    place.write(cell);
+                    place.write(cell.get());
                 }
                 Ok(())
             })
@@ -197,7 +200,7 @@ pub unsafe extern "C" fn deldrift_tolerance(
     out: *mut f64,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, out, t => t.tolerance(vertex)?) }
+    unsafe { tell!(t, out, t => t.tolerance(VertexId::new(vertex))?) }
 }
 
 /// The annulus widths of all bi-cells: entry i of the row of a cell, in the order of deldrift_cells, is
@@ -266,7 +269,7 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
                     return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
                 }
                 let delimiter =
-                    t.standard_delimiter(cell, corner)?.ok_or(Failure::HullFacet { cell, corner })?;
+                    t.standard_delimiter(CellId::new(cell), corner)?.ok_or(Failure::HullFacet { cell, corner })?;
                 centre.write(delimiter.centre);
                 radius.write(delimiter.radius);
                 tolerance.write(delimiter.tolerance);
@@ -349,7 +352,7 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
     // SAFETY: the header's conditions on pointers.
     unsafe {
         tell!(t, vertex, t => {
-            t.nearest_vertex(point_for(t, "position", position)?)?.unwrap_or(DELDRIFT_NONE)
+            t.nearest_vertex(point_for(t, "position", position)?)?.map_or(DELDRIFT_NONE, VertexId::get)
         })
     }
 }
@@ -365,7 +368,7 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     representative: *mut u32,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, representative, t => t.coincident_representative(vertex)?) }
+    unsafe { tell!(t, representative, t => t.coincident_representative(VertexId::new(vertex))?.get()) }
 }
 
 /// The cells of now that did not exist before the latest commit, to *view, as indices into
@@ -381,7 +384,7 @@ pub unsafe extern "C" fn deldrift_changed_cells(
     // SAFETY: the header's conditions on pointers.
     unsafe {
         tell!(t, view, t => {
-            let changed = t.changed_cells()?;
+            let changed = CellId::numbers_of(t.changed_cells()?);
             deldrift_indices_view { count: changed.len(), indices: start_of(changed) }
         })
     }
@@ -412,6 +415,7 @@ pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, lev
 
 fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_cells_view, Failure> {
     let CellsView { corners, neighbours } = t.cells()?;
+    // A row of ids is a row of their numbers.
     Ok(deldrift_cells_view {
         count: corners.len(),
         corners_per_cell: G::D as u32 + 1,

@@ -6,6 +6,7 @@ use super::pointers::{self, Room, copy_out};
 use super::status::deldrift_status;
 use super::triangulation::{deldrift_triangulation, in_its_dimension, tell};
 use crate::delaunay::Dimension;
+use crate::ids::VertexId;
 use crate::motion::MovingTriangulation;
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
@@ -105,7 +106,7 @@ pub unsafe extern "C" fn deldrift_is_present(
     present: *mut bool,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, present, t => t.is_present(vertex)) }
+    unsafe { tell!(t, present, t => t.is_present(VertexId::new(vertex))) }
 }
 
 /// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
@@ -122,7 +123,7 @@ pub unsafe extern "C" fn deldrift_position(
         fence::read(t, |kernel| {
             in_its_dimension!(kernel, t => {
                 let place = pointers::output("position", pointer_for(t, position))?;
-                place.write(t.position(vertex)?);
+                place.write(t.position(VertexId::new(vertex))?);
             });
             Ok(())
         })
@@ -149,7 +150,7 @@ pub unsafe extern "C" fn deldrift_copy_positions(
                 let (positions, needed) = (pointer_for(t, positions), t.id_count());
                 copy_out(Room { capacity, count }, needed, &[("positions", positions.cast())], || {
                     let places = pointers::buffer("positions", positions, needed)?;
-                    for (vertex, place) in (0..).zip(places) {
+                    for (vertex, place) in VertexId::range(0..needed).zip(places) {
                         place.write(position_or_nan(t, vertex));
                     }
                     Ok(())
@@ -165,7 +166,7 @@ pub(super) fn pointer_for<G: Dimension>(_t: &MovingTriangulation<G>, positions: 
 }
 
 /// The position of a vertex, NaN if it has been removed.
-fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: u32) -> G::Point {
+fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: VertexId) -> G::Point {
     t.position(vertex).unwrap_or_else(|_| {
         let mut nowhere = G::Point::default();
         (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);

@@ -2,23 +2,22 @@
 
 use std::fmt;
 
-use super::{Corners, INFINITE, NONE};
+use super::{Corners, INFINITE};
+use crate::ids::{SiteId, Slot};
 
 /// A facet as seen from one of its two cells: the cell, and the index of the corner opposite the facet.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Facet(pub(super) u32);
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct Facet(u32);
 
 impl Facet {
+    /// No facet.
+    pub const NONE: Self = Facet(u32::MAX);
+
     /// The facet of `cell` opposite corner `i`.
     #[inline(always)]
-    pub fn new(cell: u32, i: usize) -> Self {
-        Facet(cell << 2 | i as u32)
-    }
-
-    /// The facet of which [`code`](Self::code) is the number.
-    #[inline(always)]
-    pub fn from_code(code: u32) -> Self {
-        Facet(code)
+    pub const fn new(cell: Slot, i: usize) -> Self {
+        Facet(cell.get() << 2 | i as u32)
     }
 
     /// One number for cell and index.
@@ -29,8 +28,8 @@ impl Facet {
 
     /// The cell.
     #[inline(always)]
-    pub fn cell(self) -> u32 {
-        self.0 >> 2
+    pub fn cell(self) -> Slot {
+        Slot::new(self.0 >> 2)
     }
 
     /// The index of the opposite corner.
@@ -53,20 +52,24 @@ pub struct Cell<C: Corners> {
     pub(super) alignment: [C::Alignment; 0],
     /// Sites at the corners.
     pub corners: C,
-    /// Codes of the neighbours' facets.
-    pub(super) neighbours: C,
+    /// The facets seen from the neighbours.
+    pub(super) neighbours: C::Of<Facet>,
 }
 
 impl<C: Corners> Cell<C> {
     /// No cell.
     pub(super) fn free() -> Self {
-        Cell { alignment: [], corners: C::filled(NONE), neighbours: C::filled(NONE) }
+        Cell {
+            alignment: [],
+            corners: C::filled(SiteId::NONE),
+            neighbours: C::Of::<Facet>::filled(Facet::NONE),
+        }
     }
 
     /// Whether it is no cell.
     #[inline(always)]
     pub(crate) fn is_free(&self) -> bool {
-        self.corners[0] == NONE
+        self.corners[0] == SiteId::NONE
     }
 
     /// Whether the last corner is the ghost vertex.
@@ -78,12 +81,12 @@ impl<C: Corners> Cell<C> {
     /// The facet opposite corner `i`, seen from the neighbour.
     #[inline(always)]
     pub fn neighbour(&self, i: usize) -> Facet {
-        Facet(self.neighbours[i])
+        self.neighbours[i]
     }
 
     /// Index of a corner that the cell is known to have.
     #[inline(always)]
-    pub fn index_of(&self, site: u32) -> usize {
+    pub fn index_of(&self, site: SiteId) -> usize {
         let mut at = 0;
         for i in 1..C::N {
             if self.corners[i] == site {

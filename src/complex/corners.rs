@@ -4,31 +4,30 @@ use std::fmt::Debug;
 use std::hash::Hash;
 use std::ops::{Index, IndexMut};
 
-/// An array of `D + 1` numbers: the corners of a cell, or what lies opposite each of them.
-pub trait Corners:
-    Copy
-    + Debug
-    + Eq
-    + Hash
-    + Ord
-    + Index<usize, Output = u32>
-    + IndexMut<usize>
-    + AsRef<[u32]>
-    + AsMut<[u32]>
-    + Send
-    + Sync
-    + 'static
+use crate::ids::SiteId;
+
+/// What such an array holds.
+pub trait Entry: Copy + Debug + Eq + Hash + Ord + Send + Sync + 'static {}
+
+impl<T: Copy + Debug + Eq + Hash + Ord + Send + Sync + 'static> Entry for T {}
+
+/// An array of `D + 1` entries: the corners of a cell, or what lies opposite each of them.
+pub trait Corners<T: Entry = SiteId>:
+    Entry + Index<usize, Output = T> + IndexMut<usize> + AsRef<[T]> + AsMut<[T]>
 {
     /// `D + 1`.
     const N: usize;
     /// What makes a cell start where it does not straddle cache lines.
     type Alignment: Copy + Debug + Send + Sync;
+    /// The array of as many other entries.
+    type Of<U: Entry>: Corners<U>;
+
     /// The array with `x` everywhere.
-    fn filled(x: u32) -> Self;
+    fn filled(x: T) -> Self;
 
     /// The array with `x` at index `i`.
     #[inline(always)]
-    fn with(mut self, i: usize, x: u32) -> Self {
+    fn with(mut self, i: usize, x: T) -> Self {
         self[i] = x;
         self
     }
@@ -45,12 +44,13 @@ pub trait Corners:
 #[repr(align(32))]
 pub struct Align32;
 
-impl Corners for [u32; 3] {
+impl<T: Entry> Corners<T> for [T; 3] {
     const N: usize = 3;
     type Alignment = u32;
+    type Of<U: Entry> = [U; 3];
 
     #[inline(always)]
-    fn filled(x: u32) -> Self {
+    fn filled(x: T) -> Self {
         [x; 3]
     }
 
@@ -64,12 +64,13 @@ impl Corners for [u32; 3] {
     }
 }
 
-impl Corners for [u32; 4] {
+impl<T: Entry> Corners<T> for [T; 4] {
     const N: usize = 4;
     type Alignment = Align32;
+    type Of<U: Entry> = [U; 4];
 
     #[inline(always)]
-    fn filled(x: u32) -> Self {
+    fn filled(x: T) -> Self {
         [x; 4]
     }
 

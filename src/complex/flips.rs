@@ -13,8 +13,9 @@
 //! and a 3-2 flip the other way round. A 4-4 flip is both in a row, by way of a cell whose corners are in one plane: it
 //! changes the diagonal of a quadrilateral that has two cells on each side, which on one side may be ghosts.
 
-use super::{Cell, Complex, Corners, Facet, NONE, Row};
+use super::{Cell, Complex, Corners, Facet, Row};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::threads;
 use std::sync::Mutex;
@@ -36,28 +37,28 @@ pub enum Obstacle {
 /// four cells and the neighbours' side of their gluings; it is done only if all of these are of the range.
 #[derive(Debug)]
 pub struct CellRange<'c, C: Corners> {
-    /// Index of the first one.
-    first: u32,
+    /// Slot of the first one.
+    first: Slot,
     cells: &'c mut [Cell<C>],
     /// Those of them that are free.
-    free: &'c mut Vec<u32>,
+    free: &'c mut Vec<Slot>,
 }
 
 impl<C: Corners> Complex<C> {
     /// All cells.
     pub(crate) fn whole(&mut self) -> CellRange<'_, C> {
-        CellRange { first: 0, cells: &mut self.cells, free: &mut self.free }
+        CellRange { first: Slot::new(0), cells: &mut self.cells, free: &mut self.free }
     }
 
     /// Works on the ranges that begin at these cells, the first of them cell 0, each on a thread of its own and with
     /// its own one of `parts`. After an error the list of free cells [has to be restored](Self::restore_free).
     pub(crate) fn divided<P: Send>(
         &mut self,
-        starts: &[u32],
+        starts: &[Slot],
         parts: &mut [P],
         work: impl Fn(usize, &mut CellRange<C>, &mut P) + Sync,
     ) -> Result<()> {
-        let (mut free, mut all) = (Vec::<Vec<u32>>::new(), Vec::new());
+        let (mut free, mut all) = (Vec::<Vec<Slot>>::new(), Vec::new());
         memory::reserve_exact(&mut free, starts.len())?;
         memory::reserve_exact(&mut all, starts.len())?;
         free.resize_with(starts.len(), Vec::new);
@@ -67,7 +68,7 @@ impl<C: Corners> Complex<C> {
         self.free.clear();
         let mut rest = &mut self.cells[..];
         for (k, (free, part)) in free.iter_mut().zip(parts).enumerate() {
-            let n = starts.get(k + 1).map_or(rest.len(), |&end| (end - starts[k]) as usize);
+            let n = starts.get(k + 1).map_or(rest.len(), |end| end.index() - starts[k].index());
             let cells;
             (cells, rest) = rest.split_at_mut(n);
             all.push(Mutex::new((CellRange { first: starts[k], cells, free }, part)));
@@ -90,58 +91,64 @@ impl<C: Corners> Complex<C> {
         let first = self.cells.len();
         self.cells.resize(first + n, Cell::free());
         self.marks.resize(first + n, 0);
-        self.free.splice(0..0, first as u32..(first + n) as u32);
+        self.free.splice(0..0, Slot::range(first..first + n));
         Ok(())
     }
 
-    /// Indices of the free cells.
-    pub(crate) fn free_cells(&self) -> &[u32] {
+    /// The free slots.
+    pub(crate) fn free_cells(&self) -> &[Slot] {
         &self.free
     }
 }
 
 impl<C: Corners> CellRange<'_, C> {
+    /// Position in the range; beyond its end for a cell that is not of it.
+    #[inline(always)]
+    fn position(&self, cell: Slot) -> usize {
+        cell.get().wrapping_sub(self.first.get()) as usize
+    }
+
     /// A cell of the range.
     #[inline(always)]
-    pub(crate) fn cell(&self, cell: u32) -> Result<&Cell<C>, Obstacle> {
-        self.cells.get(cell.wrapping_sub(self.first) as usize).ok_or(Obstacle::Elsewhere)
+    pub(crate) fn cell(&self, cell: Slot) -> Result<&Cell<C>, Obstacle> {
+        self.cells.get(self.position(cell)).ok_or(Obstacle::Elsewhere)
     }
 
     /// The corner opposite a facet of a cell of the range.
     #[inline(always)]
-    pub(crate) fn apex(&self, facet: Facet) -> Result<u32, Obstacle> {
+    pub(crate) fn apex(&self, facet: Facet) -> Result<SiteId, Obstacle> {
         Ok(self.cell(facet.cell())?.corners[facet.index()])
     }
 
     #[inline(always)]
-    fn cell_mut(&mut self, cell: u32) -> &mut Cell<C> {
-        &mut self.cells[cell.wrapping_sub(self.first) as usize]
+    fn cell_mut(&mut self, cell: Slot) -> &mut Cell<C> {
+        let at = self.position(cell);
+        &mut self.cells[at]
     }
 
     /// An error if one of these cells is not of the range.
     #[inline(always)]
-    fn has_cells_of(&self, codes: &[u32]) -> Result<(), Obstacle> {
-        let has = |&code: &u32| (Facet(code).cell().wrapping_sub(self.first) as usize) < self.cells.len();
-        if codes.iter().all(has) { Ok(()) } else { Err(Obstacle::Elsewhere) }
+    fn has_cells_of(&self, facets: &[Facet]) -> Result<(), Obstacle> {
+        let has = |facet: &Facet| self.position(facet.cell()) < self.cells.len();
+        if facets.iter().all(has) { Ok(()) } else { Err(Obstacle::Elsewhere) }
     }
 
     /// Puts a cell, and both sides of all gluings.
     #[inline(always)]
-    fn put_whole(&mut self, cell: u32, corners: C, neighbours: C) {
+    fn put_whole(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
         *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
-        for (i, &code) in neighbours.as_ref().iter().enumerate() {
-            let out = Facet(code);
-            self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, i).0;
+        for (i, out) in neighbours.as_ref().iter().enumerate() {
+            self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, i);
         }
     }
 }
 
 /// What a flip in the plane has put there, and the rows before.
-type Swapped = ([Facet; 4], [Row<[u32; 3]>; 2]);
+type Swapped = ([Facet; 4], [Row<[SiteId; 3]>; 2]);
 
-impl CellRange<'_, [u32; 3]> {
+impl CellRange<'_, [SiteId; 3]> {
     /// Replaces the edge between two finite cells by the one between its opposing vertices, and returns the edges on
-    /// the boundary of both; the two cells keep their indices. With `p` at index `i` of `facet`'s cell `c`, then `b`,
+    /// the boundary of both; the two cells keep their slots. With `p` at index `i` of `facet`'s cell `c`, then `b`,
     /// then `a`, and `q` across: `c` becomes `p b q` and its neighbour `q a p`.
     pub(crate) fn flip_2_2(&mut self, facet: Facet) -> Result<Swapped, Obstacle> {
         let (c, i) = (facet.cell(), facet.index());
@@ -156,8 +163,8 @@ impl CellRange<'_, [u32; 3]> {
         self.has_cells_of(&[beyond_bq, beyond_ap])?;
         self.cell_mut(c).corners[next(next(i))] = q;
         self.cell_mut(d).corners[next(next(j))] = p;
-        self.glue(Facet::new(c, i), Facet(beyond_bq));
-        self.glue(Facet::new(d, j), Facet(beyond_ap));
+        self.glue(Facet::new(c, i), beyond_bq);
+        self.glue(Facet::new(d, j), beyond_ap);
         self.glue(Facet::new(c, next(i)), Facet::new(d, next(j)));
         let outer =
             [(c, i), (c, next(next(i))), (d, j), (d, next(next(j)))].map(|(cell, k)| Facet::new(cell, k));
@@ -167,20 +174,20 @@ impl CellRange<'_, [u32; 3]> {
     /// Glues two facets.
     #[inline(always)]
     fn glue(&mut self, a: Facet, b: Facet) {
-        self.cell_mut(a.cell()).neighbours[a.index()] = b.0;
-        self.cell_mut(b.cell()).neighbours[b.index()] = a.0;
+        self.cell_mut(a.cell()).neighbours[a.index()] = b;
+        self.cell_mut(b.cell()).neighbours[b.index()] = a;
     }
 }
 
 /// What a flip in space has changed: three slots as they were before, of which the last may have been free.
-pub(crate) type Undo = [Row<[u32; 4]>; 3];
+pub(crate) type Undo = [Row<[SiteId; 4]>; 3];
 
 /// The rows of cells.
-fn rows<C: Corners>(cells: [(u32, Cell<C>); 3]) -> [Row<C>; 3] {
+fn rows<C: Corners>(cells: [(Slot, Cell<C>); 3]) -> [Row<C>; 3] {
     cells.map(|(slot, cell)| Row::of(slot, &cell))
 }
 
-impl CellRange<'_, [u32; 4]> {
+impl CellRange<'_, [SiteId; 4]> {
     /// Replaces the two finite cells of a facet by three around the edge between their opposing
     /// vertices, and returns the facets on the boundary of both. The caller knows that the exchange is
     /// geometrically valid.
@@ -198,10 +205,9 @@ impl CellRange<'_, [u32; 4]> {
         let [dx, dy, dz] = [x, y, z].map(|s| beyond.neighbours[beyond.index_of(s)]);
         self.has_cells_of(&[cx, cy, cz, dx, dy, dz])?;
         let e = self.free.pop().ok_or(Obstacle::Full)?;
-        let code = |cell, i| Facet::new(cell, i).0;
-        self.put_whole(c, [p, q, y, z], [dx, cx, code(d, 1), code(e, 1)]);
-        self.put_whole(d, [p, x, q, z], [dy, code(c, 2), cy, code(e, 2)]);
-        self.put_whole(e, [p, x, y, q], [dz, code(c, 3), code(d, 3), cz]);
+        self.put_whole(c, [p, q, y, z], [dx, cx, Facet::new(d, 1), Facet::new(e, 1)]);
+        self.put_whole(d, [p, x, q, z], [dy, Facet::new(c, 2), cy, Facet::new(e, 2)]);
+        self.put_whole(e, [p, x, y, q], [dz, Facet::new(c, 3), Facet::new(d, 3), cz]);
         let outer = [(c, 0), (c, 1), (d, 0), (d, 2), (e, 0), (e, 3)].map(|(cell, i)| Facet::new(cell, i));
         Ok((outer, rows([(c, old), (d, beyond), (e, Cell::free())])))
     }
@@ -231,9 +237,9 @@ impl CellRange<'_, [u32; 4]> {
         self.has_cells_of(&[cl, cm, dl, dm, el, em])?;
         memory::reserve(self.free, 1).map_err(|_| Obstacle::Memory)?;
         // q is last, as it may be the ghost vertex.
-        self.put_whole(c, [p, k, l, q], [dm, em, Facet::new(d, 2).0, cm]);
-        self.put_whole(d, [k, p, m, q], [el, dl, Facet::new(c, 2).0, cl]);
-        self.cell_mut(e).corners = [NONE; 4];
+        self.put_whole(c, [p, k, l, q], [dm, em, Facet::new(d, 2), cm]);
+        self.put_whole(d, [k, p, m, q], [el, dl, Facet::new(c, 2), cl]);
+        self.cell_mut(e).corners = [SiteId::NONE; 4];
         self.free.push(e);
         let outer = [(c, 0), (c, 1), (c, 3), (d, 0), (d, 1), (d, 3)].map(|(cell, i)| Facet::new(cell, i));
         Ok((outer, rows([(c, old), (d, beyond), (e, behind)])))
@@ -243,7 +249,7 @@ impl CellRange<'_, [u32; 4]> {
 /// What two flips in a row have put there.
 type Both = [([Facet; 6], Undo); 2];
 
-impl CellRange<'_, [u32; 4]> {
+impl CellRange<'_, [SiteId; 4]> {
     /// Replaces the edge opposite the corners `k` and that of `facet` in the cell of `facet`, with the four cells
     /// around it, by the edge between the opposing vertices of `facet`, and returns what both flips do. The caller
     /// knows that the corners of both edges are in one plane, where the edges cross. No change if the edge has not
@@ -295,7 +301,7 @@ impl<C: Corners> Complex<C> {
 
     /// Goes back to where there were this number of cells, with these free ones, after the cells have been
     /// [put back](Self::put_back_all).
-    pub(crate) fn restore_free(&mut self, n_slots: usize, free: &[u32]) {
+    pub(crate) fn restore_free(&mut self, n_slots: usize, free: &[Slot]) {
         self.cells.truncate(n_slots);
         self.marks.truncate(n_slots);
         self.free.clear();

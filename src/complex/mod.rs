@@ -3,6 +3,8 @@
 //! A complex is a closed pseudo-manifold: the *ghost* (infinite) vertex [`INFINITE`] completes the convex
 //! hull, so that every facet has exactly two cells. A *ghost cell* has the ghost vertex as its last corner.
 //!
+//! A cell is named by its [`Slot`].
+//!
 //! Invariants, for every live cell `c` and index `i`:
 //! - neighbours are mutual: if `neighbour(c, i)` is facet `j` of `d`, then
 //!   `neighbour(d, j)` is facet `i` of `c`;
@@ -12,8 +14,8 @@
 //! A neighbour is stored with the index of the shared facet seen from the other side, in the two low bits:
 //! crossing a facet costs no search. That bounds the number of cells by [`MAX_CELLS`].
 //!
-//! Methods that take a cell's index are for this crate alone and do not check it (checks cost 5 % of a 3D
-//! build): by the invariants, an index read from a live cell is that of a live cell.
+//! Methods that take a cell's slot are for this crate alone and do not check it (checks cost 5 % of a 3D
+//! build): by the invariants, a slot read from a live cell is that of a live cell.
 
 #![allow(unsafe_code)]
 
@@ -23,25 +25,24 @@ mod flips;
 mod record;
 
 pub use cell::{Cell, Facet};
-pub use corners::Corners;
+pub use corners::{Corners, Entry};
 pub use flips::{CellRange, Obstacle};
 pub use record::Row;
 
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use record::Record;
 
 /// The ghost vertex: index 0 of the sites.
-pub const INFINITE: u32 = 0;
-/// No cell, no site.
-pub const NONE: u32 = u32::MAX;
+pub const INFINITE: SiteId = SiteId::new(0);
 /// Greatest number of cells: a little below 2^30, so that codes are left to name cells in the making.
 pub const MAX_CELLS: usize = (1 << 30) - 4096;
 
-/// The free indices among those of `n_live` sorted cells: one after every `gap_after` of them.
-fn gaps(n_live: usize, gap_after: usize) -> impl Iterator<Item = u32> {
-    (1..=n_live / gap_after).map(move |k| (k * (gap_after + 1) - 1) as u32)
+/// The free slots among those of `n_live` sorted cells: one after every `gap_after` of them.
+fn gaps(n_live: usize, gap_after: usize) -> impl Iterator<Item = Slot> {
+    (1..=n_live / gap_after).map(move |k| Slot::at(k * (gap_after + 1) - 1))
 }
 
 /// A set of cells, glued along facets.
@@ -50,7 +51,7 @@ pub struct Complex<C: Corners> {
     cells: Vec<Cell<C>>,
     /// One byte per cell for the traversals of the layers above; 0 between them.
     marks: Vec<u8>,
-    free: Vec<u32>,
+    free: Vec<Slot>,
     n_ghosts: usize,
     record: Record<C>,
 }
@@ -87,7 +88,7 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts
     }
 
-    /// One above the highest index of a cell.
+    /// One above the highest slot of a cell.
     pub fn n_slots(&self) -> usize {
         self.cells.len()
     }
@@ -97,41 +98,41 @@ impl<C: Corners> Complex<C> {
         self.cells.capacity()
     }
 
-    /// The cell of an index below [`n_slots`](Self::n_slots).
+    /// The cell of a slot below [`n_slots`](Self::n_slots).
     #[inline(always)]
-    pub(crate) fn cell(&self, cell: u32) -> &Cell<C> {
-        debug_assert!((cell as usize) < self.cells.len());
-        // SAFETY: the index is that of a cell (module's documentation).
-        unsafe { self.cells.get_unchecked(cell as usize) }
+    pub(crate) fn cell(&self, cell: Slot) -> &Cell<C> {
+        debug_assert!(cell.index() < self.cells.len());
+        // SAFETY: the slot is that of a cell (module's documentation).
+        unsafe { self.cells.get_unchecked(cell.index()) }
     }
 
-    /// All cells by index, free ones included.
+    /// All cells by slot, free ones included.
     pub(crate) fn cells(&self) -> &[Cell<C>] {
         &self.cells
     }
 
     /// The corner of a facet's cell that is opposite the facet.
     #[inline(always)]
-    pub(crate) fn apex(&self, facet: Facet) -> u32 {
-        debug_assert!((facet.cell() as usize) < self.cells.len() && facet.index() < C::N);
+    pub(crate) fn apex(&self, facet: Facet) -> SiteId {
+        debug_assert!(facet.cell().index() < self.cells.len() && facet.index() < C::N);
         // In fewer operations than by cell and index.
-        let at = facet.code() as usize + 2 * (C::N - 2) * facet.cell() as usize;
+        let at = facet.code() as usize + 2 * (C::N - 2) * facet.cell().index();
         // SAFETY: a cell is 2 N numbers, its corners and then its neighbours; this is number `index` of a cell
         // that there is.
-        unsafe { *self.cells.as_ptr().cast::<u32>().add(at) }
+        unsafe { *self.cells.as_ptr().cast::<SiteId>().add(at) }
     }
 
     /// Asks for a cell.
     #[inline(always)]
-    pub(crate) fn prefetch(&self, cell: u32) {
-        prefetch(&self.cells, cell as usize);
+    pub(crate) fn prefetch(&self, cell: Slot) {
+        prefetch(&self.cells, cell.index());
     }
 
     /// Asks for the neighbours of a cell, which may be free.
     #[inline(always)]
-    pub(crate) fn prefetch_neighbours(&self, cell: u32) {
+    pub(crate) fn prefetch_neighbours(&self, cell: Slot) {
         for i in 0..C::N {
-            prefetch(&self.cells, self.cell(cell).neighbour(i).cell() as usize);
+            prefetch(&self.cells, self.cell(cell).neighbour(i).cell().index());
         }
     }
 
@@ -139,52 +140,52 @@ impl<C: Corners> Complex<C> {
     #[inline(always)]
     pub(crate) fn prefetch_marks(&self, cell: &Cell<C>) {
         for i in 0..C::N {
-            prefetch(&self.marks, cell.neighbour(i).cell() as usize);
+            prefetch(&self.marks, cell.neighbour(i).cell().index());
         }
     }
 
     #[inline(always)]
-    fn cell_mut(&mut self, cell: u32) -> &mut Cell<C> {
-        debug_assert!((cell as usize) < self.cells.len());
-        // SAFETY: the index is that of a cell (module's documentation).
-        unsafe { self.cells.get_unchecked_mut(cell as usize) }
+    fn cell_mut(&mut self, cell: Slot) -> &mut Cell<C> {
+        debug_assert!(cell.index() < self.cells.len());
+        // SAFETY: the slot is that of a cell (module's documentation).
+        unsafe { self.cells.get_unchecked_mut(cell.index()) }
     }
 
-    /// Whether the index has no cell at present.
+    /// Whether the slot has no cell at present.
     #[inline(always)]
-    pub(crate) fn is_free(&self, cell: u32) -> bool {
+    pub(crate) fn is_free(&self, cell: Slot) -> bool {
         self.cell(cell).is_free()
     }
 
-    /// Whether there is a cell of this index.
-    pub fn is_live(&self, cell: u32) -> bool {
-        (cell as usize) < self.cells.len() && !self.is_free(cell)
+    /// Whether there is a cell in this slot.
+    pub fn is_live(&self, cell: Slot) -> bool {
+        cell.index() < self.cells.len() && !self.is_free(cell)
     }
 
-    /// Indices of all cells, ghost cells included.
-    pub fn live(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..self.cells.len() as u32).filter(|&c| !self.is_free(c))
+    /// Slots of all cells, ghost cells included.
+    pub fn live(&self) -> impl Iterator<Item = Slot> + '_ {
+        Slot::range(0..self.cells.len()).filter(|&c| !self.is_free(c))
     }
 
-    /// Indices of the cells that are not ghosts.
-    pub fn finite(&self) -> impl Iterator<Item = u32> + '_ {
+    /// Slots of the cells that are not ghosts.
+    pub fn finite(&self) -> impl Iterator<Item = Slot> + '_ {
         self.live().filter(|&c| !self.cell(c).is_ghost())
     }
 
     /// Mark of a cell.
     #[inline(always)]
-    pub(crate) fn mark(&self, cell: u32) -> u8 {
-        debug_assert!((cell as usize) < self.marks.len());
+    pub(crate) fn mark(&self, cell: Slot) -> u8 {
+        debug_assert!(cell.index() < self.marks.len());
         // SAFETY: there is a mark for each cell.
-        unsafe { *self.marks.get_unchecked(cell as usize) }
+        unsafe { *self.marks.get_unchecked(cell.index()) }
     }
 
     /// Marks a cell.
     #[inline(always)]
-    pub(crate) fn set_mark(&mut self, cell: u32, mark: u8) {
-        debug_assert!((cell as usize) < self.marks.len());
+    pub(crate) fn set_mark(&mut self, cell: Slot, mark: u8) {
+        debug_assert!(cell.index() < self.marks.len());
         // SAFETY: there is a mark for each cell.
-        unsafe { *self.marks.get_unchecked_mut(cell as usize) = mark }
+        unsafe { *self.marks.get_unchecked_mut(cell.index()) = mark }
     }
 
     /// Makes sure that `n` more cells can be created without a failure.
@@ -228,17 +229,17 @@ impl<C: Corners> Complex<C> {
 
     /// Creates a cell that has no neighbours yet.
     #[inline(always)]
-    pub(crate) fn create(&mut self, corners: C) -> u32 {
+    pub(crate) fn create(&mut self, corners: C) -> Slot {
         let cell = self.create_blank();
         self.put(cell, corners);
         cell
     }
 
-    /// An index for a cell that is [put](Self::put) there next.
+    /// A slot for a cell that is [put](Self::put) there next.
     #[inline(always)]
-    pub(crate) fn create_blank(&mut self) -> u32 {
+    pub(crate) fn create_blank(&mut self) -> Slot {
         let cell = self.free.pop().unwrap_or_else(|| {
-            let cell = self.cells.len() as u32;
+            let cell = Slot::at(self.cells.len());
             self.cells.push(Cell::free());
             self.marks.push(0);
             cell
@@ -250,7 +251,7 @@ impl<C: Corners> Complex<C> {
     /// Puts new corners where a cell is free or to be replaced; its mark is cleared, its neighbours are not.
     /// The caller has [retired](Self::retire) the old one.
     #[inline(always)]
-    pub(crate) fn put(&mut self, cell: u32, corners: C) {
+    pub(crate) fn put(&mut self, cell: Slot, corners: C) {
         self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
         self.cell_mut(cell).corners = corners;
         self.set_mark(cell, 0);
@@ -259,17 +260,17 @@ impl<C: Corners> Complex<C> {
     /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to
     /// set, except for the facet opposite corner 0.
     #[inline(always)]
-    pub(crate) fn put_glued(&mut self, cell: u32, corners: C, neighbours: C) {
+    pub(crate) fn put_glued(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
         self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
         *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
         self.set_mark(cell, 0);
-        let out = Facet(neighbours[0]);
-        self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, 0).0;
+        let out = neighbours[0];
+        self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, 0);
     }
 
     /// Takes a cell out of the count of ghosts before [`put`](Self::put) or [`release`](Self::release).
     #[inline(always)]
-    pub(crate) fn retire(&mut self, cell: u32) {
+    pub(crate) fn retire(&mut self, cell: Slot) {
         self.n_ghosts -= self.cell(cell).is_ghost() as usize;
     }
 
@@ -279,10 +280,10 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts -= n;
     }
 
-    /// Frees the index of a retired cell; there must be [room](Self::reserve_free) for it.
+    /// Frees the slot of a retired cell; there must be [room](Self::reserve_free) for it.
     #[inline(always)]
-    pub(crate) fn release(&mut self, cell: u32) {
-        self.cell_mut(cell).corners = C::filled(NONE);
+    pub(crate) fn release(&mut self, cell: Slot) {
+        self.cell_mut(cell).corners = C::filled(SiteId::NONE);
         self.set_mark(cell, 0);
         self.free.push(cell);
     }
@@ -290,15 +291,15 @@ impl<C: Corners> Complex<C> {
     /// Glues two facets.
     #[inline(always)]
     pub(crate) fn glue(&mut self, a: Facet, b: Facet) {
-        self.cell_mut(a.cell()).neighbours[a.index()] = b.0;
-        self.cell_mut(b.cell()).neighbours[b.index()] = a.0;
+        self.cell_mut(a.cell()).neighbours[a.index()] = b;
+        self.cell_mut(b.cell()).neighbours[b.index()] = a;
     }
 
     /// Creates a single cell and the ghost cells around it.
     pub(crate) fn start(&mut self, corners: C) -> Result<()> {
         self.reserve(C::N + 1)?;
         let last = C::N - 1;
-        let mut cells = [NONE; 5];
+        let mut cells = [Slot::NONE; 5];
         cells[0] = self.create(corners);
         for i in 0..C::N {
             let mut ghost = corners.with(i, INFINITE);
@@ -312,7 +313,7 @@ impl<C: Corners> Complex<C> {
         for k in 0..=C::N {
             let a = cells[k];
             for &b in &cells[..k] {
-                let differs = |x: u32, y: u32| {
+                let differs = |x: Slot, y: Slot| {
                     (0..C::N).find(|&i| !self.cell(y).corners.as_ref().contains(&self.cell(x).corners[i]))
                 };
                 let (i, j) = (differs(a, b).expect("distinct cells"), differs(b, a).expect("distinct cells"));
@@ -323,8 +324,8 @@ impl<C: Corners> Complex<C> {
     }
 
     /// Puts the cells in the order of the lowest of their corners, of which there are less than `n_sites`, and a free
-    /// one after every `gap_after` of them; returns the new index of each.
-    pub(crate) fn sort(&mut self, n_sites: usize, gap_after: usize) -> Result<Vec<u32>> {
+    /// one after every `gap_after` of them; returns the new slot of each.
+    pub(crate) fn sort(&mut self, n_sites: usize, gap_after: usize) -> Result<Vec<Slot>> {
         debug_assert!(!self.is_recording() || self.rows().is_empty(), "rows are named by slot");
         let (sorted, index) = self.sorted(n_sites, gap_after, |s| s)?;
         let n_live = self.cells.len() - self.free.len();
@@ -341,14 +342,14 @@ impl<C: Corners> Complex<C> {
     }
 
     /// A copy in that order, without memory for cells that are gone, in which the sites have other `names`, all below
-    /// `n_sites`; and the new index of each cell, [`NONE`] for free ones.
+    /// `n_sites`; and the new slot of each cell, [`Slot::NONE`] for free ones.
     pub(crate) fn compacted(
         &self,
         n_sites: usize,
         gap_after: usize,
-        names: &[u32],
-    ) -> Result<(Self, Vec<u32>)> {
-        let (cells, index) = self.sorted(n_sites, gap_after, |s| names[s as usize])?;
+        names: &[SiteId],
+    ) -> Result<(Self, Vec<Slot>)> {
+        let (cells, index) = self.sorted(n_sites, gap_after, |s| names[s])?;
         let (mut marks, mut free) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut marks, cells.capacity())?;
         marks.resize(cells.len(), 0);
@@ -358,15 +359,16 @@ impl<C: Corners> Complex<C> {
         Ok((Complex { cells, marks, free, n_ghosts: self.n_ghosts, record: Record::default() }, index))
     }
 
-    /// The cells in the order of [`sort`](Self::sort), by new names of the sites, and the new index of each.
+    /// The cells in the order of [`sort`](Self::sort), by new names of the sites, and the new slot of each.
     fn sorted(
         &self,
         n_sites: usize,
         gap_after: usize,
-        name: impl Fn(u32) -> u32,
-    ) -> Result<(Vec<Cell<C>>, Vec<u32>)> {
-        let lowest =
-            |cell: &Cell<C>| cell.corners.as_ref().iter().map(|&s| name(s)).fold(NONE, u32::min) as usize;
+        name: impl Fn(SiteId) -> SiteId,
+    ) -> Result<(Vec<Cell<C>>, Vec<Slot>)> {
+        let lowest = |cell: &Cell<C>| {
+            cell.corners.as_ref().iter().map(|&s| name(s)).fold(SiteId::NONE, SiteId::min).index()
+        };
         let n_live = self.cells.len() - self.free.len();
         let n_slots = n_live + n_live / gap_after;
         if n_slots > MAX_CELLS {
@@ -377,39 +379,39 @@ impl<C: Corners> Complex<C> {
         memory::reserve_exact(&mut index, self.cells.len())?;
         memory::reserve_exact(&mut sorted, n_slots + n_live / 64)?;
         starts.resize(n_sites + 1, 0u32);
-        for cell in self.cells.iter().filter(|cell| cell.corners[0] != NONE) {
+        for cell in self.cells.iter().filter(|cell| !cell.is_free()) {
             starts[lowest(cell) + 1] += 1;
         }
         for s in 0..n_sites {
             starts[s + 1] += starts[s];
         }
         index.extend(self.cells.iter().map(|cell| {
-            if cell.corners[0] == NONE {
-                return NONE;
+            if cell.is_free() {
+                return Slot::NONE;
             }
             let at = &mut starts[lowest(cell)];
             *at += 1;
             let rank = *at - 1;
-            rank + (rank as usize / gap_after) as u32
+            Slot::at(rank as usize + rank as usize / gap_after)
         }));
         sorted.resize(n_slots, Cell::free());
         for (cell, &to) in self.cells.iter().zip(&index) {
-            if to == NONE {
+            if to == Slot::NONE {
                 continue;
             }
             let mut cell = *cell;
             for corner in cell.corners.as_mut() {
                 *corner = name(*corner);
             }
-            for code in cell.neighbours.as_mut() {
-                *code = Facet::new(index[*code as usize >> 2], (*code & 3) as usize).0;
+            for out in cell.neighbours.as_mut() {
+                *out = Facet::new(index[out.cell()], out.index());
             }
-            sorted[to as usize] = cell;
+            sorted[to] = cell;
         }
         Ok((sorted, index))
     }
 
-    /// Adds the cells of another complex, on other sites: its cell `c` becomes `c + n_slots()`, its site `s`
+    /// Adds the cells of another complex, on other sites: its slot `c` becomes `c + n_slots()`, its site `s`
     /// becomes `s + shift`, on several threads.
     pub(crate) fn append(&mut self, other: &Self, shift: u32, n_threads: usize) -> Result<()> {
         let n = self.cells.len();
@@ -417,16 +419,17 @@ impl<C: Corners> Complex<C> {
             return Err(Error::TooManyCells { limit: MAX_CELLS });
         }
         memory::reserve_exact(&mut self.free, other.free.len())?;
+        let moved = |c: Slot| Slot::new(c.get() + n as u32);
         let shifted = |cell: &Cell<C>| {
             let mut cell = *cell;
-            if cell.corners[0] == NONE {
+            if cell.is_free() {
                 return cell;
             }
             for corner in cell.corners.as_mut().iter_mut().filter(|corner| **corner != INFINITE) {
-                *corner += shift;
+                *corner = SiteId::new(corner.get() + shift);
             }
-            for code in cell.neighbours.as_mut() {
-                *code = Facet::new((*code >> 2) + n as u32, (*code & 3) as usize).0;
+            for out in cell.neighbours.as_mut() {
+                *out = Facet::new(moved(out.cell()), out.index());
             }
             cell
         };
@@ -437,7 +440,7 @@ impl<C: Corners> Complex<C> {
         memory::extend(&mut self.cells, &other.cells, n_threads, shifted)?;
         debug_assert!(self.cells.capacity() <= self.marks.capacity());
         self.marks.resize(self.cells.len(), 0);
-        self.free.extend(other.free.iter().map(|c| c + n as u32));
+        self.free.extend(other.free.iter().map(|&c| moved(c)));
         self.n_ghosts += other.n_ghosts;
         Ok(())
     }

@@ -9,40 +9,40 @@
 //! that one is put back. Rows are put back in the opposite order: a row that was noted after a neighbour had changed
 //! has a gluing to what came in its place, and the neighbour's own row, put back later, mends that.
 
-use super::{Cell, Complex, Corners, Facet, NONE};
+use super::{Cell, Complex, Corners, Facet};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// Records of more rows than one cell in `KEPT`, and of more than `SMALL` rows, are not kept as scratch memory.
 const KEPT: usize = 16;
 const SMALL: usize = 1 << 14;
 
-/// What a slot held: the corners of a cell, or none, and the codes of its neighbours' facets.
+/// What a slot held: the corners of a cell, or none, and its neighbours' facets.
 #[derive(Clone, Copy, Debug)]
-pub struct Row<C> {
-    /// The index of the cell.
-    pub(crate) slot: u32,
+pub struct Row<C: Corners> {
+    pub(crate) slot: Slot,
     pub(crate) corners: C,
-    neighbours: C,
+    neighbours: C::Of<Facet>,
 }
 
 impl<C: Corners> Row<C> {
     /// What a slot holds.
     #[inline(always)]
-    pub(super) fn of(slot: u32, cell: &Cell<C>) -> Self {
+    pub(super) fn of(slot: Slot, cell: &Cell<C>) -> Self {
         Row { slot, corners: cell.corners, neighbours: cell.neighbours }
     }
 
     /// Whether the slot held no cell.
     #[inline(always)]
     pub(crate) fn is_free(&self) -> bool {
-        self.corners[0] == NONE
+        self.corners[0] == SiteId::NONE
     }
 }
 
 /// The rows noted since the record was begun.
 #[derive(Debug)]
-pub(super) struct Record<C> {
+pub(super) struct Record<C: Corners> {
     is_on: bool,
     rows: Vec<Row<C>>,
     /// By slot, a bit for those that have been noted. All are 0 while no record is kept.
@@ -52,7 +52,7 @@ pub(super) struct Record<C> {
     n_ghosts: usize,
 }
 
-impl<C> Default for Record<C> {
+impl<C: Corners> Default for Record<C> {
     fn default() -> Self {
         Record { is_on: false, rows: Vec::new(), noted: Vec::new(), n_slots: 0, n_ghosts: 0 }
     }
@@ -62,7 +62,7 @@ impl<C: Corners> Record<C> {
     /// Enters a row unless its slot has been noted. There must be room for it.
     #[inline(always)]
     fn enter(&mut self, row: Row<C>) {
-        let (word, bit) = (&mut self.noted[row.slot as usize / 64], 1 << (row.slot % 64));
+        let (word, bit) = (&mut self.noted[row.slot.index() / 64], 1 << (row.slot.index() % 64));
         if *word & bit == 0 {
             *word |= bit;
             debug_assert!(self.rows.len() < self.rows.capacity(), "rows are reserved before a change");
@@ -70,8 +70,8 @@ impl<C: Corners> Record<C> {
         }
     }
 
-    fn is_noted(&self, slot: u32) -> bool {
-        self.noted[slot as usize / 64] >> (slot % 64) & 1 == 1
+    fn is_noted(&self, slot: Slot) -> bool {
+        self.noted[slot.index() / 64] >> (slot.index() % 64) & 1 == 1
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
@@ -127,7 +127,7 @@ impl<C: Corners> Complex<C> {
 
     /// Notes a slot whose corners are about to change. There must be room for its row.
     #[inline(always)]
-    pub(super) fn note(&mut self, slot: u32) {
+    pub(super) fn note(&mut self, slot: Slot) {
         if self.record.is_on {
             let row = Row::of(slot, self.cell(slot));
             self.record.enter(row);
@@ -136,7 +136,7 @@ impl<C: Corners> Complex<C> {
 
     /// Notes cells that are about to be replaced, and makes sure that all of them can be released.
     #[inline(always)]
-    pub(crate) fn note_all(&mut self, cells: impl ExactSizeIterator<Item = u32>) -> Result<()> {
+    pub(crate) fn note_all(&mut self, cells: impl ExactSizeIterator<Item = Slot>) -> Result<()> {
         self.reserve_free(cells.len())?;
         if self.record.is_on {
             self.reserve_rows(cells.len())?;
@@ -169,10 +169,10 @@ impl<C: Corners> Complex<C> {
         self.cells.truncate(n_slots);
         self.marks.truncate(n_slots);
         let record = &self.record;
-        self.free.retain(|&c| (c as usize) < n_slots && !record.is_noted(c));
+        self.free.retain(|&c| c.index() < n_slots && !record.is_noted(c));
         // As many as these were listed when the record was begun, so there is room for them.
         self.free.extend(
-            rows.iter().filter(|row| row.is_free() && (row.slot as usize) < n_slots).map(|row| row.slot),
+            rows.iter().filter(|row| row.is_free() && row.slot.index() < n_slots).map(|row| row.slot),
         );
         self.n_ghosts = self.record.n_ghosts;
         self.record.rows = rows;
@@ -188,8 +188,8 @@ impl<C: Corners> Complex<C> {
             return;
         }
         for i in 0..C::N {
-            let out = Facet(row.neighbours[i]);
-            self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(row.slot, i).0;
+            let out = row.neighbours[i];
+            self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(row.slot, i);
         }
     }
 
@@ -198,7 +198,7 @@ impl<C: Corners> Complex<C> {
         let record = &mut self.record;
         record.is_on = false;
         for row in &record.rows {
-            record.noted[row.slot as usize / 64] = 0;
+            record.noted[row.slot.index() / 64] = 0;
         }
         if record.rows.capacity() > SMALL.max(self.cells.len() / KEPT) {
             record.rows = Vec::new();

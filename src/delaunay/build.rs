@@ -7,8 +7,9 @@
 use super::cavity::{Cavity, Insert};
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, INFINITE, NONE};
+use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::predicates::{StaticFilter, distance_above};
 
@@ -16,9 +17,9 @@ use crate::predicates::{StaticFilter, distance_above};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Merge {
     /// Its id.
-    pub hidden: u32,
+    pub hidden: VertexId,
     /// The site at which it is.
-    pub site: u32,
+    pub site: SiteId,
 }
 
 /// Insertions between two calls of a monitor.
@@ -51,7 +52,7 @@ impl<G: Dimension> Delaunay<G> {
                 for axis in 0..G::D {
                     point[axis] += 0.0;
                 }
-                Site::new(point, k.item())
+                Site::new(point, VertexId::new(k.item()))
             })?;
         }
         self.parts = parts;
@@ -63,10 +64,11 @@ impl<G: Dimension> Delaunay<G> {
     pub fn sort_sites(&mut self) -> Result<()> {
         let sites = &self.sites;
         let n = sites.len() - 1 - self.free_sites.len();
-        let (parts, keyed) = self.in_parts(self.live_sites(), n, |s| &sites[s as usize].point)?;
+        let (parts, keyed) =
+            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, n + 1)?;
-        sorted.push(sites[INFINITE as usize]);
+        sorted.push(sites[INFINITE]);
         for part in &keyed {
             memory::extend(&mut sorted, part, keyed.len(), |k| sites[k.item() as usize])?;
         }
@@ -91,8 +93,8 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.complex.clear();
         let mut coincident = Vec::new();
-        for s in 1..self.sites.len() as u32 {
-            self.sites[s as usize].cell = NONE;
+        for s in SiteId::range(1..self.sites.len()) {
+            self.sites[s].cell = Slot::NONE;
             if !self.site(s).is_live() {
                 continue;
             }
@@ -108,17 +110,17 @@ impl<G: Dimension> Delaunay<G> {
             // Without cells an id decides nothing but the name of the site.
             let low = self.site(s).id.min(self.site(t).id);
             merges.push(Merge { hidden: self.site(s).id.max(self.site(t).id), site: t });
-            self.sites[t as usize].id = low;
+            self.sites[t].id = low;
             self.drop_site(s);
         }
-        self.find_flat_basis(NONE);
+        self.find_flat_basis(SiteId::NONE);
         Ok(merges)
     }
 
     /// Builds the cells of all live sites, given in insertion order, from a basis of `D + 1` on.
     pub(super) fn triangulate(
         &mut self,
-        order: &[u32],
+        order: &[SiteId],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<Merge>> {
         let coincident = self.triangulate_unmerged(order, order.len(), monitor)?;
@@ -128,16 +130,16 @@ impl<G: Dimension> Delaunay<G> {
     /// Likewise, with room for `n` sites; returns pairs of coincident sites, the second in the cells.
     pub(super) fn triangulate_unmerged(
         &mut self,
-        order: &[u32],
+        order: &[SiteId],
         n: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(u32, u32)>> {
+    ) -> Result<Vec<(SiteId, SiteId)>> {
         self.complex.clear();
         self.is_sorted = false;
         // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
         self.complex.reserve(n * if G::D == 2 { 2 } else { 7 } + 64)?;
         for site in &mut self.sites {
-            site.cell = NONE;
+            site.cell = Slot::NONE;
         }
         self.start()?;
         self.cavity.steps = 0;
@@ -161,9 +163,9 @@ impl<G: Dimension> Delaunay<G> {
     /// cells.
     pub(super) fn insert_all(
         &mut self,
-        order: &[u32],
+        order: &[SiteId],
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(u32, u32)>> {
+    ) -> Result<Vec<(SiteId, SiteId)>> {
         debug_assert!(!self.complex.is_recording());
         self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;
         let inserted = self.insert_while_begun(order, monitor);
@@ -173,9 +175,9 @@ impl<G: Dimension> Delaunay<G> {
 
     fn insert_while_begun(
         &mut self,
-        order: &[u32],
+        order: &[SiteId],
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(u32, u32)>> {
+    ) -> Result<Vec<(SiteId, SiteId)>> {
         let mut cavity = std::mem::take(&mut self.cavity);
         let inserted = self.insert_with(&mut cavity, order, monitor);
         self.cavity = cavity;
@@ -186,15 +188,15 @@ impl<G: Dimension> Delaunay<G> {
     fn insert_with(
         &mut self,
         cavity: &mut Cavity<G>,
-        order: &[u32],
+        order: &[SiteId],
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(u32, u32)>> {
+    ) -> Result<Vec<(SiteId, SiteId)>> {
         let mut coincident = Vec::new();
         for (done, &s) in order.iter().enumerate() {
             if done % MONITORED == 0 && !monitor(done as f64 / order.len() as f64) {
                 return Err(Error::Cancelled);
             }
-            if self.site(s).cell != NONE {
+            if self.site(s).cell != Slot::NONE {
                 continue;
             }
             match self.insert_into_cells::<true>(cavity, s, self.recent)? {
@@ -207,7 +209,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Drops the sites that found others at their places, and gives those the lowest id.
-    fn merge(&mut self, coincident: Vec<(u32, u32)>) -> Result<Vec<Merge>> {
+    fn merge(&mut self, coincident: Vec<(SiteId, SiteId)>) -> Result<Vec<Merge>> {
         // All are dropped first: a change of id may have to look at every live site.
         let (mut ids, mut merges) = (Vec::new(), Vec::new());
         memory::collect(&mut ids, coincident.iter().map(|&(s, _)| self.site(s).id))?;
@@ -228,17 +230,17 @@ impl<G: Dimension> Delaunay<G> {
 
     /// The first cell, of the basis, and the ghost cells around it.
     fn start(&mut self) -> Result<()> {
-        let mut corners = G::Corners::filled(0);
+        let mut corners = G::Corners::filled(INFINITE);
         corners.as_mut().copy_from_slice(self.flat.basis.sites());
         if G::orientation(&self.filter, self.view(), &corners) < 0.0 {
             corners.as_mut().swap(0, 1);
         }
         self.complex.start(corners)?;
-        self.recent = 0;
+        self.recent = Slot::new(0);
         for i in 0..G::Corners::N {
-            self.sites[corners[i] as usize].cell = 0;
+            self.sites[corners[i]].cell = Slot::new(0);
         }
-        self.sites[INFINITE as usize].cell = 1;
+        self.sites[INFINITE].cell = Slot::new(1);
         Ok(())
     }
 
@@ -246,8 +248,8 @@ impl<G: Dimension> Delaunay<G> {
     /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and more,
     /// and several threads need it to have cells of their own.
     ///
-    /// Returns the new index of each, [`NONE`] for free ones, unless they stay as they are.
-    pub(crate) fn sort_cells(&mut self) -> Result<Option<Vec<u32>>> {
+    /// Returns the new slot of each, [`Slot::NONE`] for free ones, unless they stay as they are.
+    pub(crate) fn sort_cells(&mut self) -> Result<Option<Vec<Slot>>> {
         let n_slots = self.complex.n_slots();
         let n_threads = self.flipping_threads(n_slots);
         if self.is_sorted || n_slots < LARGE && n_threads == 1 {
@@ -255,11 +257,11 @@ impl<G: Dimension> Delaunay<G> {
         }
         let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_threads))?;
         for site in &mut self.sites {
-            if site.cell != NONE {
-                site.cell = index[site.cell as usize];
+            if site.cell != Slot::NONE {
+                site.cell = index[site.cell];
             }
         }
-        self.recent = index[self.recent as usize];
+        self.recent = index[self.recent];
         self.is_sorted = true;
         Ok(Some(index))
     }
@@ -270,16 +272,17 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// A copy without memory for what is gone, in which the vertices have other ids, in the same order: those listed by
-    /// the old ones. Sites and cells are sorted. Also the new index of each cell, [`NONE`] for free ones.
-    pub(crate) fn compacted(&self, ids: &[u32]) -> Result<(Self, Vec<u32>)> {
+    /// the old ones. Sites and cells are sorted. Also the new slot of each cell, [`Slot::NONE`] for free ones.
+    pub(crate) fn compacted(&self, ids: &[VertexId]) -> Result<(Self, Vec<Slot>)> {
         let sites = &self.sites;
         let n = sites.len() - 1 - self.free_sites.len();
-        let (parts, keyed) = self.in_parts(self.live_sites(), n, |s| &sites[s as usize].point)?;
+        let (parts, keyed) =
+            self.in_parts(self.live_sites().map(SiteId::get), n, |s| &sites[s as usize].point)?;
         let mut names = Vec::new();
         memory::reserve_exact(&mut names, sites.len())?;
-        names.resize(sites.len(), NONE);
-        names[INFINITE as usize] = INFINITE;
-        for (name, k) in (INFINITE + 1..).zip(keyed.iter().flatten()) {
+        names.resize(sites.len(), SiteId::NONE);
+        names[INFINITE] = INFINITE;
+        for (name, k) in SiteId::range(1..n + 1).zip(keyed.iter().flatten()) {
             names[k.item() as usize] = name;
         }
         let n_cells = self.complex.n_finite() + self.complex.n_ghosts();
@@ -287,21 +290,21 @@ impl<G: Dimension> Delaunay<G> {
         let (complex, index) = self.complex.compacted(n + 1, gap_after, &names)?;
         let flat = self.flat.renamed(&names)?;
         // Without cells the ghost vertex may still name one.
-        let cell_of = |site: &Site<G>| index.get(site.cell as usize).copied().unwrap_or(NONE);
+        let cell_of = |site: &Site<G>| index.get(site.cell.index()).copied().unwrap_or(Slot::NONE);
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, n + 1)?;
-        let ghost = &sites[INFINITE as usize];
+        let ghost = &sites[INFINITE];
         sorted.push(Site { cell: cell_of(ghost), ..*ghost });
         sorted.extend(keyed.iter().flatten().map(|k| {
             let site = &sites[k.item() as usize];
-            Site { point: site.point, cell: cell_of(site), id: ids[site.id as usize] }
+            Site { point: site.point, cell: cell_of(site), id: ids[site.id] }
         }));
         let mut t = Delaunay {
             sites: sorted,
             parts,
             flat,
             is_sorted: true,
-            recent: index.get(self.recent as usize).copied().unwrap_or_default(),
+            recent: index.get(self.recent.index()).copied().unwrap_or(Slot::new(0)),
             complex,
             certificates: self.certificates,
             link_sites: self.link_sites,

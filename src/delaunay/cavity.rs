@@ -12,8 +12,8 @@
 use std::fmt::Debug;
 
 use super::{Delaunay, Dimension};
-use crate::complex::NONE;
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// What an insertion found.
@@ -22,7 +22,7 @@ pub enum Insertion {
     /// The site is in the triangulation.
     New,
     /// This site was at the place already; nothing has changed.
-    Coincident(u32),
+    Coincident(SiteId),
     /// There were no cells, and with the site there would be: a kernel has to be built. Nothing has changed.
     Spans,
 }
@@ -46,8 +46,8 @@ pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
     fn insert<const BUILD: bool>(
         t: &mut Delaunay<G>,
         cavity: &mut Cavity<G>,
-        start: u32,
-        s: u32,
+        start: Slot,
+        s: SiteId,
     ) -> Result<()>;
 }
 
@@ -55,7 +55,7 @@ pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
 #[derive(Debug)]
 pub struct Cavity<G: Dimension> {
     /// Room for a list of cells; the first `n_cells` were made by the last insertion.
-    pub(super) cells: Vec<u32>,
+    pub(super) cells: Vec<Slot>,
     pub(super) n_cells: usize,
     pub(super) scratch: G::Scratch,
     /// Cells crossed by the walks so far.
@@ -74,21 +74,21 @@ impl<G: Dimension> Cavity<G> {
     }
 
     /// The cells made by the last insertion.
-    pub(super) fn made(&self) -> &[u32] {
+    pub(super) fn made(&self) -> &[Slot] {
         &self.cells[..self.n_cells]
     }
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Inserts a site that has been added; `near` is a cell to walk from, [`NONE`] for any. A coincident site is
+    /// Inserts a site that has been added; `near` is a cell to walk from, [`Slot::NONE`] for any. A coincident site is
     /// dropped; after an error the site is live and in no cell.
-    pub fn insert_site(&mut self, s: u32, near: u32) -> Result<Insertion> {
+    pub fn insert_site(&mut self, s: SiteId, near: Slot) -> Result<Insertion> {
         // For the index, should the site be dropped.
         memory::reserve(&mut self.free_sites, 1)?;
         let q = self.site(s).point;
         self.cover(&q, &q);
         let inserted = if self.has_cells() {
-            let near = if near == NONE { self.recent } else { near };
+            let near = if near == Slot::NONE { self.recent } else { near };
             let mut cavity = std::mem::take(&mut self.cavity);
             let inserted = self.insert_into_cells::<false>(&mut cavity, s, near);
             if inserted == Ok(Insertion::New) {
@@ -107,9 +107,9 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Inserts a site that has been added, anywhere: as [`insert_site`](Self::insert_site), by a walk from a cell
     /// [towards](Self::cell_towards) it.
-    pub(crate) fn insert_site_anywhere(&mut self, s: u32) -> Result<Insertion> {
+    pub(crate) fn insert_site_anywhere(&mut self, s: SiteId) -> Result<Insertion> {
         if !self.has_cells() {
-            return self.insert_site(s, NONE);
+            return self.insert_site(s, Slot::NONE);
         }
         let q = self.site(s).point;
         let near = self.cell_towards(&q, self.recent);
@@ -127,8 +127,8 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn insert_into_cells<const BUILD: bool>(
         &mut self,
         cavity: &mut Cavity<G>,
-        s: u32,
-        near: u32,
+        s: SiteId,
+        near: Slot,
     ) -> Result<Insertion> {
         let q = self.site(s).point;
         let start = self.walk(&self.filter, &q, near, &mut cavity.steps);
@@ -137,7 +137,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         G::Scratch::insert::<BUILD>(self, cavity, start, s)?;
         self.recent = cavity.cells[0];
-        self.sites[s as usize].cell = cavity.cells[0];
+        self.sites[s].cell = cavity.cells[0];
         Ok(Insertion::New)
     }
 }

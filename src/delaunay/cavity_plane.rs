@@ -15,6 +15,7 @@ use super::kernel::Kernel;
 use super::{Delaunay, Plane};
 use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::predicates::{Lifted, side_of_seen_circle};
 
@@ -24,7 +25,7 @@ pub struct Scratch {
     /// Edges where the walk through the zone turned right, to be taken up when it comes back.
     turns: Vec<Edge>,
     /// The rim counter-clockwise: the start of each edge, and the edge seen from outside the zone.
-    rim: Vec<(u32, Facet)>,
+    rim: Vec<(SiteId, Facet)>,
 }
 
 impl Insert<Plane> for Scratch {
@@ -36,8 +37,8 @@ impl Insert<Plane> for Scratch {
     fn insert<const BUILD: bool>(
         t: &mut Delaunay<Plane>,
         cavity: &mut Cavity<Plane>,
-        start: u32,
-        s: u32,
+        start: Slot,
+        s: SiteId,
     ) -> Result<()> {
         // A polygon has two edges more than triangles.
         t.complex.reserve(2)?;
@@ -72,7 +73,7 @@ struct Edge {
     /// The edge seen from outside.
     out: Facet,
     /// The corner on the right, where it starts.
-    start: u32,
+    start: SiteId,
     right: Lifted,
     left: Lifted,
     /// Cross product of right and left.
@@ -82,7 +83,7 @@ struct Edge {
 impl Edge {
     /// The edge opposite corner `i` of a cell; what is seen of the ghost vertex is meaningless.
     #[inline(always)]
-    fn of(t: &Delaunay<Plane>, cell: u32, i: usize, q: &[f64; 2]) -> Self {
+    fn of(t: &Delaunay<Plane>, cell: Slot, i: usize, q: &[f64; 2]) -> Self {
         let cell = t.complex.cell(cell);
         let [start, end] = [cell.corners[(i + 1) % 3], cell.corners[(i + 2) % 3]];
         let [right, left] = [start, end].map(|s| Lifted::new(t.view().point(s), q));
@@ -93,7 +94,7 @@ impl Edge {
 /// Finds the zone of `s` from one cell of it, and its rim.
 // On its own the loop has all registers: inlined in that over all sites, a build of 1,000 points takes a fifth longer.
 #[inline(never)]
-fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: u32, s: u32) -> Result<Zone> {
+fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: Slot, s: SiteId) -> Result<Zone> {
     let (q, id) = (&t.site(s).point, t.site(s).id);
     let mut n_ghosts = t.complex.cell(start).is_ghost() as usize;
     let (mut n_cells, mut n_turns, mut n_rim) = (1, 2, 0);
@@ -162,12 +163,12 @@ fn grow(
     n_cells: usize,
 ) -> Result<()> {
     let room = 2 * n_cells + 64;
-    let facet = Facet::new(0, 0);
+    let facet = Facet::new(Slot::new(0), 0);
     let seen = Lifted::new(&[0.0; 2], &[0.0; 2]);
-    memory::lengthen(rim, room, (0, facet))?;
-    memory::lengthen(turns, room, Edge { out: facet, start: 0, right: seen, left: seen, cross: 0.0 })?;
+    memory::lengthen(rim, room, (INFINITE, facet))?;
+    memory::lengthen(turns, room, Edge { out: facet, start: INFINITE, right: seen, left: seen, cross: 0.0 })?;
     // Last, as its length stands for all.
-    memory::lengthen(cells, room, 0)
+    memory::lengthen(cells, room, Slot::new(0))
 }
 
 /// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.
@@ -175,18 +176,18 @@ const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
 
 #[cold]
 #[inline(never)]
-fn is_in_uncertain_conflict(t: &Delaunay<Plane>, cell: u32, q: &[f64; 2], id: u32) -> bool {
+fn is_in_uncertain_conflict(t: &Delaunay<Plane>, cell: Slot, q: &[f64; 2], id: VertexId) -> bool {
     Plane::is_in_sphere(&t.filter, t.view(), &t.complex.cell(cell).corners, q, id)
 }
 
 /// Joins each edge of the rim to the site; the new triangles turn around it, so each is glued to the one before and to
 /// the one after it.
 #[inline(always)]
-fn fill(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, s: u32) {
+fn fill(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, s: SiteId) {
     let (cells, rim) = (cavity.made(), &cavity.scratch.rim[..cavity.n_cells]);
     let (mut before, mut cell, mut start, mut out) = (cells[cells.len() - 1], cells[0], rim[0].0, rim[0].1);
-    let mut put = |after: u32, next: (u32, Facet)| {
-        let neighbours = [out.code(), Facet::new(after, 2).code(), Facet::new(before, 1).code()];
+    let mut put = |after: Slot, next: (SiteId, Facet)| {
+        let neighbours = [out, Facet::new(after, 2), Facet::new(before, 1)];
         t.complex.put_glued(cell, [s, start, next.0], neighbours);
         t.corner_mut(start).cell = cell;
         (before, cell) = (cell, after);
@@ -201,7 +202,7 @@ fn fill(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, s: u32) {
 /// Turns the triangle that starts at the ghost vertex, so that this comes last, and counts both ghosts.
 #[cold]
 #[inline(never)]
-fn put_ghosts(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>, s: u32) {
+fn put_ghosts(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>, s: SiteId) {
     let (cells, rim) = (cavity.made(), &cavity.scratch.rim[..cavity.n_cells]);
     let n = rim.len();
     let k = rim

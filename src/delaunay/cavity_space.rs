@@ -11,8 +11,9 @@
 use super::cavity::{Cavity, Insert};
 use super::spheres::Spheres;
 use super::{Delaunay, Space};
-use crate::complex::Facet;
+use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
@@ -24,7 +25,7 @@ const TABLE: usize = MAX_LABELS * MAX_LABELS;
 #[derive(Clone, Copy, Debug)]
 struct Rim {
     /// Corners of the new cell.
-    corners: [u32; 4],
+    corners: [SiteId; 4],
     /// The facet seen from outside the zone.
     out: Facet,
 }
@@ -35,7 +36,7 @@ const IN_ZONE: u8 = 1;
 #[derive(Debug, Default)]
 pub struct Scratch {
     /// Cells in conflict: the first `n_zone` entries. The rest is room to write before it is known whether to keep it.
-    zone: Vec<u32>,
+    zone: Vec<Slot>,
     n_zone: usize,
     /// How many of them are ghosts.
     n_ghosts: usize,
@@ -69,8 +70,8 @@ impl Insert<Space> for Scratch {
     fn insert<const BUILD: bool>(
         t: &mut Delaunay<Space>,
         cavity: &mut Cavity<Space>,
-        start: u32,
-        s: u32,
+        start: Slot,
+        s: SiteId,
     ) -> Result<()> {
         let Cavity { cells, scratch, .. } = cavity;
         let mut ridges = Vec::new();
@@ -101,17 +102,17 @@ impl Insert<Space> for Scratch {
 /// Where the two facets of a ridge meet.
 #[derive(Debug, Default)]
 struct Meetings {
-    /// Code of the facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
-    table: Vec<u32>,
+    /// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
+    table: Vec<Facet>,
     /// The site of each label.
-    labels: Vec<u32>,
+    labels: Vec<SiteId>,
     /// Labels of the last three corners of each new cell.
     local: Vec<[u8; 4]>,
 }
 
 /// The corners with `s` in place of corner `i`, in an even order that has `s` first.
 #[inline(always)]
-fn joined([a, b, c, d]: [u32; 4], i: usize, s: u32) -> [u32; 4] {
+fn joined([a, b, c, d]: [SiteId; 4], i: usize, s: SiteId) -> [SiteId; 4] {
     match i {
         0 => [s, b, c, d],
         1 => [s, c, a, d],
@@ -124,7 +125,7 @@ fn joined([a, b, c, d]: [u32; 4], i: usize, s: u32) -> [u32; 4] {
 #[inline(always)]
 fn reserve<const BUILD: bool>(
     t: &mut Delaunay<Space>,
-    cells: &mut Vec<u32>,
+    cells: &mut Vec<Slot>,
     ridges: &mut Vec<Ridge>,
     scratch: &Scratch,
 ) -> Result<()> {
@@ -144,7 +145,12 @@ fn reserve<const BUILD: bool>(
 
 /// Finds the zone of `s` from one cell of it, and its rim. After an error the zone is what has been marked.
 #[inline(always)]
-fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: u32, s: u32) -> Result<()> {
+fn dig<const BUILD: bool>(
+    t: &mut Delaunay<Space>,
+    scratch: &mut Scratch,
+    start: Slot,
+    s: SiteId,
+) -> Result<()> {
     scratch.n_zone = 0;
     let Scratch { zone, rim, spheres, meetings, .. } = scratch;
     let mut spheres = spheres.table();
@@ -188,27 +194,28 @@ fn dig<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, start:
 
 /// Makes room for the four neighbours of a cell.
 #[inline(always)]
-fn make_room(zone: &mut Vec<u32>, rim: &mut Vec<Rim>, meetings: &mut Meetings, n: [usize; 2]) -> Result<()> {
+fn make_room(zone: &mut Vec<Slot>, rim: &mut Vec<Rim>, meetings: &mut Meetings, n: [usize; 2]) -> Result<()> {
     if zone.len() < n[0] + 4 || rim.len() < n[1] + 4 { grow(zone, rim, meetings, n) } else { Ok(()) }
 }
 
 #[cold]
 #[inline(never)]
 fn grow(
-    zone: &mut Vec<u32>,
+    zone: &mut Vec<Slot>,
     rim: &mut Vec<Rim>,
     meetings: &mut Meetings,
     [n_zone, n_rim]: [usize; 2],
 ) -> Result<()> {
     // First, as whoever has room for a zone has room for the meetings.
-    memory::lengthen(&mut meetings.table, TABLE, 0)?;
-    memory::lengthen(&mut meetings.labels, MAX_LABELS, 0)?;
+    let facet = Facet::new(Slot::new(0), 0);
+    memory::lengthen(&mut meetings.table, TABLE, facet)?;
+    memory::lengthen(&mut meetings.labels, MAX_LABELS, INFINITE)?;
     memory::lengthen(&mut meetings.local, SMALL_RIM, [0; 4])?;
     if rim.len() < n_rim + 4 {
-        memory::lengthen(rim, 2 * n_rim + 64, Rim { corners: [0; 4], out: Facet::new(0, 0) })?;
+        memory::lengthen(rim, 2 * n_rim + 64, Rim { corners: [INFINITE; 4], out: facet })?;
     }
     if zone.len() < n_zone + 4 {
-        memory::lengthen(zone, 2 * n_zone + 64, 0)?;
+        memory::lengthen(zone, 2 * n_zone + 64, Slot::new(0))?;
     }
     Ok(())
 }
@@ -217,7 +224,7 @@ fn grow(
 #[inline(always)]
 fn glue<const BUILD: bool>(
     t: &mut Delaunay<Space>,
-    cells: &[u32],
+    cells: &[Slot],
     scratch: &mut Scratch,
     ridges: Vec<Ridge>,
 ) {
@@ -237,34 +244,34 @@ fn glue<const BUILD: bool>(
 }
 
 #[inline(always)]
-fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32], meetings: &mut Meetings) {
+fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], meetings: &mut Meetings) {
     let Meetings { table, labels, local } = meetings;
     // Of fixed lengths, so that the compiler sees masked indices in bounds.
-    let table: &mut [u32; TABLE] = table.as_mut_slice().try_into().expect("made with the zone");
-    let labels: &mut [u32; MAX_LABELS] = labels.as_mut_slice().try_into().expect("made with the zone");
+    let table: &mut [Facet; TABLE] = table.as_mut_slice().try_into().expect("made with the zone");
+    let labels: &mut [SiteId; MAX_LABELS] = labels.as_mut_slice().try_into().expect("made with the zone");
     let mut n_labels = 0;
     for ((facet, &cell), local) in rim.iter().zip(cells).zip(&mut *local) {
-        let mut label = |v: u32| {
+        let mut label = |v: SiteId| {
             let site = t.corner_mut(v);
-            let old = site.cell;
+            let old = site.cell.get();
             let is_known = (old < n_labels) & (labels[old as usize % MAX_LABELS] == v);
             let label = if is_known { old } else { n_labels };
             labels[label as usize % MAX_LABELS] = v;
-            site.cell = label;
+            site.cell = Slot::new(label);
             n_labels += !is_known as u32;
             label as usize
         };
         let [_, k, l, m] = facet.corners;
         let (k, l, m) = (label(k), label(l), label(m));
         *local = [0, k as u8, l as u8, m as u8];
-        table[(l * MAX_LABELS + m) % TABLE] = Facet::new(cell, 1).code();
-        table[(m * MAX_LABELS + k) % TABLE] = Facet::new(cell, 2).code();
-        table[(k * MAX_LABELS + l) % TABLE] = Facet::new(cell, 3).code();
+        table[(l * MAX_LABELS + m) % TABLE] = Facet::new(cell, 1);
+        table[(m * MAX_LABELS + k) % TABLE] = Facet::new(cell, 2);
+        table[(k * MAX_LABELS + l) % TABLE] = Facet::new(cell, 3);
     }
     for ((facet, &cell), label) in rim.iter().zip(cells).zip(&*local) {
         let [_, k, l, m] = label.map(usize::from);
         let at = |from: usize, to: usize| table[(from * MAX_LABELS + to) % TABLE];
-        t.complex.put_glued(cell, facet.corners, [facet.out.code(), at(m, l), at(k, m), at(l, k)]);
+        t.complex.put_glued(cell, facet.corners, [facet.out, at(m, l), at(k, m), at(l, k)]);
         for i in 1..4 {
             t.corner_mut(facet.corners[i]).cell = cell;
         }
@@ -272,19 +279,19 @@ fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32], meetings: 
 }
 
 /// An edge of the rim, and a facet there.
-type Ridge = ([u32; 2], Facet);
+type Ridge = ([SiteId; 2], Facet);
 
 /// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room for
 /// all `ridges`.
 #[cold]
-fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[u32], mut ridges: Vec<Ridge>) {
+fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], mut ridges: Vec<Ridge>) {
     for (facet, &cell) in rim.iter().zip(cells) {
         let v = facet.corners;
         t.complex.put(cell, v);
         t.complex.glue(Facet::new(cell, 0), facet.out);
         for (i, k, l) in [(1, 2, 3), (2, 3, 1), (3, 1, 2)] {
             ridges.push(([v[k].min(v[l]), v[k].max(v[l])], Facet::new(cell, i)));
-            t.sites[v[i] as usize].cell = cell;
+            t.sites[v[i]].cell = cell;
         }
     }
     ridges.sort_unstable();

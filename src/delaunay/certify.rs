@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use super::{Delaunay, Dimension, Failures};
 use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::threads;
 use crate::simd::{Avx2, LANES};
@@ -31,7 +32,7 @@ pub(crate) struct Waiting {
 
 impl Default for Waiting {
     fn default() -> Self {
-        Waiting { facets: [Facet::new(0, 0); LANES], n: 0 }
+        Waiting { facets: [Facet::new(Slot::new(0), 0); LANES], n: 0 }
     }
 }
 
@@ -79,13 +80,11 @@ impl<G: Dimension> Delaunay<G> {
         n_failed: &AtomicUsize,
     ) -> Result<()> {
         let mut swept = Ok(());
-        self.visit_uncertain(range.start as u32..range.end as u32, |c| {
-            match self.sweep_cell(c, before, failures) {
-                Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
-                Err(error) => {
-                    swept = Err(error);
-                    false
-                }
+        self.visit_uncertain(Slot::range(range), |c| match self.sweep_cell(c, before, failures) {
+            Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
+            Err(error) => {
+                swept = Err(error);
+                false
             }
         });
         swept
@@ -96,8 +95,8 @@ impl<G: Dimension> Delaunay<G> {
     #[inline(always)]
     pub(super) fn visit_uncertain(
         &self,
-        cells: impl Iterator<Item = u32> + Clone,
-        visit: impl FnMut(u32) -> bool,
+        cells: impl Iterator<Item = Slot> + Clone,
+        visit: impl FnMut(Slot) -> bool,
     ) {
         let Some(avx2) = Avx2::new() else { return self.visit_uncertain_singly(cells, visit) };
         if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR {
@@ -122,8 +121,8 @@ impl<G: Dimension> Delaunay<G> {
     /// As [`visit_uncertain`](Self::visit_uncertain), one cell at a time.
     pub(super) fn visit_uncertain_singly(
         &self,
-        mut cells: impl Iterator<Item = u32>,
-        mut visit: impl FnMut(u32) -> bool,
+        mut cells: impl Iterator<Item = Slot>,
+        mut visit: impl FnMut(Slot) -> bool,
     ) {
         cells.all(|c| {
             let is_ghost = self.complex.cell(c).is_ghost();
@@ -132,12 +131,12 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets
-    /// to cells of higher indices are left to those.
+    /// to cells of higher slots are left to those.
     #[cold]
     #[inline(never)]
     pub(super) fn sweep_cell(
         &self,
-        c: u32,
+        c: Slot,
         before: Option<&[G::Point]>,
         failures: &mut Failures,
     ) -> Result<bool> {
@@ -167,7 +166,7 @@ impl<G: Dimension> Delaunay<G> {
     pub(crate) fn check_ridges<'p>(
         &self,
         failures: &mut Failures,
-        before: impl Fn(u32) -> Option<&'p G::Point>,
+        before: impl Fn(VertexId) -> Option<&'p G::Point>,
     ) -> Result<()> {
         for g in failures.open_ghosts.drain(..) {
             for ridge in (0..Self::LAST).map(|i| Facet::new(g, i)) {
@@ -183,7 +182,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Lists the ghost cells.
-    pub(crate) fn list_ghosts(&self, ghosts: &mut Vec<u32>) -> Result<()> {
+    pub(crate) fn list_ghosts(&self, ghosts: &mut Vec<Slot>) -> Result<()> {
         ghosts.clear();
         memory::collect(ghosts, self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()))
     }
@@ -290,7 +289,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Checks that a finite cell is positive.
-    fn check_orientation_of(&self, c: u32, failures: &mut Failures) -> Result<bool> {
+    fn check_orientation_of(&self, c: Slot, failures: &mut Failures) -> Result<bool> {
         let is_positive = self.is_positive(c);
         if !is_positive {
             memory::push(&mut failures.cells, c)?;
@@ -301,7 +300,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way. Whether it is now.
     fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) -> Result<bool> {
         let simplex = self.simplex_at_hull(ridge);
-        if self.stayed_positive(&simplex, |id| Some(&before[id as usize])) {
+        if self.stayed_positive(&simplex, |id| Some(&before[id])) {
             return Ok(true);
         }
         // In a flat part of the hull the cell behind decides, so it must be positive.
@@ -321,7 +320,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Checks all certificates of these cells after a motion, like [`check_bicell`](Self::check_bicell).
     pub(crate) fn check_cells(
         &mut self,
-        cells: &[u32],
+        cells: &[Slot],
         before: &[G::Point],
         failures: &mut Failures,
     ) -> Result<()> {
@@ -341,7 +340,7 @@ impl<G: Dimension> Delaunay<G> {
 
     #[cold]
     #[inline(never)]
-    fn check_cell_exactly(&self, c: u32, failures: &mut Failures) -> Result<()> {
+    fn check_cell_exactly(&self, c: Slot, failures: &mut Failures) -> Result<()> {
         if !self.is_positive(c) {
             return memory::push(&mut failures.cells, c);
         }
@@ -365,10 +364,10 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Whether none of these sites, of which one may be the ghost vertex, has moved.
-    fn are_at_rest(&self, sites: &[u32], before: &[G::Point]) -> bool {
+    fn are_at_rest(&self, sites: &[SiteId], before: &[G::Point]) -> bool {
         sites.iter().filter(|&&s| s != INFINITE).all(|&s| {
             let site = self.site(s);
-            site.point == before[site.id as usize]
+            site.point == before[site.id]
         })
     }
 
@@ -377,7 +376,7 @@ impl<G: Dimension> Delaunay<G> {
     fn stayed_positive<'p>(
         &self,
         corners: &G::Corners,
-        before: impl Fn(u32) -> Option<&'p G::Point>,
+        before: impl Fn(VertexId) -> Option<&'p G::Point>,
     ) -> bool {
         let (mut old, mut new) = ([&self.sites[0].point; 4], [&self.sites[0].point; 4]);
         for (k, &s) in corners.as_ref().iter().enumerate() {
@@ -389,7 +388,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Checks the cells of the star of a site; all its facets may fail.
-    pub(crate) fn check_star(&mut self, s: u32, failures: &mut Failures) -> Result<()> {
+    pub(crate) fn check_star(&mut self, s: SiteId, failures: &mut Failures) -> Result<()> {
         self.gather_star(s)?;
         for &(c, at) in self.gathered_star() {
             let cell = self.complex.cell(c);
@@ -410,7 +409,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Whether a finite cell is positively oriented.
-    pub(crate) fn is_positive(&self, cell: u32) -> bool {
+    pub(crate) fn is_positive(&self, cell: Slot) -> bool {
         G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::Slot;
 use crate::machine::memory;
 
 /// Lists of more than one cell in this number are put in storage order, unless all cells are near the processor anyway.
@@ -10,19 +11,19 @@ const NEAR: usize = 1 << 14;
 
 impl<G: Dimension> Delaunay<G> {
     /// Starts a record of the cells that relocations, insertions and removals make or move, in `buffer`.
-    pub fn record_changes(&mut self, mut buffer: Vec<u32>) {
+    pub fn record_changes(&mut self, mut buffer: Vec<Slot>) {
         buffer.clear();
         self.changed = Some(buffer);
     }
 
     /// Ends the record and returns it: cells, some of them more than once, some free again by now. `None` if
     /// all cells are new since it was started, or it was not.
-    pub fn take_changes(&mut self) -> Option<Vec<u32>> {
+    pub fn take_changes(&mut self) -> Option<Vec<Slot>> {
         self.changed.take()
     }
 
     /// Reduces a record to its live cells, each once.
-    pub(crate) fn tidy_changes(&mut self, changed: &mut Vec<u32>) {
+    pub(crate) fn tidy_changes(&mut self, changed: &mut Vec<Slot>) {
         let complex = &mut self.complex;
         changed.retain(|&c| {
             let is_first = complex.is_live(c) && complex.mark(c) == 0;
@@ -33,7 +34,7 @@ impl<G: Dimension> Delaunay<G> {
         });
         if complex.n_slots() > NEAR && changed.len() * SPARSE > complex.n_slots() {
             changed.clear();
-            changed.extend((0..complex.n_slots() as u32).filter(|&c| complex.mark(c) != 0));
+            changed.extend(Slot::range(0..complex.n_slots()).filter(|&c| complex.mark(c) != 0));
         }
         for &c in changed.iter() {
             complex.set_mark(c, 0);
@@ -51,14 +52,14 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Enters cells into the record, if there is one; there must be [room](Self::reserve_record) for them.
     #[inline(always)]
-    pub(crate) fn record(&mut self, cells: impl IntoIterator<Item = u32>) {
+    pub(crate) fn record(&mut self, cells: impl IntoIterator<Item = Slot>) {
         if let Some(changed) = &mut self.changed {
             changed.extend(cells);
         }
     }
 
     /// As [`record`](Self::record), of many.
-    pub(crate) fn record_all(&mut self, cells: &[u32]) -> Result<()> {
+    pub(crate) fn record_all(&mut self, cells: &[Slot]) -> Result<()> {
         if let Some(changed) = &mut self.changed {
             memory::reserve(changed, cells.len())?;
             changed.extend_from_slice(cells);

@@ -4,6 +4,7 @@ use std::fmt::Debug;
 
 use super::kernel::Kernel;
 use crate::complex::Corners;
+use crate::ids::{CellId, SiteId, VertexId};
 use crate::predicates::Coordinates;
 
 /// A dimension: [`Plane`] or [`Space`].
@@ -12,8 +13,12 @@ pub trait Dimension: Kernel<Self> + Copy + Debug + Default + Send + Sync + 'stat
     const D: usize;
     /// `[f64; D]`.
     type Point: Coordinates;
-    /// `[u32; D + 1]`: the corners of a cell, or its neighbours.
+    /// `[SiteId; D + 1]`: the corners of a cell in the kernel.
     type Corners: Corners;
+    /// `[VertexId; D + 1]`: the vertices of a cell.
+    type Vertices: Corners<VertexId>;
+    /// `[CellId; D + 1]`: the neighbours of a cell, opposite its vertices.
+    type Neighbours: Corners<CellId>;
 }
 
 /// Two dimensions.
@@ -27,11 +32,15 @@ pub struct Space;
 impl Dimension for Plane {
     const D: usize = 2;
     type Point = [f64; 2];
-    type Corners = [u32; 3];
+    type Corners = [SiteId; 3];
+    type Vertices = [VertexId; 3];
+    type Neighbours = [CellId; 3];
 }
 
 impl Dimension for Space {
     const D: usize = 3;
     type Point = [f64; 3];
-    type Corners = [u32; 4];
+    type Corners = [SiteId; 4];
+    type Vertices = [VertexId; 4];
+    type Neighbours = [CellId; 4];
 }

@@ -2,22 +2,23 @@
 
 use crate::complex::Facet;
 use crate::error::Result;
+use crate::ids::Slot;
 use crate::machine::memory;
 
 /// What does not hold.
 #[derive(Debug, Default)]
 pub struct Failures {
     /// Finite cells that are not positively oriented.
-    pub cells: Vec<u32>,
+    pub cells: Vec<Slot>,
     /// Facets between finite cells that fail the empty-sphere test, those of cells that are not positively oriented
     /// left out: they are to be tested once these are.
     pub facets: Vec<Facet>,
     /// Ridges of the hull that are not convex, as facets of ghost cells.
     pub ridges: Vec<Facet>,
     /// Ghost cells whose ridges have not been looked at.
-    pub open_ghosts: Vec<u32>,
+    pub open_ghosts: Vec<Slot>,
     /// All ghost cells, after a sweep.
-    pub ghosts: Vec<u32>,
+    pub ghosts: Vec<Slot>,
     /// Whether a sweep has to find out what has failed.
     pub is_sweep_due: bool,
     /// Whether, even if the hull is convex at every ridge, it may wind more than once: some may not have been convex

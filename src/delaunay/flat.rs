@@ -8,27 +8,34 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 use super::{Delaunay, Dimension, Insertion};
-use crate::complex::NONE;
+use crate::complex::INFINITE;
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// Places and basis; empty while there are cells.
 #[derive(Debug, Default)]
 pub(super) struct Flat<G: Dimension> {
-    places: HashMap<[u64; 3], u32>,
+    places: HashMap<[u64; 3], SiteId>,
     pub(super) basis: Basis<G>,
 }
 
 /// Affinely independent sites, `D + 1` at most.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Basis<G: Dimension> {
     n: usize,
-    sites: [u32; 4],
+    sites: [SiteId; 4],
     points: [G::Point; 4],
 }
 
+impl<G: Dimension> Default for Basis<G> {
+    fn default() -> Self {
+        Basis { n: 0, sites: [INFINITE; 4], points: [G::Point::default(); 4] }
+    }
+}
+
 impl<G: Dimension> Basis<G> {
-    pub(super) fn sites(&self) -> &[u32] {
+    pub(super) fn sites(&self) -> &[SiteId] {
         &self.sites[..self.n]
     }
 }
@@ -44,12 +51,12 @@ fn key<G: Dimension>(point: &G::Point) -> [u64; 3] {
 
 impl<G: Dimension> Flat<G> {
     /// The site at a place.
-    pub(super) fn site_at(&self, q: &G::Point) -> Option<u32> {
+    pub(super) fn site_at(&self, q: &G::Point) -> Option<SiteId> {
         self.places.get(&key::<G>(q)).copied()
     }
 
     /// Enters a site; the one that is there already, if any, stays and is returned.
-    pub(super) fn enter(&mut self, s: u32, q: &G::Point) -> Result<Option<u32>> {
+    pub(super) fn enter(&mut self, s: SiteId, q: &G::Point) -> Result<Option<SiteId>> {
         memory::reserve_map(&mut self.places, 1)?;
         Ok(match self.places.entry(key::<G>(q)) {
             Entry::Occupied(there) => Some(*there.get()),
@@ -65,12 +72,12 @@ impl<G: Dimension> Flat<G> {
     }
 
     /// A copy in which the sites have other names, listed by the old ones.
-    pub(super) fn renamed(&self, names: &[u32]) -> Result<Self> {
+    pub(super) fn renamed(&self, names: &[SiteId]) -> Result<Self> {
         let mut flat = Flat { places: HashMap::new(), basis: self.basis };
         memory::reserve_map(&mut flat.places, self.places.len())?;
-        flat.places.extend(self.places.iter().map(|(&place, &s)| (place, names[s as usize])));
+        flat.places.extend(self.places.iter().map(|(&place, &s)| (place, names[s])));
         let Basis { n, sites, .. } = &mut flat.basis;
-        sites[..*n].iter_mut().for_each(|s| *s = names[*s as usize]);
+        sites[..*n].iter_mut().for_each(|s| *s = names[*s]);
         Ok(flat)
     }
 
@@ -78,14 +85,14 @@ impl<G: Dimension> Flat<G> {
         // The map has a power of two of places, seven in eight of which it fills, and a byte of its own for each.
         match self.places.capacity() {
             0 => 0,
-            n => (n * 8 / 7).next_power_of_two() * (size_of::<([u64; 3], u32)>() + 1),
+            n => (n * 8 / 7).next_power_of_two() * (size_of::<([u64; 3], SiteId)>() + 1),
         }
     }
 }
 
 impl<G: Dimension> Delaunay<G> {
     /// Adds a site to the basis if it is independent of it; whether the basis is that of a cell now.
-    pub(super) fn extend_basis(&mut self, s: u32) -> bool {
+    pub(super) fn extend_basis(&mut self, s: SiteId) -> bool {
         let point = self.site(s).point;
         let Basis { n, sites, points } = &mut self.flat.basis;
         (sites[*n], points[*n]) = (s, point);
@@ -96,12 +103,12 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Inserts a site while there are no cells. After an error nothing has changed.
-    pub(super) fn insert_flat(&mut self, s: u32) -> Result<Insertion> {
+    pub(super) fn insert_flat(&mut self, s: SiteId) -> Result<Insertion> {
         let q = self.site(s).point;
         if let Some(t) = self.flat.enter(s, &q)? {
             return Ok(Insertion::Coincident(t));
         }
-        self.sites[s as usize].cell = NONE;
+        self.sites[s].cell = Slot::NONE;
         if self.extend_basis(s) {
             self.remove_flat(s);
             return Ok(Insertion::Spans);
@@ -110,7 +117,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Takes a site out while there are no cells; it stays live.
-    pub(super) fn remove_flat(&mut self, s: u32) {
+    pub(super) fn remove_flat(&mut self, s: SiteId) {
         let q = self.site(s).point;
         self.flat.places.remove(&key::<G>(&q));
         if self.flat.basis.sites().contains(&s) {
@@ -119,9 +126,9 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Finds a basis of the live sites but one.
-    pub(super) fn find_flat_basis(&mut self, except: u32) {
+    pub(super) fn find_flat_basis(&mut self, except: SiteId) {
         self.flat.basis = Basis::default();
-        for s in 1..self.sites.len() as u32 {
+        for s in SiteId::range(1..self.sites.len()) {
             if s != except && self.site(s).is_live() && self.extend_basis(s) {
                 break;
             }
@@ -130,7 +137,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Gives up the cells when the last finite one is gone. `except` is a site that is on its way elsewhere. After an
     /// error they are still there.
-    pub(super) fn become_flat(&mut self, except: u32) -> Result<()> {
+    pub(super) fn become_flat(&mut self, except: SiteId) -> Result<()> {
         let mut flat = Flat::default();
         for s in self.live_sites().filter(|&s| s != except) {
             flat.enter(s, &self.site(s).point)?;
@@ -138,7 +145,7 @@ impl<G: Dimension> Delaunay<G> {
         self.flat = flat;
         self.give_up_cells();
         self.changed = None;
-        self.sites[1..].iter_mut().for_each(|site| site.cell = NONE);
+        self.sites[1..].iter_mut().for_each(|site| site.cell = Slot::NONE);
         self.find_flat_basis(except);
         Ok(())
     }

@@ -19,6 +19,7 @@ use super::site::Sites;
 use super::{Delaunay, Dimension};
 use crate::complex::{CellRange, Corners, Facet, INFINITE, Obstacle, Row};
 use crate::error::{Error, Result};
+use crate::ids::Slot;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::predicates::StaticFilter;
@@ -47,9 +48,9 @@ pub struct Flips<G: Dimension> {
     /// Facets that may fail, for when there are more cells.
     later: Vec<Facet>,
     /// Of each flip, two cells that have all its sites as corners.
-    changed: Vec<u32>,
+    changed: Vec<Slot>,
     /// The third cell of flips that have made one.
-    pub(super) made: Vec<u32>,
+    pub(super) made: Vec<Slot>,
     /// For undoing: the rows that each flip has changed.
     journal: Vec<Row<G::Corners>>,
     n_flips: u64,
@@ -151,7 +152,7 @@ pub(super) struct AllFlips<G: Dimension> {
     were_several: bool,
     /// The cells there were, and those of them that were free, before several threads flipped.
     n_slots: usize,
-    free: Vec<u32>,
+    free: Vec<Slot>,
 }
 
 impl<G: Dimension> Default for AllFlips<G> {
@@ -350,13 +351,13 @@ impl<G: Dimension> Delaunay<G> {
         sample.extend(suspects.iter().step_by(step).map(|facet| facet.cell()));
         sample.sort_unstable();
         starts.extend((0..n_threads).map(|k| sample[sample.len() * k / n_threads]));
-        starts[0] = 0;
+        starts[0] = Slot::new(0);
         starts.dedup();
         let missing = starts.len().saturating_sub(parts.len());
         memory::reserve_exact(parts, missing)?;
         parts.resize_with(parts.len() + missing, Flips::default);
         for (k, part) in parts.iter_mut().enumerate().take(starts.len()) {
-            let range = starts[k]..starts.get(k + 1).copied().unwrap_or(u32::MAX);
+            let range = starts[k]..starts.get(k + 1).copied().unwrap_or(Slot::NONE);
             for &facet in suspects.iter().filter(|facet| range.contains(&facet.cell())) {
                 memory::push(&mut part.suspects, facet)?;
             }
@@ -394,7 +395,7 @@ impl<G: Dimension> Delaunay<G> {
     fn keep(&mut self, flips: &mut Flips<G>) {
         for (k, &c) in flips.changed.iter().enumerate() {
             if let Some(&next) = flips.changed.get(k + AHEAD) {
-                prefetch(self.complex.cells(), next as usize);
+                prefetch(self.complex.cells(), next.index());
             }
             let cell = *self.complex.cell(c);
             if !cell.is_free() {

@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 
@@ -36,7 +37,7 @@ impl<G: Dimension> Delaunay<G> {
             let cell = self.complex.create(corners);
             for i in 0..G::Corners::N {
                 sides.push((sorted_without(corners, i), Facet::new(cell, i)));
-                self.sites[corners[i] as usize].cell = cell;
+                self.sites[corners[i]].cell = cell;
             }
             self.recent = cell;
             self.record([cell]);
@@ -80,7 +81,7 @@ impl<G: Dimension> Delaunay<G> {
             let at = by_id.binary_search_by_key(&site.id, |&(id, _)| id).expect("a site of the link");
             by_id[at].1
         }));
-        let global = |s: u32| globals[s as usize];
+        let global = |s: SiteId| globals[s];
         let mut rim: HashMap<G::Corners, (G::Corners, usize)> = HashMap::new();
         memory::reserve_map(&mut rim, self.hole.link.len())?;
         rim.extend(
@@ -88,7 +89,7 @@ impl<G: Dimension> Delaunay<G> {
         );
         // The local cells inside, which are marked.
         let mut inside = Vec::new();
-        for c in (0..local.complex.n_slots() as u32).filter(|&c| local.complex.is_live(c)) {
+        for c in Slot::range(0..local.complex.n_slots()).filter(|&c| local.complex.is_live(c)) {
             let corners = map_corners(local.complex.cell(c).corners, global);
             let is_behind = |i: usize| {
                 rim.get(&sorted_without(corners, i)).is_some_and(|&(facing, at)| {
@@ -115,13 +116,13 @@ impl<G: Dimension> Delaunay<G> {
                 }
             }
         }
-        let corners_of = |&c: &u32| map_corners(local.complex.cell(c).corners, global);
+        let corners_of = |&c: &Slot| map_corners(local.complex.cell(c).corners, global);
         memory::collect(&mut made, inside.iter().map(corners_of))?;
         Ok(made)
     }
 }
 
-fn map_corners<C: Corners>(mut corners: C, f: impl Fn(u32) -> u32) -> C {
+fn map_corners<C: Corners>(mut corners: C, f: impl Fn(SiteId) -> SiteId) -> C {
     for s in corners.as_mut() {
         *s = f(*s);
     }
@@ -130,7 +131,7 @@ fn map_corners<C: Corners>(mut corners: C, f: impl Fn(u32) -> u32) -> C {
 
 /// The corners without the one at `i`, sorted; the freed entry is set to a value that no site has.
 fn sorted_without<C: Corners>(corners: C, i: usize) -> C {
-    let mut facet = corners.with(i, u32::MAX);
+    let mut facet = corners.with(i, SiteId::NONE);
     facet.as_mut().sort_unstable();
     facet
 }

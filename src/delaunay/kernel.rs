@@ -10,6 +10,7 @@ use super::dimension::Dimension;
 use super::flip::{Flipper, Flips};
 use super::site::{Site, Sites};
 use crate::complex::{Corners, Facet, Obstacle};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::StaticFilter;
 use crate::simd::{Avx2, LANES};
 
@@ -55,7 +56,7 @@ pub trait Kernel<G: Dimension> {
 
     /// Whether `q`, whose ties are broken as those of vertex `id`, is inside the sphere of a positively
     /// oriented finite cell, symbolically perturbed.
-    fn is_in_sphere(f: &StaticFilter, sites: Sites<G>, v: &G::Corners, q: &G::Point, id: u32) -> bool;
+    fn is_in_sphere(f: &StaticFilter, sites: Sites<G>, v: &G::Corners, q: &G::Point, id: VertexId) -> bool;
 
     /// Whether all points of a box are certainly outside the sphere of a positively oriented finite cell.
     fn is_clear_of(sites: Sites<G>, v: &G::Corners, lower: &G::Point, upper: &G::Point) -> bool;
@@ -68,10 +69,10 @@ pub trait Kernel<G: Dimension> {
     fn stays_positive(old: &[&G::Point], new: &[&G::Point]) -> bool;
 
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
-    fn cell_holds(t: &Delaunay<G>, cell: u32) -> bool;
+    fn cell_holds(t: &Delaunay<G>, cell: Slot) -> bool;
 
     /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each.
-    fn cells_hold(avx2: Avx2, t: &Delaunay<G>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32;
+    fn cells_hold(avx2: Avx2, t: &Delaunay<G>, cells: &[Slot; LANES], apexes: [&[SiteId; LANES]; 4]) -> u32;
 
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
     /// test.
@@ -81,7 +82,7 @@ pub trait Kernel<G: Dimension> {
     fn facets_hold(avx2: Avx2, t: &Delaunay<G>, facets: &[Facet; LANES]) -> u32;
 
     /// Takes sites that are certainly outside the sphere of a cell out of a set of them, by position.
-    fn drop_outside(t: &Delaunay<G>, cell: &G::Corners, sites: &[u32], set: u64) -> u64;
+    fn drop_outside(t: &Delaunay<G>, cell: &G::Corners, sites: &[SiteId], set: u64) -> u64;
 
     /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
     fn flip(flipper: &mut Flipper<G>, facet: Facet, flips: &mut Flips<G>) -> Result<(), Obstacle>;
@@ -92,6 +93,6 @@ pub trait Kernel<G: Dimension> {
         avx2: Avx2,
         places: &mut [G::Point; LANES],
         sites: &mut [Site<G>],
-        sites_of: &[u32; LANES],
+        sites_of: &[SiteId; LANES],
     ) -> u64;
 }

@@ -18,8 +18,8 @@ use std::sync::RwLock;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed};
 
 use super::{Delaunay, Dimension, Site};
-use crate::complex::NONE;
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// A tree is made once walks have crossed one cell for this number of sites, beyond [`LONG_WALK`] each: that takes about
@@ -73,7 +73,7 @@ impl Tree {
         // Sites are in an order of their places, so that every k-th is near each other one.
         let mut items = Vec::new();
         memory::reserve_exact(&mut items, n_leaves)?;
-        let is_in_cells = |site: &Site<G>| site.is_live() && site.cell != NONE;
+        let is_in_cells = |site: &Site<G>| site.is_live() && site.cell != Slot::NONE;
         let picked = (0..n_leaves).map(|k| 1 + (k as u64 * (n - 1) as u64 / n_leaves as u64) as usize);
         items.extend(picked.filter(|&s| is_in_cells(&sites[s])).map(|s| (sites[s].point, s as u32)));
         let Some(&last) = items.last() else {
@@ -132,18 +132,18 @@ impl Landmarks {
         tree.map_or(0, |tree| memory::bytes_of(&tree.splits) + memory::bytes_of(&tree.leaves))
     }
 
-    /// A site that was near `q` once; [`NONE`] if no tree has been made, or one is being made.
+    /// A site that was near `q` once; [`SiteId::NONE`] if no tree has been made, or one is being made.
     #[inline(always)]
-    fn near<G: Dimension>(&self, q: &G::Point) -> u32 {
+    fn near<G: Dimension>(&self, q: &G::Point) -> SiteId {
         let Ok(tree) = self.tree.try_read() else {
-            return NONE;
+            return SiteId::NONE;
         };
-        tree.as_ref().map_or(NONE, |tree| tree.leaves[tree.leaf::<G>(q)].load(Relaxed))
+        tree.as_ref().map_or(SiteId::NONE, |tree| SiteId::new(tree.leaves[tree.leaf::<G>(q)].load(Relaxed)))
     }
 
     /// Enters a walk of so many steps to `q`, near the site `s`.
     #[inline(always)]
-    fn follow<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: u32, steps: u64) {
+    fn follow<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
         if steps > SHORT_WALK {
             self.follow_long(sites, q, s, steps);
         }
@@ -151,12 +151,12 @@ impl Landmarks {
 
     #[cold]
     #[inline(never)]
-    fn follow_long<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: u32, steps: u64) {
+    fn follow_long<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
         let Ok(tree) = self.tree.try_read() else {
             return;
         };
         if let Some(tree) = tree.as_ref() {
-            tree.leaves[tree.leaf::<G>(q)].store(s, Relaxed);
+            tree.leaves[tree.leaf::<G>(q)].store(s.get(), Relaxed);
         }
         drop(tree);
         let beyond = steps.saturating_sub(LONG_WALK) as usize;
@@ -177,7 +177,7 @@ impl Landmarks {
 impl<G: Dimension> Delaunay<G> {
     /// A cell from which a walk to `q` is short: `near`, or one at a landmark if that is nearer.
     #[inline(always)]
-    pub(super) fn cell_towards(&self, q: &G::Point, near: u32) -> u32 {
+    pub(super) fn cell_towards(&self, q: &G::Point, near: Slot) -> Slot {
         let between =
             |p: &G::Point, q: &G::Point| (0..G::D).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>();
         // The last corner of a ghost cell is the ghost vertex.
@@ -188,8 +188,8 @@ impl<G: Dimension> Delaunay<G> {
             return near;
         }
         let s = self.landmarks.near::<G>(q);
-        match self.sites.get(s as usize) {
-            Some(site) if site.is_live() && site.cell != NONE && between(&site.point, q) < to_near => {
+        match self.sites.get(s.index()) {
+            Some(site) if site.is_live() && site.cell != Slot::NONE && between(&site.point, q) < to_near => {
                 site.cell
             }
             _ => near,
@@ -198,7 +198,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Enters a walk to `q` that has ended in `cell` after so many steps.
     #[inline(always)]
-    pub(super) fn note_walk(&self, q: &G::Point, cell: u32, steps: u64) {
+    pub(super) fn note_walk(&self, q: &G::Point, cell: Slot, steps: u64) {
         // The last corner of a ghost cell is the ghost vertex.
         self.landmarks.follow(&self.sites, q, self.complex.cell(cell).corners[0], steps);
     }
@@ -247,7 +247,7 @@ mod tests {
             t.rebuild(&mut |_| true).expect("room");
             let without = mean_steps(&t, rng, is_clustered);
             for _ in 0..2000 {
-                t.locate(&place::<G>(rng, is_clustered), NONE);
+                t.locate(&place::<G>(rng, is_clustered), Slot::NONE);
             }
             let with = mean_steps(&t, rng, is_clustered);
             assert!(without > 20.0 && with < 12.0, "{without} steps, then {with}");

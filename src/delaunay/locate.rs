@@ -6,8 +6,9 @@
 //! ghost cell whose facet has the point strictly beyond it.
 
 use super::{Delaunay, Dimension, IndexSet};
-use crate::complex::{Complex, Corners, NONE};
+use crate::complex::{Complex, Corners};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{FAR, prefetch};
 use crate::predicates::StaticFilter;
 
@@ -15,11 +16,11 @@ use crate::predicates::StaticFilter;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// At this site.
-    Site(u32),
+    Site(SiteId),
     /// At no site, in the closure of this finite cell.
-    Cell(u32),
+    Cell(Slot),
     /// Strictly beyond the hull facet of this ghost cell.
-    Outside(u32),
+    Outside(Slot),
     /// At no site, and there are no cells.
     NoCells,
 }
@@ -27,7 +28,7 @@ pub enum Place {
 impl<G: Dimension> Delaunay<G> {
     /// Cell where a walk to `q` from the cell `start` ends. `f` must hold for `q`. Counts its steps.
     #[inline(always)]
-    pub(super) fn walk(&self, f: &StaticFilter, q: &G::Point, start: u32, steps: &mut u64) -> u32 {
+    pub(super) fn walk(&self, f: &StaticFilter, q: &G::Point, start: Slot, steps: &mut u64) -> Slot {
         let n = G::Corners::N;
         let mut cell = start;
         if self.complex.cell(cell).is_ghost() {
@@ -54,7 +55,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// The site of a finite cell that is at `q`.
     #[inline(always)]
-    pub(super) fn corner_at(&self, cell: u32, q: &G::Point) -> Option<u32> {
+    pub(super) fn corner_at(&self, cell: Slot, q: &G::Point) -> Option<SiteId> {
         let c = self.complex.cell(cell);
         if c.is_ghost() {
             return None;
@@ -62,13 +63,13 @@ impl<G: Dimension> Delaunay<G> {
         (0..G::Corners::N).map(|i| c.corners[i]).find(|&s| self.site(s).point == *q)
     }
 
-    /// Where a point lies; `near` is a cell that may be near it, [`NONE`] if none is known.
-    pub fn locate(&self, q: &G::Point, near: u32) -> Place {
+    /// Where a point lies; `near` is a cell that may be near it, [`Slot::NONE`] if none is known.
+    pub fn locate(&self, q: &G::Point, near: Slot) -> Place {
         if !self.has_cells() {
             return self.flat.site_at(q).map_or(Place::NoCells, Place::Site);
         }
         let filter = self.filter_for(q);
-        let start = self.cell_towards(q, if near == NONE { self.recent } else { near });
+        let start = self.cell_towards(q, if near == Slot::NONE { self.recent } else { near });
         let mut steps = 0;
         let cell = self.walk(&filter, q, start, &mut steps);
         self.note_walk(q, cell, steps);
@@ -93,7 +94,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Calls `visit` for each cell around a site, ghost cells included, with the index of the site in it.
-    pub fn for_star(&self, s: u32, mut visit: impl FnMut(u32, usize)) -> Result<()> {
+    pub fn for_star(&self, s: SiteId, mut visit: impl FnMut(Slot, usize)) -> Result<()> {
         let mut star = IndexSet::new();
         self.list_star(s, &mut star, |_| {})?;
         for &cell in star.as_slice() {
@@ -110,7 +111,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Asks for what a relocation of a site reads first, besides its star: the sites of the link and the cells beyond it.
     #[inline(always)]
-    pub(crate) fn prefetch_around(&self, s: u32, star: &IndexSet) {
+    pub(crate) fn prefetch_around(&self, s: SiteId, star: &IndexSet<Slot>) {
         if !self.is_far() {
             return;
         }
@@ -118,15 +119,20 @@ impl<G: Dimension> Delaunay<G> {
             let cell = self.complex.cell(c);
             self.complex.prefetch(cell.neighbour(cell.index_of(s)).cell());
             for &corner in cell.corners.as_ref() {
-                prefetch(&self.sites, corner as usize);
+                prefetch(&self.sites, corner.index());
             }
         }
     }
 
-    /// Enters the cells around a site, ghost cells included, into an empty set. Calls `found` as soon as the index of a
+    /// Enters the cells around a site, ghost cells included, into an empty set. Calls `found` as soon as the slot of a
     /// cell is known, for some of them more than once.
     #[inline(always)]
-    pub(crate) fn list_star(&self, s: u32, star: &mut IndexSet, found: impl FnMut(u32)) -> Result<()> {
+    pub(crate) fn list_star(
+        &self,
+        s: SiteId,
+        star: &mut IndexSet<Slot>,
+        found: impl FnMut(Slot),
+    ) -> Result<()> {
         if !self.has_cells() {
             return Ok(());
         }
@@ -138,15 +144,15 @@ impl<G: Dimension> Delaunay<G> {
 #[inline(always)]
 pub(super) fn list_star<C: Corners>(
     complex: &Complex<C>,
-    first: u32,
-    s: u32,
-    star: &mut IndexSet,
-    mut found: impl FnMut(u32),
+    first: Slot,
+    s: SiteId,
+    star: &mut IndexSet<Slot>,
+    mut found: impl FnMut(Slot),
 ) -> Result<()> {
     found(first);
     if C::N == 3 {
         // A ring: both ways around at once, so that the processor waits for two cells together.
-        let across = |cell: u32, from: usize| {
+        let across = |cell: Slot, from: usize| {
             let c = complex.cell(cell);
             c.neighbour((c.index_of(s) + from) % C::N).cell()
         };

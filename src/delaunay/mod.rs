@@ -73,8 +73,9 @@ pub(crate) use set::IndexSet;
 pub use site::Site;
 pub use validate::{Level, Violation};
 
-use crate::complex::{Complex, Corners, Facet, INFINITE};
+use crate::complex::{Complex, Corners, Facet};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::machine::threads::Threads;
@@ -85,11 +86,14 @@ use flip::AllFlips;
 use parts::Parts;
 use remove::Hole;
 
+/// What the ghost vertex has for an id.
+const GHOST: VertexId = VertexId::new(0);
+
 /// A Delaunay triangulation of sites.
 #[derive(Debug)]
 pub struct Delaunay<G: Dimension> {
     sites: Vec<Site<G>>,
-    free_sites: Vec<u32>,
+    free_sites: Vec<SiteId>,
     parts: Parts,
     complex: Complex<G::Corners>,
     filter: StaticFilter,
@@ -100,16 +104,16 @@ pub struct Delaunay<G: Dimension> {
     /// Whether the cells have been [sorted](Self::sort_cells) since the latest build.
     is_sorted: bool,
     /// A live cell, near the latest change.
-    recent: u32,
+    recent: Slot,
     landmarks: landmarks::Landmarks,
     cavity: Cavity<G>,
     hole: Hole<G>,
     /// The cells of the star gathered last.
-    around: IndexSet,
+    around: IndexSet<Slot>,
     flips: AllFlips<G>,
     log: undo::Log<G>,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
-    changed: Option<Vec<u32>>,
+    changed: Option<Vec<Slot>>,
     /// Certificates evaluated by relocations so far.
     certificates: u64,
     /// Sites of links that have been triangulated in removals of vertices of high degree.
@@ -142,7 +146,7 @@ impl<G: Dimension> Delaunay<G> {
             upper: origin,
             flat: Flat::default(),
             is_sorted: false,
-            recent: 0,
+            recent: Slot::new(0),
             landmarks: Default::default(),
             cavity: Cavity::default(),
             hole: Hole::default(),
@@ -159,7 +163,7 @@ impl<G: Dimension> Delaunay<G> {
     /// A triangulation without sites that uses several threads.
     pub(crate) fn on(threads: Threads) -> Result<Self> {
         let mut t = Delaunay { threads, ..Delaunay::empty() };
-        memory::push(&mut t.sites, Site::new(G::Point::default(), INFINITE))?;
+        memory::push(&mut t.sites, Site::new(G::Point::default(), GHOST))?;
         Ok(t)
     }
 
@@ -186,19 +190,19 @@ impl<G: Dimension> Delaunay<G> {
 
     /// The place of a corner of a cell, not the ghost vertex.
     #[inline(always)]
-    pub(crate) fn place(&self, s: u32) -> &G::Point {
+    pub(crate) fn place(&self, s: SiteId) -> &G::Point {
         self.view().point(s)
     }
 
     /// The site of an index.
     #[inline(always)]
-    pub fn site(&self, s: u32) -> &Site<G> {
-        &self.sites[s as usize]
+    pub fn site(&self, s: SiteId) -> &Site<G> {
+        &self.sites[s]
     }
 
     /// Indices of the live sites.
-    pub fn live_sites(&self) -> impl Iterator<Item = u32> + Clone + '_ {
-        (1..self.sites.len() as u32).filter(|&s| self.sites[s as usize].is_live())
+    pub fn live_sites(&self) -> impl Iterator<Item = SiteId> + Clone + '_ {
+        SiteId::range(1..self.sites.len()).filter(|&s| self.sites[s].is_live())
     }
 
     /// Whether there are cells.
@@ -209,20 +213,20 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Record of a corner of a cell, the ghost vertex included.
     #[inline(always)]
-    fn corner_mut(&mut self, s: u32) -> &mut Site<G> {
-        debug_assert!((s as usize) < self.sites.len());
+    fn corner_mut(&mut self, s: SiteId) -> &mut Site<G> {
+        debug_assert!(s.index() < self.sites.len());
         // SAFETY: a corner of a cell is the index of a site, by the kernel's invariants.
-        unsafe { self.sites.get_unchecked_mut(s as usize) }
+        unsafe { self.sites.get_unchecked_mut(s.index()) }
     }
 
     /// Adds a site that is in no cell yet: to be followed by [`rebuild`](Self::rebuild) or by the rest of an
     /// insertion.
-    pub fn add_site(&mut self, point: G::Point, id: u32) -> Result<u32> {
+    pub fn add_site(&mut self, point: G::Point, id: VertexId) -> Result<SiteId> {
         let site = Site::new(point, id);
         if let Some(&s) = self.free_sites.last() {
             self.log_site(s)?;
             self.free_sites.pop();
-            self.sites[s as usize] = site;
+            self.sites[s] = site;
             return Ok(s);
         }
         // Site indices end below the sentinel.
@@ -235,13 +239,13 @@ impl<G: Dimension> Delaunay<G> {
             self.reserve_sites(1.max(self.sites.len() / 8))?;
         }
         // A free one, which is named like any other.
-        let s = self.sites.len() as u32;
-        self.sites.push(Site::new(point, crate::complex::NONE));
+        let s = SiteId::at(self.sites.len());
+        self.sites.push(Site::new(point, VertexId::NONE));
         if let Err(error) = self.log_site(s) {
             self.sites.pop();
             return Err(error);
         }
-        self.sites[s as usize] = site;
+        self.sites[s] = site;
         Ok(s)
     }
 
@@ -251,22 +255,22 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Frees a site that is in no cell.
-    pub fn discard_site(&mut self, s: u32) -> Result<()> {
+    pub fn discard_site(&mut self, s: SiteId) -> Result<()> {
         memory::reserve(&mut self.free_sites, 1)?;
         self.drop_site(s);
         Ok(())
     }
 
     /// Frees a site; there is room for it in the list, as it has been logged or [counted](Self::merge).
-    fn drop_site(&mut self, s: u32) {
-        self.sites[s as usize].id = crate::complex::NONE;
+    fn drop_site(&mut self, s: SiteId) {
+        self.sites[s].id = VertexId::NONE;
         self.free_sites.push(s);
     }
 
     /// Writes a place without any change to the cells; [`rebuild`](Self::rebuild) must follow.
     #[inline(always)]
-    pub fn set_point(&mut self, s: u32, point: G::Point) {
-        self.sites[s as usize].point = point;
+    pub fn set_point(&mut self, s: SiteId, point: G::Point) {
+        self.sites[s].point = point;
     }
 
     /// How many threads a call may use.
@@ -342,7 +346,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
     #[inline(always)]
-    fn is_in_conflict(&self, cell: u32, q: &G::Point, id: u32) -> bool {
+    fn is_in_conflict(&self, cell: Slot, q: &G::Point, id: VertexId) -> bool {
         let c = self.complex.cell(cell);
         if c.is_ghost() {
             return self.is_in_conflict_with_ghost(cell, q, id);
@@ -351,7 +355,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     #[inline(never)]
-    fn is_in_conflict_with_ghost(&self, cell: u32, q: &G::Point, id: u32) -> bool {
+    fn is_in_conflict_with_ghost(&self, cell: Slot, q: &G::Point, id: VertexId) -> bool {
         let c = self.complex.cell(cell);
         let beyond = G::orientation_with(&self.filter, self.view(), &c.corners, Self::LAST, q);
         if beyond != 0.0 {
@@ -377,7 +381,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Visits each facet of these cells, which are live and listed once, exactly once.
-    pub(crate) fn for_facets_of(&mut self, cells: &[u32], mut visit: impl FnMut(&Self, Facet)) {
+    pub(crate) fn for_facets_of(&mut self, cells: &[Slot], mut visit: impl FnMut(&Self, Facet)) {
         for &c in cells {
             self.complex.set_mark(c, 1);
         }
@@ -400,9 +404,9 @@ impl<G: Dimension> Delaunay<G> {
         let cell = self.complex.cell(facet.cell());
         // A free cell has corners that are no sites; they are only asked for.
         for i in 0..G::Corners::N {
-            prefetch(&self.sites, cell.corners[i] as usize);
+            prefetch(&self.sites, cell.corners[i].index());
         }
-        prefetch(self.complex.cells(), cell.neighbour(facet.index()).cell() as usize);
+        prefetch(self.complex.cells(), cell.neighbour(facet.index()).cell().index());
     }
 
     /// Bytes held.

@@ -11,6 +11,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::SiteId;
 use crate::machine::memory;
 
 /// Lower and upper corner of the bounding box.
@@ -246,10 +247,10 @@ fn spread_3(x: u32) -> u32 {
 
 /// Splits `sites`, which is in storage order, into rounds, each `2^D` times as large as the one before in the mean;
 /// the order within a round stays.
-pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = u32> + Clone) -> Result<Vec<u32>> {
+pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> Result<Vec<SiteId>> {
     const ROUNDS: usize = 16;
-    let round = |s: u32| {
-        let hash = u64::from(s).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let round = |s: SiteId| {
+        let hash = u64::from(s.get()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let hash = (hash ^ hash >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let level = (hash >> 32 | 1 << 31).trailing_zeros() as usize / G::D;
         ROUNDS - 1 - level.min(ROUNDS - 1)
@@ -263,7 +264,7 @@ pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = u32> + Clone) -> Resu
     }
     let mut order = Vec::new();
     memory::reserve_exact(&mut order, starts[ROUNDS])?;
-    order.resize(starts[ROUNDS], 0);
+    order.resize(starts[ROUNDS], SiteId::NONE);
     for s in sites {
         let at = &mut starts[round(s)];
         order[*at] = s;
@@ -350,10 +351,10 @@ mod tests {
 
     #[test]
     fn rounds_are_a_permutation() {
-        let order = in_rounds::<Space>(5..5000).expect("room for it");
+        let order = in_rounds::<Space>(SiteId::range(5..5000)).expect("room for it");
         let mut seen = order.clone();
         seen.sort_unstable();
-        assert!(seen.iter().copied().eq(5..5000));
+        assert!(seen.into_iter().eq(SiteId::range(5..5000)));
         let falls = order.windows(2).filter(|w| w[1] < w[0]).count();
         assert!((1..16).contains(&falls), "{falls} rounds");
     }

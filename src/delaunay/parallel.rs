@@ -22,6 +22,7 @@ use super::unite::Open;
 use super::{Delaunay, Dimension, Site};
 use crate::complex::INFINITE;
 use crate::error::{Error, Result};
+use crate::ids::SiteId;
 use crate::machine::memory;
 use crate::machine::threads::{self, Threads};
 
@@ -29,7 +30,7 @@ use crate::machine::threads::{self, Threads};
 const SHARE_OF_PARTS: f64 = 0.8;
 
 /// Pairs of coincident sites, the second in the cells.
-type Coincident = Vec<(u32, u32)>;
+type Coincident = Vec<(SiteId, SiteId)>;
 
 /// What all threads read.
 struct Build<'t, G: Dimension> {
@@ -103,7 +104,7 @@ impl<G: Dimension> Delaunay<G> {
             let (n_parts, n_sites) = (self.parts.count(), self.sites.len());
             let room = self.parts.sites(part..parts::end_from(part, n_parts), n_sites).len();
             memory::reserve_exact(&mut copy, room + 1)?;
-            copy.push(self.sites[INFINITE as usize]);
+            copy.push(self.sites[INFINITE]);
             let own = &self.sites[self.parts.sites(part..part + 1, n_sites)];
             memory::extend(&mut copy, own, n_parts, |site| *site)?;
         }
@@ -150,8 +151,9 @@ impl<G: Dimension> Build<'_, G> {
         );
         let mut coincident = left?;
         let (right, found): (Open<G>, Coincident) = right?;
-        let first = 1 + self.parts.sites(parts.start..middle, self.n_sites).len() as u32;
-        memory::collect(&mut coincident, found.into_iter().map(|(s, t)| (s + first - 1, t + first - 1)))?;
+        let first = SiteId::at(1 + self.parts.sites(parts.start..middle, self.n_sites).len());
+        let moved = |s: SiteId| SiteId::at(s.index() + first.index() - 1);
+        memory::collect(&mut coincident, found.into_iter().map(|(s, t)| (moved(s), moved(t))))?;
         let [from, to] = [middle, parts.end].map(|part| part as f64 / self.parts.count() as f64);
         let mut monitor = |fraction: f64| {
             monitor(SHARE_OF_PARTS + (1.0 - SHARE_OF_PARTS) * (from + (to - from) * fraction))
@@ -174,7 +176,7 @@ impl<G: Dimension> Build<'_, G> {
         }
         (t.lower, t.upper) = self.boxes[part].expect("the box of a part");
         t.filter = G::filter(&t.lower, &t.upper);
-        let own = 1..1 + self.parts.sites(part..part + 1, self.n_sites).len() as u32;
+        let own = SiteId::range(1..1 + self.parts.sites(part..part + 1, self.n_sites).len());
         let order = in_rounds::<G>(own.filter(|&s| t.site(s).is_live()))?;
         if !order.iter().any(|&s| t.extend_basis(s)) {
             return Err(Error::Cancelled);

@@ -7,8 +7,8 @@
 
 use super::order::{Keyed, bounding_box, hilbert_order};
 use super::{Delaunay, Dimension, Site};
-use crate::complex::INFINITE;
 use crate::error::Result;
+use crate::ids::SiteId;
 use crate::machine::memory;
 use crate::machine::threads;
 use std::ops::Range;
@@ -17,11 +17,14 @@ use std::ops::Range;
 /// hundredth.
 const SAMPLE: usize = 1 << 13;
 
+/// The first site after the placeholder.
+const FIRST: SiteId = SiteId::new(1);
+
 /// Parts of sites; none for a build on one thread.
 #[derive(Debug, Default)]
 pub(super) struct Parts {
     /// First site of each part; none if there is but one part.
-    starts: Vec<u32>,
+    starts: Vec<SiteId>,
     /// Axis and coordinate of the plane that has the parts below `i + 1`, as far as they are on the same side
     /// of all planes before, below it.
     planes: Vec<(usize, f64)>,
@@ -35,7 +38,7 @@ impl Parts {
     /// Planes for `n_parts` parts with like shares of a sample.
     fn of_sample<G: Dimension>(sample: &mut [G::Point], n_parts: usize) -> Result<Self> {
         let mut parts = Parts::default();
-        memory::lengthen(&mut parts.starts, n_parts, 1)?;
+        memory::lengthen(&mut parts.starts, n_parts, FIRST)?;
         memory::lengthen(&mut parts.planes, n_parts - 1, (0, 0.0))?;
         parts.divide::<G>(sample, 0..n_parts);
         Ok(parts)
@@ -68,7 +71,7 @@ impl Parts {
 
     /// The sites of consecutive parts, of which there are several, with `n_sites` in all.
     pub(super) fn sites(&self, parts: Range<usize>, n_sites: usize) -> Range<usize> {
-        let start = |part: usize| self.starts.get(part).map_or(n_sites, |&s| s as usize);
+        let start = |part: usize| self.starts.get(part).map_or(n_sites, |s| s.index());
         start(parts.start)..start(parts.end)
     }
 
@@ -141,7 +144,7 @@ impl Parts {
             sites.swap(i, j - 1);
             (i, j) = (i + 1, j - 1);
         }
-        self.starts[middle] = i as u32;
+        self.starts[middle] = SiteId::at(i);
         self.restore(sites, parts.start..middle);
         self.restore(sites, middle..parts.end);
     }
@@ -177,7 +180,7 @@ pub(super) fn end_from(part: usize, n_parts: usize) -> usize {
 
 impl<G: Dimension> Delaunay<G> {
     /// Items at these places in parts for as many threads as pay, each along a Hilbert curve. The parts start
-    /// where the sites do if the first one is `INFINITE + 1`.
+    /// where the sites do if the first one is [`FIRST`].
     pub(super) fn in_parts<'p>(
         &self,
         items: impl Iterator<Item = u32> + Clone + Sync,
@@ -208,10 +211,10 @@ impl<G: Dimension> Delaunay<G> {
         for (sorted, done) in sorted.iter_mut().zip(done) {
             *sorted = done?;
         }
-        let mut start = INFINITE + 1;
+        let mut start = FIRST;
         for (part, sorted) in sorted.iter().enumerate() {
             parts.starts[part] = start;
-            start += sorted.len() as u32;
+            start = SiteId::at(start.index() + sorted.len());
         }
         Ok((parts, sorted))
     }
@@ -226,8 +229,8 @@ impl<G: Dimension> Delaunay<G> {
         if !self.free_sites.is_empty() {
             // As many as before.
             self.free_sites.clear();
-            let sites = (1..).zip(&self.sites[1..]);
-            self.free_sites.extend(sites.filter(|(_, site)| !site.is_live()).map(|(s, _)| s));
+            let sites = SiteId::range(1..self.sites.len());
+            self.free_sites.extend(sites.filter(|&s| !self.sites[s].is_live()));
         }
     }
 

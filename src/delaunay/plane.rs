@@ -7,6 +7,7 @@ use super::site::{Site, Sites};
 use super::uncertain::{apexes_beyond, corners_at};
 use super::{Delaunay, cavity_plane};
 use crate::complex::{Facet, INFINITE, Obstacle};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::{self, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
@@ -33,19 +34,25 @@ impl Kernel<Plane> for Plane {
     }
 
     #[inline(always)]
-    fn is_in_sphere(f: &StaticFilter, sites: Sites<Plane>, v: &[u32; 3], q: &[f64; 2], id: u32) -> bool {
+    fn is_in_sphere(
+        f: &StaticFilter,
+        sites: Sites<Plane>,
+        v: &[SiteId; 3],
+        q: &[f64; 2],
+        id: VertexId,
+    ) -> bool {
         debug_assert!(v[2] != INFINITE);
         let [a, b, c] = v.map(|s| sites.point(s));
         let sign = predicates::incircle(f, a, b, c, q);
         if sign != 0.0 {
             return sign > 0.0;
         }
-        let [i, j, k] = v.map(|s| sites.id(s));
-        predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id])
+        let [i, j, k] = v.map(|s| sites.id(s).get());
+        predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id.get()])
     }
 
     #[inline(always)]
-    fn is_clear_of(sites: Sites<Plane>, v: &[u32; 3], lower: &[f64; 2], upper: &[f64; 2]) -> bool {
+    fn is_clear_of(sites: Sites<Plane>, v: &[SiteId; 3], lower: &[f64; 2], upper: &[f64; 2]) -> bool {
         predicates::is_box_outside_circle(v.map(|s| sites.point(s)), [lower, upper])
     }
 
@@ -64,7 +71,7 @@ impl Kernel<Plane> for Plane {
     }
 
     #[inline(always)]
-    fn cell_holds(t: &Delaunay<Plane>, c: u32) -> bool {
+    fn cell_holds(t: &Delaunay<Plane>, c: Slot) -> bool {
         let cell = t.complex.cell(c);
         let [a, b, d] = cell.corners.map(|s| t.view().point(s));
         let circle = predicates::circle(a, b, d);
@@ -78,7 +85,12 @@ impl Kernel<Plane> for Plane {
     }
 
     #[inline(always)]
-    fn cells_hold(avx2: Avx2, t: &Delaunay<Plane>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+    fn cells_hold(
+        avx2: Avx2,
+        t: &Delaunay<Plane>,
+        cells: &[Slot; LANES],
+        apexes: [&[SiteId; LANES]; 4],
+    ) -> u32 {
         let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
         let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
         let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
@@ -87,7 +99,9 @@ impl Kernel<Plane> for Plane {
         let mut hold = avx2.splat(t.filter.orient).is_less(circle[2]);
         for apexes in &apexes[..3] {
             let side = predicates::side_of_circle(&circle, &a, &places(avx2, t, **apexes));
-            hold = hold & (side.is_less(avx2.splat(-t.filter.prepared)) | avx2.are_equal(apexes, INFINITE));
+            hold = hold
+                & (side.is_less(avx2.splat(-t.filter.prepared))
+                    | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
         }
         hold.bits()
     }
@@ -124,7 +138,7 @@ impl Kernel<Plane> for Plane {
     }
 
     #[inline(always)]
-    fn drop_outside(_: &Delaunay<Plane>, _: &[u32; 3], _: &[u32], set: u64) -> u64 {
+    fn drop_outside(_: &Delaunay<Plane>, _: &[SiteId; 3], _: &[SiteId], set: u64) -> u64 {
         // They are few.
         set
     }
@@ -140,9 +154,9 @@ impl Kernel<Plane> for Plane {
         avx2: Avx2,
         places: &mut [[f64; 2]; LANES],
         sites: &mut [Site<Plane>],
-        sites_of: &[u32; LANES],
+        sites_of: &[SiteId; LANES],
     ) -> u64 {
-        let [s, t, u, v] = sites_of.map(|s| s as usize);
+        let [s, t, u, v] = sites_of.map(SiteId::index);
         let (first, last) = halves(places);
         let new = [avx2.load(first), avx2.load(last)];
         let old = [
@@ -162,7 +176,7 @@ impl Kernel<Plane> for Plane {
 }
 
 #[inline(always)]
-fn places(avx2: Avx2, t: &Delaunay<Plane>, sites: [u32; LANES]) -> [Lanes; 2] {
+fn places(avx2: Avx2, t: &Delaunay<Plane>, sites: [SiteId; LANES]) -> [Lanes; 2] {
     avx2.pairs(sites.map(|s| t.view().point(s)))
 }
 

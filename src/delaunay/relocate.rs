@@ -16,8 +16,9 @@
 //! The id of a site breaks ties, so a change of id is a relocation to the same place.
 
 use super::{Delaunay, Dimension, Insertion, Site};
-use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 
 /// What a relocation did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +30,7 @@ pub enum Relocation {
     /// The site was removed and inserted again.
     Placed,
     /// The site was removed, and its new place is that of this one; its index is free.
-    Coincident(u32),
+    Coincident(SiteId),
     /// The other sites span no cell, and with this one at its new place they do: a kernel has to be built.
     Spans,
 }
@@ -45,7 +46,13 @@ pub enum Shortcut {
 
 impl<G: Dimension> Delaunay<G> {
     /// Moves a live site to `q`, where it represents vertex `id`. There must be cells.
-    pub fn relocate_site(&mut self, s: u32, q: &G::Point, id: u32, shortcut: Shortcut) -> Result<Relocation> {
+    pub fn relocate_site(
+        &mut self,
+        s: SiteId,
+        q: &G::Point,
+        id: VertexId,
+        shortcut: Shortcut,
+    ) -> Result<Relocation> {
         self.cover(q, q);
         self.gather_star(s)?;
         self.reserve_record(self.hole.star.len())?;
@@ -57,8 +64,8 @@ impl<G: Dimension> Delaunay<G> {
         if self.complex.n_finite() == 0 {
             self.become_flat(s)?;
         }
-        self.sites[s as usize] = Site::new(*q, id);
-        match self.insert_site(s, NONE)? {
+        self.sites[s] = Site::new(*q, id);
+        match self.insert_site(s, Slot::NONE)? {
             Insertion::New => Ok(Relocation::Placed),
             Insertion::Coincident(t) => Ok(Relocation::Coincident(t)),
             Insertion::Spans => Ok(Relocation::Spans),
@@ -66,10 +73,10 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Gives a site the id of another vertex.
-    pub fn rename_site(&mut self, s: u32, id: u32) -> Result<()> {
+    pub fn rename_site(&mut self, s: SiteId, id: VertexId) -> Result<()> {
         self.log_id(s)?;
         if !self.has_cells() {
-            self.sites[s as usize].id = id;
+            self.sites[s].id = id;
             return Ok(());
         }
         // Where the sites of the star stay, its vertices do not: who follows the cells has to know.
@@ -83,18 +90,18 @@ impl<G: Dimension> Delaunay<G> {
     /// Relocates without a removal if the star allows it; otherwise changes nothing.
     fn relocate_in_place(
         &mut self,
-        s: u32,
+        s: SiteId,
         q: &G::Point,
-        id: u32,
+        id: VertexId,
         shortcut: Shortcut,
     ) -> Result<Option<Relocation>> {
         let (old, old_id) = (self.site(s).point, self.site(s).id);
-        self.sites[s as usize].point = *q;
-        self.sites[s as usize].id = id;
+        self.sites[s].point = *q;
+        self.sites[s].id = id;
         let done = self.repair_star(shortcut);
         if !matches!(done, Ok(Some(_))) {
-            self.sites[s as usize].point = old;
-            self.sites[s as usize].id = old_id;
+            self.sites[s].point = old;
+            self.sites[s].id = old_id;
         }
         done
     }

@@ -13,8 +13,9 @@
 
 use super::locate::list_star;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS, NONE};
+use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 
@@ -34,16 +35,16 @@ pub(super) struct Gap<C> {
 #[derive(Debug)]
 pub(super) struct Hole<G: Dimension> {
     /// Cells of the star and the index of the site in each.
-    pub(super) star: Vec<(u32, u8)>,
+    pub(super) star: Vec<(Slot, u8)>,
     /// The frontier at first: the link, seen from outside.
     pub(super) link: Vec<Gap<G::Corners>>,
     /// Sites of the link, the ghost vertex included.
-    pub(super) sites: Vec<u32>,
+    pub(super) sites: Vec<SiteId>,
     open: Vec<(u64, Gap<G::Corners>)>,
     open_ghost: Vec<(u64, Facet)>,
-    /// New cells, and the gluing of their facets: a `Facet` whose cell counts from `NEW` is one of them.
-    made: Vec<(G::Corners, G::Corners)>,
-    made_at: Vec<u32>,
+    /// New cells, and the gluing of their facets: a facet whose slot counts from `NEW` is that of one of them.
+    made: Vec<(G::Corners, FacetsOf<G>)>,
+    made_at: Vec<Slot>,
 }
 
 impl<G: Dimension> Default for Hole<G> {
@@ -72,15 +73,24 @@ impl<G: Dimension> Hole<G> {
     }
 }
 
-/// Cells from here on are those of `made`, not yet in the complex.
-const NEW: u32 = MAX_CELLS as u32;
+/// The facets of a cell, seen from its neighbours.
+type FacetsOf<G> = <<G as Dimension>::Corners as Corners>::Of<Facet>;
+
+/// Slots from here on stand for the cells of `made`, which are not in the complex yet.
+const NEW: usize = MAX_CELLS;
+
+/// Which one of `made` a facet is of, if it is of one.
+#[inline(always)]
+fn new_of(facet: Facet) -> Option<usize> {
+    facet.cell().index().checked_sub(NEW)
+}
 
 impl<G: Dimension> Delaunay<G> {
     /// Collects the star of a site and its link. What a relocation reads next is asked for on the way: the sites of the
     /// link and those beyond its facets.
-    pub(crate) fn gather_star(&mut self, s: u32) -> Result<()> {
+    pub(crate) fn gather_star(&mut self, s: SiteId) -> Result<()> {
         self.around.clear();
-        list_star(&self.complex, self.sites[s as usize].cell, s, &mut self.around, |_| {})?;
+        list_star(&self.complex, self.sites[s].cell, s, &mut self.around, |_| {})?;
         self.prefetch_around(s, &self.around);
         let is_far = self.is_far();
         let Hole { star, link, .. } = &mut self.hole;
@@ -96,14 +106,14 @@ impl<G: Dimension> Delaunay<G> {
         }));
         if is_far {
             for gap in link {
-                prefetch(sites, complex.apex(gap.out) as usize);
+                prefetch(sites, complex.apex(gap.out).index());
             }
         }
         Ok(())
     }
 
     /// Cells of the star gathered last, and the index of its site in each.
-    pub(crate) fn gathered_star(&self) -> &[(u32, u8)] {
+    pub(crate) fn gathered_star(&self) -> &[(Slot, u8)] {
         &self.hole.star
     }
 
@@ -115,10 +125,10 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve(&mut hole.sites, hole.link.len())?;
         for gap in &hole.link {
             for i in (0..G::Corners::N).filter(|&i| i != gap.at) {
-                let site = &mut self.sites[gap.corners[i] as usize];
-                let l = site.cell as usize;
+                let site = &mut self.sites[gap.corners[i]];
+                let l = site.cell.index();
                 if l >= hole.sites.len() || hole.sites[l] != gap.corners[i] {
-                    site.cell = hole.sites.len() as u32;
+                    site.cell = Slot::at(hole.sites.len());
                     hole.sites.push(gap.corners[i]);
                 }
             }
@@ -131,13 +141,13 @@ impl<G: Dimension> Delaunay<G> {
         for &(c, at) in &self.hole.star {
             let corners = self.complex.cell(c).corners;
             for i in (0..G::Corners::N).filter(|&i| i != at as usize) {
-                self.sites[corners[i] as usize].cell = c;
+                self.sites[corners[i]].cell = c;
             }
         }
     }
 
     /// Removes a live site.
-    pub fn remove_site(&mut self, s: u32) -> Result<()> {
+    pub fn remove_site(&mut self, s: SiteId) -> Result<()> {
         self.log_site(s)?;
         if !self.has_cells() {
             self.remove_flat(s);
@@ -154,7 +164,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Removes the site whose star has been gathered from the cells; the site stays live.
-    pub(super) fn remove_gathered(&mut self, s: u32) -> Result<()> {
+    pub(super) fn remove_gathered(&mut self, s: SiteId) -> Result<()> {
         self.label_link()?;
         if self.hole.sites.len() > MAX_LINK {
             self.restore_link_cells();
@@ -168,7 +178,7 @@ impl<G: Dimension> Delaunay<G> {
         if let Some(changed) = &mut self.changed {
             changed.extend_from_slice(&self.hole.made_at);
         }
-        self.sites[s as usize].cell = NONE;
+        self.sites[s].cell = Slot::NONE;
         Ok(())
     }
 
@@ -198,7 +208,7 @@ impl<G: Dimension> Delaunay<G> {
         hole.made.clear();
         memory::reserve(&mut hole.open, hole.link.len())?;
         memory::reserve(&mut hole.open_ghost, hole.link.len())?;
-        let bit = |sites: &[super::Site<G>], v: u32| 1u64 << sites[v as usize].cell;
+        let bit = |sites: &[super::Site<G>], v: SiteId| 1u64 << sites[v].cell.get();
         for gap in &hole.link {
             let key =
                 (0..G::Corners::N).filter(|&i| i != gap.at).map(|i| bit(&self.sites, gap.corners[i])).sum();
@@ -208,26 +218,26 @@ impl<G: Dimension> Delaunay<G> {
                 hole.open.push((key, *gap));
             }
         }
-        let is_finite = |(label, &x): (usize, &u32)| u64::from(x != INFINITE) << label;
+        let is_finite = |(label, &x): (usize, &SiteId)| u64::from(x != INFINITE) << label;
         let finite: u64 = hole.sites.iter().enumerate().map(is_finite).sum();
         while let Some((key, gap)) = hole.open.pop() {
             memory::reserve(&mut hole.open, G::D)?;
             memory::reserve(&mut hole.open_ghost, G::D)?;
             memory::reserve(&mut hole.made, 1)?;
             let apex = self.wrap_apex(&hole.sites, finite & !key, &gap);
-            let k = NEW + hole.made.len() as u32;
+            let k = Slot::at(NEW + hole.made.len());
             let mut corners = gap.corners.with(gap.at, apex);
             let mut at = gap.at;
             if apex == INFINITE {
                 corners = corners.rotated_to_last(at);
                 at = Self::LAST;
             }
-            hole.made.push((corners, G::Corners::filled(NONE)));
+            hole.made.push((corners, FacetsOf::<G>::filled(Facet::NONE)));
             let made = &mut hole.made;
             let mut glue = |a: Facet, b: Facet| {
                 for (x, y) in [(a, b), (b, a)] {
-                    if x.cell() >= NEW {
-                        made[(x.cell() - NEW) as usize].1[x.index()] = y.code();
+                    if let Some(new) = new_of(x) {
+                        made[new].1[x.index()] = y;
                     }
                 }
             };
@@ -258,7 +268,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// The corner of the new cell on the inner side of a finite frontier facet, which is one of those sites of the link
     /// that are in the set `left`.
-    fn wrap_apex(&self, link: &[u32], mut left: u64, gap: &Gap<G::Corners>) -> u32 {
+    fn wrap_apex(&self, link: &[SiteId], mut left: u64, gap: &Gap<G::Corners>) -> SiteId {
         let mut best = INFINITE;
         let mut cell = gap.corners;
         while left != 0 {
@@ -300,14 +310,13 @@ impl<G: Dimension> Delaunay<G> {
         }
         for (&cell, (corners, neighbours)) in hole.made_at.iter().zip(&hole.made) {
             for i in 0..G::Corners::N {
-                let facet = Facet::from_code(neighbours[i]);
-                let across = if facet.cell() >= NEW {
-                    Facet::new(hole.made_at[(facet.cell() - NEW) as usize], facet.index())
-                } else {
-                    facet
+                let facet = neighbours[i];
+                let across = match new_of(facet) {
+                    Some(new) => Facet::new(hole.made_at[new], facet.index()),
+                    None => facet,
                 };
                 self.complex.glue(Facet::new(cell, i), across);
-                self.sites[corners[i] as usize].cell = cell;
+                self.sites[corners[i]].cell = cell;
             }
         }
         self.recent = hole.made_at[0];

@@ -1,6 +1,7 @@
-//! Small sets of indices, for questions that may not write marks.
+//! Small sets of sites or slots, for questions that may not write marks.
 
 use crate::error::Result;
+use crate::ids::Id;
 use crate::machine::memory;
 
 /// Up to this number, indices need no memory of their own: a power of two, less one.
@@ -10,14 +11,14 @@ const PLACES: usize = 1 << u8::BITS;
 
 /// A set of indices, in the order in which they came.
 #[derive(Debug)]
-pub(crate) struct IndexSet {
+pub(crate) struct IndexSet<I> {
     n: usize,
     /// From 1 on.
-    few: [u32; FEW + 1],
+    few: [I; FEW + 1],
     /// The position in `few` of each, at its hash or behind; 0 where there is none.
     places: [u8; PLACES],
     /// All of them, once they are more.
-    all: Vec<u32>,
+    all: Vec<I>,
     /// Then, where to find each: one above its position, at its hash or behind; a power of two of entries, half of them 0
     /// at least.
     table: Vec<u32>,
@@ -28,18 +29,18 @@ const GOLDEN: u32 = 0x9e37_79b9;
 
 /// Where to look for one of few.
 #[inline(always)]
-fn place_of(index: u32) -> usize {
-    usize::from((index.wrapping_mul(GOLDEN) >> 24) as u8)
+fn place_of(index: impl Id) -> usize {
+    usize::from((index.get().wrapping_mul(GOLDEN) >> 24) as u8)
 }
 
-impl IndexSet {
+impl<I: Id> IndexSet<I> {
     pub(crate) fn new() -> Self {
-        IndexSet { n: 0, few: [0; FEW + 1], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
+        IndexSet { n: 0, few: [I::new(0); FEW + 1], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
     }
 
     /// The indices.
     #[inline(always)]
-    pub(crate) fn as_slice(&self) -> &[u32] {
+    pub(crate) fn as_slice(&self) -> &[I] {
         if self.all.is_empty() { &self.few[1..=self.n] } else { &self.all }
     }
 
@@ -57,7 +58,7 @@ impl IndexSet {
 
     /// Enters an index; whether it was not there. After an error it is not.
     #[inline(always)]
-    pub(crate) fn insert(&mut self, index: u32) -> Result<bool> {
+    pub(crate) fn insert(&mut self, index: I) -> Result<bool> {
         let n = self.n;
         let mut n_after = n;
         if n < FEW && self.is_entered(index, &mut n_after) {
@@ -71,8 +72,8 @@ impl IndexSet {
     #[inline(always)]
     pub(crate) fn spread<const N: usize>(
         &mut self,
-        first: u32,
-        mut around: impl FnMut(u32) -> [u32; N],
+        first: I,
+        mut around: impl FnMut(I) -> [I; N],
     ) -> Result<()> {
         self.insert(first)?;
         // The number is not kept in memory meanwhile: each entry would wait for that of the one before.
@@ -100,11 +101,11 @@ impl IndexSet {
     /// Enters an index, if it is not there, into the few, of which there are `n`, with room for one more. Returns whether
     /// that could be done: not if another index is in its place.
     #[inline(always)]
-    fn is_entered(&mut self, index: u32, n: &mut usize) -> bool {
+    fn is_entered(&mut self, index: I, n: &mut usize) -> bool {
         let at = place_of(index);
         let position = self.places[at];
         // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its place.
-        let difference = self.few[usize::from(position) & FEW] ^ index;
+        let difference = self.few[usize::from(position) & FEW].get() ^ index.get();
         if u64::from(position) * u64::from(difference) != 0 {
             return false;
         }
@@ -119,7 +120,7 @@ impl IndexSet {
     /// Enters an index that is known not to be there. No [`insert`](Self::insert) may follow until the set has been
     /// cleared.
     #[inline(always)]
-    pub(crate) fn push(&mut self, index: u32) -> Result<()> {
+    pub(crate) fn push(&mut self, index: I) -> Result<()> {
         if self.n < FEW {
             self.n += 1;
             self.few[self.n & FEW] = index;
@@ -130,7 +131,7 @@ impl IndexSet {
 
     #[cold]
     #[inline(never)]
-    fn push_beyond(&mut self, index: u32) -> Result<()> {
+    fn push_beyond(&mut self, index: I) -> Result<()> {
         if self.all.is_empty() {
             memory::reserve(&mut self.all, FEW + 1)?;
             self.all.extend_from_slice(&self.few[1..]);
@@ -143,7 +144,7 @@ impl IndexSet {
     /// As [`insert`](Self::insert), if another index is in its place, or there are many.
     #[cold]
     #[inline(never)]
-    fn insert_elsewhere(&mut self, index: u32) -> Result<bool> {
+    fn insert_elsewhere(&mut self, index: I) -> Result<bool> {
         if self.n > FEW {
             return self.insert_into_table(index);
         }
@@ -165,16 +166,16 @@ impl IndexSet {
     }
 
     /// Where the index is, or its entry would be.
-    fn find(&self, index: u32) -> usize {
+    fn find(&self, index: I) -> usize {
         let mask = self.table.len() - 1;
-        let mut at = ((u64::from(index.wrapping_mul(GOLDEN)) * self.table.len() as u64) >> 32) as usize;
+        let mut at = ((u64::from(index.get().wrapping_mul(GOLDEN)) * self.table.len() as u64) >> 32) as usize;
         while self.table[at] != 0 && self.all[self.table[at] as usize - 1] != index {
             at = (at + 1) & mask;
         }
         at
     }
 
-    fn spill(&mut self, index: u32) -> Result<()> {
+    fn spill(&mut self, index: I) -> Result<()> {
         memory::reserve(&mut self.all, FEW + 1)?;
         self.make_table(4 * (FEW + 1))?;
         self.all.extend_from_slice(&self.few[1..]);
@@ -183,7 +184,7 @@ impl IndexSet {
         Ok(())
     }
 
-    fn insert_into_table(&mut self, index: u32) -> Result<bool> {
+    fn insert_into_table(&mut self, index: I) -> Result<bool> {
         let at = self.find(index);
         if self.table[at] != 0 {
             return Ok(false);
@@ -220,6 +221,7 @@ impl IndexSet {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Slot;
     use crate::random::Rng;
     use std::collections::HashSet;
 
@@ -232,7 +234,7 @@ mod tests {
             let mut expected = HashSet::new();
             let mut order = Vec::new();
             for _ in 0..[3, 63, 64, 65, 130, 1000][round % 6] {
-                let index = rng.next() as u32 >> [24, 20, 0][round / 6 % 3];
+                let index = Slot::new(rng.next() as u32 >> [24, 20, 0][round / 6 % 3]);
                 let is_new = expected.insert(index);
                 assert_eq!(set.insert(index), Ok(is_new));
                 if is_new {
@@ -252,14 +254,17 @@ mod tests {
                 // Indices that few places have to do for, or that are far apart.
                 let scale = [1, 256, 0x9e37][rng.next() as usize % 3];
                 let mut set = IndexSet::new();
-                set.spread(0, |at| next[(at / scale) as usize].map(|to| to * scale)).unwrap();
+                set.spread(Slot::new(0), |at| {
+                    next[(at.get() / scale) as usize].map(|to| Slot::new(to * scale))
+                })
+                .unwrap();
                 let mut reached = HashSet::from([0]);
                 let mut open = vec![0];
                 while let Some(at) = open.pop() {
                     open.extend(next[at as usize].into_iter().filter(|&to| reached.insert(to)));
                 }
                 assert_eq!(set.as_slice().len(), reached.len());
-                assert_eq!(set.as_slice().iter().map(|at| at / scale).collect::<HashSet<_>>(), reached);
+                assert_eq!(set.as_slice().iter().map(|at| at.get() / scale).collect::<HashSet<_>>(), reached);
             }
         }
     }
@@ -269,8 +274,8 @@ mod tests {
         let mut set = IndexSet::new();
         for n in [0, 1, 62, 63, 64, 65, 1000] {
             set.clear();
-            (0..n).for_each(|index| set.push(index).unwrap());
-            assert!(set.as_slice().iter().copied().eq(0..n));
+            Slot::range(0..n).for_each(|index| set.push(index).unwrap());
+            assert!(set.as_slice().iter().copied().eq(Slot::range(0..n)));
         }
     }
 }

@@ -5,8 +5,8 @@
 
 #![allow(unsafe_code)]
 
-use crate::complex::NONE;
 use crate::delaunay::{Dimension, Space};
+use crate::ids::{SiteId, Slot, VertexId};
 
 /// A place and the vertex that represents it. Index 0 is a placeholder for the ghost vertex.
 #[derive(Clone, Copy, Debug)]
@@ -14,23 +14,23 @@ use crate::delaunay::{Dimension, Space};
 pub struct Site<G: Dimension> {
     /// The place.
     pub point: G::Point,
-    /// A cell that has the site as a corner; [`NONE`] while there is none.
-    pub cell: u32,
+    /// A cell that has the site as a corner; [`Slot::NONE`] while there is none.
+    pub cell: Slot,
     /// The vertex at the place, the lowest id if there are several: ties between signs are broken by it.
-    /// [`NONE`] if the index is free.
-    pub id: u32,
+    /// [`VertexId::NONE`] if the index is free.
+    pub id: VertexId,
 }
 
 impl<G: Dimension> Site<G> {
     /// A site that is in no cell yet.
-    pub fn new(point: G::Point, id: u32) -> Self {
-        Site { point, cell: NONE, id }
+    pub fn new(point: G::Point, id: VertexId) -> Self {
+        Site { point, cell: Slot::NONE, id }
     }
 
     /// Whether the index is in use.
     #[inline(always)]
     pub fn is_live(&self) -> bool {
-        self.id != NONE
+        self.id != VertexId::NONE
     }
 }
 
@@ -46,10 +46,10 @@ impl<'s, G: Dimension> Sites<'s, G> {
 
     /// The place of a corner; a meaningless one for the ghost vertex.
     #[inline(always)]
-    pub fn point(self, s: u32) -> &'s G::Point {
-        debug_assert!((s as usize) < self.0.len());
+    pub fn point(self, s: SiteId) -> &'s G::Point {
+        debug_assert!(s.index() < self.0.len());
         // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
-        unsafe { &self.0.get_unchecked(s as usize).point }
+        unsafe { &self.0.get_unchecked(s.index()).point }
     }
 
     /// The places of the corners of a cell, as [`point`](Self::point) has them; in the plane the last is there twice.
@@ -60,10 +60,10 @@ impl<'s, G: Dimension> Sites<'s, G> {
 
     /// The vertex id of a corner.
     #[inline(always)]
-    pub fn id(self, s: u32) -> u32 {
-        debug_assert!((s as usize) < self.0.len());
+    pub fn id(self, s: SiteId) -> VertexId {
+        debug_assert!(s.index() < self.0.len());
         // SAFETY: as for `point`.
-        unsafe { self.0.get_unchecked(s as usize).id }
+        unsafe { self.0.get_unchecked(s.index()).id }
     }
 }
 
@@ -72,10 +72,10 @@ const _: () = assert!(size_of::<Site<Space>>() == size_of::<[f64; 4]>());
 impl<'s> Sites<'s, Space> {
     /// The place of a corner, and a fourth number without a meaning: one load for all three coordinates.
     #[inline(always)]
-    pub fn padded_point(self, s: u32) -> &'s [f64; 4] {
-        debug_assert!((s as usize) < self.0.len());
+    pub fn padded_point(self, s: SiteId) -> &'s [f64; 4] {
+        debug_assert!(s.index() < self.0.len());
         // SAFETY: as for `point`.
-        unsafe { self.0.get_unchecked(s as usize) }.padded()
+        unsafe { self.0.get_unchecked(s.index()) }.padded()
     }
 }
 

@@ -7,6 +7,7 @@ use super::site::{Site, Sites};
 use super::uncertain::{apexes_beyond, corners_at};
 use super::{Delaunay, cavity_space};
 use crate::complex::{Facet, INFINITE, Obstacle};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::{self, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
@@ -33,19 +34,25 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
-    fn is_in_sphere(f: &StaticFilter, sites: Sites<Space>, v: &[u32; 4], q: &[f64; 3], id: u32) -> bool {
+    fn is_in_sphere(
+        f: &StaticFilter,
+        sites: Sites<Space>,
+        v: &[SiteId; 4],
+        q: &[f64; 3],
+        id: VertexId,
+    ) -> bool {
         debug_assert!(v[3] != INFINITE);
         let [a, b, c, d] = v.map(|s| sites.point(s));
         let sign = predicates::insphere(f, a, b, c, d, q);
         if sign != 0.0 {
             return sign > 0.0;
         }
-        let [i, j, k, l] = v.map(|s| sites.id(s));
-        predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id])
+        let [i, j, k, l] = v.map(|s| sites.id(s).get());
+        predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id.get()])
     }
 
     #[inline(always)]
-    fn is_clear_of(sites: Sites<Space>, v: &[u32; 4], lower: &[f64; 3], upper: &[f64; 3]) -> bool {
+    fn is_clear_of(sites: Sites<Space>, v: &[SiteId; 4], lower: &[f64; 3], upper: &[f64; 3]) -> bool {
         predicates::is_box_outside_sphere(v.map(|s| sites.point(s)), [lower, upper])
     }
 
@@ -65,7 +72,7 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
-    fn cell_holds(t: &Delaunay<Space>, c: u32) -> bool {
+    fn cell_holds(t: &Delaunay<Space>, c: Slot) -> bool {
         let cell = t.complex.cell(c);
         let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
         let sphere = predicates::sphere(a, b, d, e);
@@ -79,7 +86,12 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
-    fn cells_hold(avx2: Avx2, t: &Delaunay<Space>, cells: &[u32; LANES], apexes: [&[u32; LANES]; 4]) -> u32 {
+    fn cells_hold(
+        avx2: Avx2,
+        t: &Delaunay<Space>,
+        cells: &[Slot; LANES],
+        apexes: [&[SiteId; LANES]; 4],
+    ) -> u32 {
         let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
         let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
         let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
@@ -89,7 +101,9 @@ impl Kernel<Space> for Space {
         let mut hold = avx2.splat(t.filter.orient).is_less(sphere[3]);
         for apexes in apexes {
             let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t, *apexes));
-            hold = hold & (side.is_less(avx2.splat(-t.filter.prepared)) | avx2.are_equal(apexes, INFINITE));
+            hold = hold
+                & (side.is_less(avx2.splat(-t.filter.prepared))
+                    | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
         }
         hold.bits()
     }
@@ -127,7 +141,7 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
-    fn drop_outside(t: &Delaunay<Space>, cell: &[u32; 4], sites: &[u32], set: u64) -> u64 {
+    fn drop_outside(t: &Delaunay<Space>, cell: &[SiteId; 4], sites: &[SiteId], set: u64) -> u64 {
         let Some(avx2) = Avx2::new() else { return set };
         avx2.run_with(
             (t, cell),
@@ -174,9 +188,9 @@ impl Kernel<Space> for Space {
         avx2: Avx2,
         places: &mut [[f64; 3]; LANES],
         sites: &mut [Site<Space>],
-        sites_of: &[u32; LANES],
+        sites_of: &[SiteId; LANES],
     ) -> u64 {
-        let [s, t, u, v] = sites_of.map(|s| s as usize);
+        let [s, t, u, v] = sites_of.map(SiteId::index);
         let places = places.as_flattened_mut();
         let new = [
             avx2.load(from(places, 0)),
@@ -211,14 +225,20 @@ impl Kernel<Space> for Space {
 }
 
 #[inline(always)]
-fn places(avx2: Avx2, t: &Delaunay<Space>, sites: [u32; LANES]) -> [Lanes; 3] {
+fn places(avx2: Avx2, t: &Delaunay<Space>, sites: [SiteId; LANES]) -> [Lanes; 3] {
     let [x, y, z, _] = avx2.fours(sites.map(|s| t.view().padded_point(s)));
     [x, y, z]
 }
 
 /// Takes sites that are certainly outside the sphere of a tetrahedron out of a set of them, by position.
 #[inline(always)]
-fn drop_outside_sphere(avx2: Avx2, t: &Delaunay<Space>, cell: &[u32; 4], sites: &[u32], mut set: u64) -> u64 {
+fn drop_outside_sphere(
+    avx2: Avx2,
+    t: &Delaunay<Space>,
+    cell: &[SiteId; 4],
+    sites: &[SiteId],
+    mut set: u64,
+) -> u64 {
     let [a, b, c, d] = cell.map(|s| t.view().point(s));
     let [x, y, z, volume] = predicates::sphere(a, b, c, d);
     let sphere = [avx2.splat(x), avx2.splat(y), avx2.splat(z), avx2.splat(volume)];

@@ -2,14 +2,15 @@
 //!
 //! A build along a curve tests the cells of one neighbourhood again and again. A cell's sphere, prepared once, makes
 //! each of these tests a few operations on one line of cache (see [`predicates::sphere`]). They are kept in a table of
-//! fixed size, each at its cell's index modulo that; what is not there is prepared when it is asked for. The table is
+//! fixed size, each at its cell's slot modulo that; what is not there is prepared when it is asked for. The table is
 //! valid while sites do not move and every cell made is [`put`](Table::put) there.
 
 #![allow(unsafe_code)]
 
 use super::{Delaunay, Space};
-use crate::complex::{INFINITE, NONE};
+use crate::complex::INFINITE;
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::predicates::{self, Sphere};
 
@@ -22,7 +23,7 @@ const MOST_ENTRIES: usize = 1 << 12;
 struct Entry {
     sphere: Sphere,
     first: [f64; 3],
-    cell: u32,
+    cell: Slot,
 }
 
 /// The table; without entries outside a build.
@@ -42,7 +43,7 @@ impl Spheres {
         let n = n_cells.next_power_of_two().min(MOST_ENTRIES);
         self.entries.clear();
         memory::reserve_exact(&mut self.entries, n)?;
-        self.entries.resize(n, Entry { sphere: [0.0; 4], first: [0.0; 3], cell: NONE });
+        self.entries.resize(n, Entry { sphere: [0.0; 4], first: [0.0; 3], cell: Slot::NONE });
         Ok(())
     }
 
@@ -62,9 +63,9 @@ impl Spheres {
 pub(super) struct Table<'s>(&'s mut [Entry]);
 
 #[inline(always)]
-fn entry(entries: &mut [Entry], cell: u32) -> &mut Entry {
+fn entry(entries: &mut [Entry], cell: Slot) -> &mut Entry {
     debug_assert!(entries.len().is_power_of_two(), "only a build asks");
-    let at = cell as usize & (entries.len() - 1);
+    let at = cell.index() & (entries.len() - 1);
     // SAFETY: the length is a power of two.
     unsafe { entries.get_unchecked_mut(at) }
 }
@@ -72,13 +73,19 @@ fn entry(entries: &mut [Entry], cell: u32) -> &mut Entry {
 impl Table<'_> {
     /// Prepares the sphere of a cell with these corners, or what lies beyond the facet of a ghost cell.
     #[inline(always)]
-    pub(super) fn put(&mut self, t: &Delaunay<Space>, cell: u32, corners: &[u32; 4]) {
+    pub(super) fn put(&mut self, t: &Delaunay<Space>, cell: Slot, corners: &[SiteId; 4]) {
         put(self.0, t, cell, corners);
     }
 
     /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
     #[inline(always)]
-    pub(super) fn is_in_conflict(&mut self, t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+    pub(super) fn is_in_conflict(
+        &mut self,
+        t: &Delaunay<Space>,
+        cell: Slot,
+        q: &[f64; 3],
+        id: VertexId,
+    ) -> bool {
         let there = entry(self.0, cell);
         if there.cell != cell {
             return prepare(self.0, t, cell, q, id);
@@ -88,7 +95,7 @@ impl Table<'_> {
 }
 
 #[inline(always)]
-fn put(entries: &mut [Entry], t: &Delaunay<Space>, cell: u32, corners: &[u32; 4]) {
+fn put(entries: &mut [Entry], t: &Delaunay<Space>, cell: Slot, corners: &[SiteId; 4]) {
     let [a, b, c, d] = corners.map(|s| t.view().point(s));
     let sphere = if corners[3] == INFINITE {
         predicates::half_space(&t.filter, a, b, c)
@@ -99,7 +106,7 @@ fn put(entries: &mut [Entry], t: &Delaunay<Space>, cell: u32, corners: &[u32; 4]
 }
 
 #[inline(always)]
-fn is_inside(entry: &Entry, t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+fn is_inside(entry: &Entry, t: &Delaunay<Space>, cell: Slot, q: &[f64; 3], id: VertexId) -> bool {
     let side = predicates::side_of_sphere(&entry.sphere, &entry.first, q);
     if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id) }
 }
@@ -107,20 +114,20 @@ fn is_inside(entry: &Entry, t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u3
 /// As [`Table::is_in_conflict`], for a cell that is not there yet.
 #[cold]
 #[inline(never)]
-fn prepare(entries: &mut [Entry], t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+fn prepare(entries: &mut [Entry], t: &Delaunay<Space>, cell: Slot, q: &[f64; 3], id: VertexId) -> bool {
     put(entries, t, cell, &t.complex.cell(cell).corners);
     is_inside(entry(entries, cell), t, cell, q, id)
 }
 
 #[cold]
 #[inline(never)]
-fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: u32, q: &[f64; 3], id: u32) -> bool {
+fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: Slot, q: &[f64; 3], id: VertexId) -> bool {
     let corners = t.complex.cell(cell).corners;
     if !t.filter.is_exact || corners[3] == INFINITE {
         return t.is_in_conflict(cell, q, id);
     }
     // The side of the sphere is exact, so it is zero: a tie.
     let [a, b, c, d] = corners.map(|s| t.view().point(s));
-    let [i, j, k, l] = corners.map(|s| t.view().id(s));
-    predicates::is_inside_cospherical(&t.filter, [a, b, c, d, q], [i, j, k, l, id])
+    let [i, j, k, l] = corners.map(|s| t.view().id(s).get());
+    predicates::is_inside_cospherical(&t.filter, [a, b, c, d, q], [i, j, k, l, id.get()])
 }

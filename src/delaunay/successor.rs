@@ -1,8 +1,8 @@
 //! A kernel to be built beside another one, so that this stays as it is until the new one is complete.
 
 use super::{Delaunay, Dimension, Site};
-use crate::complex::NONE;
 use crate::error::Result;
+use crate::ids::Slot;
 use crate::machine::memory;
 use crate::machine::prefetch::AHEAD;
 
@@ -26,7 +26,7 @@ impl<G: Dimension> Delaunay<G> {
                 announce(next);
             }
             let point = if site.is_live() { place(site) } else { site.point };
-            sites.push(Site { point, cell: NONE, id: site.id });
+            sites.push(Site { point, cell: Slot::NONE, id: site.id });
         }
         let mut next = Delaunay { sites, free_sites, parts, threads: self.threads, ..Delaunay::empty() };
         self.give_scratch_to(&mut next);

@@ -7,6 +7,7 @@
 
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
+use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::simd::{ALL, Avx2, LANES};
 
@@ -14,12 +15,21 @@ use crate::simd::{ALL, Avx2, LANES};
 const BLOCK: usize = 64;
 
 /// Finite cells, by lane.
-#[derive(Default)]
 struct Block {
     n: usize,
-    cells: [[u32; LANES]; BLOCK / LANES],
+    cells: [[Slot; LANES]; BLOCK / LANES],
     /// Sites beyond the facets opposite each corner.
-    apexes: [[[u32; LANES]; BLOCK / LANES]; 4],
+    apexes: [[[SiteId; LANES]; BLOCK / LANES]; 4],
+}
+
+impl Block {
+    fn new() -> Self {
+        Block {
+            n: 0,
+            cells: [[Slot::new(0); LANES]; BLOCK / LANES],
+            apexes: [[[INFINITE; LANES]; BLOCK / LANES]; 4],
+        }
+    }
 }
 
 impl<G: Dimension> Delaunay<G> {
@@ -29,11 +39,11 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn visit_uncertain_in_lanes<const IS_FAR: bool>(
         &self,
         avx2: Avx2,
-        mut cells: impl Iterator<Item = u32> + Clone,
-        mut visit: impl FnMut(u32) -> bool,
+        mut cells: impl Iterator<Item = Slot> + Clone,
+        mut visit: impl FnMut(Slot) -> bool,
     ) {
         let mut ahead = cells.clone().skip(AHEAD);
-        let mut block = Block::default();
+        let mut block = Block::new();
         loop {
             block.n = 0;
             while block.n < BLOCK {
@@ -56,7 +66,7 @@ impl<G: Dimension> Delaunay<G> {
                     let apex = self.complex.apex(cell.neighbour(i));
                     apexes.as_flattened_mut()[block.n] = apex;
                     if IS_FAR {
-                        prefetch(&self.sites, apex as usize);
+                        prefetch(&self.sites, apex.index());
                     }
                 }
                 block.n += 1;
@@ -89,7 +99,7 @@ pub(super) fn corners_at<G: Dimension>(t: &Delaunay<G>, facet: Facet) -> G::Corn
 
 /// The sites beyond facets.
 #[inline(always)]
-pub(super) fn apexes_beyond<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> [u32; LANES] {
+pub(super) fn apexes_beyond<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> [SiteId; LANES] {
     let mut apexes = [INFINITE; LANES];
     for (apex, facet) in apexes.iter_mut().zip(facets) {
         *apex = t.complex.apex(t.complex.cell(facet.cell()).neighbour(facet.index()));
@@ -146,20 +156,19 @@ mod tests {
     /// What is found in the cells that this visits.
     fn failures<G: Dimension>(
         t: &Delaunay<G>,
-        visit_uncertain: impl FnOnce(&mut dyn FnMut(u32) -> bool),
-    ) -> [Vec<u32>; 3] {
+        visit_uncertain: impl FnOnce(&mut dyn FnMut(Slot) -> bool),
+    ) -> (Vec<Slot>, Vec<Facet>, Vec<Slot>) {
         let mut failures = Failures::default();
         visit_uncertain(&mut |c| {
             t.sweep_cell(c, None, &mut failures).expect("room for it");
             true
         });
-        let facets = failures.facets.iter().map(|facet| facet.code()).collect();
-        [failures.cells, facets, failures.ghosts]
+        (failures.cells, failures.facets, failures.ghosts)
     }
 
     /// Returns how many of each have failed, and how many cells there were to look at.
     fn agree<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 3] {
-        let all = 0..t.complex.n_slots() as u32;
+        let all = Slot::range(0..t.complex.n_slots());
         let expected = failures(t, |visit| t.complex.live().for_each(|c| assert!(visit(c))));
         let found = failures(t, |visit| t.visit_uncertain_singly(all.clone(), visit));
         assert_eq!(found, expected, "{context}, singly");
@@ -176,7 +185,7 @@ mod tests {
             true
         };
         avx2.run(|| t.visit_uncertain_in_lanes::<false>(avx2, all, count));
-        [expected[0].len(), expected[1].len(), n_open - expected[2].len()]
+        [expected.0.len(), expected.1.len(), n_open - expected.2.len()]
     }
 
     /// All ways to find uncertain cells lead to the failures that a visit of all cells finds.
@@ -302,7 +311,7 @@ mod tests {
             let n = 5 + (rng.unit() * 59.0) as usize;
             t.add_sites(&points::<Space>(round % 2, n, rng)).expect("room for it");
             t.rebuild(&mut |_| true).expect("room for it");
-            let sites: Vec<u32> = t.live_sites().collect();
+            let sites: Vec<SiteId> = t.live_sites().collect();
             for c in t.complex.finite().take(20) {
                 let corners = t.complex.cell(c).corners;
                 let any = (rng.unit() * 2f64.powi(53)) as u64 * 2048 + (rng.unit() * 2048.0) as u64;
@@ -332,7 +341,7 @@ mod tests {
         move_sites(&mut t, 1.0, 1.0, &mut Rng::new(9));
         for most in [1, 2, 5, 100] {
             let mut n = 0;
-            let all = 0..t.complex.n_slots() as u32;
+            let all = Slot::range(0..t.complex.n_slots());
             t.visit_uncertain(all, |_| {
                 n += 1;
                 n < most

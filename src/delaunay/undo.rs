@@ -15,12 +15,13 @@ use super::flat::Flat;
 use super::{Delaunay, Dimension, Site};
 use crate::complex::{Complex, Corners};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// What a site was.
 #[derive(Clone, Copy, Debug)]
 struct Logged<G: Dimension> {
-    s: u32,
+    s: SiteId,
     before: Site<G>,
     /// Whether its place was kept as well.
     has_place: bool,
@@ -68,22 +69,22 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Logs a site that is about to be removed, or to be added: then it is free.
     #[inline(always)]
-    pub(crate) fn log_site(&mut self, s: u32) -> Result<()> {
+    pub(crate) fn log_site(&mut self, s: SiteId) -> Result<()> {
         self.log_as(s, true)
     }
 
     /// Logs a site whose id is about to change, and whose place is not the log's concern.
-    pub(super) fn log_id(&mut self, s: u32) -> Result<()> {
+    pub(super) fn log_id(&mut self, s: SiteId) -> Result<()> {
         self.log_as(s, false)
     }
 
-    fn log_as(&mut self, s: u32, has_place: bool) -> Result<()> {
+    fn log_as(&mut self, s: SiteId, has_place: bool) -> Result<()> {
         // It may be dropped.
         memory::reserve(&mut self.free_sites, 1)?;
         if !self.log.is_on {
             return Ok(());
         }
-        memory::push(&mut self.log.sites, Logged { s, before: self.sites[s as usize], has_place })
+        memory::push(&mut self.log.sites, Logged { s, before: self.sites[s], has_place })
     }
 
     /// Gives up all cells, which are kept only for `undo`.
@@ -110,7 +111,7 @@ impl<G: Dimension> Delaunay<G> {
         self.complex.undo_record();
         let mut logged = std::mem::take(&mut self.log.sites);
         while let Some(Logged { s, before, has_place }) = logged.pop() {
-            let site = &mut self.sites[s as usize];
+            let site = &mut self.sites[s];
             match (site.is_live(), before.is_live()) {
                 (true, false) => self.free_sites.push(s),
                 // Sites are taken from the end of the list, and given back there.
@@ -128,13 +129,13 @@ impl<G: Dimension> Delaunay<G> {
     fn find_cells_of_sites(&mut self, all: bool) {
         let n = if all { self.complex.n_slots() } else { self.complex.rows().len() };
         for k in 0..n {
-            let c = if all { k as u32 } else { self.complex.rows()[k].slot };
+            let c = if all { Slot::at(k) } else { self.complex.rows()[k].slot };
             if !self.complex.is_live(c) {
                 continue;
             }
             let corners = self.complex.cell(c).corners;
             for i in 0..G::Corners::N {
-                self.sites[corners[i] as usize].cell = c;
+                self.sites[corners[i]].cell = c;
             }
             self.recent = c;
         }

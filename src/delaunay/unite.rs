@@ -33,15 +33,16 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Site};
-use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// A triangulation without its zone.
 pub(super) struct Open<G: Dimension> {
     t: Delaunay<G>,
     /// The sites of the zone, ascending. Their records name no cell.
-    border: Vec<u32>,
+    border: Vec<SiteId>,
     /// The facets to the zone, seen from the cells that stay.
     rim: Vec<Facet>,
 }
@@ -72,8 +73,8 @@ impl<G: Dimension> Delaunay<G> {
                     memory::push(&mut rim, across)?;
                 }
                 let site = self.corner_mut(cell.corners[i]);
-                if site.cell != NONE && cell.corners[i] != INFINITE {
-                    site.cell = NONE;
+                if site.cell != Slot::NONE && cell.corners[i] != INFINITE {
+                    site.cell = Slot::NONE;
                     memory::push(&mut border, cell.corners[i])?;
                 }
             }
@@ -88,7 +89,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Lists the cells that are not clear of a box that a hyperplane separates from all sites, and marks them.
-    fn list_zone_of_box(&mut self, zone: &mut Vec<u32>, lower: &G::Point, upper: &G::Point) -> Result<()> {
+    fn list_zone_of_box(&mut self, zone: &mut Vec<Slot>, lower: &G::Point, upper: &G::Point) -> Result<()> {
         // All ghosts at first.
         memory::push(zone, self.site(INFINITE).cell)?;
         self.complex.set_mark(zone[0], SEEN);
@@ -125,7 +126,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Whether a cell is certainly in conflict with no point of a box.
-    fn is_clear(&self, cell: u32, lower: &G::Point, upper: &G::Point) -> bool {
+    fn is_clear(&self, cell: Slot, lower: &G::Point, upper: &G::Point) -> bool {
         let c = self.complex.cell(cell);
         let clears = |corners| G::is_clear_of(self.view(), corners, lower, upper);
         if !c.is_ghost() {
@@ -152,22 +153,23 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn unite(
         &mut self,
         Open { t: right, border, mut rim }: Open<G>,
-        first: u32,
+        first: SiteId,
         n_threads: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(u32, u32)>> {
-        let n_cells = self.complex.n_slots() as u32;
-        let shift = first - 1;
+    ) -> Result<Vec<(SiteId, SiteId)>> {
+        let n_slots = self.complex.n_slots();
+        let moved = |c: Slot| Slot::at(c.index() + n_slots);
+        let shift = first.get() - 1;
         self.complex.append(&right.complex, shift, n_threads)?;
         let shifted = |site: &Site<G>| {
             let mut site = *site;
-            if site.cell != NONE {
-                site.cell += n_cells;
+            if site.cell != Slot::NONE {
+                site.cell = moved(site.cell);
             }
             site
         };
         let others = &right.sites[1..];
-        match self.sites.get_mut(first as usize..first as usize + others.len()) {
+        match self.sites.get_mut(first.index()..first.index() + others.len()) {
             Some(there) => memory::overwrite(there, others, n_threads, &shifted),
             None => memory::extend(&mut self.sites, others, n_threads, shifted)?,
         }
@@ -175,9 +177,9 @@ impl<G: Dimension> Delaunay<G> {
         self.cavity.steps += right.cavity.steps;
         drop(right);
         for facet in &mut rim {
-            *facet = Facet::new(facet.cell() + n_cells, facet.index());
+            *facet = Facet::new(moved(facet.cell()), facet.index());
         }
-        let order = in_rounds::<G>(border.iter().map(|s| s + shift))?;
+        let order = in_rounds::<G>(border.iter().map(|s| SiteId::new(s.get() + shift)))?;
         self.record_changes(Vec::new());
         let inserted = self.insert_all(&order, monitor);
         let mut made = self.take_changes().expect("a record was started");
@@ -189,7 +191,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Glues the facets of the rim to their new neighbours, which are among the cells that were `made`, and
     /// takes out what fills the place of the cells behind the rim. All sites of the rim are from `first` on.
-    fn close(&mut self, rim: &[Facet], made: &[u32], first: u32) -> Result<()> {
+    fn close(&mut self, rim: &[Facet], made: &[Slot], first: SiteId) -> Result<()> {
         let mut by_corners = HashMap::<G::Corners, (Facet, bool), BuildHasherDefault<Mix>>::default();
         memory::reserve_map(&mut by_corners, rim.len())?;
         for &facet in rim {
@@ -234,7 +236,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Takes out cells, which are marked, and all that they are glued to both ways.
-    fn take_out(&mut self, mut cells: Vec<u32>) -> Result<()> {
+    fn take_out(&mut self, mut cells: Vec<Slot>) -> Result<()> {
         let mut next = 0;
         while let Some(&c) = cells.get(next) {
             next += 1;
@@ -260,7 +262,7 @@ impl<G: Dimension> Delaunay<G> {
 /// it.
 fn facet_of<C: Corners>(corners: &C, i: usize) -> (C, bool) {
     let last = C::N - 1;
-    let mut facet = corners.rotated_to_last(i).with(last, NONE);
+    let mut facet = corners.rotated_to_last(i).with(last, SiteId::NONE);
     let mut is_odd = false;
     for end in (1..last).rev() {
         for k in 0..end {

@@ -15,7 +15,8 @@
 use std::fmt;
 
 use super::{Delaunay, Dimension, order};
-use crate::complex::{Corners, Facet, INFINITE, NONE};
+use crate::complex::{Corners, Facet, INFINITE};
+use crate::ids::Slot;
 use crate::machine::memory;
 
 /// How much is checked; each level includes the ones before.
@@ -67,14 +68,14 @@ macro_rules! text {
 /// Vertex ids of a cell, to be written.
 struct Description<'t, G: Dimension> {
     t: &'t Delaunay<G>,
-    cell: u32,
+    cell: Slot,
 }
 
 impl<G: Dimension> fmt::Display for Description<'_, G> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (k, &s) in self.t.complex.cell(self.cell).corners.as_ref().iter().enumerate() {
             f.write_str(if k == 0 { "(" } else { ", " })?;
-            match self.t.sites.get(s as usize) {
+            match self.t.sites.get(s.index()) {
                 _ if s == INFINITE => f.write_str("infinite")?,
                 Some(site) => write!(f, "{}", site.id)?,
                 None => f.write_str("?")?,
@@ -88,12 +89,12 @@ impl<G: Dimension> fmt::Display for Description<'_, G> {
 const WINDOW: usize = 1 << 18;
 
 /// An index below `n` that is listed twice: a bit for each says so, of as many at a time as the stack has room for.
-fn listed_twice(list: &[u32], n: usize) -> Option<u32> {
+fn listed_twice(list: &[Slot], n: usize) -> Option<Slot> {
     let mut are_listed = [0u64; WINDOW / 64];
     (0..n).step_by(WINDOW).find_map(|start| {
         are_listed.fill(0);
         list.iter().copied().find(|&c| {
-            let at = (c as usize).wrapping_sub(start);
+            let at = c.index().wrapping_sub(start);
             let Some(bits) = are_listed.get_mut(at / 64) else { return false };
             let bit = 1 << (at % 64);
             let is_listed = *bits & bit != 0;
@@ -122,7 +123,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Vertex ids of a cell, for messages.
-    fn describe(&self, cell: u32) -> Description<'_, G> {
+    fn describe(&self, cell: Slot) -> Description<'_, G> {
         Description { t: self, cell }
     }
 
@@ -138,7 +139,7 @@ impl<G: Dimension> Delaunay<G> {
             let cell = self.complex.cell(c);
             for i in 0..n {
                 let s = cell.corners[i];
-                ensure((s as usize) < self.sites.len(), level, || {
+                ensure(s.index() < self.sites.len(), level, || {
                     text!("cell {} has no such site {s}", self.describe(c))
                 })?;
                 ensure(s == INFINITE || self.site(s).is_live(), level, || {
@@ -151,7 +152,7 @@ impl<G: Dimension> Delaunay<G> {
                     text!("cell {} has a corner twice", self.describe(c))
                 })?;
                 let across = cell.neighbour(i);
-                let exists = (across.cell() as usize) < self.complex.n_slots()
+                let exists = across.cell().index() < self.complex.n_slots()
                     && across.index() < n
                     && !self.complex.is_free(across.cell());
                 ensure(exists, level, || {
@@ -173,12 +174,14 @@ impl<G: Dimension> Delaunay<G> {
         let n_slots = self.complex.n_slots();
         let listed = self.complex.free_cells();
         for &c in listed {
-            let is_free = (c as usize) < n_slots && self.complex.is_free(c);
+            let is_free = c.index() < n_slots && self.complex.is_free(c);
             ensure(is_free, level, || text!("cell {c} is listed as free, and is not"))?;
         }
         let twice = listed_twice(listed, n_slots);
-        ensure(twice.is_none(), level, || text!("cell {} is listed as free twice", twice.unwrap_or(NONE)))?;
-        let n_free = (0..n_slots as u32).filter(|&c| self.complex.is_free(c)).count();
+        ensure(twice.is_none(), level, || {
+            text!("cell {} is listed as free twice", twice.unwrap_or(Slot::NONE))
+        })?;
+        let n_free = Slot::range(0..n_slots).filter(|&c| self.complex.is_free(c)).count();
         ensure(n_free == listed.len(), level, || text!("a free cell is not listed"))?;
         for s in self.live_sites() {
             let site = self.site(s);
@@ -290,9 +293,9 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether the hull, of which these are all ghost cells and which is convex at every ridge, winds once around a point
     /// inside a cell; `false` also if every cell is so thin that no double lies inside.
-    pub(crate) fn winds_once(&self, ghosts: &[u32]) -> bool {
+    pub(crate) fn winds_once(&self, ghosts: &[Slot]) -> bool {
         self.inner_point().is_some_and(|o| {
-            let is_inside = |&g: &u32| {
+            let is_inside = |&g: &Slot| {
                 let corners = &self.complex.cell(g).corners;
                 G::orientation_with(&self.filter, self.view(), corners, Self::LAST, &o) < 0.0
             };
@@ -302,7 +305,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// A ray from `o` crosses exactly one hull facet.
     fn check_winding(&self, o: &G::Point) -> Check {
-        let slots = 0..self.complex.n_slots() as u32;
+        let slots = Slot::range(0..self.complex.n_slots());
         let ghosts = slots.filter(|&c| self.complex.is_live(c) && self.complex.cell(c).is_ghost());
         let (crossings, aim) = self.crossings_of(ghosts, o);
         ensure(crossings == 1, Level::Embedding, || {
@@ -311,7 +314,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// How many of the ghosts' facets a ray from `o` that meets no ridge crosses, and a point on it.
-    fn crossings_of(&self, ghosts: impl Iterator<Item = u32> + Clone, o: &G::Point) -> (usize, G::Point) {
+    fn crossings_of(&self, ghosts: impl Iterator<Item = Slot> + Clone, o: &G::Point) -> (usize, G::Point) {
         // The box of the hull: that of the filter may be far wider.
         let corners = ghosts.clone().map(|g| &self.complex.cell(g).corners.as_ref()[..Self::LAST]);
         let places = corners.flatten().map(|&s| &self.site(s).point);
@@ -321,7 +324,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// How many facets the ray from `o` through `aim` crosses; `None` if it meets a ridge.
-    fn crossings(&self, ghosts: impl Iterator<Item = u32>, o: &G::Point, aim: &G::Point) -> Option<usize> {
+    fn crossings(&self, ghosts: impl Iterator<Item = Slot>, o: &G::Point, aim: &G::Point) -> Option<usize> {
         if (0..G::D).any(|k| !crate::predicates::is_in_range(aim[k])) || aim == o {
             return None;
         }
@@ -338,7 +341,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side;
     /// `None` if it meets the boundary of the facet.
-    fn is_crossed(&self, ghost: u32, o: &G::Point, aim: &G::Point) -> Option<bool> {
+    fn is_crossed(&self, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
         let mut is_crossed = Some(true);
         for i in 0..G::D {
             let mut points = self.view().points(&self.complex.cell(ghost).corners);

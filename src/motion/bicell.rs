@@ -2,12 +2,13 @@
 
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Delaunay, Dimension};
+use crate::ids::{SiteId, VertexId};
 use crate::predicates::{Delimiter, Tolerances};
 
 /// The corners of a bi-cell that are not the ghost vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BiCell<'k, G: Dimension> {
-    sites: [u32; 5],
+    sites: [SiteId; 5],
     points: [&'k G::Point; 5],
     n: usize,
 }
@@ -44,13 +45,13 @@ impl<'k, G: Dimension> BiCell<'k, G> {
 
     /// The finite corners.
     #[inline(always)]
-    pub(super) fn sites(&self) -> &[u32] {
+    pub(super) fn sites(&self) -> &[SiteId] {
         &self.sites[..self.n]
     }
 
     /// The vertices at the finite corners; what follows them in the array is some of them again.
     #[inline(always)]
-    pub(super) fn vertices(&self, kernel: &Delaunay<G>) -> [u32; 5] {
+    pub(super) fn vertices(&self, kernel: &Delaunay<G>) -> [VertexId; 5] {
         self.sites.map(|s| kernel.site(s).id)
     }
 

@@ -19,13 +19,14 @@ use super::changes::{Taken, Tracker, renumber};
 use super::marks::{Bits, Marks};
 use super::matching::Matcher;
 use super::ordering::Ordering;
-use crate::complex::{Corners, Facet, NONE};
+use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 
 /// Neighbour of a cell across a facet of the convex hull.
-pub const NO_CELL: u32 = NONE;
+pub const NO_CELL: CellId = CellId::NONE;
 
 /// When more than this share of the slots has changed, all are compared.
 const MAX_SHARE_LISTED: f64 = 0.5;
@@ -41,30 +42,30 @@ const KEPT_CHANGES: usize = 64;
 /// The arrays behind a view.
 #[derive(Debug)]
 pub(super) struct Cells<G: Dimension> {
-    corners: Vec<G::Corners>,
-    neighbours: Vec<G::Corners>,
+    corners: Vec<G::Vertices>,
+    neighbours: Vec<G::Neighbours>,
     /// By slot of the kernel's complex, the index of its cell in the arrays; [`NO_CELL`] if it has none.
-    index_of: Vec<u32>,
+    index_of: Vec<CellId>,
     /// The slot of each index.
-    slots: Vec<u32>,
+    slots: Vec<Slot>,
     /// By index; there may be more than cells.
     orderings: Vec<Ordering>,
     /// A bit for each lost cell that has been found, or whose index has been given to another one. All are 0 between
     /// calls.
     is_settled: Bits,
     /// What has changed since the program last took the changes, if it ever did.
-    since_taken: Option<Tracker<G::Corners>>,
+    since_taken: Option<Tracker<G::Vertices>>,
     /// What has changed since the latest commit began, if that is tracked.
-    since_commit: Option<Tracker<G::Corners>>,
-    scratch: Scratch<G::Corners>,
+    since_commit: Option<Tracker<G::Vertices>>,
+    scratch: Scratch<G::Vertices>,
 }
 
 /// A slot that holds another cell than before.
 #[derive(Clone, Copy, Debug)]
 struct Found<C> {
-    slot: u32,
+    slot: Slot,
     /// The index of the cell, if it was there before; else [`NO_CELL`].
-    index: u32,
+    index: CellId,
     ids: C,
 }
 
@@ -72,15 +73,15 @@ struct Found<C> {
 #[derive(Debug)]
 struct Scratch<C> {
     /// Indices whose slot no longer holds their cell.
-    lost: Vec<u32>,
+    lost: Vec<CellId>,
     /// Slots that hold another finite cell than before, if they are known; else, those that hold one that was not
     /// there.
     found: Vec<Found<C>>,
     matcher: Matcher<C>,
     /// Slots of cells that have other indices.
-    moved: Vec<u32>,
+    moved: Vec<Slot>,
     /// Slots of cells that have been turned over.
-    turned: Vec<u32>,
+    turned: Vec<Slot>,
 }
 
 impl<C> Default for Scratch<C> {
@@ -95,9 +96,11 @@ impl<C> Default for Scratch<C> {
     }
 }
 
-impl<C: Corners> Scratch<C> {
+impl<C: Corners<VertexId>> Scratch<C> {
     fn memory_bytes(&self) -> usize {
-        (self.lost.capacity() + self.moved.capacity() + self.turned.capacity()) * 4
+        memory::bytes_of(&self.lost)
+            + memory::bytes_of(&self.moved)
+            + memory::bytes_of(&self.turned)
             + self.found.capacity() * size_of::<Found<C>>()
             + self.matcher.memory_bytes()
     }
@@ -121,42 +124,43 @@ impl<G: Dimension> Default for Cells<G> {
 
 /// The vertex ids of a slot's corners.
 #[inline(always)]
-fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> G::Corners {
-    let mut ids = kernel.complex().cell(slot).corners;
+fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> G::Vertices {
+    let sites = kernel.complex().cell(slot).corners;
+    let mut ids = G::Vertices::filled(VertexId::NONE);
     for i in 0..G::Corners::N {
-        ids[i] = kernel.site(ids[i]).id;
+        ids[i] = kernel.site(sites[i]).id;
     }
     ids
 }
 
 /// Whether a slot holds a finite cell.
 #[inline(always)]
-fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: u32) -> bool {
+fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> bool {
     kernel.complex().is_live(slot) && !kernel.complex().cell(slot).is_ghost()
 }
 
 impl<G: Dimension> Cells<G> {
     /// Vertex ids of each cell.
     #[inline(always)]
-    pub(super) fn corners(&self) -> &[G::Corners] {
+    pub(super) fn corners(&self) -> &[G::Vertices] {
         &self.corners
     }
 
     /// Index of the neighbour opposite each corner of each cell.
     #[inline(always)]
-    pub(super) fn neighbours(&self) -> &[G::Corners] {
+    pub(super) fn neighbours(&self) -> &[G::Neighbours] {
         &self.neighbours
     }
 
     /// By slot of the kernel's complex, the index of its cell; [`NO_CELL`] if it has none.
     #[inline(always)]
-    pub(super) fn index_of(&self) -> &[u32] {
+    pub(super) fn index_of(&self) -> &[CellId] {
         &self.index_of
     }
 
     /// The slot of the cell of an index, if there is such a cell.
-    pub(super) fn slot(&self, index: u32) -> Option<u32> {
-        self.slots.get(index as usize).copied()
+    pub(super) fn slot(&self, index: CellId) -> Option<Slot> {
+        self.slots.get(index.index()).copied()
     }
 
     /// Tracks what changes from now on, which is when a commit begins.
@@ -175,7 +179,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Lists, ascending, the cells created since the latest commit began, if that is tracked.
-    pub(super) fn list_created(&self) -> Result<Vec<u32>> {
+    pub(super) fn list_created(&self) -> Result<Vec<CellId>> {
         let mut created = Vec::new();
         if let Some(tracker) = &self.since_commit {
             tracker.list_created(&self.corners, &mut created)?;
@@ -184,7 +188,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Lists what has changed since this was last [ended](Self::end_taking): everything, as created, if it never was.
-    pub(super) fn take(&mut self, taken: &mut Taken<G::Corners>, n_ids: usize) -> Result<()> {
+    pub(super) fn take(&mut self, taken: &mut Taken<G::Vertices>, n_ids: usize) -> Result<()> {
         let tracker = match &mut self.since_taken {
             Some(tracker) => tracker,
             none => none.insert(Tracker::of_none(self.corners.len())?),
@@ -198,15 +202,15 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// The cells are in other slots, listed by the old ones.
-    pub(super) fn renumber_slots(&mut self, slots: &[u32]) {
+    pub(super) fn renumber_slots(&mut self, slots: &[Slot]) {
         for slot in &mut self.slots {
-            *slot = slots.get(*slot as usize).copied().unwrap_or(NONE);
+            *slot = slots.get(slot.index()).copied().unwrap_or(Slot::NONE);
         }
     }
 
     /// Brings the arrays up to date: only the `dirty` slots have changed, or any, if there is no list of them. After an
     /// error they can be brought up to date later.
-    pub(super) fn refresh(&mut self, kernel: &Delaunay<G>, dirty: Option<&Marks>) -> Result<()> {
+    pub(super) fn refresh(&mut self, kernel: &Delaunay<G>, dirty: Option<&Marks<Slot>>) -> Result<()> {
         let mut scratch = std::mem::take(&mut self.scratch);
         let done = self.refresh_with(kernel, dirty, &mut scratch);
         if done.is_err() {
@@ -219,8 +223,8 @@ impl<G: Dimension> Cells<G> {
     fn refresh_with(
         &mut self,
         kernel: &Delaunay<G>,
-        dirty: Option<&Marks>,
-        scratch: &mut Scratch<G::Corners>,
+        dirty: Option<&Marks<Slot>>,
+        scratch: &mut Scratch<G::Vertices>,
     ) -> Result<()> {
         scratch.lost.clear();
         scratch.found.clear();
@@ -253,7 +257,7 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// Makes room for all that [`renumber`](Self::renumber) writes.
-    fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Corners>) -> Result<()> {
+    fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Vertices>) -> Result<()> {
         let n = kernel.complex().n_finite();
         let more = n.saturating_sub(self.corners.len());
         memory::reserve_sparingly(&mut self.corners, more)?;
@@ -274,16 +278,16 @@ impl<G: Dimension> Cells<G> {
     }
 
     /// The index, in the complex, of a corner of a cell.
-    pub(super) fn facet(&self, index: u32, corner: usize) -> Facet {
-        let ordering = self.orderings[index as usize];
+    pub(super) fn facet(&self, index: CellId, corner: usize) -> Facet {
+        let ordering = self.orderings[index];
         let in_slot =
             (0..G::Corners::N).find(|&i| ordering.place(i) == corner).expect("every place is taken");
-        Facet::new(self.slots[index as usize], in_slot)
+        Facet::new(self.slots[index], in_slot)
     }
 
     /// A copy of arrays that are up to date, in which vertices have other ids and cells other slots, `n_slots` in all:
     /// those listed by the old ones. Every cell keeps its index.
-    pub(super) fn renumbered(&self, ids: &[u32], slots: &[u32], n_slots: usize) -> Result<Self> {
+    pub(super) fn renumbered(&self, ids: &[VertexId], slots: &[Slot], n_slots: usize) -> Result<Self> {
         let mut cells = Cells {
             corners: memory::copy_of(&self.corners)?,
             neighbours: memory::copy_of(&self.neighbours)?,
@@ -296,17 +300,19 @@ impl<G: Dimension> Cells<G> {
         memory::reserve_exact(&mut cells.index_of, n_slots)?;
         cells.index_of.resize(n_slots, NO_CELL);
         cells.corners.iter_mut().for_each(|row| renumber(row, ids));
-        for (index, slot) in cells.slots.iter_mut().enumerate() {
-            *slot = slots[*slot as usize];
-            cells.index_of[*slot as usize] = index as u32;
+        for (index, slot) in CellId::range(0..cells.slots.len()).zip(&mut cells.slots) {
+            *slot = slots[*slot];
+            cells.index_of[*slot] = index;
         }
         Ok(cells)
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
         let trackers = [&self.since_taken, &self.since_commit].into_iter().flatten();
-        (self.corners.capacity() + self.neighbours.capacity()) * size_of::<G::Corners>()
-            + (self.index_of.capacity() + self.slots.capacity()) * 4
+        memory::bytes_of(&self.corners)
+            + memory::bytes_of(&self.neighbours)
+            + memory::bytes_of(&self.index_of)
+            + memory::bytes_of(&self.slots)
             + self.orderings.capacity()
             + self.is_settled.memory_bytes()
             + self.scratch.memory_bytes()

@@ -6,23 +6,24 @@
 //! nobody asks.
 
 use super::marks::Marks;
-use crate::complex::{Corners, NONE};
+use crate::complex::Corners;
 use crate::error::Result;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// In place of an id: a vertex that has none any more.
-pub const NO_VERTEX: u32 = NONE;
+pub const NO_VERTEX: VertexId = VertexId::NONE;
 
 /// What has changed since a base.
 #[derive(Debug)]
 pub(super) struct Tracker<C> {
-    /// By index, the index at the base; [`NONE`] if the cell has been created since.
-    origin: Vec<u32>,
+    /// By index, the index at the base; [`CellId::NONE`] if the cell has been created since.
+    origin: Vec<CellId>,
     /// Indices whose origin may be another one; some may be beyond the end.
-    touched: Marks,
+    touched: Marks<CellId>,
     /// Cells of the base that have been removed: their indices and corners.
-    removed: Vec<(u32, C)>,
+    removed: Vec<(CellId, C)>,
     /// How often the arrays have been refreshed since: a cell that goes in one refreshment may come back in another.
     n_refreshed: u32,
     /// How many cells have been given another index since.
@@ -34,18 +35,18 @@ pub(super) struct Tracker<C> {
 /// A cell of the base that has been turned over.
 #[derive(Clone, Copy, Debug)]
 struct Turned<C> {
-    origin: u32,
+    origin: CellId,
     /// The order of the events.
     at: u32,
     before: C,
 }
 
-impl<C: Corners> Tracker<C> {
+impl<C: Corners<VertexId>> Tracker<C> {
     /// A tracker whose base are `n` cells of now.
     pub(super) fn of(n: usize) -> Result<Self> {
         let mut origin = Vec::new();
         memory::reserve_exact(&mut origin, n)?;
-        origin.extend(0..n as u32);
+        origin.extend(CellId::range(0..n));
         Ok(Tracker {
             origin,
             touched: Marks::default(),
@@ -60,8 +61,8 @@ impl<C: Corners> Tracker<C> {
     pub(super) fn of_none(n: usize) -> Result<Self> {
         let mut tracker = Self::of(n)?;
         tracker.touched.reserve(n, n)?;
-        (0..n as u32).for_each(|index| tracker.touched.insert(index));
-        tracker.origin.fill(NONE);
+        CellId::range(0..n).for_each(|index| tracker.touched.insert(index));
+        tracker.origin.fill(CellId::NONE);
         Ok(tracker)
     }
 
@@ -84,17 +85,17 @@ impl<C: Corners> Tracker<C> {
         memory::reserve(&mut self.origin, more)
     }
 
-    pub(super) fn remove(&mut self, index: u32, corners: C) {
-        let origin = self.origin[index as usize];
-        if origin != NONE {
+    pub(super) fn remove(&mut self, index: CellId, corners: C) {
+        let origin = self.origin[index];
+        if origin != CellId::NONE {
             self.removed.push((origin, corners));
         }
     }
 
     /// A cell stays, but its corners are no longer listed in this order.
-    pub(super) fn turn(&mut self, index: u32, before: C) {
-        let origin = self.origin[index as usize];
-        if origin != NONE {
+    pub(super) fn turn(&mut self, index: CellId, before: C) {
+        let origin = self.origin[index];
+        if origin != CellId::NONE {
             self.turned.push(Turned { origin, at: self.turned.len() as u32, before });
         }
     }
@@ -107,26 +108,26 @@ impl<C: Corners> Tracker<C> {
 
     /// A cell has gone, and a new one has its index.
     #[inline(always)]
-    pub(super) fn replace(&mut self, index: u32, before: C) {
-        let origin = &mut self.origin[index as usize];
-        if *origin != NONE {
+    pub(super) fn replace(&mut self, index: CellId, before: C) {
+        let origin = &mut self.origin[index];
+        if *origin != CellId::NONE {
             self.removed.push((*origin, before));
-            *origin = NONE;
+            *origin = CellId::NONE;
         }
         self.touched.insert(index);
     }
 
-    pub(super) fn create(&mut self, index: u32) {
-        if index as usize == self.origin.len() {
-            self.origin.push(NONE);
+    pub(super) fn create(&mut self, index: CellId) {
+        if index.index() == self.origin.len() {
+            self.origin.push(CellId::NONE);
         } else {
-            self.origin[index as usize] = NONE;
+            self.origin[index] = CellId::NONE;
         }
         self.touched.insert(index);
     }
 
-    pub(super) fn renumber(&mut self, from: u32, to: u32) {
-        self.origin[to as usize] = self.origin[from as usize];
+    pub(super) fn renumber(&mut self, from: CellId, to: CellId) {
+        self.origin[to] = self.origin[from];
         self.n_renumbered += 1;
         self.touched.insert(to);
     }
@@ -138,7 +139,7 @@ impl<C: Corners> Tracker<C> {
     /// The cells of now are the base.
     pub(super) fn reset(&mut self) {
         for &index in self.touched.as_slice() {
-            if let Some(origin) = self.origin.get_mut(index as usize) {
+            if let Some(origin) = self.origin.get_mut(index.index()) {
                 *origin = index;
             }
         }
@@ -153,8 +154,8 @@ impl<C: Corners> Tracker<C> {
     }
 
     /// A copy in which the vertices have other ids, listed by the old ones. A removed vertex has none any more: no
-    /// cell of now or later has it, so a row with [`NONE`] is never there again.
-    pub(super) fn renumbered(&self, ids: &[u32]) -> Result<Self> {
+    /// cell of now or later has it, so a row with [`NO_VERTEX`] is never there again.
+    pub(super) fn renumbered(&self, ids: &[VertexId]) -> Result<Self> {
         let mut removed = memory::copy_of(&self.removed)?;
         for (_, row) in &mut removed {
             renumber(row, ids);
@@ -163,7 +164,7 @@ impl<C: Corners> Tracker<C> {
         turned.iter_mut().for_each(|event| renumber(&mut event.before, ids));
         let mut touched = Marks::default();
         touched.reserve(self.touched.as_slice().len(), self.origin.len())?;
-        let is_there = |index: &&u32| (**index as usize) < self.origin.len();
+        let is_there = |index: &&CellId| index.index() < self.origin.len();
         self.touched.as_slice().iter().filter(is_there).for_each(|&index| touched.insert(index));
         Ok(Tracker {
             origin: memory::copy_of(&self.origin)?,
@@ -176,22 +177,22 @@ impl<C: Corners> Tracker<C> {
     }
 
     /// Lists, ascending, the cells that are not among those of the base.
-    pub(super) fn list_created(&self, corners: &[C], created: &mut Vec<u32>) -> Result<()> {
+    pub(super) fn list_created(&self, corners: &[C], created: &mut Vec<CellId>) -> Result<()> {
         let removed = self.sorted_removed()?;
         *created = self.touched.sorted()?;
-        created.retain(|&index| self.origin_of(index, corners, &removed) == Some((NONE, None)));
+        created.retain(|&index| self.origin_of(index, corners, &removed) == Some((CellId::NONE, None)));
         Ok(())
     }
 
-    /// The index at the base of a cell, [`NONE`] if it is new, and which of the removed ones it is if it has come back;
-    /// nothing beyond the end.
-    fn origin_of(&self, index: u32, corners: &[C], removed: &[(C, u32)]) -> Option<(u32, Option<u32>)> {
-        let origin = *self.origin.get(index as usize)?;
-        if origin != NONE || removed.is_empty() {
+    /// The index at the base of a cell, [`CellId::NONE`] if it is new, and which of the removed ones it is if it has
+    /// come back; nothing beyond the end.
+    fn origin_of(&self, index: CellId, corners: &[C], removed: &[(C, u32)]) -> Option<(CellId, Option<u32>)> {
+        let origin = *self.origin.get(index.index())?;
+        if origin != CellId::NONE || removed.is_empty() {
             return Some((origin, None));
         }
-        let returned = find(removed, &sorted(corners[index as usize]));
-        Some((returned.map_or(NONE, |k| self.removed[k as usize].0), returned))
+        let returned = find(removed, &sorted(corners[index]));
+        Some((returned.map_or(CellId::NONE, |k| self.removed[k as usize].0), returned))
     }
 
     /// The removed cells that may have come back, by their sorted corners, each with its position in the list.
@@ -209,7 +210,7 @@ impl<C: Corners> Tracker<C> {
     pub(super) fn memory_bytes(&self) -> usize {
         self.origin.capacity() * 4
             + self.touched.memory_bytes()
-            + self.removed.capacity() * size_of::<(u32, C)>()
+            + self.removed.capacity() * size_of::<(CellId, C)>()
             + self.turned.capacity() * size_of::<Turned<C>>()
     }
 }
@@ -221,20 +222,20 @@ fn keep_first_turns<C>(turned: &mut Vec<Turned<C>>) {
     turned.iter_mut().for_each(|event| event.at = 0);
 }
 
-/// Gives the corners of a cell other ids, listed by the old ones; [`NONE`] stays.
-pub(super) fn renumber<C: Corners>(row: &mut C, ids: &[u32]) {
+/// Gives the corners of a cell other ids, listed by the old ones; [`NO_VERTEX`] stays.
+pub(super) fn renumber<C: Corners<VertexId>>(row: &mut C, ids: &[VertexId]) {
     for v in row.as_mut() {
-        *v = ids.get(*v as usize).copied().unwrap_or(NONE);
+        *v = ids.get(v.index()).copied().unwrap_or(NO_VERTEX);
     }
 }
 
-fn sorted<C: Corners>(mut corners: C) -> C {
+fn sorted<C: Corners<VertexId>>(mut corners: C) -> C {
     corners.as_mut().sort_unstable();
     corners
 }
 
 /// The position in the list of removed cells of one with these sorted corners.
-fn find<C: Corners>(by_corners: &[(C, u32)], corners: &C) -> Option<u32> {
+fn find<C: Corners<VertexId>>(by_corners: &[(C, u32)], corners: &C) -> Option<u32> {
     let at = by_corners.binary_search_by(|(there, _)| there.cmp(corners)).ok()?;
     Some(by_corners[at].1)
 }
@@ -244,36 +245,36 @@ fn find<C: Corners>(by_corners: &[(C, u32)], corners: &C) -> Option<u32> {
 #[derive(Clone, Copy, Debug)]
 pub struct Changes<'t, C> {
     /// Cells that exist now and did not: their indices.
-    pub created: &'t [u32],
+    pub created: &'t [CellId],
     /// Cells that existed and do not now: the index that each had.
-    pub removed: &'t [u32],
+    pub removed: &'t [CellId],
     /// Their corners, in the order in which they were listed when the program last took the changes. A vertex that was
     /// removed before a [compaction](super::MovingTriangulation::compact) has no id any more: it is [`NO_VERTEX`].
     pub removed_corners: &'t [C],
     /// Cells that existed and have another index now: the old ones.
-    pub renumbered_from: &'t [u32],
+    pub renumbered_from: &'t [CellId],
     /// The new ones.
-    pub renumbered_to: &'t [u32],
+    pub renumbered_to: &'t [CellId],
     /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed, after the
     /// latest compaction if there was one.
-    pub stars: &'t [u32],
+    pub stars: &'t [VertexId],
     /// Vertices that are hidden and were not.
-    pub hidden: &'t [u32],
+    pub hidden: &'t [VertexId],
     /// Vertices that were hidden and are not.
-    pub shown: &'t [u32],
+    pub shown: &'t [VertexId],
 }
 
 /// The lists behind [`Changes`].
 #[derive(Debug)]
 pub(super) struct Taken<C> {
-    created: Vec<u32>,
-    removed: Vec<u32>,
+    created: Vec<CellId>,
+    removed: Vec<CellId>,
     removed_corners: Vec<C>,
-    renumbered_from: Vec<u32>,
-    renumbered_to: Vec<u32>,
-    stars: Marks,
-    hidden: Vec<u32>,
-    shown: Vec<u32>,
+    renumbered_from: Vec<CellId>,
+    renumbered_to: Vec<CellId>,
+    stars: Marks<VertexId>,
+    hidden: Vec<VertexId>,
+    shown: Vec<VertexId>,
 }
 
 impl<C> Default for Taken<C> {
@@ -291,26 +292,18 @@ impl<C> Default for Taken<C> {
     }
 }
 
-impl<C: Corners> Taken<C> {
+impl<C: Corners<VertexId>> Taken<C> {
     fn clear(&mut self) {
-        for list in self.lists() {
-            clear(list);
-        }
+        clear(&mut self.created);
+        clear(&mut self.removed);
         clear(&mut self.removed_corners);
+        clear(&mut self.renumbered_from);
+        clear(&mut self.renumbered_to);
+        clear(&mut self.hidden);
+        clear(&mut self.shown);
         let n_stars = self.stars.as_slice().len();
         self.stars.clear();
         self.stars.shrink_to(4 * n_stars + 1024);
-    }
-
-    fn lists(&mut self) -> [&mut Vec<u32>; 6] {
-        [
-            &mut self.created,
-            &mut self.removed,
-            &mut self.renumbered_from,
-            &mut self.renumbered_to,
-            &mut self.hidden,
-            &mut self.shown,
-        ]
     }
 
     /// Lists what a tracker knows of the cells, and the vertices of all cells listed; no vertex is hidden or shown yet.
@@ -327,7 +320,7 @@ impl<C: Corners> Taken<C> {
     }
 
     /// Enters a vertex that has been hidden or shown if it is not as before; there is room.
-    pub(super) fn list_vertex(&mut self, vertex: u32, was_hidden: bool, is_hidden: bool) {
+    pub(super) fn list_vertex(&mut self, vertex: VertexId, was_hidden: bool, is_hidden: bool) {
         match (was_hidden, is_hidden) {
             (false, true) => self.hidden.push(vertex),
             (true, false) => self.shown.push(vertex),
@@ -368,7 +361,7 @@ impl<C: Corners> Taken<C> {
             if let Some(k) = returned {
                 has_returned[k as usize] = true;
             }
-            if origin == NONE {
+            if origin == CellId::NONE {
                 self.created.push(index);
             } else if origin != index {
                 self.renumbered_from.push(origin);
@@ -394,26 +387,20 @@ impl<C: Corners> Taken<C> {
         self.stars.reserve(most.min(n_ids), n_ids)?;
         let created = self.created.iter().enumerate().map(|(k, &index)| {
             if let Some(&later) = self.created.get(k + AHEAD) {
-                prefetch(corners, later as usize);
+                prefetch(corners, later.index());
             }
-            &corners[index as usize]
+            &corners[index]
         });
         let listed = created.chain(&self.removed_corners).flat_map(|row| row.as_ref());
-        listed.filter(|v| **v != NONE).for_each(|&v| self.stars.insert(v));
+        listed.filter(|v| **v != NO_VERTEX).for_each(|&v| self.stars.insert(v));
         self.stars.sort();
         Ok(())
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        let lists = [
-            &self.created,
-            &self.removed,
-            &self.renumbered_from,
-            &self.renumbered_to,
-            &self.hidden,
-            &self.shown,
-        ];
-        lists.into_iter().map(|list| list.capacity() * 4).sum::<usize>()
+        let cells = [&self.created, &self.removed, &self.renumbered_from, &self.renumbered_to];
+        let vertices = [&self.hidden, &self.shown];
+        cells.map(memory::bytes_of).iter().chain(&vertices.map(memory::bytes_of)).sum::<usize>()
             + self.removed_corners.capacity() * size_of::<C>()
             + self.stars.memory_bytes()
     }

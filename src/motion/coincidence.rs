@@ -2,24 +2,24 @@
 //! apart.
 
 use super::{CoincidencePolicy, MovingTriangulation};
-use crate::complex::NONE;
 use crate::delaunay::{Dimension, Place};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, Slot, VertexId};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Whether several vertices are at a site.
     #[inline(always)]
-    pub(super) fn is_shared(&self, s: u32) -> bool {
+    pub(super) fn is_shared(&self, s: SiteId) -> bool {
         self.hidden.count() != 0 && self.hidden.is_followed(self.kernel.site(s).id)
     }
 
     /// Whether a vertex that is present is hidden.
-    pub(super) fn is_hidden(&self, vertex: u32) -> bool {
-        self.hidden.count() != 0 && self.kernel.site(self.site_of[vertex as usize]).id != vertex
+    pub(super) fn is_hidden(&self, vertex: VertexId) -> bool {
+        self.hidden.count() != 0 && self.kernel.site(self.site_of[vertex]).id != vertex
     }
 
     /// Lets a vertex that has no site of its own join another's.
-    pub(super) fn hide(&mut self, vertex: u32, s: u32) -> Result<()> {
+    pub(super) fn hide(&mut self, vertex: VertexId, s: SiteId) -> Result<()> {
         self.hidden.reserve(self.site_of.len())?;
         self.transaction.reserve_displaced(self.hidden.count() + 1)?;
         let representative = self.kernel.site(s).id;
@@ -35,14 +35,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.kernel.rename_site(s, vertex)?;
             self.hidden.set_next(vertex, representative);
         }
-        self.site_of[vertex as usize] = s;
+        self.site_of[vertex] = s;
         self.hidden.set_count(self.hidden.count() + 1);
         Ok(())
     }
 
     /// Takes a vertex away from the site that it shares.
-    pub(super) fn leave(&mut self, vertex: u32) -> Result<()> {
-        let s = self.site_of[vertex as usize];
+    pub(super) fn leave(&mut self, vertex: VertexId) -> Result<()> {
+        let s = self.site_of[vertex];
         self.kernel.log_site(s)?;
         let representative = self.kernel.site(s).id;
         self.log_vertex(vertex)?;
@@ -56,7 +56,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.note_visibility(vertex, true)?;
             self.hidden.set_next(before, self.hidden.next(vertex));
         }
-        self.hidden.set_next(vertex, NONE);
+        self.hidden.set_next(vertex, VertexId::NONE);
         self.hidden.set_count(self.hidden.count() - 1);
         Ok(())
     }
@@ -72,11 +72,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Enforces [`CoincidencePolicy::Reject`] on a place that `vertex` would take.
-    pub(super) fn reject_occupied(&self, vertex: u32, q: &G::Point) -> Result<()> {
+    pub(super) fn reject_occupied(&self, vertex: VertexId, q: &G::Point) -> Result<()> {
         if self.options.coincidence == CoincidencePolicy::Merge {
             return Ok(());
         }
-        match self.kernel.locate(q, NONE) {
+        match self.kernel.locate(q, Slot::NONE) {
             Place::Site(s) => {
                 let there = self.kernel.site(s).id;
                 Err(Error::Coincident { vertex: vertex.min(there), other: vertex.max(there) })

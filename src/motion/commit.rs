@@ -56,7 +56,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.
     pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
         if let Some(vertex) = self.staging.first_staged() {
-            return Err(Error::DuplicateMove { argument: "positions", index: vertex as usize, vertex });
+            return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }
         let done = if self.expect_whole(positions.len())? {
             self.commit_given(Given::all(positions))

@@ -17,9 +17,9 @@ use super::changes::Taken;
 use super::regions::Regions;
 use super::repair::Repair;
 use super::transaction::Transaction;
-use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -32,7 +32,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory): for the time of the call there are two triangulations.
-    pub fn compact(&mut self) -> Result<Vec<u32>> {
+    pub fn compact(&mut self) -> Result<Vec<VertexId>> {
         let ids = self.dense_ids()?;
         let n = self.n_present + self.staged_edits().0;
         let mut site_of = Vec::new();
@@ -43,7 +43,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let edits = self.edits.renumbered(&ids, n)?;
         let views = self.views.renumbered(&self.kernel, &ids, &slots, kernel.complex().n_slots())?;
         // From here on nothing fails.
-        site_of.resize(n, NONE);
+        site_of.resize(n, SiteId::NONE);
         self.note_oblivion();
         (self.site_of, self.staging, self.edits, self.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();
@@ -54,16 +54,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(ids)
     }
 
-    /// For each id the number of vertices with lower ones that are present or about to be inserted, [`NONE`] for those
-    /// removed.
-    fn dense_ids(&self) -> Result<Vec<u32>> {
+    /// For each id the number of vertices with lower ones that are present or about to be inserted, [`VertexId::NONE`]
+    /// for those removed.
+    fn dense_ids(&self) -> Result<Vec<VertexId>> {
         let mut ids = Vec::new();
         memory::reserve_exact(&mut ids, self.site_of.len())?;
-        ids.extend_from_slice(&self.site_of);
+        let first = VertexId::new(0);
+        ids.extend(self.site_of.iter().map(|&s| if s == SiteId::NONE { VertexId::NONE } else { first }));
         for k in 0..self.staged_edits().0 {
-            ids[self.coming(k) as usize] = 0;
+            ids[self.coming(k)] = first;
         }
-        for (next, id) in (0..).zip(ids.iter_mut().filter(|id| **id != NONE)) {
+        let all = VertexId::range(0..ids.len());
+        for (next, id) in all.zip(ids.iter_mut().filter(|id| **id != VertexId::NONE)) {
             *id = next;
         }
         Ok(ids)

@@ -7,10 +7,10 @@
 use super::attempt::{Edited, SingleEdits};
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
-use crate::complex::NONE;
 use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 
 /// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in so many is inserted or
@@ -23,7 +23,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
-    pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<u32> {
+    pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
         let (n, first) = (positions.len(), self.site_of.len());
         if n > MAX_VERTICES - first {
             return Err(Error::TooManyVertices { given: first.saturating_add(n), limit: MAX_VERTICES });
@@ -35,13 +35,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (index, position) in positions.iter().enumerate() {
             check_position::<G>("positions", index, position)?;
         }
-        for (id, position) in (first as u32..).zip(positions) {
+        for (id, position) in VertexId::range(first..first + n).zip(positions) {
             let checked = check_position::<G>("positions", 0, position)?;
             self.edits.insert(id, checked);
         }
-        self.site_of.resize(first + n, NONE);
+        self.site_of.resize(first + n, SiteId::NONE);
         self.staging.grow(self.site_of.len());
-        Ok(first as u32)
+        Ok(VertexId::at(first))
     }
 
     /// Stages the removal of vertices, all of them or, on an error, none. Moves staged for them are forgotten, and no
@@ -49,7 +49,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`]; [`Error::RemovedVertex`] also if the removal is staged already; [`Error::OutOfMemory`].
-    pub fn stage_removals(&mut self, vertices: &[u32]) -> Result<()> {
+    pub fn stage_removals(&mut self, vertices: &[VertexId]) -> Result<()> {
         self.staging.list()?;
         self.edits.reserve_removals(vertices.len(), self.site_of.len())?;
         let before = self.edits.removals().len();
@@ -66,7 +66,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The id of a staged insertion.
-    pub(super) fn coming(&self, k: usize) -> u32 {
+    pub(super) fn coming(&self, k: usize) -> VertexId {
         self.edits.insertions()[k].0
     }
 
@@ -78,7 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Forgets what waits. Ids that were given last are given back.
     pub(super) fn discard_edits(&mut self) {
         for id in self.edits.forget_insertions() {
-            if id as usize + 1 == self.site_of.len() {
+            if id.index() + 1 == self.site_of.len() {
                 self.site_of.pop();
             }
         }
@@ -118,12 +118,12 @@ impl<G: Dimension> MovingTriangulation<G> {
                 t.remove_present(t.edits.removals()[k])?;
                 report.removed += 1;
             }
-            let mut near = NONE;
+            let mut near = Slot::NONE;
             for k in 0..t.edits.insertions().len() {
                 let (id, q) = t.edits.insertions()[k];
                 let s = t.kernel.add_site(q, id)?;
                 t.log_vertex(id)?;
-                t.site_of[id as usize] = s;
+                t.site_of[id] = s;
                 match t.kernel.insert_site(s, near)? {
                     Insertion::New => near = t.kernel.site(s).cell,
                     Insertion::Coincident(at) => t.hide(id, at)?,
@@ -138,15 +138,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Takes a vertex out.
-    pub(super) fn remove_present(&mut self, vertex: u32) -> Result<()> {
-        let s = self.site_of[vertex as usize];
+    pub(super) fn remove_present(&mut self, vertex: VertexId) -> Result<()> {
+        let s = self.site_of[vertex];
         self.log_vertex(vertex)?;
         if self.is_shared(s) {
             self.leave(vertex)?;
         } else {
             self.kernel.remove_site(s)?;
         }
-        self.site_of[vertex as usize] = NONE;
+        self.site_of[vertex] = SiteId::NONE;
         self.n_present -= 1;
         Ok(())
     }
@@ -173,7 +173,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (n_in, n_out) = self.staged_edits();
         self.build_and_adopt(next, ready, report)?;
         for &v in self.edits.removals() {
-            self.site_of[v as usize] = NONE;
+            self.site_of[v] = SiteId::NONE;
         }
         self.n_present = self.n_present + n_in - n_out;
         report.inserted += n_in as u64;

@@ -2,13 +2,14 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::machine::memory;
 
 /// What waits.
 #[derive(Debug)]
 pub(super) struct Edits<G: Dimension> {
-    insertions: Vec<(u32, G::Point)>,
-    removals: Vec<u32>,
+    insertions: Vec<(VertexId, G::Point)>,
+    removals: Vec<VertexId>,
     /// By vertex id, whether a removal is staged; ids beyond the end have none.
     is_leaving: Vec<bool>,
 }
@@ -28,36 +29,36 @@ impl<G: Dimension> Edits<G> {
 
     /// Whether the removal of a vertex is staged.
     #[inline(always)]
-    pub(super) fn is_leaving(&self, vertex: u32) -> bool {
-        !self.removals.is_empty() && self.is_leaving.get(vertex as usize).copied().unwrap_or(false)
+    pub(super) fn is_leaving(&self, vertex: VertexId) -> bool {
+        !self.removals.is_empty() && self.is_leaving.get(vertex.index()).copied().unwrap_or(false)
     }
 
     /// Forgets all that waits.
     pub(super) fn clear(&mut self) {
         self.insertions.clear();
         for &v in &self.removals {
-            self.is_leaving[v as usize] = false;
+            self.is_leaving[v] = false;
         }
         self.removals.clear();
     }
 
     /// Forgets the removal of a vertex.
-    pub(super) fn forget_removal(&mut self, vertex: u32) {
+    pub(super) fn forget_removal(&mut self, vertex: VertexId) {
         if self.is_leaving(vertex) {
-            self.is_leaving[vertex as usize] = false;
+            self.is_leaving[vertex] = false;
             self.removals.retain(|&v| v != vertex);
         }
     }
 
     /// The insertions that wait: ids and positions.
     #[inline(always)]
-    pub(super) fn insertions(&self) -> &[(u32, G::Point)] {
+    pub(super) fn insertions(&self) -> &[(VertexId, G::Point)] {
         &self.insertions
     }
 
     /// The vertices whose removal waits.
     #[inline(always)]
-    pub(super) fn removals(&self) -> &[u32] {
+    pub(super) fn removals(&self) -> &[VertexId] {
         &self.removals
     }
 
@@ -67,18 +68,18 @@ impl<G: Dimension> Edits<G> {
     }
 
     /// Stages an insertion, for which there is room.
-    pub(super) fn insert(&mut self, id: u32, position: G::Point) {
+    pub(super) fn insert(&mut self, id: VertexId, position: G::Point) {
         self.insertions.push((id, position));
     }
 
     /// Puts the insertions in another order.
-    pub(super) fn reorder_insertions(&mut self, ordered: Vec<(u32, G::Point)>) {
+    pub(super) fn reorder_insertions(&mut self, ordered: Vec<(VertexId, G::Point)>) {
         debug_assert_eq!(ordered.len(), self.insertions.len());
         self.insertions = ordered;
     }
 
     /// Forgets the insertions; returns their ids, descending.
-    pub(super) fn forget_insertions(&mut self) -> impl Iterator<Item = u32> {
+    pub(super) fn forget_insertions(&mut self) -> impl Iterator<Item = VertexId> {
         // A commit that failed has put them in another order.
         self.insertions.sort_unstable_by_key(|&(id, _)| id);
         self.insertions.drain(..).rev().map(|(id, _)| id)
@@ -91,34 +92,34 @@ impl<G: Dimension> Edits<G> {
     }
 
     /// Stages the removal of a vertex, for which there is room.
-    pub(super) fn remove(&mut self, vertex: u32) {
-        self.is_leaving[vertex as usize] = true;
+    pub(super) fn remove(&mut self, vertex: VertexId) {
+        self.is_leaving[vertex] = true;
         self.removals.push(vertex);
     }
 
     /// Takes back all but the first `n` removals.
     pub(super) fn truncate_removals(&mut self, n: usize) {
         for v in self.removals.drain(n..) {
-            self.is_leaving[v as usize] = false;
+            self.is_leaving[v] = false;
         }
     }
 
     /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones.
-    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
+    pub(super) fn renumbered(&self, ids: &[VertexId], n: usize) -> Result<Self> {
         let mut insertions = memory::copy_of(&self.insertions)?;
-        insertions.iter_mut().for_each(|(id, _)| *id = ids[*id as usize]);
+        insertions.iter_mut().for_each(|(id, _)| *id = ids[*id]);
         let mut removals = memory::copy_of(&self.removals)?;
-        removals.iter_mut().for_each(|v| *v = ids[*v as usize]);
+        removals.iter_mut().for_each(|v| *v = ids[*v]);
         let mut is_leaving = Vec::new();
         if !removals.is_empty() {
             memory::lengthen(&mut is_leaving, n, false)?;
-            removals.iter().for_each(|&v| is_leaving[v as usize] = true);
+            removals.iter().for_each(|&v| is_leaving[v] = true);
         }
         Ok(Edits { insertions, removals, is_leaving })
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.insertions.capacity() * size_of::<(u32, G::Point)>()
+        self.insertions.capacity() * size_of::<(VertexId, G::Point)>()
             + self.removals.capacity() * 4
             + self.is_leaving.capacity()
     }

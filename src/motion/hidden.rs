@@ -4,16 +4,16 @@
 //! last at its place, and most are alone there. So nothing is kept until the first vertex is hidden, and then 4 bytes
 //! for each id.
 
-use crate::complex::NONE;
 use crate::delaunay::Merge;
 use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
 /// Which vertices are hidden.
 #[derive(Debug, Default)]
 pub(super) struct Hidden {
-    /// By vertex id, the next one at the same place; [`NONE`] for the last one, and for ids beyond the end.
-    next: Vec<u32>,
+    /// By vertex id, the next one at the same place; [`VertexId::NONE`] for the last one, and for ids beyond the end.
+    next: Vec<VertexId>,
     count: usize,
 }
 
@@ -26,18 +26,18 @@ impl Hidden {
 
     /// The next vertex at the place of this one.
     #[inline(always)]
-    pub(super) fn next(&self, vertex: u32) -> u32 {
-        self.next.get(vertex as usize).copied().unwrap_or(NONE)
+    pub(super) fn next(&self, vertex: VertexId) -> VertexId {
+        self.next.get(vertex.index()).copied().unwrap_or(VertexId::NONE)
     }
 
     /// Whether a representative has others behind it.
     #[inline(always)]
-    pub(super) fn is_followed(&self, representative: u32) -> bool {
-        self.count != 0 && self.next(representative) != NONE
+    pub(super) fn is_followed(&self, representative: VertexId) -> bool {
+        self.count != 0 && self.next(representative) != VertexId::NONE
     }
 
     /// The one of the vertices at a representative's place after which this one comes.
-    pub(super) fn before(&self, representative: u32, vertex: u32) -> u32 {
+    pub(super) fn before(&self, representative: VertexId, vertex: VertexId) -> VertexId {
         let mut before = representative;
         while self.next(before) < vertex {
             before = self.next(before);
@@ -50,14 +50,14 @@ impl Hidden {
         let missing = n_ids.saturating_sub(self.next.len());
         if missing > 0 {
             memory::reserve(&mut self.next, missing)?;
-            self.next.resize(n_ids, NONE);
+            self.next.resize(n_ids, VertexId::NONE);
         }
         Ok(())
     }
 
     /// Sets the next vertex after one that there is room for.
-    pub(super) fn set_next(&mut self, vertex: u32, next: u32) {
-        if let Some(entry) = self.next.get_mut(vertex as usize) {
+    pub(super) fn set_next(&mut self, vertex: VertexId, next: VertexId) {
+        if let Some(entry) = self.next.get_mut(vertex.index()) {
             *entry = next;
         }
     }
@@ -71,7 +71,7 @@ impl Hidden {
     pub(super) fn of_merges(
         mut merges: Vec<Merge>,
         n_ids: usize,
-        representative: impl Fn(u32) -> u32,
+        representative: impl Fn(SiteId) -> VertexId,
     ) -> Result<Self> {
         let mut hidden = Hidden::default();
         if merges.is_empty() {
@@ -90,23 +90,23 @@ impl Hidden {
     }
 
     /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones.
-    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
+    pub(super) fn renumbered(&self, ids: &[VertexId], n: usize) -> Result<Self> {
         let mut hidden = Hidden { next: Vec::new(), count: self.count };
         if self.count > 0 {
             memory::reserve_exact(&mut hidden.next, n)?;
-            hidden.next.resize(n, NONE);
-            for (&id, &next) in ids.iter().zip(&self.next).filter(|(_, next)| **next != NONE) {
-                hidden.next[id as usize] = ids[next as usize];
+            hidden.next.resize(n, VertexId::NONE);
+            for (&id, &next) in ids.iter().zip(&self.next).filter(|(_, next)| **next != VertexId::NONE) {
+                hidden.next[id] = ids[next];
             }
         }
         Ok(hidden)
     }
 
     /// The first representative with hidden vertices behind it, and the first of them.
-    pub(super) fn first_pair(&self) -> Option<(u32, u32)> {
+    pub(super) fn first_pair(&self) -> Option<(VertexId, VertexId)> {
         // A vertex that another one names is no representative; those come in ascending order.
-        let first = (0..).zip(&self.next).find(|&(_, &next)| next != NONE)?;
-        Some((first.0, *first.1))
+        let first = self.next.iter().position(|&next| next != VertexId::NONE)?;
+        Some((VertexId::at(first), self.next[first]))
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

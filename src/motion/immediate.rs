@@ -6,9 +6,9 @@ use super::placement::Placed;
 use super::regions::Filter;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MAX_VERTICES, MovingTriangulation};
-use crate::complex::NONE;
 use crate::delaunay::{Dimension, Insertion, Shortcut};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -18,7 +18,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
     /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
     #[inline]
-    pub fn relocate_vertex(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
+    pub fn relocate_vertex(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
         if self.relocate_within_tolerance(vertex, position) {
             return Ok(());
         }
@@ -27,7 +27,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The long way of [`relocate_vertex`](Self::relocate_vertex), kept out of the short one's registers.
     #[inline(never)]
-    fn relocate_checked(&mut self, vertex: u32, position: &G::Point) -> Result<()> {
+    fn relocate_checked(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
         let s = self.present_site("vertex", 0, vertex)?;
         let q = check_position::<G>("position", 0, position)?;
         if self.staging.is_staged(vertex) {
@@ -45,7 +45,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         });
         if let Err(error) = relocated {
             // Undoing does not know the place of a vertex that was only moved.
-            self.kernel.set_point(self.site_of[vertex as usize], old);
+            self.kernel.set_point(self.site_of[vertex], old);
             return Err(error);
         }
         self.enter_evaluations(&mut report, before);
@@ -61,16 +61,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
-    pub fn insert_vertex(&mut self, position: &G::Point) -> Result<u32> {
+    pub fn insert_vertex(&mut self, position: &G::Point) -> Result<VertexId> {
         let q = check_position::<G>("position", 0, position)?;
         if self.site_of.len() >= MAX_VERTICES {
             return Err(Error::TooManyVertices { given: self.site_of.len() + 1, limit: MAX_VERTICES });
         }
-        let id = self.site_of.len() as u32;
+        let id = VertexId::at(self.site_of.len());
         self.reject_occupied(id, &q)?;
         self.staging.list()?;
         self.staging.make_room(1)?;
-        memory::push(&mut self.site_of, NONE)?;
+        memory::push(&mut self.site_of, SiteId::NONE)?;
         let before = self.evaluations();
         let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
         let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
@@ -86,9 +86,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Gives the highest of all ids a site, or a place at one.
-    fn insert_at(&mut self, id: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+    fn insert_at(&mut self, id: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
         let s = self.kernel.add_site(*q, id)?;
-        self.site_of[id as usize] = s;
+        self.site_of[id] = s;
         let inserted = self.with_regions(report, |t, _| {
             // Undoing does not know of a site that is in without cells, so nothing may fail after that.
             t.regions.make_room_to_note()?;
@@ -107,7 +107,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
-    pub fn remove_vertex(&mut self, vertex: u32) -> Result<()> {
+    pub fn remove_vertex(&mut self, vertex: VertexId) -> Result<()> {
         self.present_site("vertex", 0, vertex)?;
         self.staging.list()?;
         let before = self.evaluations();
@@ -130,8 +130,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Sites are not stored in the order of ids, so what they hold comes late. Nothing waits for it here: a vertex
     /// that is there already is moved like the others, and counts nothing.
     #[inline(always)]
-    pub(crate) fn relocate_within_tolerance(&mut self, vertex: u32, position: &G::Point) -> bool {
-        let v = vertex as usize;
+    pub(crate) fn relocate_within_tolerance(&mut self, vertex: VertexId, position: &G::Point) -> bool {
+        let v = vertex.index();
         let Some(tolerances) = self.regions.tolerances() else {
             return false;
         };
@@ -146,11 +146,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             && self.filters_by_kept(Filter::Tolerance)
             && fixed.holds(&q)
             && !self.staging.is_staged(vertex)
-            && (self.hidden.count() == 0 || s != NONE && !self.is_shared(s))
+            && (self.hidden.count() == 0 || s != SiteId::NONE && !self.is_shared(s))
             && self.kernel.is_covered(&q)
             && !(is_auto && self.is_round_ending());
         // A removed vertex has no site.
-        let Some(site) = self.kernel.sites_mut().get_mut(s as usize).filter(|_| may_move) else {
+        let Some(site) = self.kernel.sites_mut().get_mut(s.index()).filter(|_| may_move) else {
             return false;
         };
         let old = std::mem::replace(&mut site.point, q);
@@ -164,14 +164,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Moves one vertex at once, by the filter in force if there is one.
-    fn relocate_filtered(&mut self, vertex: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+    fn relocate_filtered(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
         let Some(filter) = self.immediate_filter().filter(|_| self.kernel.has_cells()) else {
             self.regions.invalidate();
             return self.relocate_alone(vertex, q, report);
         };
         self.prepare_regions(filter, report)?;
         self.staging.grow_for(self.site_of.len())?;
-        self.staging.positions_mut()[vertex as usize] = *q;
+        self.staging.positions_mut()[vertex] = *q;
         if self.accept(vertex, report) {
             report.moved = 1;
             return Ok(());
@@ -183,7 +183,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Moves one vertex at once, without a filter.
-    fn relocate_alone(&mut self, vertex: u32, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+    fn relocate_alone(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
         if !self.kernel.has_cells() {
             return self.rebuild_with(vertex, q, report);
         }

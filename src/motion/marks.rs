@@ -1,6 +1,8 @@
-//! Sets of numbers below a bound: a bit for each, and a list of those whose bit is set.
+//! Sets of slots, cells or vertices whose numbers are below a bound: a bit for each, and a list of those whose bit is
+//! set.
 
 use crate::error::Result;
+use crate::ids::Id;
 use crate::machine::memory;
 
 /// Scanning the bits of this number of numbers takes as long as sorting one.
@@ -12,14 +14,14 @@ pub(super) struct Bits(Vec<u64>);
 
 impl Bits {
     #[inline(always)]
-    pub(super) fn has(&self, k: u32) -> bool {
-        self.0.get(k as usize / 64).is_some_and(|word| word >> (k % 64) & 1 == 1)
+    pub(super) fn has(&self, k: impl Id) -> bool {
+        self.0.get(k.index() / 64).is_some_and(|word| word >> (k.index() % 64) & 1 == 1)
     }
 
     /// Sets a bit within the end; whether it was not set.
     #[inline(always)]
-    pub(super) fn insert(&mut self, k: u32) -> bool {
-        let (word, bit) = (&mut self.0[k as usize / 64], 1 << (k % 64));
+    pub(super) fn insert(&mut self, k: impl Id) -> bool {
+        let (word, bit) = (&mut self.0[k.index() / 64], 1 << (k.index() % 64));
         let is_new = *word & bit == 0;
         *word |= bit;
         is_new
@@ -27,8 +29,8 @@ impl Bits {
 
     /// Clears a bit within the end; whether it was set.
     #[inline(always)]
-    pub(super) fn remove(&mut self, k: u32) -> bool {
-        let (word, bit) = (&mut self.0[k as usize / 64], 1 << (k % 64));
+    pub(super) fn remove(&mut self, k: impl Id) -> bool {
+        let (word, bit) = (&mut self.0[k.index() / 64], 1 << (k.index() % 64));
         let was_set = *word & bit != 0;
         *word &= !bit;
         was_set
@@ -36,8 +38,8 @@ impl Bits {
 
     /// Clears a bit within the end, and maybe some next to it.
     #[inline(always)]
-    pub(super) fn clear_around(&mut self, k: u32) {
-        self.0[k as usize / 64] = 0;
+    pub(super) fn clear_around(&mut self, k: impl Id) {
+        self.0[k.index() / 64] = 0;
     }
 
     /// Makes room for the bits of the numbers below `n`.
@@ -66,13 +68,19 @@ impl Bits {
 }
 
 /// A set.
-#[derive(Debug, Default)]
-pub(super) struct Marks {
-    list: Vec<u32>,
+#[derive(Debug)]
+pub(super) struct Marks<I> {
+    list: Vec<I>,
     bits: Bits,
 }
 
-impl Marks {
+impl<I> Default for Marks<I> {
+    fn default() -> Self {
+        Marks { list: Vec::new(), bits: Bits::default() }
+    }
+}
+
+impl<I: Id> Marks<I> {
     /// Makes room for `more` numbers below `n`.
     pub(super) fn reserve(&mut self, more: usize, n: usize) -> Result<()> {
         memory::reserve(&mut self.list, more)?;
@@ -81,29 +89,29 @@ impl Marks {
 
     /// Adds a number for which there is room.
     #[inline(always)]
-    pub(super) fn insert(&mut self, k: u32) {
+    pub(super) fn insert(&mut self, k: I) {
         if self.bits.insert(k) {
             self.list.push(k);
         }
     }
 
     #[inline(always)]
-    pub(super) fn has(&self, k: u32) -> bool {
+    pub(super) fn has(&self, k: I) -> bool {
         self.bits.has(k)
     }
 
     /// The numbers, in the order in which they came, or ascending since the set was last [sorted](Self::sort).
-    pub(super) fn as_slice(&self) -> &[u32] {
+    pub(super) fn as_slice(&self) -> &[I] {
         &self.list
     }
 
     /// Puts a list of all the numbers in ascending order.
-    fn put_in_order(&self, list: &mut Vec<u32>) {
+    fn put_in_order(&self, list: &mut Vec<I>) {
         if SCANNED_PER_SORTED * list.len() < 64 * self.bits.0.len() {
             list.sort_unstable();
         } else {
             list.clear();
-            list.extend(self.bits.iter());
+            list.extend(self.bits.iter().map(I::new));
         }
     }
 
@@ -115,7 +123,7 @@ impl Marks {
     }
 
     /// The numbers, ascending.
-    pub(super) fn sorted(&self) -> Result<Vec<u32>> {
+    pub(super) fn sorted(&self) -> Result<Vec<I>> {
         let mut list = memory::copy_of(&self.list)?;
         self.put_in_order(&mut list);
         Ok(list)
@@ -143,12 +151,13 @@ impl Marks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Slot;
 
     #[test]
     fn numbers_come_once_and_in_order() {
         for n in [3_000, 1_000_000] {
             let mut marks = Marks::default();
-            let numbers: Vec<u32> = (0..2_000).map(|k| k * 7_919 % 1_009 * (n / 1_009)).collect();
+            let numbers: Vec<Slot> = (0..2_000).map(|k| Slot::new(k * 7_919 % 1_009 * (n / 1_009))).collect();
             marks.reserve(numbers.len(), n as usize).expect("room");
             numbers.iter().for_each(|&k| marks.insert(k));
             let mut expected = numbers;
@@ -159,7 +168,9 @@ mod tests {
             assert_eq!(marks.sorted().expect("room"), expected, "below {n}");
             marks.sort();
             assert_eq!(marks.as_slice(), expected, "below {n}");
-            assert!(expected.iter().all(|&k| marks.has(k)) && !marks.has(1) && !marks.has(u32::MAX));
+            assert!(
+                expected.iter().all(|&k| marks.has(k)) && !marks.has(Slot::new(1)) && !marks.has(Slot::NONE)
+            );
             marks.clear();
             assert!(marks.as_slice().is_empty() && !expected.iter().any(|&k| marks.has(k)));
         }

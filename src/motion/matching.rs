@@ -3,8 +3,9 @@
 //! Few are found by a hash table. Many are listed by their lowest corner: cells with the same lowest corner are close
 //! together in memory, before and after, while the entries of a hash table are scattered, and each is a cache miss.
 
-use crate::complex::{Corners, NONE};
+use crate::complex::Corners;
 use crate::error::Result;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 
@@ -18,12 +19,15 @@ const MAX_CELLS_PER_CORNER: u32 = 256;
 /// Cache lines that are asked for in advance of the cells of a lowest corner.
 const LINES: usize = 4;
 
+/// In a place of the table: no entry.
+const NO_ENTRY: u32 = u32::MAX;
+
 /// A lost cell.
 #[derive(Clone, Copy, Debug)]
 struct Entry<C> {
     /// A hash of the corners.
     mark: u32,
-    index: u32,
+    index: CellId,
     corners: C,
 }
 
@@ -45,37 +49,37 @@ impl<C> Default for Matcher<C> {
 
 /// Whether two cells have the same corners, in any order.
 #[inline(always)]
-pub(super) fn are_same<C: Corners>(a: &C, b: &C) -> bool {
+pub(super) fn are_same<C: Corners<VertexId>>(a: &C, b: &C) -> bool {
     a == b || a.as_ref().iter().all(|x| b.as_ref().contains(x))
 }
 
 /// A hash that does not depend on the order of the corners.
 #[inline(always)]
-fn hash<C: Corners>(corners: &C) -> u32 {
-    let mixed = |&x: &u32| {
-        let x = (u64::from(x) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+fn hash<C: Corners<VertexId>>(corners: &C) -> u32 {
+    let mixed = |x: &VertexId| {
+        let x = (u64::from(x.get()) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         (x ^ x >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9)
     };
     (corners.as_ref().iter().map(mixed).fold(0, u64::wrapping_add) >> 7) as u32
 }
 
-fn lowest<C: Corners>(corners: &C) -> usize {
-    corners.as_ref().iter().fold(NONE, |least, &v| least.min(v)) as usize
+fn lowest<C: Corners<VertexId>>(corners: &C) -> usize {
+    corners.as_ref().iter().fold(VertexId::NONE, |least, &v| least.min(v)).index()
 }
 
 /// The rows of indices, each asked for in advance.
-fn ahead<'c, C>(corners: &'c [C], indices: &'c [u32]) -> impl Iterator<Item = (u32, &'c C)> {
+fn ahead<'c, C>(corners: &'c [C], indices: &'c [CellId]) -> impl Iterator<Item = (CellId, &'c C)> {
     indices.iter().enumerate().map(|(k, &index)| {
         if let Some(&next) = indices.get(k + AHEAD) {
-            prefetch(corners, next as usize);
+            prefetch(corners, next.index());
         }
-        (index, &corners[index as usize])
+        (index, &corners[index])
     })
 }
 
-impl<C: Corners> Matcher<C> {
+impl<C: Corners<VertexId>> Matcher<C> {
     /// Gets ready to find lost cells, of which there are the indices among all `corners`.
-    pub(super) fn list(&mut self, corners: &[C], lost: &[u32]) -> Result<()> {
+    pub(super) fn list(&mut self, corners: &[C], lost: &[CellId]) -> Result<()> {
         self.entries.clear();
         memory::reserve(&mut self.entries, lost.len())?;
         self.ends.clear();
@@ -90,12 +94,12 @@ impl<C: Corners> Matcher<C> {
         let n = (2 * lost.len()).next_power_of_two();
         table.clear();
         memory::reserve(table, n)?;
-        table.resize(n, NONE);
+        table.resize(n, NO_ENTRY);
         for ((index, &corners), k) in ahead(corners, lost).zip(0..) {
             let mark = hash(&corners);
             self.entries.push(Entry { mark, index, corners });
             let mut place = mark as usize & (n - 1);
-            while table[place] != NONE {
+            while table[place] != NO_ENTRY {
                 place = (place + 1) & (n - 1);
             }
             table[place] = k;
@@ -104,7 +108,7 @@ impl<C: Corners> Matcher<C> {
     }
 
     /// Lists the cells unless a list would be too long.
-    fn list_by_lowest(&mut self, corners: &[C], lost: &[u32], n_ids: usize) -> Result<bool> {
+    fn list_by_lowest(&mut self, corners: &[C], lost: &[CellId], n_ids: usize) -> Result<bool> {
         let Matcher { ends, entries, .. } = self;
         memory::reserve(ends, n_ids + 1)?;
         ends.resize(n_ids + 1, 0);
@@ -117,7 +121,8 @@ impl<C: Corners> Matcher<C> {
         for v in 0..n_ids {
             ends[v + 1] += ends[v];
         }
-        entries.resize(lost.len(), Entry { mark: 0, index: NONE, corners: C::filled(NONE) });
+        entries
+            .resize(lost.len(), Entry { mark: 0, index: CellId::NONE, corners: C::filled(VertexId::NONE) });
         // Each is where the entries begin, until these have been made.
         for (index, &corners) in ahead(corners, lost) {
             let end = &mut ends[lowest(&corners)];
@@ -150,13 +155,13 @@ impl<C: Corners> Matcher<C> {
 
     /// The index of a lost cell with these corners, and how they were listed.
     #[inline(always)]
-    pub(super) fn find(&self, ids: &C) -> Option<(u32, C)> {
+    pub(super) fn find(&self, ids: &C) -> Option<(CellId, C)> {
         let mark = hash(ids);
         let is_it = |entry: &&Entry<C>| entry.mark == mark && are_same(&entry.corners, ids);
         let entry = if self.ends.is_empty() {
             let last = self.table.len() - 1;
             let places = (mark as usize..).map(|place| self.table[place & last]);
-            places.take_while(|&k| k != NONE).map(|k| &self.entries[k as usize]).find(is_it)
+            places.take_while(|&k| k != NO_ENTRY).map(|k| &self.entries[k as usize]).find(is_it)
         } else {
             let v = lowest(ids);
             let end = *self.ends.get(v)? as usize;
@@ -181,9 +186,9 @@ mod tests {
     use super::*;
 
     /// The k-th of many cells with different corners, in an order of its own.
-    fn cell(k: u32, n_ids: u32) -> [u32; 4] {
+    fn cell(k: u32, n_ids: u32) -> [VertexId; 4] {
         let v = k % (n_ids - 3);
-        let mut corners = [v, v + 1, v + 2, v + 3 + k / (n_ids - 3)];
+        let mut corners = [v, v + 1, v + 2, v + 3 + k / (n_ids - 3)].map(VertexId::new);
         corners.rotate_left(k as usize % 4);
         corners
     }
@@ -191,7 +196,7 @@ mod tests {
     fn cells_are_found(n: u32, n_ids: u32) {
         let corners: Vec<_> = (0..n).map(|k| cell(k, n_ids)).collect();
         // One in three is not lost.
-        let lost: Vec<u32> = (0..n).filter(|k| k % 3 != 0).rev().collect();
+        let lost: Vec<CellId> = (0..n).filter(|k| k % 3 != 0).rev().map(CellId::new).collect();
         let mut matcher = Matcher::default();
         matcher.list(&corners, &lost).expect("room");
         for (index, row) in (0..).zip(&corners) {
@@ -200,9 +205,13 @@ mod tests {
             ids.swap(0, 2);
             matcher.prefetch_place(&ids);
             matcher.prefetch_entries(&ids);
-            assert_eq!(matcher.find(&ids), (index % 3 != 0).then_some((index, *row)), "{n} cells");
+            assert_eq!(
+                matcher.find(&ids),
+                (index % 3 != 0).then_some((CellId::new(index), *row)),
+                "{n} cells"
+            );
         }
-        assert_eq!(matcher.find(&[n_ids + n, n_ids + n + 1, n_ids + n + 2, n_ids + n + 3]), None);
+        assert_eq!(matcher.find(&[0, 1, 2, 3].map(|k| VertexId::new(n_ids + n + k))), None);
     }
 
     #[test]
@@ -214,17 +223,19 @@ mod tests {
         }
         let mut matcher = Matcher::default();
         matcher.list(&[], &[]).expect("room");
-        assert_eq!(matcher.find(&[0, 1, 2, 3]), None);
+        assert_eq!(matcher.find(&[0, 1, 2, 3].map(VertexId::new)), None);
     }
 
     /// Cells around one vertex are not searched one after the other.
     #[test]
     fn cells_of_a_hub_are_found_by_a_hash() {
-        let corners: Vec<_> = (0..20_000).map(|k| [0, k + 1, k + 2]).collect();
-        let lost: Vec<u32> = (0..20_000).collect();
+        let corners: Vec<_> = (0..20_000).map(|k| [0, k + 1, k + 2].map(VertexId::new)).collect();
+        let lost: Vec<CellId> = CellId::range(0..20_000).collect();
         let mut matcher = Matcher::default();
         matcher.list(&corners, &lost).expect("room");
         assert!(matcher.ends.is_empty());
-        assert!((0..).zip(&corners).all(|(index, row)| matcher.find(row) == Some((index, *row))));
+        assert!(
+            (0..).zip(&corners).all(|(index, row)| matcher.find(row) == Some((CellId::new(index), *row)))
+        );
     }
 }

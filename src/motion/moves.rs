@@ -2,9 +2,9 @@
 
 use super::MovingTriangulation;
 use super::staging::{Given, check_position, first_bad, stage_block};
-use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
@@ -13,7 +13,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::WrongCount`] if the lengths differ; [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
     /// [`Error::DuplicateMove`] if a move of the vertex is staged already, [`Error::NotFinite`],
     /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
-    pub fn move_vertices(&mut self, vertices: &[u32], positions: &[G::Point]) -> Result<()> {
+    pub fn move_vertices(&mut self, vertices: &[VertexId], positions: &[G::Point]) -> Result<()> {
         if vertices.len() != positions.len() {
             return Err(Error::WrongCount {
                 argument: "count",
@@ -71,10 +71,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staging.reserve(n_ids, positions.len())?;
         let before = self.staging.vertices().len();
         for (index, position) in positions.iter().enumerate() {
-            if self.site_of[index] == NONE || self.edits.is_leaving(index as u32) {
+            let vertex = VertexId::at(index);
+            if self.site_of[vertex] == SiteId::NONE || self.edits.is_leaving(vertex) {
                 continue;
             }
-            if let Err(error) = self.stage("vertices", index, index as u32, position) {
+            if let Err(error) = self.stage("vertices", index, vertex, position) {
                 self.staging.truncate(before);
                 return Err(error);
             }
@@ -113,7 +114,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         argument: &'static str,
         index: usize,
-        vertex: u32,
+        vertex: VertexId,
         position: &G::Point,
     ) -> Result<()> {
         self.site_of_vertex(argument, index, vertex)?;

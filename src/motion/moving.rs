@@ -20,6 +20,7 @@ use super::staging::{Given, first_bad, stage_block};
 use super::tolerance::Fixed;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
 use crate::machine::{memory, threads};
 use crate::predicates::{are_within, distance_above};
@@ -59,7 +60,7 @@ pub(super) struct Motion {
 struct Movers<'m, G: Dimension> {
     sites: &'m mut [Site<G>],
     /// Vertices beyond their tolerance, of which there may be `most`.
-    queue: &'m mut Vec<u32>,
+    queue: &'m mut Vec<VertexId>,
     most: usize,
     n_moved: u64,
 }
@@ -74,7 +75,7 @@ impl<G: Dimension> Movers<'_, G> {
         first: usize,
         beyond: u32,
         places: &mut [G::Point],
-        sites_of: &[u32],
+        sites_of: &[SiteId],
     ) -> ControlFlow<Result<()>> {
         self.queue(first, beyond)?;
         for (k, (p, &s)) in places.iter_mut().zip(sites_of).enumerate() {
@@ -87,8 +88,8 @@ impl<G: Dimension> Movers<'_, G> {
 
     /// Exchanges a position with that of a site; returns how many differ.
     #[inline(always)]
-    fn exchange(&mut self, p: &mut G::Point, s: u32) -> u64 {
-        u64::from(exchange::<G>(&mut self.sites[s as usize].point, p))
+    fn exchange(&mut self, p: &mut G::Point, s: SiteId) -> u64 {
+        u64::from(exchange::<G>(&mut self.sites[s].point, p))
     }
 
     fn queue(&mut self, first: usize, beyond: u32) -> ControlFlow<Result<()>> {
@@ -100,7 +101,7 @@ impl<G: Dimension> Movers<'_, G> {
         {
             return ControlFlow::Break(Err(error));
         }
-        self.queue.extend((0..LANES).filter(|k| beyond >> k & 1 == 1).map(|k| (first + k) as u32));
+        self.queue.extend((0..LANES).filter(|k| beyond >> k & 1 == 1).map(|k| VertexId::at(first + k)));
         ControlFlow::Continue(())
     }
 }
@@ -174,7 +175,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         most: usize,
         blocks: &mut Blocks<'_, G>,
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
-        exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[u32; LANES]) -> u64,
+        exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[SiteId; LANES]) -> u64,
     ) -> Result<Advance> {
         let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
@@ -192,7 +193,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(at).enumerate() {
                 let k = first / LANES + k;
                 if IS_FAR && let Some(next) = sites_of.get(k + AHEAD / LANES) {
-                    next.iter().for_each(|&s| prefetch(movers.sites, s as usize));
+                    next.iter().for_each(|&s| prefetch(movers.sites, s.index()));
                 }
                 let beyond = !hold(fixed, places) & ALL;
                 if beyond == 0 {
@@ -223,7 +224,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let queue = std::mem::take(self.staging.vertices_mut());
         let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
         // Those that have not moved are exchanged in vain.
-        for v in (0..end as u32).chain(not_moved.iter().copied()) {
+        for v in VertexId::range(0..end).chain(not_moved.iter().copied()) {
             self.exchange_position(v);
         }
         *self.staging.vertices_mut() = queue;
@@ -260,9 +261,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             let sites_of = &self.site_of[first..];
             for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
                 if let Some(&next) = sites_of.get(k + AHEAD) {
-                    prefetch(sites, next as usize);
+                    prefetch(sites, next.index());
                 }
-                let point = &mut sites[s as usize].point;
+                let point = &mut sites[s].point;
                 if point == p {
                     continue;
                 }
@@ -290,9 +291,9 @@ struct Blocks<'p, G: Dimension> {
 impl<G: Dimension> Blocks<'_, G> {
     /// Stages the positions of the vertices from `first` on; for bad ones those where the vertices are.
     #[inline(always)]
-    fn stage(&mut self, first: usize, staged: &mut [G::Point], sites_of: &[u32], sites: &[Site<G>]) {
+    fn stage(&mut self, first: usize, staged: &mut [G::Point], sites_of: &[SiteId], sites: &[Site<G>]) {
         if let Some(given) = self.given {
-            let place = |k: usize| sites[sites_of[k] as usize].point;
+            let place = |k: usize| sites[sites_of[k]].point;
             self.are_good &= stage_good::<G>(staged, &given[first..], place);
         }
     }
@@ -378,7 +379,7 @@ impl<G: Dimension> SharedSites<G> {
         self,
         positions: &mut [G::Point],
         given: Option<&[G::Point]>,
-        sites_of: &[u32],
+        sites_of: &[SiteId],
         n_threads: usize,
     ) -> Moved<G> {
         if n_threads > 1 {
@@ -403,16 +404,16 @@ impl<G: Dimension> SharedSites<G> {
         for (first, positions) in (0..).step_by(BLOCK).zip(positions.chunks_mut(BLOCK)) {
             if let Some(given) = given {
                 // SAFETY: these are indices of sites that nobody else uses.
-                let place = |k: usize| unsafe { (*self.start.add(sites_of[first + k] as usize)).point };
+                let place = |k: usize| unsafe { (*self.start.add(sites_of[first + k].index())).point };
                 moved.are_good &= stage_good::<G>(positions, &given[first..], place);
             }
             let sites_of = &sites_of[first..];
             for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
                 if is_far && let Some(&next) = sites_of.get(k + AHEAD) {
-                    prefetch_at(self.start.wrapping_add(next as usize));
+                    prefetch_at(self.start.wrapping_add(next.index()));
                 }
                 moved.hold(p, p);
-                let s = s as usize;
+                let s = s.index();
                 debug_assert!(s < self.n);
                 // SAFETY: `s` is the index of a site that nobody else uses.
                 let point = unsafe { &mut (*self.start.add(s)).point };

@@ -1,6 +1,6 @@
 //! The order of a cell's corners in its row, compared with the order in its slot.
 
-use crate::complex::Corners;
+use crate::complex::{Corners, Entry};
 
 /// For each corner of the slot its place in the row, two bits each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ impl Ordering {
     pub(super) const SAME: Self = Ordering(0b11_10_01_00);
 
     /// Of the same corners, as they are in a slot and in a row.
-    pub(super) fn of<C: Corners>(slot: &C, row: &C) -> Self {
+    pub(super) fn of<T: Entry, C: Corners<T>>(slot: &C, row: &C) -> Self {
         if slot == row {
             return Self::SAME;
         }
@@ -31,7 +31,7 @@ impl Ordering {
 
     /// What belongs to the corners of the slot, as the row lists it.
     #[inline(always)]
-    pub(super) fn arrange<C: Corners>(self, slot: C) -> C {
+    pub(super) fn arrange<T: Entry, C: Corners<T>>(self, slot: C) -> C {
         let mut row = slot;
         if self != Self::SAME {
             (0..C::N).for_each(|i| row[self.place(i)] = slot[i]);

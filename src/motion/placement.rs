@@ -8,6 +8,7 @@ use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
 
 /// Where a vertex has been placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +41,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn place_staged(
         &mut self,
         report: &mut CommitReport,
-        mut relocate: impl FnMut(&mut Self, u32, &G::Point, &mut CommitReport) -> Result<Placed>,
+        mut relocate: impl FnMut(&mut Self, VertexId, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
         let (first, n) = (self.staging.applied(), self.staging.vertices().len());
         for k in first..n {
@@ -53,8 +54,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             self.staging.set_applied(k + 1);
             let v = self.staging.vertices()[k];
-            let old = self.kernel.site(self.site_of[v as usize]).point;
-            let new = std::mem::replace(&mut self.staging.positions_mut()[v as usize], old);
+            let old = self.kernel.site(self.site_of[v]).point;
+            let new = std::mem::replace(&mut self.staging.positions_mut()[v], old);
             if new != old {
                 report.moved += 1;
                 match relocate(self, v, &new, report) {
@@ -62,7 +63,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     Ok(Placed::BesideFlat) => return self.commit_by_rebuilding(k + 1, report),
                     Err(error) => {
                         // It counts as not moved; what has become of its site is in the record.
-                        self.staging.positions_mut()[v as usize] = new;
+                        self.staging.positions_mut()[v] = new;
                         self.staging.set_applied(k);
                         return Err(error);
                     }
@@ -75,12 +76,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Relocates a vertex; the maps of sites and hidden vertices follow.
     pub(super) fn relocate(
         &mut self,
-        vertex: u32,
+        vertex: VertexId,
         q: &G::Point,
         shortcut: Shortcut,
         report: &mut CommitReport,
     ) -> Result<Placed> {
-        let s = self.site_of[vertex as usize];
+        let s = self.site_of[vertex];
         if self.is_shared(s) {
             return self.relocate_from_shared(vertex, s, q, report);
         }
@@ -100,8 +101,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The vertex leaves others behind at the place: it gets a site of its own.
     fn relocate_from_shared(
         &mut self,
-        vertex: u32,
-        s: u32,
+        vertex: VertexId,
+        s: SiteId,
         q: &G::Point,
         report: &mut CommitReport,
     ) -> Result<Placed> {
@@ -109,7 +110,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // A live site must be in the triangulation while another is renamed, so the vertex's own is made after that.
         self.leave(vertex)?;
         let own = self.kernel.add_site(*q, vertex)?;
-        self.site_of[vertex as usize] = own;
+        self.site_of[vertex] = own;
         match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
             Insertion::New => {}
             Insertion::Coincident(t) => self.hide(vertex, t)?,
@@ -125,12 +126,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         let applied = self.staging.applied();
         let queue = &mut self.staging.vertices_mut()[applied..];
         if self.hidden.count() > 0 {
-            queue.sort_unstable_by_key(|&v| site_of[v as usize]);
+            queue.sort_unstable_by_key(|&v| site_of[v]);
             return;
         }
-        // Each site has one vertex, so the sites can be sorted for them.
-        queue.iter_mut().for_each(|v| *v = site_of[*v as usize]);
+        // Each site has one vertex, so the sites can be sorted for them, in the same memory.
+        let queue = VertexId::numbers_of_mut(queue);
+        queue.iter_mut().for_each(|v| *v = site_of[*v as usize].get());
         queue.sort_unstable();
-        queue.iter_mut().for_each(|s| *s = kernel.site(*s).id);
+        queue.iter_mut().for_each(|s| *s = kernel.site(SiteId::new(*s)).id.get());
     }
 }

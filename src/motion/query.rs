@@ -5,9 +5,10 @@ use std::cmp::Ordering;
 use super::cells::Cells;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
-use crate::complex::{INFINITE, NONE};
+use crate::complex::INFINITE;
 use crate::delaunay::{Dimension, IndexSet, Level, Place, Violation};
 use crate::error::Result;
+use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::predicates::compare_distance;
@@ -16,18 +17,18 @@ use crate::predicates::compare_distance;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
     /// At the place of this vertex (the representative).
-    Vertex(u32),
+    Vertex(VertexId),
     /// In the closure of the cell of this index, at no vertex.
-    Cell(u32),
+    Cell(CellId),
     /// Outside the convex hull, beyond a facet of the cell of this index.
-    Outside(u32),
+    Outside(CellId),
     /// There are no cells: the points are fewer than `D + 1` or in one hyperplane.
     NoCells,
 }
 
 /// Indices of the finite cells in some slots.
-pub(crate) fn cells_at(slots: &IndexSet, index_of: &[u32]) -> impl Iterator<Item = u32> {
-    slots.as_slice().iter().map(|&slot| index_of[slot as usize]).filter(|&index| index != NONE)
+pub(crate) fn cells_at(slots: &IndexSet<Slot>, index_of: &[CellId]) -> impl Iterator<Item = CellId> {
+    slots.as_slice().iter().map(|&slot| index_of[slot]).filter(|&index| index != CellId::NONE)
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -55,8 +56,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether the vertex is present.
-    pub fn is_present(&self, vertex: u32) -> bool {
-        self.site_of.get(vertex as usize).is_some_and(|&s| s != NONE)
+    pub fn is_present(&self, vertex: VertexId) -> bool {
+        self.site_of.get(vertex.index()).is_some_and(|&s| s != SiteId::NONE)
     }
 
     /// Number of finite cells.
@@ -68,7 +69,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
-    pub fn position(&self, vertex: u32) -> Result<G::Point> {
+    pub fn position(&self, vertex: VertexId) -> Result<G::Point> {
         Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
@@ -78,7 +79,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn star(&self, vertex: u32, out: &mut Vec<u32>) -> Result<()> {
+    pub fn star(&self, vertex: VertexId, out: &mut Vec<CellId>) -> Result<()> {
         let mut slots = IndexSet::new();
         let (index_of, _) = self.list_star(vertex, &mut slots)?;
         out.clear();
@@ -87,13 +88,17 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Enters the slots of the cells around the place of a vertex into an empty set; returns the index of the cell in
     /// each slot, for [`cells_at`], and the number of those that are finite.
-    pub(crate) fn list_star(&self, vertex: u32, slots: &mut IndexSet) -> Result<(&[u32], usize)> {
+    pub(crate) fn list_star(
+        &self,
+        vertex: VertexId,
+        slots: &mut IndexSet<Slot>,
+    ) -> Result<(&[CellId], usize)> {
         let s = self.present_site("vertex", 0, vertex)?;
         let cells = self.cell_arrays()?;
         let index_of = cells.index_of();
-        self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot as usize))?;
+        self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot.index()))?;
         // Whoever asks for a star goes on to read the rows of its cells.
-        let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index as usize));
+        let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index.index()));
         let n = asked.count();
         self.kernel.prefetch_around(s, slots);
         Ok((index_of, n))
@@ -107,7 +112,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn locate(&self, position: &G::Point) -> Result<Location> {
         let q = check_position::<G>("position", 0, position)?;
         let cells = self.cell_arrays()?;
-        Ok(self.location(cells, self.kernel.locate(&q, NONE)))
+        Ok(self.location(cells, self.kernel.locate(&q, Slot::NONE)))
     }
 
     /// Where points lie, told to `found` one after the other. Each is looked for from the one before, the first from
@@ -125,13 +130,13 @@ impl<G: Dimension> MovingTriangulation<G> {
             check_position::<G>("positions", index, position)?;
         }
         let cells = self.cell_arrays()?;
-        let mut near = near.map_or(NONE, |near| self.slot_of(cells, near));
+        let mut near = near.map_or(Slot::NONE, |near| self.slot_of(cells, near));
         for position in positions {
             let place = self.kernel.locate(position, near);
             near = match place {
                 Place::Site(s) => self.kernel.site(s).cell,
                 Place::Cell(c) | Place::Outside(c) => c,
-                Place::NoCells => NONE,
+                Place::NoCells => Slot::NONE,
             };
             found(self.location(cells, place));
         }
@@ -140,7 +145,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The name of a place.
     fn location(&self, cells: &Cells<G>, place: Place) -> Location {
-        let index_of = |c: u32| cells.index_of()[c as usize];
+        let index_of = |c: Slot| cells.index_of()[c];
         match place {
             Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
             Place::Cell(c) => Location::Cell(index_of(c)),
@@ -151,15 +156,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// The slot of a cell at a place that need not exist; [`NONE`] if there is no such place.
-    fn slot_of(&self, cells: &Cells<G>, location: Location) -> u32 {
+    /// The slot of a cell at a place that need not exist; [`Slot::NONE`] if there is no such place.
+    fn slot_of(&self, cells: &Cells<G>, location: Location) -> Slot {
         match location {
             Location::Vertex(v) => match self.present_site("near", 0, v) {
                 Ok(s) => self.kernel.site(s).cell,
-                Err(_) => NONE,
+                Err(_) => Slot::NONE,
             },
-            Location::Cell(index) | Location::Outside(index) => cells.slot(index).unwrap_or(NONE),
-            Location::NoCells => NONE,
+            Location::Cell(index) | Location::Outside(index) => cells.slot(index).unwrap_or(Slot::NONE),
+            Location::NoCells => Slot::NONE,
         }
     }
 
@@ -168,9 +173,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
-    pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<u32>> {
+    pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
         let q = check_position::<G>("position", 0, position)?;
-        let start = match self.kernel.locate(&q, NONE) {
+        let start = match self.kernel.locate(&q, Slot::NONE) {
             Place::Site(s) => return Ok(Some(self.kernel.site(s).id)),
             Place::NoCells => return Ok(self.nearest_of(&q, self.kernel.live_sites())),
             Place::Cell(c) | Place::Outside(c) => {
@@ -194,7 +199,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             for &c in star.as_slice() {
                 for &x in self.kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE) {
                     if link.insert(x)? {
-                        prefetch(self.kernel.sites(), x as usize);
+                        prefetch(self.kernel.sites(), x.index());
                     }
                 }
             }
@@ -216,11 +221,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(nearest.as_slice().iter().map(|&s| self.kernel.site(s).id).min())
     }
 
-    fn compare(&self, q: &G::Point, a: u32, b: u32) -> Ordering {
+    fn compare(&self, q: &G::Point, a: SiteId, b: SiteId) -> Ordering {
         compare_distance(q, &self.kernel.site(a).point, &self.kernel.site(b).point)
     }
 
-    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = u32>) -> Option<u32> {
+    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = SiteId>) -> Option<VertexId> {
         let mut best = sites.next()?;
         for s in sites {
             let order = self.compare(q, s, best);
@@ -237,7 +242,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
-    pub fn coincident_representative(&self, vertex: u32) -> Result<u32> {
+    pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
         Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).id)
     }
 
@@ -254,13 +259,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn check_sites(&self) -> std::result::Result<(), Violation> {
         let violation = |message| Err(Violation { level: Level::Structure, message });
         let mut hidden = 0;
-        for (v, &s) in self.site_of.iter().enumerate().filter(|(_, s)| **s != NONE) {
+        let vertices = VertexId::range(0..self.site_of.len()).zip(&self.site_of);
+        for (v, &s) in vertices.filter(|&(_, &s)| s != SiteId::NONE) {
             let site = self.kernel.site(s);
-            if !site.is_live() || site.id > v as u32 {
+            if !site.is_live() || site.id > v {
                 let message = format_args!("vertex {v} is at a site of vertex {}", site.id);
                 return violation(memory::text(message));
             }
-            hidden += usize::from(site.id != v as u32);
+            hidden += usize::from(site.id != v);
         }
         let sites = self.kernel.live_sites().count();
         if hidden != self.hidden.count() || sites + hidden != self.n_present {

@@ -4,9 +4,9 @@ use super::MovingTriangulation;
 use super::cells::Cells;
 use super::changes::Changes;
 use super::views::CellsView;
-use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
+use crate::ids::{CellId, SiteId, VertexId};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The finite cells and their neighbours.
@@ -29,7 +29,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::ChangesNotTracked`] unless the options ask for it, [`Error::OutOfMemory`].
-    pub fn changed_cells(&self) -> Result<&[u32]> {
+    pub fn changed_cells(&self) -> Result<&[CellId]> {
         if !self.options.track_changes {
             return Err(Error::ChangesNotTracked);
         }
@@ -62,7 +62,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
-    pub fn take_changes(&mut self) -> Result<Changes<'_, G::Corners>> {
+    pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
         let cells = self.views.cells_mut(&self.kernel)?;
         cells.take(&mut self.taken, self.site_of.len())?;
         self.list_visibilities()?;
@@ -73,7 +73,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Notes that a vertex is about to be hidden or shown, if the program takes changes.
-    pub(super) fn note_visibility(&mut self, vertex: u32, was_hidden: bool) -> Result<()> {
+    pub(super) fn note_visibility(&mut self, vertex: VertexId, was_hidden: bool) -> Result<()> {
         if !self.takes_changes {
             return Ok(());
         }
@@ -84,7 +84,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn list_visibilities(&mut self) -> Result<()> {
         if !self.takes_changes {
             self.taken.reserve_vertices(self.hidden.count())?;
-            for v in 0..self.site_of.len() as u32 {
+            for v in VertexId::range(0..self.site_of.len()) {
                 if self.is_present(v) {
                     self.taken.list_vertex(v, false, self.is_hidden(v));
                 }
@@ -94,8 +94,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.taken.reserve_vertices(self.views.visibilities().len())?;
         self.views.visibilities().keep_first();
         for (vertex, was_hidden) in self.views.visibilities().iter() {
-            let s = self.site_of[vertex as usize];
-            if s != NONE {
+            let s = self.site_of[vertex];
+            if s != SiteId::NONE {
                 let is_hidden = self.kernel.site(s).id != vertex;
                 self.taken.list_vertex(vertex, was_hidden, is_hidden);
             }

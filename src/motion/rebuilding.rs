@@ -12,9 +12,9 @@ use super::hidden::Hidden;
 use super::moving::differ;
 use super::staging::Given;
 use super::{CoincidencePolicy, CommitReport, MovingTriangulation};
-use crate::complex::NONE;
 use crate::delaunay::{Delaunay, Dimension, Merge, Site};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 
@@ -41,11 +41,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let (positions, moved) = (self.staging.positions(), Cell::new(0));
         let place = |site: &Site<G>| {
-            let p = positions[site.id as usize];
+            let p = positions[site.id];
             moved.set(moved.get() + u64::from(differ::<G>(&site.point, &p)));
             p
         };
-        let announce = |site: &Site<G>| prefetch(positions, site.id as usize);
+        let announce = |site: &Site<G>| prefetch(positions, site.id.index());
         let mut next = self.kernel.successor(self.hidden.count(), place, announce)?;
         report.moved += moved.get();
         let spread = self.spread_hidden(&mut next).map(|spread| {
@@ -78,7 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates all vertices, one of them at another place; not to be cancelled.
     pub(super) fn rebuild_with(
         &mut self,
-        vertex: u32,
+        vertex: VertexId,
         q: &G::Point,
         report: &mut CommitReport,
     ) -> Result<()> {
@@ -103,8 +103,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Puts the site of a vertex in a new kernel where it is staged; whether it was elsewhere.
-    pub(super) fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: u32, s: u32) -> bool {
-        let p = self.staging.positions()[vertex as usize];
+    pub(super) fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: VertexId, s: SiteId) -> bool {
+        let p = self.staging.positions()[vertex];
         let differ = differ::<G>(&next.site(s).point, &p);
         next.set_point(s, p);
         differ
@@ -112,14 +112,14 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Gives every hidden vertex a site of its own in a new kernel, at the place where it is. Returns vertices and
     /// sites, by vertex.
-    pub(super) fn spread_hidden(&self, next: &mut Delaunay<G>) -> Result<Vec<(u32, u32)>> {
+    pub(super) fn spread_hidden(&self, next: &mut Delaunay<G>) -> Result<Vec<(VertexId, SiteId)>> {
         let mut spread = Vec::new();
         if self.hidden.count() == 0 {
             return Ok(spread);
         }
         memory::reserve_exact(&mut spread, self.hidden.count())?;
-        for (v, &s) in (0..).zip(&self.site_of) {
-            if s != NONE && self.kernel.site(s).id != v {
+        for (v, &s) in VertexId::range(0..self.site_of.len()).zip(&self.site_of) {
+            if s != SiteId::NONE && self.kernel.site(s).id != v {
                 spread.push((v, next.add_site(self.kernel.site(s).point, v)?));
             }
         }
@@ -128,9 +128,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The site that a vertex has for itself in a new kernel where the hidden ones have been
     /// [spread](Self::spread_hidden).
-    pub(super) fn own_site(&self, spread: &[(u32, u32)], vertex: u32) -> u32 {
+    pub(super) fn own_site(&self, spread: &[(VertexId, SiteId)], vertex: VertexId) -> SiteId {
         let at = spread.binary_search_by_key(&vertex, |&(hidden, _)| hidden);
-        at.map_or(self.site_of[vertex as usize], |k| spread[k].1)
+        at.map_or(self.site_of[vertex], |k| spread[k].1)
     }
 
     /// Triangulates the sites of a new kernel, which takes the place of the present one.
@@ -199,16 +199,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut is_representative, self.site_of.len())?;
         is_representative.resize(self.site_of.len(), false);
         for s in next.live_sites() {
-            is_representative[next.site(s).id as usize] = true;
+            is_representative[next.site(s).id] = true;
         }
-        for v in 0..self.site_of.len() as u32 {
-            if self.is_present(v) && self.is_hidden(v) == is_representative[v as usize] {
+        for v in VertexId::range(0..self.site_of.len()) {
+            if self.is_present(v) && self.is_hidden(v) == is_representative[v] {
                 self.note_visibility(v, self.is_hidden(v))?;
             }
         }
         for k in 0..self.staged_edits().0 {
             let v = self.coming(k);
-            if !is_representative[v as usize] {
+            if !is_representative[v] {
                 self.note_visibility(v, false)?;
             }
         }
@@ -229,17 +229,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn find_sites(&mut self) {
         for s in self.kernel.live_sites() {
             let mut v = self.kernel.site(s).id;
-            while v != NONE {
-                self.site_of[v as usize] = s;
+            while v != VertexId::NONE {
+                self.site_of[v] = s;
                 v = self.hidden.next(v);
             }
         }
     }
 
     /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.
-    pub(super) fn exchange_position(&mut self, vertex: u32) -> bool {
-        let s = self.site_of[vertex as usize];
-        let staged = &mut self.staging.positions_mut()[vertex as usize];
+    pub(super) fn exchange_position(&mut self, vertex: VertexId) -> bool {
+        let s = self.site_of[vertex];
+        let staged = &mut self.staging.positions_mut()[vertex];
         let old = self.kernel.site(s).point;
         let new = std::mem::replace(staged, old);
         self.kernel.set_point(s, new);

@@ -1,8 +1,8 @@
 //! Positions that wait for the next commit.
 
-use crate::complex::NONE;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
+use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::predicates::{Array, is_in_range};
 
@@ -17,7 +17,7 @@ pub(super) struct Staging<G: Dimension> {
     /// By vertex id; all false while whole.
     is_staged: Vec<bool>,
     /// Staged vertices in the order of the calls. While whole: those that a commit has queued.
-    vertices: Vec<u32>,
+    vertices: Vec<VertexId>,
     /// How many of the listed vertices are at their new positions, while a commit is under way.
     applied: usize,
     is_whole: bool,
@@ -96,19 +96,19 @@ impl<G: Dimension> Staging<G> {
 
     /// The listed vertices. The first of them, as many as are [applied](Self::applied), are at their new positions.
     #[inline(always)]
-    pub(super) fn vertices(&self) -> &[u32] {
+    pub(super) fn vertices(&self) -> &[VertexId] {
         &self.vertices
     }
 
     /// The list itself, for those who queue vertices.
     #[inline(always)]
-    pub(super) fn vertices_mut(&mut self) -> &mut Vec<u32> {
+    pub(super) fn vertices_mut(&mut self) -> &mut Vec<VertexId> {
         &mut self.vertices
     }
 
     /// [Positions](Self::positions) and [list](Self::vertices).
     #[inline(always)]
-    pub(super) fn parts_mut(&mut self) -> (&mut [G::Point], &mut Vec<u32>) {
+    pub(super) fn parts_mut(&mut self) -> (&mut [G::Point], &mut Vec<VertexId>) {
         (&mut self.positions, &mut self.vertices)
     }
 
@@ -134,13 +134,13 @@ impl<G: Dimension> Staging<G> {
         self.others_applied = true;
     }
 
-    pub(super) fn is_staged(&self, vertex: u32) -> bool {
-        self.is_whole || self.is_staged.get(vertex as usize).copied().unwrap_or(false)
+    pub(super) fn is_staged(&self, vertex: VertexId) -> bool {
+        self.is_whole || self.is_staged.get(vertex.index()).copied().unwrap_or(false)
     }
 
     /// A vertex of which a move is staged.
-    pub(super) fn first_staged(&self) -> Option<u32> {
-        if self.is_whole { Some(0) } else { self.vertices.first().copied() }
+    pub(super) fn first_staged(&self) -> Option<VertexId> {
+        if self.is_whole { Some(VertexId::new(0)) } else { self.vertices.first().copied() }
     }
 
     /// Whether all vertices are staged, and not listed.
@@ -171,7 +171,7 @@ impl<G: Dimension> Staging<G> {
         debug_assert!(self.applied == self.vertices.len() && (self.others_applied || self.applied == 0));
         self.vertices.clear();
         memory::reserve_exact(&mut self.vertices, n)?;
-        self.vertices.extend(0..n as u32);
+        self.vertices.extend(VertexId::range(0..n));
         self.is_staged.fill(true);
         self.applied = if self.others_applied { n } else { 0 };
         (self.is_whole, self.others_applied) = (false, false);
@@ -187,13 +187,13 @@ impl<G: Dimension> Staging<G> {
     }
 
     /// A flag of a vertex, free for use while whole.
-    pub(super) fn flag(&self, vertex: u32) -> bool {
-        self.is_staged[vertex as usize]
+    pub(super) fn flag(&self, vertex: VertexId) -> bool {
+        self.is_staged[vertex]
     }
 
     /// Sets a flag, which must be reset before the staging is whole no more.
-    pub(super) fn set_flag(&mut self, vertex: u32, flag: bool) {
-        self.is_staged[vertex as usize] = flag;
+    pub(super) fn set_flag(&mut self, vertex: VertexId, flag: bool) {
+        self.is_staged[vertex] = flag;
     }
 
     /// Makes room for more ids, if there is something to follow.
@@ -222,7 +222,7 @@ impl<G: Dimension> Staging<G> {
 
     /// Makes room for `more` moves of `n_ids` vertices.
     pub(super) fn reserve(&mut self, n_ids: usize, more: usize) -> Result<()> {
-        let bytes = n_ids * (size_of::<G::Point>() + 1) + more * size_of::<u32>();
+        let bytes = n_ids * (size_of::<G::Point>() + 1) + more * size_of::<VertexId>();
         let missing = n_ids - self.positions.len();
         let reserved = self.positions.try_reserve_exact(missing).is_ok()
             && self.is_staged.try_reserve_exact(missing).is_ok()
@@ -235,9 +235,9 @@ impl<G: Dimension> Staging<G> {
         Ok(())
     }
 
-    pub(super) fn stage(&mut self, vertex: u32, position: G::Point) {
-        self.positions[vertex as usize] = position;
-        self.is_staged[vertex as usize] = true;
+    pub(super) fn stage(&mut self, vertex: VertexId, position: G::Point) {
+        self.positions[vertex] = position;
+        self.is_staged[vertex] = true;
         self.vertices.push(vertex);
     }
 
@@ -258,7 +258,7 @@ impl<G: Dimension> Staging<G> {
         if kept == 0 && self.vertices.len() > self.is_staged.len() / 8 {
             self.is_staged.fill(false);
         } else {
-            self.vertices[kept..].iter().for_each(|&v| self.is_staged[v as usize] = false);
+            self.vertices[kept..].iter().for_each(|&v| self.is_staged[v] = false);
         }
         self.vertices.truncate(kept);
     }
@@ -283,38 +283,38 @@ impl<G: Dimension> Staging<G> {
     }
 
     /// Forgets the moves of some vertices. The staging must not be whole.
-    pub(super) fn unstage_all(&mut self, is_one: impl Fn(u32) -> bool) {
+    pub(super) fn unstage_all(&mut self, is_one: impl Fn(VertexId) -> bool) {
         debug_assert!(!self.is_whole);
         let is_staged = &mut self.is_staged;
         self.vertices.retain(|&v| {
             let goes = is_one(v);
-            is_staged[v as usize] &= !goes;
+            is_staged[v] &= !goes;
             !goes
         });
     }
 
     /// Forgets the move of one vertex. The staging must not be whole.
-    pub(super) fn unstage(&mut self, vertex: u32) {
+    pub(super) fn unstage(&mut self, vertex: VertexId) {
         if self.is_staged(vertex) {
-            self.is_staged[vertex as usize] = false;
+            self.is_staged[vertex] = false;
             self.vertices.retain(|&v| v != vertex);
         }
     }
 
-    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones, [`NONE`] for those
-    /// removed. Of no moves nothing is kept.
-    pub(super) fn renumbered(&self, ids: &[u32], n: usize) -> Result<Self> {
+    /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones, [`VertexId::NONE`] for
+    /// those removed. Of no moves nothing is kept.
+    pub(super) fn renumbered(&self, ids: &[VertexId], n: usize) -> Result<Self> {
         let mut staging = Staging::default();
         if self.count() == 0 {
             return Ok(staging);
         }
         staging.reserve(n, self.vertices.len())?;
         staging.is_whole = self.is_whole;
-        for (v, &id) in ids.iter().enumerate().filter(|(_, id)| **id != NONE) {
-            staging.positions[id as usize] = self.positions[v];
-            staging.is_staged[id as usize] = self.is_staged[v];
+        for (v, &id) in ids.iter().enumerate().filter(|(_, id)| **id != VertexId::NONE) {
+            staging.positions[id] = self.positions[v];
+            staging.is_staged[id] = self.is_staged[v];
         }
-        staging.vertices.extend(self.vertices.iter().map(|&v| ids[v as usize]));
+        staging.vertices.extend(self.vertices.iter().map(|&v| ids[v]));
         Ok(staging)
     }
 

@@ -2,14 +2,15 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
 /// Where a vertex was: its site, and the next vertex there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VertexBefore {
-    pub(super) vertex: u32,
-    pub(super) site: u32,
-    pub(super) next: u32,
+    pub(super) vertex: VertexId,
+    pub(super) site: SiteId,
+    pub(super) next: VertexId,
 }
 
 /// Numbers of hidden vertices, of those present, and of events of visibility.
@@ -25,7 +26,7 @@ pub(super) struct Counts {
 pub(super) struct Transaction<G: Dimension> {
     vertices: Vec<VertexBefore>,
     /// Room for the old positions of vertices that are at shared places when undoing begins.
-    displaced: Vec<(u32, G::Point)>,
+    displaced: Vec<(VertexId, G::Point)>,
     before: Counts,
     /// Whether the kernel is a new one.
     has_rebuilt: bool,
@@ -83,13 +84,13 @@ impl<G: Dimension> Transaction<G> {
     }
 
     /// Keeps the old position of a vertex at a shared place, for which there is [room](Self::reserve_displaced).
-    pub(super) fn displace(&mut self, vertex: u32, position: G::Point) {
+    pub(super) fn displace(&mut self, vertex: VertexId, position: G::Point) {
         debug_assert!(self.displaced.len() < self.displaced.capacity());
         self.displaced.push((vertex, position));
     }
 
     /// Takes the old position of a vertex at a shared place.
-    pub(super) fn pop_displaced(&mut self) -> Option<(u32, G::Point)> {
+    pub(super) fn pop_displaced(&mut self) -> Option<(VertexId, G::Point)> {
         self.displaced.pop()
     }
 
@@ -116,6 +117,6 @@ impl<G: Dimension> Transaction<G> {
 
     pub(super) fn memory_bytes(&self) -> usize {
         self.vertices.capacity() * size_of::<VertexBefore>()
-            + self.displaced.capacity() * size_of::<(u32, G::Point)>()
+            + self.displaced.capacity() * size_of::<(VertexId, G::Point)>()
     }
 }

@@ -12,9 +12,9 @@ use super::staging::{Staging, check_position};
 use super::switching::Switching;
 use super::transaction::Transaction;
 use super::views::Views;
-use crate::complex::NONE;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::predicates::exact_calls;
@@ -30,8 +30,8 @@ const MOVES_PER_VERTEX: u64 = 64;
 #[derive(Debug)]
 pub struct MovingTriangulation<G: Dimension> {
     pub(super) kernel: Delaunay<G>,
-    /// Site of each id; [`NONE`] once removed.
-    pub(super) site_of: Vec<u32>,
+    /// Site of each id; [`SiteId::NONE`] once removed.
+    pub(super) site_of: Vec<SiteId>,
     pub(super) hidden: Hidden,
     pub(super) n_present: usize,
     pub(super) staging: Staging<G>,
@@ -49,7 +49,7 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(super) transaction: Transaction<G>,
     pub(super) views: Views<G>,
     /// The changes taken last, and whether any ever were.
-    pub(super) taken: Taken<G::Corners>,
+    pub(super) taken: Taken<G::Vertices>,
     pub(super) takes_changes: bool,
 }
 
@@ -88,7 +88,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         t.kernel.add_sites(positions)?;
         memory::reserve_exact(&mut t.site_of, positions.len())?;
-        t.site_of.resize(positions.len(), NONE);
+        t.site_of.resize(positions.len(), SiteId::NONE);
         t.build_first()?;
         t.statistics.coincident = t.hidden.count() as u64;
         Ok(t)
@@ -96,7 +96,12 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The site of a vertex that must be present and not about to be removed.
     #[inline(always)]
-    pub(super) fn site_of_vertex(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
+    pub(super) fn site_of_vertex(
+        &self,
+        argument: &'static str,
+        index: usize,
+        vertex: VertexId,
+    ) -> Result<SiteId> {
         let s = self.present_site(argument, index, vertex)?;
         if self.edits.is_leaving(vertex) {
             return Err(Error::RemovedVertex { argument, index, vertex });
@@ -105,10 +110,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The site of a vertex that must be present.
-    pub(super) fn present_site(&self, argument: &'static str, index: usize, vertex: u32) -> Result<u32> {
-        match self.site_of.get(vertex as usize) {
+    pub(super) fn present_site(
+        &self,
+        argument: &'static str,
+        index: usize,
+        vertex: VertexId,
+    ) -> Result<SiteId> {
+        match self.site_of.get(vertex.index()) {
             None => Err(Error::NoSuchVertex { argument, index, vertex, ids: self.site_of.len() }),
-            Some(&NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
+            Some(&SiteId::NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
             Some(&s) => Ok(s),
         }
     }

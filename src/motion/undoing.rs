@@ -18,6 +18,7 @@ use super::MovingTriangulation;
 use super::transaction::{Counts, VertexBefore};
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::VertexId;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Makes a change, all of it or nothing.
@@ -49,8 +50,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Keeps where a vertex is before it comes to or leaves a shared place.
-    pub(super) fn log_vertex(&mut self, vertex: u32) -> Result<()> {
-        let (site, next) = (self.site_of[vertex as usize], self.hidden.next(vertex));
+    pub(super) fn log_vertex(&mut self, vertex: VertexId) -> Result<()> {
+        let (site, next) = (self.site_of[vertex], self.hidden.next(vertex));
         self.transaction.log(VertexBefore { vertex, site, next })
     }
 
@@ -74,7 +75,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         debug_assert!(!self.transaction.has_rebuilt(), "nothing fails after a new kernel is in place");
         self.take_moves_back();
         while let Some(VertexBefore { vertex, site, next }) = self.transaction.pop_logged() {
-            self.site_of[vertex as usize] = site;
+            self.site_of[vertex] = site;
             self.hidden.set_next(vertex, next);
         }
         let before = self.transaction.before();
@@ -83,7 +84,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.views.visibilities().truncate(before.visibilities);
         self.kernel.undo();
         while let Some((vertex, position)) = self.transaction.pop_displaced() {
-            self.kernel.set_point(self.site_of[vertex as usize], position);
+            self.kernel.set_point(self.site_of[vertex], position);
         }
         self.regions.invalidate();
     }
@@ -97,7 +98,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let vertex = self.staging.vertices()[k];
                 self.staging.set_flag(vertex, true);
             }
-            for vertex in 0..self.site_of.len() as u32 {
+            for vertex in VertexId::range(0..self.site_of.len()) {
                 if !self.staging.flag(vertex) {
                     self.take_move_back(vertex);
                 }
@@ -115,14 +116,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staging.end_queue();
     }
 
-    fn take_move_back(&mut self, vertex: u32) {
-        let s = self.site_of[vertex as usize];
+    fn take_move_back(&mut self, vertex: VertexId) {
+        let s = self.site_of[vertex];
         if !self.is_shared(s) {
             self.exchange_position(vertex);
             return;
         }
         let here = self.kernel.site(s).point;
-        let old = std::mem::replace(&mut self.staging.positions_mut()[vertex as usize], here);
+        let old = std::mem::replace(&mut self.staging.positions_mut()[vertex], here);
         self.transaction.displace(vertex, old);
     }
 }

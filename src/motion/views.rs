@@ -13,22 +13,23 @@ use super::marks::Marks;
 use super::visibility::Visibilities;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 
 /// The finite cells, by vertex id. Valid until the triangulation changes.
 #[derive(Clone, Copy, Debug)]
 pub struct CellsView<'t, G: Dimension> {
     /// Vertex ids of each cell, positively oriented.
-    pub corners: &'t [G::Corners],
+    pub corners: &'t [G::Vertices],
     /// Index of the neighbour opposite each corner, [`NO_CELL`](super::NO_CELL) on the hull.
-    pub neighbours: &'t [G::Corners],
+    pub neighbours: &'t [G::Neighbours],
 }
 
 /// Arrays that are not up to date, and the slots that have changed since they were.
 #[derive(Debug)]
 struct Behind<G: Dimension> {
     cells: Option<Box<Cells<G>>>,
-    dirty: Marks,
+    dirty: Marks<Slot>,
     /// Whether any slot may have changed.
     are_all: bool,
 }
@@ -44,7 +45,7 @@ impl<G: Dimension> Default for Behind<G> {
 pub(super) struct Views<G: Dimension> {
     current: OnceLock<Box<Cells<G>>>,
     behind: Mutex<Behind<G>>,
-    changed: OnceLock<Vec<u32>>,
+    changed: OnceLock<Vec<CellId>>,
     visibilities: Visibilities,
 }
 
@@ -172,7 +173,7 @@ impl<G: Dimension> Views<G> {
     }
 
     /// The cells have other slots now, by their old ones; no other has changed.
-    pub(super) fn renumber_slots(&mut self, index: &[u32]) {
+    pub(super) fn renumber_slots(&mut self, index: &[Slot]) {
         if !self.exist() {
             return;
         }
@@ -190,8 +191,8 @@ impl<G: Dimension> Views<G> {
     pub(super) fn renumbered(
         &mut self,
         kernel: &Delaunay<G>,
-        ids: &[u32],
-        slots: &[u32],
+        ids: &[VertexId],
+        slots: &[Slot],
         n_slots: usize,
     ) -> Result<Self> {
         let visibilities = self.visibilities.renumbered(ids)?;
@@ -226,8 +227,8 @@ impl<G: Dimension> Views<G> {
     pub(super) fn changed(
         &self,
         kernel: &Delaunay<G>,
-        list: impl FnOnce(&Cells<G>) -> Result<Vec<u32>>,
-    ) -> Result<&[u32]> {
+        list: impl FnOnce(&Cells<G>) -> Result<Vec<CellId>>,
+    ) -> Result<&[CellId]> {
         if let Some(changed) = self.changed.get() {
             return Ok(changed);
         }

@@ -1,13 +1,13 @@
 //! Vertices that are hidden by others at the same place, or shown again, as the change list tells it.
 
-use crate::complex::NONE;
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::machine::memory;
 
 /// A vertex that was hidden or shown, and whether it was hidden before.
 #[derive(Clone, Copy, Debug)]
 struct Visibility {
-    vertex: u32,
+    vertex: VertexId,
     /// The order of the events.
     at: u32,
     was_hidden: bool,
@@ -19,7 +19,7 @@ pub(super) struct Visibilities(Vec<Visibility>);
 
 impl Visibilities {
     /// A vertex is about to be hidden or shown.
-    pub(super) fn note(&mut self, vertex: u32, was_hidden: bool) -> Result<()> {
+    pub(super) fn note(&mut self, vertex: VertexId, was_hidden: bool) -> Result<()> {
         let at = self.0.len() as u32;
         memory::push(&mut self.0, Visibility { vertex, at, was_hidden })
     }
@@ -50,16 +50,16 @@ impl Visibilities {
     }
 
     /// The vertices, each with whether it was hidden before.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (u32, bool)> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = (VertexId, bool)> {
         self.0.iter().map(|event| (event.vertex, event.was_hidden))
     }
 
     /// Events of vertices that have other ids now, listed by the old ones; those of removed vertices matter to nobody.
-    pub(super) fn renumbered(&self, ids: &[u32]) -> Result<Self> {
+    pub(super) fn renumbered(&self, ids: &[VertexId]) -> Result<Self> {
         let mut renumbered = Visibilities(memory::copy_of(&self.0)?);
         renumbered.0.retain_mut(|event| {
-            event.vertex = ids[event.vertex as usize];
-            event.vertex != NONE
+            event.vertex = ids[event.vertex];
+            event.vertex != VertexId::NONE
         });
         // Fewer events than before: later ones must not seem earlier.
         renumbered.keep_first();

@@ -1,24 +1,24 @@
 //! What a program keeps for each cell, carried along by the change lists alone.
 
 use super::{Rng, sorted};
-use deldrift::Dimension;
 use deldrift::motion::{Changes, MovingTriangulation};
+use deldrift::{CellId, Dimension, VertexId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A copy of a change list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct List {
-    pub created: Vec<u32>,
-    pub removed: Vec<u32>,
-    pub removed_corners: Vec<Vec<u32>>,
-    pub renumbered: Vec<(u32, u32)>,
-    pub stars: Vec<u32>,
-    pub hidden: Vec<u32>,
-    pub shown: Vec<u32>,
+    pub created: Vec<CellId>,
+    pub removed: Vec<CellId>,
+    pub removed_corners: Vec<Vec<VertexId>>,
+    pub renumbered: Vec<(CellId, CellId)>,
+    pub stars: Vec<VertexId>,
+    pub hidden: Vec<VertexId>,
+    pub shown: Vec<VertexId>,
 }
 
 impl List {
-    pub fn of<C: AsRef<[u32]>>(changes: &Changes<'_, C>) -> Self {
+    pub fn of<C: AsRef<[VertexId]>>(changes: &Changes<'_, C>) -> Self {
         assert_eq!(changes.removed.len(), changes.removed_corners.len());
         assert_eq!(changes.renumbered_from.len(), changes.renumbered_to.len());
         let renumbered = changes.renumbered_from.iter().zip(changes.renumbered_to);
@@ -47,16 +47,16 @@ pub fn take<G: Dimension>(t: &mut MovingTriangulation<G>) -> deldrift::Result<Li
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Carried {
     /// By index, the sorted corners.
-    pub cells: Vec<Vec<u32>>,
+    pub cells: Vec<Vec<VertexId>>,
     /// The corners of each of them in the order in which they were listed then.
-    orders: BTreeMap<Vec<u32>, Vec<u32>>,
-    pub hidden: BTreeSet<u32>,
+    orders: BTreeMap<Vec<VertexId>, Vec<VertexId>>,
+    pub hidden: BTreeSet<VertexId>,
 }
 
 /// The vertices that are hidden.
-pub fn hidden_of<G: Dimension>(t: &MovingTriangulation<G>) -> BTreeSet<u32> {
-    let is_hidden = |v: &u32| t.coincident_representative(*v).is_ok_and(|r| r != *v);
-    (0..t.id_count() as u32).filter(is_hidden).collect()
+pub fn hidden_of<G: Dimension>(t: &MovingTriangulation<G>) -> BTreeSet<VertexId> {
+    let is_hidden = |v: &VertexId| t.coincident_representative(*v).is_ok_and(|r| r != *v);
+    VertexId::range(0..t.id_count()).filter(is_hidden).collect()
 }
 
 impl Carried {
@@ -82,13 +82,13 @@ impl Carried {
     ) {
         let context = || format!("{}; {list:?}", context());
         let rows = t.cells().expect("room").corners;
-        let mut cells: Vec<Option<Vec<u32>>> =
+        let mut cells: Vec<Option<Vec<VertexId>>> =
             std::mem::take(&mut self.cells).into_iter().map(Some).collect();
         let before = cells.clone();
         let mut stars = BTreeSet::new();
         let mut removed = BTreeSet::new();
         for (&index, corners) in list.removed.iter().zip(&list.removed_corners) {
-            let there = cells[index as usize].take();
+            let there = cells[index].take();
             assert_eq!(there, Some(sorted(corners)), "{}: removed {index}", context());
             let order = self.orders.get(&sorted(corners));
             assert_eq!(order, Some(corners), "{}: removed {index}", context());
@@ -98,21 +98,21 @@ impl Carried {
         let mut moving = Vec::new();
         for &(from, to) in &list.renumbered {
             assert_ne!(from, to, "{}", context());
-            let there = cells[from as usize].take();
+            let there = cells[from].take();
             assert!(there.is_some(), "{}: {from} is listed twice", context());
             moving.push((there, to));
         }
-        let created = list.created.iter().map(|&index| (Some(sorted(rows[index as usize].as_ref())), index));
+        let created = list.created.iter().map(|&index| (Some(sorted(rows[index].as_ref())), index));
         let most = cells.len().max(rows.len());
         cells.resize(most, None);
         for (cell, index) in moving.into_iter().chain(created) {
-            let place = &mut cells[index as usize];
+            let place = &mut cells[index];
             assert!(place.is_none(), "{}: {index} is taken", context());
             *place = cell;
         }
         assert!(list.created.is_sorted_by(|a, b| a < b), "{}", context());
         for &index in &list.created {
-            let corners = sorted(rows[index as usize].as_ref());
+            let corners = sorted(rows[index].as_ref());
             assert!(!removed.contains(&corners), "{}: {corners:?} was there", context());
             stars.extend(corners);
         }
@@ -140,8 +140,8 @@ impl Carried {
 }
 
 /// Some vertex that is present.
-pub fn some_present<P>(positions: &[Option<P>], rng: &mut Rng) -> Option<u32> {
-    let present: Vec<u32> =
-        (0..positions.len() as u32).filter(|&v| positions[v as usize].is_some()).collect();
+pub fn some_present<P>(positions: &[Option<P>], rng: &mut Rng) -> Option<VertexId> {
+    let present: Vec<VertexId> =
+        VertexId::range(0..positions.len()).filter(|&v| positions[v].is_some()).collect();
     (!present.is_empty()).then(|| *rng.pick(&present))
 }

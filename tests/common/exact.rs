@@ -6,7 +6,7 @@
 //! vanishes, of the first cofactor of a lift that does not, from the highest id down.
 
 use super::{CellSet, sorted};
-use deldrift::Dimension;
+use deldrift::{Dimension, VertexId};
 
 /// A point of integers.
 pub type Grid = Vec<i64>;
@@ -43,7 +43,7 @@ pub fn squared_distance(p: &Grid, q: &Grid) -> i128 {
 
 /// Whether the last point is inside the sphere of the others, ties broken by id. The others are not in one
 /// hyperplane; their order does not matter.
-pub fn is_inside(points: &[&Grid], ids: &[u32]) -> bool {
+pub fn is_inside(points: &[&Grid], ids: &[VertexId]) -> bool {
     let last = points.len() - 1;
     let row = |p: &&Grid| -> Vec<i128> {
         let lift = p.iter().map(|&x| i128::from(x).pow(2)).sum();
@@ -67,13 +67,13 @@ pub fn is_inside(points: &[&Grid], ids: &[u32]) -> bool {
 }
 
 /// For each vertex the lowest id at its place; `None` for removed vertices.
-pub fn representatives<P: PartialEq>(positions: &[Option<P>]) -> Vec<Option<u32>> {
-    let first = |p: &P| positions.iter().position(|q| q.as_ref() == Some(p)).expect("itself") as u32;
-    positions.iter().map(|p| p.as_ref().map(first)).collect()
+pub fn representatives<P: PartialEq>(positions: &[Option<P>]) -> Vec<Option<VertexId>> {
+    let first = |p: &P| positions.iter().position(|q| q.as_ref() == Some(p)).expect("itself");
+    positions.iter().map(|p| p.as_ref().map(first).map(VertexId::at)).collect()
 }
 
 /// All subsets of `k` of `items`.
-fn subsets(items: &[u32], k: usize) -> Vec<Vec<u32>> {
+fn subsets(items: &[VertexId], k: usize) -> Vec<Vec<VertexId>> {
     if k == 0 {
         return vec![Vec::new()];
     }
@@ -89,17 +89,14 @@ fn subsets(items: &[u32], k: usize) -> Vec<Vec<u32>> {
 
 /// The cells of the Delaunay triangulation of the present vertices.
 pub fn delaunay_cells(dimension: usize, positions: &[Option<Grid>]) -> CellSet {
-    let at = |v: u32| positions[v as usize].as_ref().expect("present");
-    let places: Vec<u32> = representatives(positions)
-        .iter()
-        .enumerate()
-        .filter(|(v, r)| **r == Some(*v as u32))
-        .map(|(v, _)| v as u32)
-        .collect();
-    let is_cell = |cell: &Vec<u32>| {
+    let at = |v: VertexId| positions[v].as_ref().expect("present");
+    let representatives = representatives(positions);
+    let places: Vec<VertexId> =
+        VertexId::range(0..positions.len()).filter(|&v| representatives[v] == Some(v)).collect();
+    let is_cell = |cell: &Vec<VertexId>| {
         orientation(&cell.iter().map(|&v| at(v)).collect::<Vec<_>>()) != 0
             && places.iter().filter(|v| !cell.contains(v)).all(|&v| {
-                let ids: Vec<u32> = cell.iter().copied().chain([v]).collect();
+                let ids: Vec<VertexId> = cell.iter().copied().chain([v]).collect();
                 !is_inside(&ids.iter().map(|&v| at(v)).collect::<Vec<_>>(), &ids)
             })
     };

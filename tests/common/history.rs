@@ -2,9 +2,11 @@
 
 use super::exact::{Grid, orientation, representatives, squared_distance};
 use super::inputs::{Kind, QUANTUM, draw, draw_one, quantized, to_grid};
-use super::{CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted};
-use deldrift::Dimension;
+use super::{
+    CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted, vertices,
+};
 use deldrift::motion::{Algorithm, Level, Location, MovingTriangulation, Options};
+use deldrift::{CellId, Dimension, VertexId};
 use std::collections::BTreeMap;
 
 /// How a set of vertices moves from one timestamp to the next.
@@ -53,7 +55,7 @@ pub struct History<G: Dimension> {
     pub t: MovingTriangulation<G>,
     /// Positions by id at the timestamp; `None` once removed.
     pub positions: Vec<Option<G::Point>>,
-    staged: BTreeMap<u32, G::Point>,
+    staged: BTreeMap<VertexId, G::Point>,
     /// Cells when the latest commit began.
     baseline: Option<CellSet>,
     timestamp: u64,
@@ -85,12 +87,12 @@ impl<G: Dimension> History<G> {
         format!("{}, step {}: ... {}", self.name, self.log.len(), self.log[from..].join("; "))
     }
 
-    fn present(&self) -> Vec<u32> {
-        (0..self.positions.len() as u32).filter(|&v| self.positions[v as usize].is_some()).collect()
+    fn present(&self) -> Vec<VertexId> {
+        VertexId::range(0..self.positions.len()).filter(|&v| self.positions[v].is_some()).collect()
     }
 
-    fn at(&self, v: u32) -> G::Point {
-        self.positions[v as usize].expect("present")
+    fn at(&self, v: VertexId) -> G::Point {
+        self.positions[v].expect("present")
     }
 
     /// The call must succeed.
@@ -98,31 +100,31 @@ impl<G: Dimension> History<G> {
         result.unwrap_or_else(|error| panic!("{}: {error}", self.context()))
     }
 
-    pub fn insert(&mut self, q: G::Point) -> u32 {
+    pub fn insert(&mut self, q: G::Point) -> VertexId {
         self.log.push(format!("insert {q:?}"));
         let inserted = self.t.insert_vertex(&q);
         let id = self.expect(inserted);
-        assert_eq!(id as usize, self.positions.len(), "{}", self.context());
+        assert_eq!(id.index(), self.positions.len(), "{}", self.context());
         self.positions.push(Some(q));
         id
     }
 
-    pub fn remove(&mut self, v: u32) {
+    pub fn remove(&mut self, v: VertexId) {
         self.log.push(format!("remove {v}"));
         let removed = self.t.remove_vertex(v);
         self.expect(removed);
-        self.positions[v as usize] = None;
+        self.positions[v] = None;
         self.staged.remove(&v);
     }
 
-    pub fn relocate(&mut self, v: u32, q: G::Point) {
+    pub fn relocate(&mut self, v: VertexId, q: G::Point) {
         self.log.push(format!("relocate {v} to {q:?}"));
         let relocated = self.t.relocate_vertex(v, &q);
         self.expect(relocated);
-        self.positions[v as usize] = Some(q);
+        self.positions[v] = Some(q);
     }
 
-    pub fn stage(&mut self, v: u32, q: G::Point) {
+    pub fn stage(&mut self, v: VertexId, q: G::Point) {
         let staged = self.t.move_vertices(&[v], &[q]);
         self.expect(staged);
         self.staged.insert(v, q);
@@ -137,8 +139,8 @@ impl<G: Dimension> History<G> {
         let report = self.expect(committed);
         let mut moved = 0;
         for (v, q) in std::mem::take(&mut self.staged) {
-            moved += u64::from(self.positions[v as usize] != Some(q));
-            self.positions[v as usize] = Some(q);
+            moved += u64::from(self.positions[v] != Some(q));
+            self.positions[v] = Some(q);
         }
         self.timestamp += 1;
         assert_eq!((report.timestamp, report.moved), (self.timestamp, moved), "{}", self.context());
@@ -175,7 +177,7 @@ impl<G: Dimension> History<G> {
     fn immediate_calls(&mut self) {
         for _ in 0..1 + self.rng.below(3) {
             let present = self.present();
-            let some = if present.is_empty() { 0 } else { *self.rng.pick(&present) };
+            let some = if present.is_empty() { VertexId::new(0) } else { *self.rng.pick(&present) };
             match self.rng.below(4) {
                 0 => {
                     let q = if present.is_empty() || self.rng.one_in(2) {
@@ -201,7 +203,7 @@ impl<G: Dimension> History<G> {
         let motion = *self.rng.pick(&MOTIONS);
         let share = *self.rng.pick(&[1, 1, 2, 10]);
         self.log.push(format!("stage {motion:?} of one in {share}"));
-        let mut chosen: Vec<u32> = self.present();
+        let mut chosen: Vec<VertexId> = self.present();
         chosen.retain(|v| self.rng.one_in(share) && !self.staged.contains_key(v));
         self.rng.shuffle(&mut chosen);
         let scale = 0.5f64.powi(self.rng.below(18) as i32);
@@ -237,7 +239,7 @@ impl<G: Dimension> History<G> {
     }
 
     /// Where one vertex goes.
-    fn destination(&mut self, motion: Motion, v: u32) -> G::Point {
+    fn destination(&mut self, motion: Motion, v: VertexId) -> G::Point {
         let p = self.at(v);
         let present = self.present();
         let other = *self.rng.pick(&present);
@@ -279,13 +281,13 @@ impl<G: Dimension> History<G> {
 
     fn check_vertices(&self) {
         let representatives = representatives(&self.positions);
-        let hidden = (0u32..).zip(&representatives).filter(|(v, r)| r.is_some_and(|r| r != *v)).count();
+        let hidden = vertices().zip(&representatives).filter(|(v, r)| r.is_some_and(|r| r != *v)).count();
         assert_eq!(self.t.statistics().coincident, hidden as u64, "{}", self.context());
         assert_eq!(self.t.vertex_count(), self.positions.iter().flatten().count(), "{}", self.context());
         assert_eq!(self.t.id_count(), self.positions.len(), "{}", self.context());
         assert_eq!(self.t.staged_count(), self.staged.len(), "{}", self.context());
         assert_eq!(self.t.timestamp(), self.timestamp, "{}", self.context());
-        for (v, (p, representative)) in (0u32..).zip(self.positions.iter().zip(representatives)) {
+        for (v, (p, representative)) in vertices().zip(self.positions.iter().zip(representatives)) {
             assert_eq!(self.t.is_present(v), p.is_some(), "{}: vertex {v}", self.context());
             assert_eq!(self.t.position(v).ok(), *p, "{}: vertex {v}", self.context());
             assert_eq!(
@@ -300,7 +302,7 @@ impl<G: Dimension> History<G> {
     fn check_changes(&self) {
         let changed = self.expect(self.t.changed_cells());
         let corners = self.t.cells().expect("room").corners;
-        let found: CellSet = changed.iter().map(|&c| sorted(corners[c as usize].as_ref())).collect();
+        let found: CellSet = changed.iter().map(|&c| sorted(corners[c].as_ref())).collect();
         let expected = match &self.baseline {
             None => CellSet::new(),
             Some(baseline) => cell_set(&self.t).difference(baseline).cloned().collect(),
@@ -318,8 +320,8 @@ impl<G: Dimension> History<G> {
             self.expect(self.t.star(v, &mut star));
             star.sort_unstable();
             let corners = self.t.cells().expect("room").corners;
-            let has = |c: &u32| corners[*c as usize].as_ref().contains(&representative);
-            let expected: Vec<u32> = (0..corners.len() as u32).filter(has).collect();
+            let has = |c: &CellId| corners[*c].as_ref().contains(&representative);
+            let expected: Vec<CellId> = CellId::range(0..corners.len()).filter(has).collect();
             assert_eq!(star, expected, "{}: star of {v}", self.context());
         }
     }
@@ -335,13 +337,13 @@ impl<G: Dimension> History<G> {
         quantized::<G>(point::<G>(|k| a[k] + share * (b[k] - a[k])))
     }
 
-    fn grid(&self, v: u32) -> Grid {
+    fn grid(&self, v: VertexId) -> Grid {
         to_grid::<G>(&self.at(v))
     }
 
     /// Orientations of a cell with each of its corners replaced by a
     /// point: none is negative iff the cell holds it.
-    fn sides(&self, cell: &G::Corners, q: &Grid) -> Vec<i128> {
+    fn sides(&self, cell: &G::Vertices, q: &Grid) -> Vec<i128> {
         let corners: Vec<Grid> = cell.as_ref().iter().map(|&v| self.grid(v)).collect();
         let side = |i: usize| {
             let points: Vec<&Grid> = (0..=G::D).map(|j| if i == j { q } else { &corners[j] }).collect();
@@ -354,18 +356,21 @@ impl<G: Dimension> History<G> {
         let context = || format!("{}: location of {q:?}", self.context());
         let grid = to_grid::<G>(q);
         let cells = self.t.cells().expect("room");
-        let holds = |c: usize| self.sides(&cells.corners[c], &grid).iter().all(|&side| side >= 0);
+        let holds = |c: CellId| self.sides(&cells.corners[c], &grid).iter().all(|&side| side >= 0);
         let at = self.positions.iter().position(|p| p.as_ref() == Some(q));
         match self.expect(self.t.locate(q)) {
-            Location::Vertex(v) => assert_eq!(Some(v as usize), at, "{}", context()),
+            Location::Vertex(v) => assert_eq!(Some(v.index()), at, "{}", context()),
             Location::NoCells => assert!(at.is_none() && cells.corners.is_empty(), "{}", context()),
-            Location::Cell(c) => assert!(at.is_none() && holds(c as usize), "{}: cell {c}", context()),
+            Location::Cell(c) => assert!(at.is_none() && holds(c), "{}: cell {c}", context()),
             Location::Outside(c) => {
-                let c = c as usize;
                 let sides = self.sides(&cells.corners[c], &grid);
                 let is_beyond =
                     (0..=G::D).any(|i| cells.neighbours[c][i] == deldrift::motion::NO_CELL && sides[i] < 0);
-                assert!(is_beyond && !(0..cells.corners.len()).any(holds), "{}: outside {c}", context());
+                assert!(
+                    is_beyond && !CellId::range(0..cells.corners.len()).any(holds),
+                    "{}: outside {c}",
+                    context()
+                );
             }
         }
     }
@@ -381,7 +386,7 @@ impl<G: Dimension> History<G> {
 #[derive(Debug, PartialEq)]
 pub struct Snapshot<P> {
     positions: Vec<Option<P>>,
-    representatives: Vec<Option<u32>>,
+    representatives: Vec<Option<VertexId>>,
     cells: CellSet,
     staged: usize,
     timestamp: u64,
@@ -391,7 +396,7 @@ pub struct Snapshot<P> {
 impl<P> Snapshot<P> {
     /// Of a valid triangulation.
     pub fn of<G: Dimension<Point = P>>(t: &MovingTriangulation<G>) -> Self {
-        let ids = 0..t.id_count() as u32;
+        let ids = VertexId::range(0..t.id_count());
         if let Err(violation) = t.validate(Level::Delaunay) {
             panic!("{violation}");
         }

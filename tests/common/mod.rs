@@ -8,8 +8,8 @@ pub mod history;
 pub mod inputs;
 pub mod random;
 
-use deldrift::Dimension;
 use deldrift::motion::{Level, MovingTriangulation, NO_CELL, Options};
+use deldrift::{CellId, Dimension, VertexId};
 pub use random::Rng;
 use std::collections::BTreeSet;
 
@@ -29,10 +29,25 @@ pub fn point<G: Dimension>(coordinate: impl FnMut(usize) -> f64) -> G::Point {
     p
 }
 
-/// A set of cells, each as its ascending vertex ids.
-pub type CellSet = BTreeSet<Vec<u32>>;
+/// Vertices of these ids.
+pub fn ids<const N: usize>(numbers: [u32; N]) -> [VertexId; N] {
+    numbers.map(VertexId::new)
+}
 
-pub fn sorted(corners: &[u32]) -> Vec<u32> {
+/// The vertex of an id.
+pub const fn vertex(id: u32) -> VertexId {
+    VertexId::new(id)
+}
+
+/// All vertices that there may be, in the order of their ids.
+pub fn vertices() -> impl Iterator<Item = VertexId> {
+    (0..).map(VertexId::new)
+}
+
+/// A set of cells, each as its ascending vertex ids.
+pub type CellSet = BTreeSet<Vec<VertexId>>;
+
+pub fn sorted(corners: &[VertexId]) -> Vec<VertexId> {
     let mut ids = corners.to_vec();
     ids.sort_unstable();
     ids
@@ -46,12 +61,12 @@ pub fn cell_set<G: Dimension>(t: &MovingTriangulation<G>) -> CellSet {
 /// The cells of a fresh build of the present vertices, by their ids here: a build from scratch numbers its
 /// vertices from 0, so present ids are mapped in ascending order, on which alone ties depend.
 pub fn fresh_cells<G: Dimension>(positions: &[Option<G::Point>]) -> CellSet {
-    let present: Vec<u32> =
-        (0..positions.len() as u32).filter(|&v| positions[v as usize].is_some()).collect();
+    let present: Vec<VertexId> =
+        VertexId::range(0..positions.len()).filter(|&v| positions[v].is_some()).collect();
     let points: Vec<G::Point> = positions.iter().copied().flatten().collect();
     let fresh = MovingTriangulation::<G>::new(&points, Options::default()).expect("a fresh build");
     fresh.validate(Level::Delaunay).expect("a valid fresh build");
-    let named = |c: &Vec<u32>| c.iter().map(|&i| present[i as usize]).collect();
+    let named = |c: &Vec<VertexId>| c.iter().map(|&i| present[i]).collect();
     cell_set(&fresh).iter().map(named).collect()
 }
 
@@ -77,22 +92,21 @@ pub fn check_adjacency<G: Dimension>(t: &MovingTriangulation<G>, context: &dyn F
     assert_eq!(view.corners.len(), view.neighbours.len(), "{}", context());
     assert_eq!(view.corners.len(), t.cell_count(), "{}", context());
     assert_eq!(cell_set(t).len(), t.cell_count(), "{}: a cell is listed twice", context());
-    let facet = |c: usize, i: usize| {
+    let facet = |c: CellId, i: usize| {
         let mut ids = view.corners[c].as_ref().to_vec();
         ids.remove(i);
         sorted(&ids)
     };
     let mut hull = BTreeSet::new();
     let mut inner = BTreeSet::new();
-    for c in 0..view.corners.len() {
+    for c in CellId::range(0..view.corners.len()) {
         for i in 0..=G::D {
             let n = view.neighbours[c][i];
             if n == NO_CELL {
                 assert!(hull.insert(facet(c, i)), "{}: a hull facet is there twice", context());
                 continue;
             }
-            let n = n as usize;
-            let back = (0..=G::D).find(|&j| view.neighbours[n][j] == c as u32 && facet(n, j) == facet(c, i));
+            let back = (0..=G::D).find(|&j| view.neighbours[n][j] == c && facet(n, j) == facet(c, i));
             assert!(back.is_some(), "{}: cells {c} and {n} do not share facet {:?}", context(), facet(c, i));
             inner.insert(facet(c, i));
         }

@@ -2,6 +2,11 @@
 
 use super::*;
 use crate::complex::INFINITE;
+use crate::ids::{SiteId, Slot};
+
+fn sites<const N: usize>(numbers: [u32; N]) -> [SiteId; N] {
+    numbers.map(SiteId::new)
+}
 
 /// Corners of all cells, each rotated to a normal form that keeps its orientation.
 fn cells<C: Corners>(complex: &Complex<C>) -> Vec<C> {
@@ -39,14 +44,15 @@ fn is_mutual<C: Corners>(complex: &Complex<C>) -> bool {
 
 #[test]
 fn a_2_2_flip_done_twice_more_swaps_back() {
-    let mut complex = Complex::<[u32; 3]>::default();
-    complex.start([1, 2, 3]).unwrap();
+    let mut complex = Complex::<[SiteId; 3]>::default();
+    complex.start(sites([1, 2, 3])).unwrap();
+    let first = Slot::new(0);
     // Split the cell at 4 by hand: three cells around it.
-    let outs: Vec<Facet> = (0..3).map(|i| complex.cell(0).neighbour(i)).collect();
-    complex.retire(0);
-    complex.put(0, [4, 2, 3]);
-    let (b, c) = (complex.create([1, 4, 3]), complex.create([1, 2, 4]));
-    let new = [0, b, c];
+    let outs: Vec<Facet> = (0..3).map(|i| complex.cell(first).neighbour(i)).collect();
+    complex.retire(first);
+    complex.put(first, sites([4, 2, 3]));
+    let (b, c) = (complex.create(sites([1, 4, 3])), complex.create(sites([1, 2, 4])));
+    let new = [first, b, c];
     for i in 0..3 {
         complex.glue(Facet::new(new[i], i), outs[i]);
         for j in 0..i {
@@ -55,7 +61,7 @@ fn a_2_2_flip_done_twice_more_swaps_back() {
     }
     assert!(is_mutual(&complex));
     let before = cells(&complex);
-    let edge = |complex: &Complex<[u32; 3]>| {
+    let edge = |complex: &Complex<[SiteId; 3]>| {
         let c = complex.finite().next().unwrap();
         (0..3)
             .map(|i| Facet::new(c, i))
@@ -73,9 +79,9 @@ fn a_2_2_flip_done_twice_more_swaps_back() {
 }
 
 /// The corners of facets.
-fn boundary(complex: &Complex<[u32; 4]>, facets: [Facet; 6]) -> Vec<Vec<u32>> {
+fn boundary(complex: &Complex<[SiteId; 4]>, facets: [Facet; 6]) -> Vec<Vec<SiteId>> {
     let mut corners = facets.map(|f| {
-        let mut corners: Vec<u32> = complex.cell(f.cell()).corners.to_vec();
+        let mut corners: Vec<SiteId> = complex.cell(f.cell()).corners.to_vec();
         corners.remove(f.index());
         corners.sort_unstable();
         corners
@@ -86,13 +92,15 @@ fn boundary(complex: &Complex<[u32; 4]>, facets: [Facet; 6]) -> Vec<Vec<u32>> {
 
 #[test]
 fn flips_in_space_come_back() {
-    let mut complex = Complex::<[u32; 4]>::default();
-    complex.start([1, 2, 3, 4]).unwrap();
+    let mut complex = Complex::<[SiteId; 4]>::default();
+    complex.start(sites([1, 2, 3, 4])).unwrap();
+    let first = Slot::new(0);
     // Split the cell at 5 by hand: four cells around it.
-    let outs: Vec<Facet> = (0..4).map(|i| complex.cell(0).neighbour(i)).collect();
-    let corners = complex.cell(0).corners;
-    complex.put(0, corners.with(0, 5));
-    let new = [0, 1, 2, 3].map(|i| if i == 0 { 0 } else { complex.create(corners.with(i, 5)) });
+    let outs: Vec<Facet> = (0..4).map(|i| complex.cell(first).neighbour(i)).collect();
+    let corners = complex.cell(first).corners;
+    complex.put(first, corners.with(0, SiteId::new(5)));
+    let new =
+        [0, 1, 2, 3].map(|i| if i == 0 { first } else { complex.create(corners.with(i, SiteId::new(5))) });
     for i in 0..4 {
         complex.glue(Facet::new(new[i], i), outs[i]);
         for j in 0..i {
@@ -142,12 +150,13 @@ fn flips_in_space_come_back() {
 }
 
 /// Two tetrahedra that share a facet, and the ghosts around, which come first.
-fn two_tetrahedra() -> (Complex<[u32; 4]>, Facet) {
-    let mut complex = Complex::<[u32; 4]>::default();
-    complex.start([1, 2, 3, 4]).unwrap();
+fn two_tetrahedra() -> (Complex<[SiteId; 4]>, Facet) {
+    let mut complex = Complex::<[SiteId; 4]>::default();
+    complex.start(sites([1, 2, 3, 4])).unwrap();
     // A ghost becomes a finite cell with a new corner, by hand, with a ghost on each of its other facets.
-    let (ghost, mut finite) = (1, complex.cell(1).corners);
-    finite[3] = 5;
+    let ghost = Slot::new(1);
+    let mut finite = complex.cell(ghost).corners;
+    finite[3] = SiteId::new(5);
     let ridges: Vec<Facet> = (0..3).map(|i| complex.cell(ghost).neighbour(i)).collect();
     complex.retire(ghost);
     complex.put(ghost, finite);
@@ -179,12 +188,12 @@ fn flips_need_all_their_cells() {
     let (mut complex, facet) = two_tetrahedra();
     complex.create_free(3).unwrap();
     let before = cells(&complex);
-    let n = complex.n_slots() as u32;
+    let n = complex.n_slots();
     // The six ghosts and two cells are all concerned.
     for start in 1..n - 3 {
         let mut tried = [None; 2];
         complex
-            .divided(&[0, start], &mut tried, |_, range, tried| {
+            .divided(&[Slot::new(0), Slot::at(start)], &mut tried, |_, range, tried| {
                 *tried = range.flip_2_3(facet).err();
             })
             .unwrap();
@@ -196,8 +205,8 @@ fn flips_need_all_their_cells() {
     for (start, expected) in [(n - 3, Some(Obstacle::Full)), (n - 2, None)] {
         let mut tried = [None; 2];
         complex
-            .divided(&[0, start], &mut tried, |k, range, tried| {
-                assert_eq!(range.free.len() as u32, if k == 0 { start - (n - 3) } else { n - start });
+            .divided(&[Slot::new(0), Slot::at(start)], &mut tried, |k, range, tried| {
+                assert_eq!(range.free.len(), if k == 0 { start - (n - 3) } else { n - start });
                 *tried = range.flip_2_3(facet).err();
             })
             .unwrap();

@@ -11,7 +11,7 @@ fn is_convex_after(place: [f64; 3]) -> bool {
     t.add_sites(&[&base[..], &[[0.0, 0.0, 1.0]]].concat()).expect("room for it");
     t.rebuild(&mut |_| true).expect("room for it");
     let site = |id| t.live_sites().find(|&s| t.site(s).id == id).expect("a site for each point");
-    let [a, b, p, q] = [0, 1, 2, 3].map(site);
+    let [a, b, p, q] = [0, 1, 2, 3].map(|id| site(VertexId::new(id)));
     let ghosts = t.complex.live().filter(|&c| t.complex.cell(c).is_ghost());
     let ridges = ghosts.flat_map(|g| (0..3).map(move |i| Facet::new(g, i)));
     let mut ridges = ridges.filter(|&ridge| {

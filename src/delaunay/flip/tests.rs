@@ -81,7 +81,7 @@ fn diagonals_change_in_space() {
         assert_eq!(t.complex.n_finite(), 2 * sides.len());
         let before: Vec<_> = t.complex.cells().iter().map(|cell| cell.corners).collect();
         for s in t.live_sites().collect::<Vec<_>>() {
-            if let Some(place) = square(1.1).get(t.site(s).id as usize) {
+            if let Some(place) = square(1.1).get(t.site(s).id.index()) {
                 t.cover(place, place);
                 t.set_point(s, *place);
             }

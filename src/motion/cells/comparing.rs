@@ -3,6 +3,7 @@
 use super::{Cells, Found, NO_CELL, Scratch, ids_of, is_finite};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::{CellId, Slot};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::matching::{Matcher, are_same};
@@ -20,18 +21,18 @@ impl<G: Dimension> Cells<G> {
     pub(super) fn compare_slots(
         &mut self,
         kernel: &Delaunay<G>,
-        dirty: &[u32],
-        scratch: &mut Scratch<G::Corners>,
+        dirty: &[Slot],
+        scratch: &mut Scratch<G::Vertices>,
     ) -> Result<()> {
         memory::reserve(&mut scratch.lost, dirty.len())?;
         memory::reserve(&mut scratch.found, dirty.len())?;
         for (k, &slot) in dirty.iter().enumerate() {
             if let Some(&next) = dirty.get(k + AHEAD) {
-                prefetch(kernel.complex().cells(), next as usize);
-                prefetch(&self.index_of, next as usize);
+                prefetch(kernel.complex().cells(), next.index());
+                prefetch(&self.index_of, next.index());
             }
             if let Some(&next) = dirty.get(k + AHEAD / 2) {
-                prefetch(&self.corners, self.index_in(next) as usize);
+                prefetch(&self.corners, self.index_in(next).index());
             }
             let index = self.index_in(slot);
             if !is_finite(kernel, slot) {
@@ -54,14 +55,20 @@ impl<G: Dimension> Cells<G> {
 
     /// The index of a slot's cell, as far as is known.
     #[inline(always)]
-    pub(super) fn index_in(&self, slot: u32) -> u32 {
-        self.index_of.get(slot as usize).copied().unwrap_or(NO_CELL)
+    pub(super) fn index_in(&self, slot: Slot) -> CellId {
+        self.index_of.get(slot.index()).copied().unwrap_or(NO_CELL)
     }
 
     /// Whether a slot still holds the finite cell of an index; lists it if it has been turned over.
     #[inline(always)]
-    fn is_still(&mut self, index: u32, slot: u32, ids: &G::Corners, turned: &mut Vec<u32>) -> Result<bool> {
-        let row = &self.corners[index as usize];
+    fn is_still(
+        &mut self,
+        index: CellId,
+        slot: Slot,
+        ids: &G::Vertices,
+        turned: &mut Vec<Slot>,
+    ) -> Result<bool> {
+        let row = &self.corners[index];
         if row != ids && !are_same(row, ids) {
             return Ok(false);
         }
@@ -74,17 +81,17 @@ impl<G: Dimension> Cells<G> {
     #[inline(always)]
     fn order(
         &mut self,
-        index: u32,
-        slot: u32,
-        ids: &G::Corners,
-        row: &G::Corners,
-        turned: &mut Vec<u32>,
+        index: CellId,
+        slot: Slot,
+        ids: &G::Vertices,
+        row: &G::Vertices,
+        turned: &mut Vec<Slot>,
     ) -> Result<()> {
         let ordering = Ordering::of(ids, row);
         if ordering != Ordering::SAME && ordering.is_odd() {
             memory::push(turned, slot)?;
         }
-        self.orderings[index as usize] = ordering;
+        self.orderings[index] = ordering;
         Ok(())
     }
 
@@ -92,23 +99,23 @@ impl<G: Dimension> Cells<G> {
     pub(super) fn compare_all(
         &mut self,
         kernel: &Delaunay<G>,
-        scratch: &mut Scratch<G::Corners>,
+        scratch: &mut Scratch<G::Vertices>,
     ) -> Result<()> {
         let n_slots = kernel.complex().n_slots();
         self.index_of.clear();
         memory::reserve(&mut self.index_of, n_slots)?;
         self.index_of.resize(n_slots, NO_CELL);
         memory::reserve(&mut scratch.lost, self.corners.len())?;
-        for (&slot, index) in self.slots.iter().zip(0..) {
-            match self.index_of.get_mut(slot as usize) {
+        for (&slot, index) in self.slots.iter().zip(CellId::range(0..self.slots.len())) {
+            match self.index_of.get_mut(slot.index()) {
                 Some(there) if *there == NO_CELL => *there = index,
                 _ => scratch.lost.push(index),
             }
         }
         let (mut n_compared, mut goes_on) = (0, true);
-        for slot in 0..n_slots as u32 {
-            prefetch(&self.corners, self.index_in(slot + AHEAD as u32) as usize);
-            let index = self.index_of[slot as usize];
+        for slot in Slot::range(0..n_slots) {
+            prefetch(&self.corners, self.index_in(Slot::at(slot.index() + AHEAD)).index());
+            let index = self.index_of[slot];
             if index == NO_CELL {
                 continue;
             }
@@ -116,7 +123,7 @@ impl<G: Dimension> Cells<G> {
             goes_on &= n_compared != SAMPLE || 2 * scratch.lost.len() <= SAMPLE;
             let is_there = goes_on && is_finite(kernel, slot);
             if !(is_there && self.is_still(index, slot, &ids_of(kernel, slot), &mut scratch.turned)?) {
-                self.index_of[slot as usize] = NO_CELL;
+                self.index_of[slot] = NO_CELL;
                 scratch.lost.push(index);
             }
         }
@@ -130,7 +137,7 @@ impl<G: Dimension> Cells<G> {
             // What is new stays listed.
             let n_new = found.len();
             memory::reserve(found, BLOCK)?;
-            let unknown = slots.by_ref().filter(|&slot| self.index_of[slot as usize] == NO_CELL);
+            let unknown = slots.by_ref().filter(|&slot| self.index_of[slot] == NO_CELL);
             found.extend(unknown.take(BLOCK).map(|slot| Found {
                 slot,
                 index: NO_CELL,
@@ -147,7 +154,7 @@ impl<G: Dimension> Cells<G> {
                     found.swap(k, end);
                     end += 1;
                 } else {
-                    (self.slots[index as usize], self.index_of[slot as usize]) = (slot, index);
+                    (self.slots[index], self.index_of[slot]) = (slot, index);
                 }
             }
             found.truncate(end);
@@ -157,9 +164,9 @@ impl<G: Dimension> Cells<G> {
     /// Finds lost cells in other slots.
     pub(super) fn find_lost(
         &mut self,
-        matcher: &Matcher<G::Corners>,
-        found: &mut [Found<G::Corners>],
-        turned: &mut Vec<u32>,
+        matcher: &Matcher<G::Vertices>,
+        found: &mut [Found<G::Vertices>],
+        turned: &mut Vec<Slot>,
     ) -> Result<()> {
         for k in 0..found.len() {
             if let Some(next) = found.get(k + AHEAD) {

@@ -1,9 +1,10 @@
 //! The neighbours of the cells.
 
 use super::{Cells, NO_CELL, ids_of};
-use crate::complex::{Corners, NONE};
+use crate::complex::Corners;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::machine::threads;
@@ -16,21 +17,21 @@ const GLUED_AT_LEAST: usize = 1 << 13;
 impl<G: Dimension> Cells<G> {
     /// Writes the neighbours of the cells in the dirty slots and in those that have `moved`, and their neighbours'
     /// sides.
-    pub(super) fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Marks, moved: &[u32]) {
+    pub(super) fn glue_slots(&mut self, kernel: &Delaunay<G>, dirty: &Marks<Slot>, moved: &[Slot]) {
         let complex = kernel.complex();
-        let last = complex.n_slots() as u32 - 1;
+        let last = Slot::at(complex.n_slots() - 1);
         for (k, &slot) in dirty.as_slice().iter().chain(moved).enumerate() {
             if let Some(&next) = dirty.as_slice().get(k + 3 * AHEAD / 2) {
-                prefetch(complex.cells(), next as usize);
+                prefetch(complex.cells(), next.index());
             }
             if let Some(&next) = dirty.as_slice().get(k + AHEAD) {
                 let cell = complex.cell(next.min(last));
-                (0..G::Corners::N).for_each(|i| prefetch(&self.index_of, cell.neighbour(i).cell() as usize));
+                (0..G::Corners::N).for_each(|i| prefetch(&self.index_of, cell.neighbour(i).cell().index()));
             }
             if let Some(&next) = dirty.as_slice().get(k + AHEAD / 2) {
                 let cell = complex.cell(next.min(last));
                 for i in 0..G::Corners::N {
-                    let index = self.index_in(cell.neighbour(i).cell()) as usize;
+                    let index = self.index_in(cell.neighbour(i).cell()).index();
                     prefetch(&self.neighbours, index);
                     prefetch(&self.orderings, index);
                 }
@@ -42,22 +43,22 @@ impl<G: Dimension> Cells<G> {
             if cell.is_ghost() {
                 let behind = cell.neighbour(G::D);
                 if !dirty.has(behind.cell()) {
-                    let index = self.index_of[behind.cell() as usize] as usize;
+                    let index = self.index_of[behind.cell()];
                     self.neighbours[index][self.orderings[index].place(behind.index())] = NO_CELL;
                 }
                 continue;
             }
-            let index = self.index_of[slot as usize];
-            let mut across = cell.corners;
+            let index = self.index_of[slot];
+            let mut across = G::Neighbours::filled(NO_CELL);
             for i in 0..G::Corners::N {
                 let out = cell.neighbour(i);
-                across[i] = self.index_of[out.cell() as usize];
+                across[i] = self.index_of[out.cell()];
                 if across[i] != NO_CELL && !dirty.has(out.cell()) {
-                    let place = self.orderings[across[i] as usize].place(out.index());
-                    self.neighbours[across[i] as usize][place] = index;
+                    let place = self.orderings[across[i]].place(out.index());
+                    self.neighbours[across[i]][place] = index;
                 }
             }
-            self.neighbours[index as usize] = self.orderings[index as usize].arrange(across);
+            self.neighbours[index] = self.orderings[index].arrange(across);
         }
     }
 
@@ -65,15 +66,15 @@ impl<G: Dimension> Cells<G> {
     pub(super) fn glue_all(&mut self, kernel: &Delaunay<G>) {
         let (slots, orderings, index_of) = (&self.slots[..], &self.orderings[..], &self.index_of[..]);
         let n_threads = kernel.threads().for_work(slots.len(), GLUED_AT_LEAST, 256);
-        threads::for_parts(&mut self.neighbours, 0, n_threads, &|first, rows: &mut [G::Corners]| {
+        threads::for_parts(&mut self.neighbours, 0, n_threads, &|first, rows: &mut [G::Neighbours]| {
             for (index, row) in (first..).zip(rows) {
                 if let Some(&next) = slots.get(index + AHEAD) {
-                    prefetch(kernel.complex().cells(), next as usize);
+                    prefetch(kernel.complex().cells(), next.index());
                 }
                 let cell = kernel.complex().cell(slots[index]);
-                let mut across = cell.corners;
+                let mut across = G::Neighbours::filled(NO_CELL);
                 for i in 0..G::Corners::N {
-                    across[i] = index_of[cell.neighbour(i).cell() as usize];
+                    across[i] = index_of[cell.neighbour(i).cell()];
                 }
                 *row = orderings[index].arrange(across);
             }
@@ -96,19 +97,19 @@ impl<G: Dimension> Cells<G> {
         }
         // From here on nothing fails.
         for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
-            (0..n as u32).for_each(|index| tracker.create(index));
+            CellId::range(0..n).for_each(|index| tracker.create(index));
         }
         index_of.resize(n_slots, NO_CELL);
-        for (slot, index) in kernel.complex().finite().zip(0..) {
+        for (slot, index) in kernel.complex().finite().zip(CellId::range(0..n)) {
             slots.push(slot);
-            index_of[slot as usize] = index;
+            index_of[slot] = index;
         }
         orderings.clear();
         orderings.resize(n, Ordering::SAME);
-        neighbours.resize(n, G::Corners::filled(NONE));
-        corners.resize(n, G::Corners::filled(NONE));
+        neighbours.resize(n, G::Neighbours::filled(NO_CELL));
+        corners.resize(n, G::Vertices::filled(VertexId::NONE));
         let (slots, n_threads) = (&slots[..], kernel.threads().for_work(n, GLUED_AT_LEAST, 256));
-        threads::for_parts(corners, 0, n_threads, &|first, rows: &mut [G::Corners]| {
+        threads::for_parts(corners, 0, n_threads, &|first, rows: &mut [G::Vertices]| {
             rows.iter_mut().zip(&slots[first..]).for_each(|(row, &slot)| *row = ids_of(kernel, slot));
         });
         self.glue_all(kernel);

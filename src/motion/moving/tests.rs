@@ -3,6 +3,7 @@
 use super::*;
 use crate::delaunay::{Plane, Space};
 use crate::error::Error;
+use crate::ids::VertexId;
 use crate::motion::Options;
 use crate::motion::regions::Filter;
 use crate::motion::{Algorithm, Level};
@@ -26,7 +27,7 @@ fn staged<G: Dimension>(
     n: usize,
     at_once: bool,
     rng: &mut Rng,
-) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<u32>) {
+) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
     let other_positions = t.staging.positions().to_vec();
     t.regions.prepare(Filter::Tolerance, &mut t.kernel, n, &other_positions).expect("room");
@@ -41,7 +42,7 @@ fn staged<G: Dimension>(
         }
     }
     let fixed = t.regions.fixed();
-    let beyond = (0..n as u32).filter(|&v| !fixed[v as usize].holds(&places[v as usize])).collect();
+    let beyond = VertexId::range(0..n).filter(|&v| !fixed[v].holds(&places[v])).collect();
     if at_once {
         t.move_all(&places).expect("good places");
     } else {
@@ -61,7 +62,7 @@ fn agree<G: Dimension>() {
     for (n, at_once) in (G::D + 1..60).chain([2 * BLOCK + 3]).flat_map(|n| [(n, true), (n, false)]) {
         let (mut t, places, beyond) = staged::<G>(n, at_once, rng);
         let before = positions(&t);
-        let is_beyond = |v: usize| beyond.contains(&(v as u32));
+        let is_beyond = |v: usize| beyond.contains(&VertexId::at(v));
         let differ = |v: &usize| before[*v] != places[*v];
         let n_of = |moves_all: bool| (0..n).filter(|&v| moves_all || !is_beyond(v)).filter(differ).count();
         (n_beyond, n_moved) = (n_beyond + beyond.len(), n_moved + n_of(false));

@@ -3,6 +3,7 @@
 use super::Filter;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::motion::placement::Placed;
 use crate::motion::safe_region::Admission;
 use crate::motion::{CommitReport, MovingTriangulation};
@@ -38,9 +39,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves a vertex to where it is staged if it stays in its region.
     #[inline(always)]
-    pub(in crate::motion) fn accept(&mut self, vertex: u32, report: &mut CommitReport) -> bool {
-        let s = self.site_of[vertex as usize];
-        let p = self.staging.positions()[vertex as usize];
+    pub(in crate::motion) fn accept(&mut self, vertex: VertexId, report: &mut CommitReport) -> bool {
+        let s = self.site_of[vertex];
+        let p = self.staging.positions()[vertex];
         if self.is_shared(s) {
             return false;
         }
@@ -65,7 +66,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Relocates a vertex; the regions are told.
     pub(in crate::motion) fn relocate_noted(
         &mut self,
-        vertex: u32,
+        vertex: VertexId,
         q: &G::Point,
         report: &mut CommitReport,
     ) -> Result<Placed> {
@@ -90,11 +91,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         match self.kernel.take_changes().filter(|_| done.is_ok()) {
             Some(changed) => {
                 let mut relocated = self.regions.end_change();
-                relocated.iter_mut().for_each(|v| *v = self.site_of[*v as usize]);
-                relocated.retain(|&s| !self.is_shared(s));
-                let (kernel, n_ids) = (&mut self.kernel, self.site_of.len());
+                relocated.retain(|&v| !self.is_shared(self.site_of[v]));
+                let (kernel, site_of) = (&mut self.kernel, &self.site_of);
                 let other_positions = self.staging.positions();
-                let n = self.regions.follow(kept, changed, relocated, kernel, n_ids, other_positions);
+                let n = self.regions.follow(kept, changed, relocated, kernel, site_of, other_positions);
                 // Without the memory for it none are kept, and the next commit says so.
                 report.tolerances += n.unwrap_or_default();
             }

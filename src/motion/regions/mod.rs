@@ -34,6 +34,7 @@ use super::tolerance::{Fixed, Tolerances};
 use super::watching::Watching;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 
 /// Which regions let a vertex pass.
@@ -110,9 +111,9 @@ pub(super) struct Regions<G: Dimension> {
     /// Regions that are no longer valid: their memory serves the next ones for the same filter.
     spare: Option<Kept<G>>,
     /// The kernel's record of changed cells, or its memory.
-    changed: Vec<u32>,
+    changed: Vec<Slot>,
     /// Vertices that have been relocated during the change under way.
-    relocated: Vec<u32>,
+    relocated: Vec<VertexId>,
 }
 
 impl<G: Dimension> Default for Regions<G> {
@@ -158,13 +159,13 @@ impl<G: Dimension> Regions<G> {
     pub(super) fn admit(
         &self,
         kernel: &mut Delaunay<G>,
-        vertex: u32,
-        s: u32,
+        vertex: VertexId,
+        s: SiteId,
         p: &G::Point,
     ) -> Option<Admission> {
         match &self.kept {
             Some(Kept::Tolerance(tolerances)) => {
-                tolerances.fixed()[vertex as usize].holds(p).then_some(Admission::WithinTolerance)
+                tolerances.fixed()[vertex].holds(p).then_some(Admission::WithinTolerance)
             }
             Some(Kept::SafeRegion(regions)) => regions.admit(kernel, vertex, s, p),
             // All vertices move, and their bi-cells are checked after that.
@@ -213,7 +214,7 @@ impl<G: Dimension> Regions<G> {
     }
 
     /// A vertex has been relocated: all bi-cells of its site are among the changes.
-    pub(super) fn note_relocated(&mut self, vertex: u32) -> Result<()> {
+    pub(super) fn note_relocated(&mut self, vertex: VertexId) -> Result<()> {
         memory::push(&mut self.relocated, vertex)
     }
 
@@ -224,14 +225,14 @@ impl<G: Dimension> Regions<G> {
 
     /// A change begins, during which no regions are kept. Returns those that can [follow](Self::follow) it, and
     /// memory for the record of cells that this takes.
-    fn begin_change(&mut self) -> Option<(Kept<G>, Vec<u32>)> {
+    fn begin_change(&mut self) -> Option<(Kept<G>, Vec<Slot>)> {
         self.relocated.clear();
         let kept = self.kept.take()?;
         Some((kept, std::mem::take(&mut self.changed)))
     }
 
     /// The vertices relocated during the change, which is over.
-    fn end_change(&mut self) -> Vec<u32> {
+    fn end_change(&mut self) -> Vec<VertexId> {
         std::mem::take(&mut self.relocated)
     }
 
@@ -240,19 +241,19 @@ impl<G: Dimension> Regions<G> {
     fn follow(
         &mut self,
         mut kept: Kept<G>,
-        mut changed: Vec<u32>,
-        relocated: Vec<u32>,
+        mut changed: Vec<Slot>,
+        relocated: Vec<VertexId>,
         kernel: &mut Delaunay<G>,
-        n_ids: usize,
+        site_of: &[SiteId],
         other_positions: &[G::Point],
     ) -> Result<u64> {
         let store = kept.store_mut();
         store.forget_cells(&changed);
         kernel.tidy_changes(&mut changed);
         let n = if 2 * changed.len() > kernel.complex().n_finite() {
-            store.prepare(kernel, n_ids, other_positions)
+            store.prepare(kernel, site_of.len(), other_positions)
         } else {
-            store.follow(kernel, n_ids, other_positions, &changed, &relocated)
+            store.follow(kernel, site_of, other_positions, &changed, &relocated)
         }?;
         (self.changed, self.relocated) = (changed, relocated);
         self.kept = Some(kept);

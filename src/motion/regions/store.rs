@@ -2,6 +2,7 @@
 
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 
 /// Regions of one kind. `other_positions` are those of the vertices, by id, at the timestamp before or the next one:
 /// they tell how far vertices go in a timestamp.
@@ -16,18 +17,18 @@ pub(in crate::motion) trait Store<G: Dimension> {
     ) -> Result<u64>;
 
     /// Computes the bi-cells of all facets of these cells, each listed once; returns their number. Among the cells are
-    /// the stars of the sites that have been relocated.
+    /// the stars of the vertices that have been relocated. `site_of` has the site of each vertex, by id.
     fn follow(
         &mut self,
         kernel: &mut Delaunay<G>,
-        n_ids: usize,
+        site_of: &[SiteId],
         other_positions: &[G::Point],
-        cells: &[u32],
-        relocated: &[u32],
+        cells: &[Slot],
+        relocated: &[VertexId],
     ) -> Result<u64>;
 
     /// These cells have changed, or are free.
-    fn forget_cells(&mut self, _cells: &[u32]) {}
+    fn forget_cells(&mut self, _cells: &[Slot]) {}
 
     /// Makes the kernel's static filter as sharp as what the regions may let pass allows.
     fn tighten_filter(&mut self, kernel: &mut Delaunay<G>);

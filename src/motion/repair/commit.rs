@@ -25,6 +25,7 @@ use super::scratch::At;
 use crate::complex::{Corners, INFINITE};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::attempt::Mending;
@@ -184,8 +185,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         repair.at.resize(self.site_of.len(), At::Rest);
         for &v in &self.staging.vertices()[..self.staging.applied()] {
-            if self.kernel.site(self.site_of[v as usize]).point != self.staging.positions()[v as usize] {
-                repair.at[v as usize] = At::New;
+            if self.kernel.site(self.site_of[v]).point != self.staging.positions()[v] {
+                repair.at[v] = At::New;
                 repair.n_new += 1;
             }
         }
@@ -205,24 +206,24 @@ impl<G: Dimension> MovingTriangulation<G> {
         let queued = &queued[applied..];
         for (k, &v) in queued.iter().enumerate() {
             if let Some(&next) = queued.get(k + AHEAD) {
-                prefetch(sites, site_of[next as usize] as usize);
+                prefetch(sites, site_of[next].index());
             }
-            let s = site_of[v as usize];
-            if self.hidden.is_followed(sites[s as usize].id) {
-                repair.at[v as usize] = At::Old;
+            let s = site_of[v];
+            if self.hidden.is_followed(sites[s].id) {
+                repair.at[v] = At::Old;
                 repair.queue.push(v);
                 repair.n_old += 1;
                 continue;
             }
-            let p = &mut positions[v as usize];
+            let p = &mut positions[v];
             for axis in 0..G::D {
                 lower[axis] = if p[axis] < lower[axis] { p[axis] } else { lower[axis] };
                 upper[axis] = if p[axis] > upper[axis] { p[axis] } else { upper[axis] };
             }
-            let point = &mut sites[s as usize].point;
+            let point = &mut sites[s].point;
             if point != p {
                 std::mem::swap(point, p);
-                repair.at[v as usize] = At::New;
+                repair.at[v] = At::New;
                 repair.n_new += 1;
             }
         }
@@ -246,7 +247,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 }
             }
             let (at, before) = (&repair.at, self.staging.positions());
-            let before = |id: u32| (at[id as usize] != At::Old).then(|| &before[id as usize]);
+            let before = |id: VertexId| (at[id] != At::Old).then(|| &before[id]);
             self.kernel.check_ridges(&mut repair.failures, before)?;
             if repair.failures.ridges.is_empty() {
                 return Ok(Mending::Mended);
@@ -276,11 +277,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Of these sites, the one that has moved farthest and is at its new place.
-    fn farthest(&self, repair: &Repair, sites: &[u32]) -> Option<u32> {
-        let displacement = |s: u32| {
+    fn farthest(&self, repair: &Repair, sites: &[SiteId]) -> Option<SiteId> {
+        let displacement = |s: SiteId| {
             let site = self.kernel.site(s);
-            let other = &self.staging.positions()[site.id as usize];
-            let is_new = repair.at[site.id as usize] == At::New && site.point != *other;
+            let other = &self.staging.positions()[site.id];
+            let is_new = repair.at[site.id] == At::New && site.point != *other;
             is_new.then(|| squared_distance(&site.point, other))
         };
         let finite = sites.iter().filter(|&&s| s != INFINITE);
@@ -289,14 +290,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Takes a vertex back to its old place, and looks at its star.
-    fn take_back(&mut self, repair: &mut Repair, s: u32) -> Result<()> {
+    fn take_back(&mut self, repair: &mut Repair, s: SiteId) -> Result<()> {
         memory::reserve(&mut repair.queue, 1)?;
         // The queue has to fit where the staged vertices are listed.
         let listed = self.staging.vertices_mut();
         memory::reserve(listed, (repair.queue.len() + 1).saturating_sub(listed.len()))?;
         let v = self.kernel.site(s).id;
         self.exchange_position(v);
-        repair.at[v as usize] = At::Old;
+        repair.at[v] = At::Old;
         repair.queue.push(v);
         repair.n_new -= 1;
         repair.n_old += 1;
@@ -314,14 +315,13 @@ impl<G: Dimension> MovingTriangulation<G> {
             let mut corners = [INFINITE; 5];
             corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
             corners[4] = complex.apex(across);
-            let is_listed =
-                |&s: &u32| s != INFINITE && repair.at[self.kernel.site(s).id as usize] == At::Listed;
+            let is_listed = |&s: &SiteId| s != INFINITE && repair.at[self.kernel.site(s).id] == At::Listed;
             if corners.iter().any(is_listed) {
                 continue;
             }
             if let Some(s) = self.farthest(repair, &corners) {
                 repair.sites.push(s);
-                repair.at[self.kernel.site(s).id as usize] = At::Listed;
+                repair.at[self.kernel.site(s).id] = At::Listed;
             }
         }
         Ok(())
@@ -343,7 +343,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_whole {
             vertices.clear();
         } else if repair.n_old > 0 {
-            vertices.retain(|&v| repair.at[v as usize] != At::Old);
+            vertices.retain(|&v| repair.at[v] != At::Old);
         }
         let applied = vertices.len();
         vertices.append(&mut repair.queue);

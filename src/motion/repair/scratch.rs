@@ -2,6 +2,7 @@
 
 use crate::complex::Facet;
 use crate::delaunay::Failures;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 
 /// Where a vertex is while a commit is under way.
@@ -21,7 +22,7 @@ pub(super) enum At {
 pub(in crate::motion) struct Repair {
     pub(super) failures: Failures,
     /// Cells that may have failed, each once.
-    pub(super) touched: Vec<u32>,
+    pub(super) touched: Vec<Slot>,
     pub(super) suspects: Vec<Facet>,
     pub(super) stuck: Vec<Facet>,
     /// By vertex id.
@@ -29,14 +30,14 @@ pub(in crate::motion) struct Repair {
     pub(super) n_new: usize,
     pub(super) n_old: usize,
     /// Sites to be taken back.
-    pub(super) sites: Vec<u32>,
+    pub(super) sites: Vec<SiteId>,
     /// Vertices to be placed.
-    pub(super) queue: Vec<u32>,
+    pub(super) queue: Vec<VertexId>,
 }
 
 impl Repair {
     /// A check begins: nothing has failed, and no cell is touched.
-    pub(in crate::motion) fn begin_check(&mut self) -> (&mut Failures, &mut Vec<u32>) {
+    pub(in crate::motion) fn begin_check(&mut self) -> (&mut Failures, &mut Vec<Slot>) {
         self.failures.clear();
         self.touched.clear();
         (&mut self.failures, &mut self.touched)
@@ -48,7 +49,7 @@ impl Repair {
     }
 
     /// Cells that may have failed, each once.
-    pub(in crate::motion) fn touched(&self) -> &[u32] {
+    pub(in crate::motion) fn touched(&self) -> &[Slot] {
         &self.touched
     }
 

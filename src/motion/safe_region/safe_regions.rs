@@ -12,6 +12,7 @@
 use crate::complex::{Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::bicell::{BiCell, for_bicells};
 use crate::motion::regions::Store;
@@ -57,11 +58,11 @@ impl<G: Dimension> SafeRegions<G> {
     pub(in crate::motion) fn admit(
         &self,
         kernel: &mut Delaunay<G>,
-        vertex: u32,
-        s: u32,
+        vertex: VertexId,
+        s: SiteId,
         p: &G::Point,
     ) -> Option<Admission> {
-        if self.tests_tolerance && self.tolerances.fixed()[vertex as usize].holds(p) {
+        if self.tests_tolerance && self.tolerances.fixed()[vertex].holds(p) {
             Some(Admission::WithinTolerance)
         } else {
             self.is_in_safe_region(kernel, s, p).then_some(Admission::WithinSafeRegion)
@@ -70,10 +71,10 @@ impl<G: Dimension> SafeRegions<G> {
 
     /// The sub-routine of Algorithm 2: is `p` certainly inside the delimiters of the facets that have the site, outside
     /// those of the facets opposite it, and in reach?
-    fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: u32, p: &G::Point) -> bool {
+    fn is_in_safe_region(&self, kernel: &mut Delaunay<G>, s: SiteId, p: &G::Point) -> bool {
         let &Site { point: here, id, .. } = kernel.site(s);
-        let from = self.tolerances.fixed()[id as usize].point();
-        if squared_distance(from, p) >= displacement_limit(self.reach[id as usize]) {
+        let from = self.tolerances.fixed()[id].point();
+        if squared_distance(from, p) >= displacement_limit(self.reach[id]) {
             return false;
         }
         // The outside of a sphere is not convex: a vertex must not jump over a delimiter.
@@ -108,7 +109,7 @@ impl<G: Dimension> SafeRegions<G> {
     #[inline(always)]
     fn fix_again(&mut self, site: &Site<G>) {
         if let Some(moved) = self.tolerances.fix_again(site) {
-            let reach = &mut self.reach[site.id as usize];
+            let reach = &mut self.reach[site.id];
             *reach = (*reach - moved).next_down().max(0.0);
         }
     }
@@ -133,7 +134,7 @@ impl<G: Dimension> SafeRegions<G> {
         };
         self.tolerances.lower(finite, tolerance);
         for &v in finite {
-            let least = &mut self.reach[v as usize];
+            let least = &mut self.reach[v];
             *least = least.min(reach);
         }
     }
@@ -151,15 +152,15 @@ impl<G: Dimension> Store<G> for SafeRegions<G> {
     fn follow(
         &mut self,
         kernel: &mut Delaunay<G>,
-        n_ids: usize,
+        site_of: &[SiteId],
         _: &[G::Point],
-        cells: &[u32],
-        relocated: &[u32],
+        cells: &[Slot],
+        relocated: &[VertexId],
     ) -> Result<u64> {
-        self.grow(kernel, n_ids)?;
-        for &s in relocated {
-            self.tolerances.fix(kernel, s);
-            self.reach[kernel.site(s).id as usize] = f64::INFINITY;
+        self.grow(kernel, site_of.len())?;
+        for &v in relocated {
+            self.tolerances.fix(kernel, site_of[v]);
+            self.reach[v] = f64::INFINITY;
         }
         let mut n = 0;
         kernel.for_facets_of(cells, |kernel, facet| {

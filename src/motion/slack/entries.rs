@@ -2,7 +2,7 @@
 
 #![allow(unsafe_code)]
 
-use crate::complex::{Cell, Corners, NONE};
+use crate::complex::{Cell, Corners};
 
 /// Cells looked at in one go.
 pub(super) const BLOCK: usize = 64;
@@ -24,7 +24,7 @@ pub(super) fn entry(deadline: u16, slack: i16) -> u32 {
 
 /// The least slack of a cell.
 #[inline(always)]
-pub(super) fn least<C: Corners>(entries: &C) -> i16 {
+pub(super) fn least<C: Corners<u32>>(entries: &C) -> i16 {
     let mut least = slack(entries[0]);
     for i in 1..C::N {
         least = least.min(slack(entries[i]));
@@ -37,19 +37,19 @@ pub(super) fn least<C: Corners>(entries: &C) -> i16 {
 #[inline(never)]
 pub(super) fn list_expired_of<'l, C: Corners>(
     cells: &[Cell<C>],
-    entries: &[C],
+    entries: &[C::Of<u32>],
     travelled: &[u16],
     listed: &'l mut [u32; BLOCK],
 ) -> &'l [u32] {
     let mut n = 0;
     for (k, (cell, entries)) in cells.iter().zip(entries).enumerate() {
-        if cell.corners[0] == NONE {
+        if cell.is_free() {
             continue;
         }
         let mut differences = 0;
         for i in 0..C::N {
             // SAFETY: the caller's promise; a free cell, which has no corners, is not here.
-            let travelled = unsafe { *travelled.get_unchecked(cell.corners[i] as usize) };
+            let travelled = unsafe { *travelled.get_unchecked(cell.corners[i].index()) };
             differences |= entries[i].wrapping_sub(u32::from(travelled));
         }
         listed[n % BLOCK] = k as u32;

@@ -18,20 +18,20 @@ pub(super) enum Check<'c, G: Dimension> {
 pub(super) struct Pass<'c, G: Dimension> {
     check: Check<'c, G>,
     bicells: <G::Point as Tolerances>::BiCells,
-    facets: [[u32; 2]; LANES],
+    facets: [[Facet; 2]; LANES],
     n: usize,
 }
 
 impl<'c, G: Dimension> Pass<'c, G> {
     pub(super) fn new(check: Check<'c, G>) -> Self {
-        Pass { check, bicells: Default::default(), facets: [[0; 2]; LANES], n: 0 }
+        Pass { check, bicells: Default::default(), facets: [[Facet::NONE; 2]; LANES], n: 0 }
     }
 
     /// Adds an interior bi-cell: its facet from both sides, and the places of its vertices. Whether the batch is full.
     #[inline(always)]
     pub(super) fn push(&mut self, sides: [Facet; 2], points: &[&G::Point]) -> bool {
         G::Point::set_bicell(&mut self.bicells, self.n, points);
-        self.facets[self.n] = sides.map(Facet::code);
+        self.facets[self.n] = sides;
         self.n += 1;
         self.n == LANES
     }
@@ -55,7 +55,7 @@ impl<'c, G: Dimension> Pass<'c, G> {
         };
         let tolerances = G::Point::tolerances(&self.bicells, [enough; LANES]);
         for k in 0..n {
-            let sides = self.facets[k].map(Facet::from_code);
+            let sides = self.facets[k];
             let holds = hold[k] || self.holds(kernel, sides[0]);
             hand_on(sides, holds.then_some(tolerances[k]));
         }

@@ -23,11 +23,15 @@ use super::pass::{Check, Pass};
 use crate::complex::{Complex, Corners, Facet};
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::bicell::{BiCell, for_bicells};
 use crate::motion::regions::{Margin, Store};
 use crate::predicates::distance_above;
+
+/// A number for each corner of a cell.
+type EntriesOf<G> = <<G as Dimension>::Corners as Corners>::Of<u32>;
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;
@@ -68,12 +72,12 @@ pub(in crate::motion) struct Slacks<G: Dimension> {
     travelled: Vec<u16>,
     /// By cell: in the lower half of entry `i` the deadline of corner `i`, in the upper half the slack of facet `i`,
     /// as a signed number, since the cell was last referred.
-    entries: Vec<G::Corners>,
+    entries: Vec<EntriesOf<G>>,
     /// Cells of which a corner has passed its deadline, and the facets of bi-cells that have no slack left.
-    expired: Vec<u32>,
-    facets: Vec<u32>,
+    expired: Vec<Slot>,
+    facets: Vec<Facet>,
     /// Cells that are *open*: referred to the present, with odometers in place of deadlines. A bit for each.
-    open: Vec<u32>,
+    open: Vec<Slot>,
     is_open: Vec<u64>,
 }
 
@@ -102,7 +106,7 @@ impl<G: Dimension> Slacks<G> {
         let more_cells = kernel.complex().n_slots().saturating_sub(self.entries.len());
         memory::reserve(&mut self.travelled, more_sites)?;
         memory::reserve(&mut self.entries, more_cells)?;
-        self.entries.resize(self.entries.len() + more_cells, G::Corners::filled(0));
+        self.entries.resize(self.entries.len() + more_cells, EntriesOf::<G>::filled(0));
         self.travelled.resize(self.travelled.len() + more_sites, 0);
         let more_words = self.entries.len().div_ceil(64).saturating_sub(self.is_open.len());
         memory::reserve(&mut self.is_open, more_words)?;
@@ -125,7 +129,7 @@ impl<G: Dimension> Slacks<G> {
     fn choose_unit(&mut self, kernel: &Delaunay<G>, other_positions: &[G::Point]) {
         let (mut sum, mut n) = (0.0, 0.0);
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
-            let there = other_positions.get(site.id as usize);
+            let there = other_positions.get(site.id.index());
             sum += there.map_or(0.0, |p| distance_above(&site.point, p));
             n += 1.0;
         }
@@ -137,10 +141,10 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// Computes the bi-cells of all facets of these cells, each listed once; returns how many.
-    fn recompute(&mut self, kernel: &mut Delaunay<G>, cells: &[u32]) -> Result<u64> {
+    fn recompute(&mut self, kernel: &mut Delaunay<G>, cells: &[Slot]) -> Result<u64> {
         memory::reserve(&mut self.open, (1 + G::Corners::N) * cells.len())?;
         for &c in cells {
-            self.is_open[c as usize / 64] |= 1 << (c % 64);
+            self.is_open[c.index() / 64] |= 1 << (c.index() % 64);
             self.open.push(c);
         }
         let mut pass = Pass::new(Check::Not);
@@ -180,10 +184,10 @@ impl<G: Dimension> Slacks<G> {
 
     /// Adds to the way of a site; `distance` is an upper bound.
     #[inline(always)]
-    pub(in crate::motion) fn travel(&mut self, s: u32, distance: f64) {
+    pub(in crate::motion) fn travel(&mut self, s: SiteId, distance: f64) {
         // The cut is that of a conversion to less than the range.
         let way = ((distance * self.per_length) as u32).min(u32::from(LIMIT)) as u16 + 1;
-        let travelled = &mut self.travelled[s as usize];
+        let travelled = &mut self.travelled[s];
         *travelled = travelled.wrapping_add(way);
     }
 
@@ -216,13 +220,13 @@ impl<G: Dimension> Slacks<G> {
     }
 
     /// Makes room for the facets of `n_cells` cells, and for these and their neighbours to be open.
-    fn reserve(&mut self, n_cells: usize, facets: &mut Vec<u32>) -> Result<()> {
+    fn reserve(&mut self, n_cells: usize, facets: &mut Vec<Facet>) -> Result<()> {
         memory::reserve(facets, G::Corners::N * n_cells)?;
         memory::reserve(&mut self.open, (1 + G::Corners::N) * n_cells)
     }
 
     /// Lists the cells of which a corner has passed its deadline; `false` if these are more than `most`.
-    fn list_expired(&self, kernel: &Delaunay<G>, most: usize, expired: &mut Vec<u32>) -> bool {
+    fn list_expired(&self, kernel: &Delaunay<G>, most: usize, expired: &mut Vec<Slot>) -> bool {
         let cells = &kernel.complex().cells()[..self.entries.len()];
         // There is an odometer for each site.
         let travelled = &self.travelled[..kernel.sites().len()];
@@ -233,41 +237,39 @@ impl<G: Dimension> Slacks<G> {
             if expired.len() + listed.len() > most || memory::reserve(expired, listed.len()).is_err() {
                 return false;
             }
-            expired.extend(listed.iter().map(|k| (b * BLOCK) as u32 + k));
+            expired.extend(listed.iter().map(|&k| Slot::at(b * BLOCK + k as usize)));
         }
         true
     }
 
     /// Lists the facets without slack of these cells, and opens these.
-    fn list_facets(&mut self, complex: &Complex<G::Corners>, cells: &[u32], facets: &mut Vec<u32>) {
+    fn list_facets(&mut self, complex: &Complex<G::Corners>, cells: &[Slot], facets: &mut Vec<Facet>) {
         facets.clear();
         for (k, &c) in cells.iter().enumerate() {
             if let Some(&next) = cells.get(k + AHEAD) {
-                prefetch(&self.entries, next as usize);
-                prefetch(complex.cells(), next as usize);
+                prefetch(&self.entries, next.index());
+                prefetch(complex.cells(), next.index());
             }
             self.open(complex, c);
             for i in 0..G::Corners::N {
-                if slack(self.entries[c as usize][i]) < 0 {
-                    facets.push(Facet::new(c, i).code());
+                if slack(self.entries[c][i]) < 0 {
+                    facets.push(Facet::new(c, i));
                 }
             }
         }
     }
 
     /// Checks and computes the listed bi-cells; returns how many they are. Each may be listed from both sides.
-    fn check_facets(&mut self, kernel: &Delaunay<G>, facets: &[u32], pass: &mut Pass<'_, G>) -> u64 {
+    fn check_facets(&mut self, kernel: &Delaunay<G>, facets: &[Facet], pass: &mut Pass<'_, G>) -> u64 {
         let complex = kernel.complex();
         let mut n = 0;
-        for (k, &code) in facets.iter().enumerate() {
+        for (k, &facet) in facets.iter().enumerate() {
             if let Some(&next) = facets.get(k + AHEAD) {
-                let next = Facet::from_code(next);
                 let across = complex.cell(next.cell()).neighbour(next.index()).cell();
-                prefetch(&self.entries, across as usize);
-                prefetch(complex.cells(), across as usize);
+                prefetch(&self.entries, across.index());
+                prefetch(complex.cells(), across.index());
             }
-            let facet = Facet::from_code(code);
-            if slack(self.entries[facet.cell() as usize][facet.index()]) < 0 {
+            if slack(self.entries[facet.cell()][facet.index()]) < 0 {
                 self.push(kernel, facet, pass);
                 n += 1;
             }
@@ -320,26 +322,26 @@ impl<G: Dimension> Slacks<G> {
     #[inline(always)]
     fn enter(&mut self, sides: [Facet; 2], slack: u16) {
         for side in sides {
-            self.entries[side.cell() as usize][side.index()] = entry(0, slack as i16);
+            self.entries[side.cell()][side.index()] = entry(0, slack as i16);
         }
     }
 
     /// Refers a cell to the present, unless it is.
     #[inline(always)]
-    fn open(&mut self, complex: &Complex<G::Corners>, c: u32) {
-        let (word, bit) = (&mut self.is_open[c as usize / 64], 1 << (c % 64));
+    fn open(&mut self, complex: &Complex<G::Corners>, c: Slot) {
+        let (word, bit) = (&mut self.is_open[c.index() / 64], 1 << (c.index() % 64));
         if *word & bit != 0 {
             return;
         }
         *word |= bit;
         self.open.push(c);
         let corners = complex.cell(c).corners;
-        let entries = &mut self.entries[c as usize];
+        let entries = &mut self.entries[c];
         let least = least(entries) as u16;
         let mut way = 0;
         for k in 0..G::Corners::N {
             let reference = deadline(entries[k]).wrapping_sub(least);
-            way = way.max(self.travelled[corners[k] as usize].wrapping_sub(reference));
+            way = way.max(self.travelled[corners[k]].wrapping_sub(reference));
         }
         // There is nowhere more to be used up.
         let way = way.min(LIMIT + 1) as i16;
@@ -352,7 +354,7 @@ impl<G: Dimension> Slacks<G> {
     fn close(&mut self, complex: &Complex<G::Corners>) {
         let open = std::mem::take(&mut self.open);
         for &c in &open {
-            self.is_open[c as usize / 64] = 0;
+            self.is_open[c.index() / 64] = 0;
             self.set_deadlines(complex, c);
         }
         self.open = open;
@@ -360,12 +362,12 @@ impl<G: Dimension> Slacks<G> {
     }
 
     #[inline(always)]
-    fn set_deadlines(&mut self, complex: &Complex<G::Corners>, c: u32) {
+    fn set_deadlines(&mut self, complex: &Complex<G::Corners>, c: Slot) {
         let corners = complex.cell(c).corners;
-        let entries = &mut self.entries[c as usize];
+        let entries = &mut self.entries[c];
         let least = least(entries);
         for k in 0..G::Corners::N {
-            let travelled = self.travelled[corners[k] as usize];
+            let travelled = self.travelled[corners[k]];
             entries[k] = entry(travelled.wrapping_add(least as u16), slack(entries[k]));
         }
     }
@@ -386,14 +388,14 @@ impl<G: Dimension> Store<G> for Slacks<G> {
     fn follow(
         &mut self,
         kernel: &mut Delaunay<G>,
-        _: usize,
+        site_of: &[SiteId],
         _: &[G::Point],
-        cells: &[u32],
-        relocated: &[u32],
+        cells: &[Slot],
+        relocated: &[VertexId],
     ) -> Result<u64> {
         self.grow(kernel)?;
-        for &s in relocated {
-            let point = kernel.site(s).point;
+        for &v in relocated {
+            let point = kernel.site(site_of[v]).point;
             self.margin.cover(kernel, &point);
         }
         self.recompute(kernel, cells)
@@ -406,8 +408,10 @@ impl<G: Dimension> Store<G> for Slacks<G> {
 
     fn memory_bytes(&self) -> usize {
         self.travelled.capacity() * size_of::<u16>()
-            + (self.expired.capacity() + self.facets.capacity() + self.open.capacity()) * size_of::<u32>()
+            + memory::bytes_of(&self.expired)
+            + memory::bytes_of(&self.facets)
+            + memory::bytes_of(&self.open)
             + self.is_open.capacity() * size_of::<u64>()
-            + self.entries.capacity() * size_of::<G::Corners>()
+            + self.entries.capacity() * size_of::<EntriesOf<G>>()
     }
 }

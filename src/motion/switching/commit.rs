@@ -10,6 +10,7 @@
 use super::Switching;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation, SwitchingRule};
 use crate::predicates::{displacement_limit, squared_distance};
@@ -40,14 +41,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let mut within = 0;
         for _ in 0..rule.sample {
-            let v = self.switching.draw(rule.seed, self.site_of.len()) as u32;
+            let v = VertexId::at(self.switching.draw(rule.seed, self.site_of.len()));
             if !self.is_present(v) || !self.staging.is_staged(v) {
                 within += 1;
                 continue;
             }
-            let s = self.site_of[v as usize];
-            let displacement =
-                squared_distance(&self.kernel.site(s).point, &self.staging.positions()[v as usize]);
+            let s = self.site_of[v];
+            let displacement = squared_distance(&self.kernel.site(s).point, &self.staging.positions()[v]);
             within += u32::from(displacement < displacement_limit(self.tolerance_of_site(s)));
         }
         f64::from(within) / f64::from(rule.sample.max(1))

@@ -2,23 +2,35 @@
 
 use crate::complex::Facet;
 use crate::delaunay::Dimension;
+use crate::ids::VertexId;
 use crate::predicates::{LANES, Tolerances};
 
 /// A few bi-cells.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Batch<G: Dimension> {
     bicells: <G::Point as Tolerances>::BiCells,
-    facets: [[u32; 2]; LANES],
-    vertices: [[u32; 5]; LANES],
+    facets: [[Facet; 2]; LANES],
+    vertices: [[VertexId; 5]; LANES],
     n: usize,
+}
+
+impl<G: Dimension> Default for Batch<G> {
+    fn default() -> Self {
+        Batch {
+            bicells: Default::default(),
+            facets: [[Facet::NONE; 2]; LANES],
+            vertices: [[VertexId::NONE; 5]; LANES],
+            n: 0,
+        }
+    }
 }
 
 impl<G: Dimension> Batch<G> {
     /// Adds a bi-cell: its facet from both sides, its vertices, and their places.
     #[inline(always)]
-    pub(super) fn push(&mut self, facets: [Facet; 2], vertices: [u32; 5], points: &[&G::Point]) {
+    pub(super) fn push(&mut self, facets: [Facet; 2], vertices: [VertexId; 5], points: &[&G::Point]) {
         G::Point::set_bicell(&mut self.bicells, self.n, points);
-        self.facets[self.n] = facets.map(Facet::code);
+        self.facets[self.n] = facets;
         self.vertices[self.n] = vertices;
         self.n += 1;
     }
@@ -30,17 +42,21 @@ impl<G: Dimension> Batch<G> {
 
     /// The vertices of each bi-cell.
     #[inline(always)]
-    pub(super) fn vertices(&self) -> impl Iterator<Item = &[u32]> {
+    pub(super) fn vertices(&self) -> impl Iterator<Item = &[VertexId]> {
         self.vertices[..self.n].iter().map(|vertices| &vertices[..G::D + 2])
     }
 
     /// Computes the tolerances, which need not be sharp if they are `enough`, and hands each on with the facet and the
     /// vertices. The batch is empty then.
     #[inline(always)]
-    pub(super) fn empty(&mut self, enough: &[f64; LANES], mut hand_on: impl FnMut([Facet; 2], &[u32], f64)) {
+    pub(super) fn empty(
+        &mut self,
+        enough: &[f64; LANES],
+        mut hand_on: impl FnMut([Facet; 2], &[VertexId], f64),
+    ) {
         let tolerances = G::Point::tolerances(&self.bicells, *enough);
         for (k, tolerance) in tolerances.into_iter().enumerate().take(self.n) {
-            hand_on(self.facets[k].map(Facet::from_code), &self.vertices[k][..G::D + 2], tolerance);
+            hand_on(self.facets[k], &self.vertices[k][..G::D + 2], tolerance);
         }
         self.n = 0;
     }

@@ -3,6 +3,7 @@
 use crate::complex::{Corners, Facet};
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::MovingTriangulation;
 use crate::motion::bicell::BiCell;
@@ -15,7 +16,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
-    pub fn tolerance(&self, vertex: u32) -> Result<f64> {
+    pub fn tolerance(&self, vertex: VertexId) -> Result<f64> {
         let s = self.present_site("vertex", 0, vertex)?;
         if self.is_shared(s) {
             return Ok(0.0);
@@ -26,7 +27,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// As [`tolerance`](Self::tolerance), for a site that no two vertices share; 0 without the memory to look.
-    pub(in crate::motion) fn tolerance_of_site(&mut self, s: u32) -> f64 {
+    pub(in crate::motion) fn tolerance_of_site(&mut self, s: SiteId) -> f64 {
         if self.kernel.gather_star(s).is_err() {
             return 0.0;
         }
@@ -35,7 +36,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The least of a tolerance and those of a cell's bi-cells.
-    fn tolerance_around(&self, cell: u32, tolerance: f64) -> f64 {
+    fn tolerance_around(&self, cell: Slot, tolerance: f64) -> f64 {
         let bicells = (0..G::Corners::N).map(|i| BiCell::of(&self.kernel, Facet::new(cell, i)));
         bicells.fold(tolerance, |least, bicell| least.min(bicell.tolerance(least)))
     }
@@ -50,7 +51,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let cells = self.cell_arrays()?;
         let mut widths = Vec::new();
         memory::reserve_exact(&mut widths, cells.corners().len() * G::Corners::N)?;
-        for index in 0..cells.corners().len() as u32 {
+        for index in CellId::range(0..cells.corners().len()) {
             for corner in 0..G::Corners::N {
                 let delimiter = BiCell::of(&self.kernel, cells.facet(index, corner)).delimiter();
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
@@ -64,9 +65,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
-    pub fn standard_delimiter(&self, cell: u32, corner: u32) -> Result<Option<Delimiter<G::Point>>> {
+    pub fn standard_delimiter(&self, cell: CellId, corner: u32) -> Result<Option<Delimiter<G::Point>>> {
         let cells = self.cell_arrays()?;
-        if cell as usize >= cells.corners().len() || corner as usize > G::D {
+        if cell.index() >= cells.corners().len() || corner as usize > G::D {
             return Ok(None);
         }
         Ok(BiCell::of(&self.kernel, cells.facet(cell, corner as usize)).delimiter())

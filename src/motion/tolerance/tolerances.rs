@@ -4,6 +4,7 @@ use super::batch::Batch;
 use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::bicell::{BiCell, for_bicells};
 use crate::motion::regions::{Margin, Store};
@@ -63,7 +64,7 @@ impl<G: Dimension> Tolerances<G> {
         self.margin = Margin::around_all(kernel);
         self.grow(n_ids)?;
         for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
-            self.fixed[site.id as usize].point = site.point;
+            self.fixed[site.id].point = site.point;
         }
         Ok(())
     }
@@ -76,17 +77,17 @@ impl<G: Dimension> Tolerances<G> {
 
     /// Fixes the vertex of a site that has been relocated where it is. All of its bi-cells are going to be computed.
     #[inline(always)]
-    pub(in crate::motion) fn fix(&mut self, kernel: &mut Delaunay<G>, s: u32) {
+    pub(in crate::motion) fn fix(&mut self, kernel: &mut Delaunay<G>, s: SiteId) {
         let &Site { point, id, .. } = kernel.site(s);
         self.margin.cover(kernel, &point);
-        self.fixed[id as usize] = Fixed { point, tolerance: self.margin.distance() };
+        self.fixed[id] = Fixed { point, tolerance: self.margin.distance() };
     }
 
     /// Fixes the vertex of a site where it is: what is left of its ball, as a lower bound, is its tolerance. Returns
     /// how far that is from where it was fixed, as an upper bound, unless it is there.
     #[inline(always)]
     pub(in crate::motion) fn fix_again(&mut self, &Site { point, id, .. }: &Site<G>) -> Option<f64> {
-        let fixed = &mut self.fixed[id as usize];
+        let fixed = &mut self.fixed[id];
         if fixed.point == point {
             return None;
         }
@@ -98,9 +99,9 @@ impl<G: Dimension> Tolerances<G> {
 
     /// A bi-cell with this tolerance has these vertices.
     #[inline(always)]
-    pub(in crate::motion) fn lower(&mut self, vertices: &[u32], tolerance: f64) {
+    pub(in crate::motion) fn lower(&mut self, vertices: &[VertexId], tolerance: f64) {
         for &v in vertices {
-            let fixed = &mut self.fixed[v as usize];
+            let fixed = &mut self.fixed[v];
             fixed.tolerance = fixed.tolerance.min(tolerance);
         }
     }
@@ -111,7 +112,7 @@ impl<G: Dimension> Tolerances<G> {
     pub(in crate::motion) fn measure_all(
         &mut self,
         kernel: &Delaunay<G>,
-        mut set_aside: impl FnMut(&[Fixed<G>], [Facet; 2], &[u32], f64) -> bool,
+        mut set_aside: impl FnMut(&[Fixed<G>], [Facet; 2], &[VertexId], f64) -> bool,
     ) -> u64 {
         let mut batch = Batch::default();
         let n = for_bicells(kernel, |facet| {
@@ -126,8 +127,8 @@ impl<G: Dimension> Tolerances<G> {
     pub(in crate::motion) fn measure_around(
         &mut self,
         kernel: &mut Delaunay<G>,
-        cells: &[u32],
-        mut set_aside: impl FnMut(&[Fixed<G>], [Facet; 2], &[u32], f64) -> bool,
+        cells: &[Slot],
+        mut set_aside: impl FnMut(&[Fixed<G>], [Facet; 2], &[VertexId], f64) -> bool,
     ) -> u64 {
         let mut batch = Batch::default();
         let mut n = 0;
@@ -146,7 +147,7 @@ impl<G: Dimension> Tolerances<G> {
         kernel: &Delaunay<G>,
         facet: Facet,
         batch: &mut Batch<G>,
-        set_aside: &mut impl FnMut(&[Fixed<G>], [Facet; 2], &[u32], f64) -> bool,
+        set_aside: &mut impl FnMut(&[Fixed<G>], [Facet; 2], &[VertexId], f64) -> bool,
     ) {
         let bicell = BiCell::of(kernel, facet);
         if !ARE_FIXED {
@@ -177,12 +178,12 @@ impl<G: Dimension> Tolerances<G> {
     fn lower_batch(
         &mut self,
         batch: &mut Batch<G>,
-        set_aside: &mut impl FnMut(&[Fixed<G>], [Facet; 2], &[u32], f64) -> bool,
+        set_aside: &mut impl FnMut(&[Fixed<G>], [Facet; 2], &[VertexId], f64) -> bool,
     ) {
         let mut enough = [0.0; LANES];
         for (enough, vertices) in enough.iter_mut().zip(batch.vertices()) {
             for &v in vertices {
-                *enough = self.fixed[v as usize].tolerance.max(*enough);
+                *enough = self.fixed[v].tolerance.max(*enough);
             }
         }
         batch.empty(&enough, |facets, vertices, tolerance| {
@@ -202,13 +203,13 @@ impl<G: Dimension> Store<G> for Tolerances<G> {
     fn follow(
         &mut self,
         kernel: &mut Delaunay<G>,
-        n_ids: usize,
+        site_of: &[SiteId],
         _: &[G::Point],
-        cells: &[u32],
-        relocated: &[u32],
+        cells: &[Slot],
+        relocated: &[VertexId],
     ) -> Result<u64> {
-        self.grow(n_ids)?;
-        relocated.iter().for_each(|&s| self.fix(kernel, s));
+        self.grow(site_of.len())?;
+        relocated.iter().for_each(|&v| self.fix(kernel, site_of[v]));
         Ok(self.measure_around(kernel, cells, |_, _, _, _| false))
     }
 

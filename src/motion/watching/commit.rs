@@ -103,7 +103,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         report.unchanged += self.staging.vertices().len() as u64;
         if let Some(watching) = self.regions.watching() {
-            let sites = self.staging.vertices().iter().map(|&v| self.site_of[v as usize]);
+            let sites = self.staging.vertices().iter().map(|&v| self.site_of[v]);
             let other_positions = self.staging.positions();
             report.tolerances +=
                 watching.recompute(&mut self.kernel, other_positions, repair.touched(), sites);
@@ -115,7 +115,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn check_moved(&mut self, repair: &mut Repair) -> Result<()> {
         let (failures, touched) = repair.begin_check();
         for &v in self.staging.vertices() {
-            let s = self.site_of[v as usize];
+            let s = self.site_of[v];
             let point = self.kernel.site(s).point;
             self.kernel.cover(&point, &point);
             self.kernel.gather_star(s)?;

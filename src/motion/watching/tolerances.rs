@@ -4,6 +4,7 @@ use super::watched::Watched;
 use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::motion::regions::Store;
 use crate::motion::tolerance::{Fixed, Tolerances};
 use crate::predicates::squared_distance;
@@ -50,8 +51,8 @@ impl<G: Dimension> Watching<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         other_positions: &[G::Point],
-        cells: &[u32],
-        relocated: impl Iterator<Item = u32>,
+        cells: &[Slot],
+        relocated: impl Iterator<Item = SiteId>,
     ) -> u64 {
         let Watching { tolerances, watched } = self;
         relocated.for_each(|s| tolerances.fix(kernel, s));
@@ -67,12 +68,15 @@ impl<G: Dimension> Watching<G> {
 /// proportion to u h.
 fn is_soon_beyond<G: Dimension>(
     fixed: &[Fixed<G>],
-    vertices: &[u32],
+    vertices: &[VertexId],
     tolerance: f64,
     other_positions: &[G::Point],
 ) -> bool {
-    let here = |v: u32| fixed[v as usize].point();
-    let step = |&v: &u32| other_positions.get(v as usize).map_or(0.0, |p| squared_distance(here(v), p));
+    let here = |v: VertexId| fixed[v].point();
+    let step = |&v: &VertexId| {
+        let there = other_positions.get(v.index());
+        there.map_or(0.0, |p| squared_distance(here(v), p))
+    };
     let steps = vertices.iter().map(step).fold(0.0, f64::max);
     let square = squared_distance(here(vertices[1]), here(vertices[2]));
     let t = tolerance * tolerance;
@@ -98,17 +102,17 @@ impl<G: Dimension> Store<G> for Watching<G> {
     fn follow(
         &mut self,
         kernel: &mut Delaunay<G>,
-        n_ids: usize,
+        site_of: &[SiteId],
         other_positions: &[G::Point],
-        cells: &[u32],
-        relocated: &[u32],
+        cells: &[Slot],
+        relocated: &[VertexId],
     ) -> Result<u64> {
-        self.tolerances.grow(n_ids)?;
+        self.tolerances.grow(site_of.len())?;
         self.watched.grow(kernel.complex().n_slots())?;
-        Ok(self.recompute(kernel, other_positions, cells, relocated.iter().copied()))
+        Ok(self.recompute(kernel, other_positions, cells, relocated.iter().map(|&v| site_of[v])))
     }
 
-    fn forget_cells(&mut self, cells: &[u32]) {
+    fn forget_cells(&mut self, cells: &[Slot]) {
         self.watched.forget(cells);
     }
 

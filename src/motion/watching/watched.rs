@@ -6,12 +6,13 @@
 use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
+use crate::ids::Slot;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, FAR, prefetch};
 
 #[derive(Debug, Default)]
 pub(super) struct Watched {
-    list: Vec<u32>,
+    list: Vec<Facet>,
     /// By cell: bit i for the membership of facet i, bit 4 + i for its being listed.
     bits: Vec<u8>,
 }
@@ -39,9 +40,9 @@ impl Watched {
     }
 
     /// Takes the facets that are named from these cells out of the set.
-    pub(super) fn forget(&mut self, cells: &[u32]) {
+    pub(super) fn forget(&mut self, cells: &[Slot]) {
         for &c in cells {
-            if let Some(bits) = self.bits.get_mut(c as usize) {
+            if let Some(bits) = self.bits.get_mut(c.index()) {
                 *bits &= LISTED;
             }
         }
@@ -49,9 +50,9 @@ impl Watched {
 
     /// Puts a facet, given from both sides, into the set or takes it out; whether it is in the set.
     pub(super) fn set(&mut self, [facet, across]: [Facet; 2], is_member: bool) -> bool {
-        let (name, other) = if facet.code() < across.code() { (facet, across) } else { (across, facet) };
-        self.bits[other.cell() as usize] &= !(1 << other.index());
-        let bits = &mut self.bits[name.cell() as usize];
+        let (name, other) = if facet < across { (facet, across) } else { (across, facet) };
+        self.bits[other.cell()] &= !(1 << other.index());
+        let bits = &mut self.bits[name.cell()];
         let (member, listed) = (1 << name.index(), 0x10 << name.index());
         if !is_member {
             *bits &= !member;
@@ -62,7 +63,7 @@ impl Watched {
                 *bits &= !member;
                 return false;
             }
-            self.list.push(name.code());
+            self.list.push(name);
         }
         *bits |= member | listed;
         true
@@ -75,17 +76,17 @@ impl Watched {
         for k in 0..self.list.len() {
             if is_far {
                 if let Some(&next) = self.list.get(k + 2 * AHEAD) {
-                    prefetch(kernel.complex().cells(), Facet::from_code(next).cell() as usize);
+                    prefetch(kernel.complex().cells(), next.cell().index());
                 }
                 if let Some(&next) = self.list.get(k + AHEAD) {
-                    kernel.prefetch_bicell(Facet::from_code(next));
+                    kernel.prefetch_bicell(next);
                 }
             }
-            let facet = Facet::from_code(self.list[k]);
-            let bits = &mut self.bits[facet.cell() as usize];
+            let facet = self.list[k];
+            let bits = &mut self.bits[facet.cell()];
             if *bits & 1 << facet.index() != 0 && !kernel.complex().is_free(facet.cell()) {
                 visit(facet);
-                self.list[n] = facet.code();
+                self.list[n] = facet;
                 n += 1;
             } else {
                 *bits &= !(0x11 << facet.index());
@@ -95,6 +96,6 @@ impl Watched {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.list.capacity() * size_of::<u32>() + self.bits.capacity()
+        self.list.capacity() * size_of::<Facet>() + self.bits.capacity()
     }
 }
