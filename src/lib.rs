@@ -38,6 +38,7 @@ pub use predicates::Coordinates;
 #[doc(hidden)]
 pub mod internals {
     pub use crate::delaunay::{Delaunay, Insertion, Shortcut};
+    pub use crate::machine::threads::use_all_threads;
 
     pub mod predicates {
         pub use crate::predicates::*;
