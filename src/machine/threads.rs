@@ -1,17 +1,18 @@
 //! Work on several threads.
 //!
-//! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes.
-//! The compiler proves that there are no data races; no `unsafe` is involved but in the [pool](super::pool) of threads, to
-//! take over what several threads have written side by side (here and in [`memory`]), and to move sites of which
-//! no two threads have the same one (`motion::moving`). Results are put together in the order of the work, so that they
-//! do not depend on which thread was faster.
+//! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes. The
+//! compiler proves that there are no data races; no `unsafe` is involved but in the [pool](super::pool) of threads, to
+//! take over what several threads have written side by side (here and in [`memory`]), and to move sites of which no two
+//! threads have the same one (`motion::moving`). Results are put together in the order of the work, so that they do not
+//! depend on which thread was faster.
 //!
-//! How many threads there are follows the work: as many as pay, no more than the system runs at the same time, and no more
-//! than the caller allows. Where the system has none to give, or all are at work, the calling thread does the work of all.
+//! How many threads there are follows the work: as many as pay, no more than the system runs at the same time, and no
+//! more than the caller allows. Where the system has none to give, or all are at work, the calling thread does the work
+//! of all.
 //!
-//! If the environment variable `DELDRIFT_ALL_THREADS` is set, to any value, as many are used as the caller allows, however
-//! little the work is and however many the system runs at the same time. This is for tests, which thus need no large inputs.
-//! The variable is read once.
+//! If the environment variable `DELDRIFT_ALL_THREADS` is set, to any value, as many are used as the caller allows,
+//! however little the work is and however many the system runs at the same time. This is for tests, which thus need no
+//! large inputs. The variable is read once.
 
 #![allow(unsafe_code)]
 

@@ -15,10 +15,10 @@
 //! [`times_plus`](Real::times_plus) and [`minus_product`](Real::minus_product): they round once in lanes, where they take
 //! no longer than a product, and twice in `f64`.
 //!
-//! The crate `pulp` has such tokens, too. With those of its version 0.22 a sweep takes 1.5 % more instructions in the
-//! plane and 3.1 % more in space, as its `vectorize` hands a closure over in eight words. With `run_with` as it is here the
-//! sweep is as fast, and *tolerance* takes 0.3 to 0.5 % more; `avx2.rs` would have 18 lines less, and 3 blocks of
-//! `unsafe` for 13, at the price of 13 crates. `absent.rs` would stay, since the tokens are of one processor there, too.
+//! The crate `pulp` has such tokens, too. With those of its version 0.22, and its `vectorize`, a sweep takes 1.5 % more
+//! instructions in the plane and 3.1 % more in space. With `run_with` as it is here a sweep takes as many as now, and
+//! *tolerance* 0.3 to 0.5 % more; `avx2.rs` would have 18 lines less, and 3 blocks of `unsafe` for 13, at the price of
+//! 13 crates. `absent.rs` would stay, since the tokens are of one processor there, too.
 
 #![allow(unsafe_code)]
 
