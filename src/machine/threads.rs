@@ -51,7 +51,10 @@ impl Threads {
         }
         let available = available();
         let most = if given == 0 { available } else { available.min(given as usize) };
-        allow_workers(most - 1);
+        if most > 1 {
+            // More than one call may run at a time.
+            allow_workers(available - 1);
+        }
         Threads { most, all: false }
     }
 
