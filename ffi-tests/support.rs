@@ -86,6 +86,11 @@ pub fn sees_requests(source: &Path) -> bool {
     ["faults.c", "memory_bytes.c"].iter().any(|name| source.ends_with(name))
 }
 
+/// Whether a program loads the library itself. It knows its path as `LIBRARY`, and is linked with neither.
+fn loads_the_library(source: &Path) -> bool {
+    source.ends_with("dlclose.c")
+}
+
 /// The compiler for a source, with the project's warnings as errors and the headers in reach.
 pub fn compiler(source: &Path) -> Command {
     static HOST: OnceLock<String> = OnceLock::new();
@@ -118,6 +123,10 @@ pub fn build(source: &Path, folder: &Path, linkage: Linkage, flags: &[&str]) -> 
         command.args(REPLACED.map(|name| format!("-Wl,--wrap={name}")));
     }
     match linkage {
+        _ if loads_the_library(source) => {
+            let path = libraries.join("libdeldrift.so");
+            command.arg(format!("-DLIBRARY=\"{}\"", path.display())).arg("-ldl");
+        }
         Linkage::Shared => {
             let run_path = format!("-Wl,-rpath,{}", libraries.display());
             command.arg(libraries.join("libdeldrift.so")).arg(run_path).arg("-lm");
@@ -131,10 +140,10 @@ pub fn build(source: &Path, folder: &Path, linkage: Linkage, flags: &[&str]) -> 
 }
 
 /// A command that finds libraries as it would outside of cargo, which for its tests puts folders first
-/// where an older build of the library may lie.
+/// where an older build of the library may lie. Where the library is asked for several threads it uses them all.
 pub fn command(program: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(program);
-    command.env_remove("LD_LIBRARY_PATH");
+    command.env_remove("LD_LIBRARY_PATH").env("DELDRIFT_ALL_THREADS", "1");
     command
 }
 

@@ -54,7 +54,9 @@
  * Threads. Functions that take `const deldrift_triangulation *` may run on the same triangulation from
  * any number of threads at once. Those that take it as non-const change it, and no other call on it may
  * run meanwhile. Different triangulations are independent, and none is bound to a thread. Errors are kept
- * per thread.
+ * per thread. Where more threads pay, the library starts some of its own and keeps them (see
+ * deldrift_options). They handle no signals. A process that is forked off, between calls, has the triangulations
+ * but not these threads, and starts its own. dlclose and exit end them.
  */
 
 #ifndef DELDRIFT_H
@@ -269,11 +271,11 @@ typedef struct deldrift_options {
     size_t struct_size;
     /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
     deldrift_algorithm algorithm;
-    /// Greatest number of threads a call may use, the calling one included; 0, the default, lets the library
-    /// choose: as many as the system runs at the same time, but one for each 16,000 vertices in 2D or 5,000
-    /// in 3D. They are used to build and rebuild, and to move all, check all certificates and flip in repair, where
-    /// there is enough work for each; they end with the call. The cells do not depend on the number, their
-    /// order and the counts in reports may. Callbacks come from the calling thread only.
+    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. As many are
+    /// used as pay, and no more than the system runs at the same time: one for each 16,000 vertices in 2D or 5,000
+    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
+    /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number,
+    /// their order and the counts in reports may. Callbacks come from the calling thread only.
     uint32_t threads;
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     deldrift_coincidence coincidence;
@@ -292,7 +294,7 @@ typedef struct deldrift_options {
     double switch_share;
     /// Seed of its random samples: with the same seed, the same calls do the same. Default 0.
     uint64_t switch_seed;
-    /// How many vertices it samples each time. 0, the default, stands for 40.
+    /// How many vertices it samples each time, at most as many as there are. 0, the default, stands for 40.
     uint32_t switch_sample;
     /// It takes a sample at the first of every so many commits. 0, the default, stands for 4.
     uint32_t switch_period;

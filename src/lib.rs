@@ -41,6 +41,7 @@ pub use predicates::Coordinates;
 pub mod internals {
     pub use crate::delaunay::{Delaunay, Insertion, Shortcut};
     pub use crate::ids::{SiteId, Slot};
+    pub use crate::machine::threads::use_all_threads;
 
     pub mod predicates {
         pub use crate::predicates::*;

@@ -61,6 +61,7 @@ struct History<'c, G: Dimension> {
 
 impl<'c, G: Dimension> History<'c, G> {
     fn new(kind: Kind, n: usize, threads: u32, seed: u64, counts: &'c mut Counts) -> Self {
+        deldrift::internals::use_all_threads();
         let mut rng = Rng::new(seed);
         let points = draw::<G>(kind, n, &mut rng);
         let tracks = rng.one_in(3);
@@ -667,6 +668,7 @@ fn nothing_has_changed_before_the_first_commit() {
 
 /// The first repair of many cells sorts them; nobody hears of that, and a commit that is cancelled then leaves all as it was.
 fn sorting_keeps_indices<G: Dimension>(n: usize, algorithm: Algorithm, threads: u32, cancelled_at: usize) {
+    deldrift::internals::use_all_threads();
     let mut points = cloud::<G>(n, 8);
     let calls = Arc::new(AtomicUsize::new(usize::MAX));
     let left = calls.clone();

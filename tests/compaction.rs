@@ -462,6 +462,7 @@ fn without_memory_for_it_nothing_is_compacted() {
 
 /// With several threads sites are in parts, and in space there are free cells among the others.
 fn go_on_by_threads<G: Dimension>() {
+    deldrift::internals::use_all_threads();
     for algorithm in [Algorithm::Repair, Algorithm::Rebuilding, Algorithm::Auto] {
         let options = Options { algorithm, threads: 3, ..Options::default() };
         let mut t = worn::<G>(2000, 1, options);

@@ -33,6 +33,7 @@ struct Model<G: Dimension> {
 
 impl<G: Dimension> Model<G> {
     fn new(kind: Kind, n: usize, seed: u64, threads: u32) -> Self {
+        deldrift::internals::use_all_threads();
         let mut rng = Rng::new(seed);
         let points = draw::<G>(kind, n, &mut rng);
         let patience = Arc::new(AtomicI64::new(-1));

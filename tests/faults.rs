@@ -328,6 +328,7 @@ fn beside<G: Dimension>(p: &G::Point, k: usize) -> G::Point {
 
 impl<G: Dimension> Scene<G> {
     fn new(call: Call, setting: &Setting, monitor: Option<Monitor>) -> Self {
+        deldrift::internals::use_all_threads();
         let rng = &mut Rng::new(17);
         let mut points = cloud::<G>(setting.n, rng);
         if setting.hides {

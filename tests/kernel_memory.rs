@@ -127,6 +127,7 @@ fn builds<G: Dimension>() {
     );
     assert!(n > 10, "{n}");
     // Where there is no memory for parts, the whole is built on one thread.
+    deldrift::internals::use_all_threads();
     let (points, options) = (random::<G>(2000), || Options { threads: 3, ..Options::default() });
     let n = without_each(
         || None,

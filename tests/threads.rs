@@ -1,13 +1,14 @@
 //! Several threads: the cells are those of one thread, whatever the input and the algorithm.
 //!
-//! A number of threads that is asked for is used from a few hundred vertices each on, so small inputs are
-//! divided as well. `DELDRIFT_SOAK` multiplies the number of seeds.
+//! All threads are used that are asked for, from a few hundred vertices each on, so small inputs are divided as well.
+//! `DELDRIFT_SOAK` multiplies the number of seeds.
 
 mod common;
 
 use common::inputs::{KINDS, Kind, draw};
 use common::{Rng, assert_same_cells, cell_set, check_adjacency, point, seeds};
 use deldrift::Error;
+use deldrift::internals::use_all_threads;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
 use std::sync::{Arc, Mutex};
@@ -16,6 +17,7 @@ use std::thread;
 const THREADS: [u32; 5] = [1, 2, 3, 4, 7];
 
 fn options(algorithm: Algorithm, threads: u32) -> Options {
+    use_all_threads();
     Options { algorithm, threads, ..Options::default() }
 }
 

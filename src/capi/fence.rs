@@ -3,11 +3,11 @@
 //! The message is kept for each thread in a buffer of fixed size, so that reporting needs no memory,
 //! which may be just what has run out.
 //!
-//! Rust announces a panic on the standard error stream before it unwinds. A library must not, so the
-//! first entry puts a hook in front of the one in place: inside an entry it writes the announcement to
-//! the message of the thread, on a thread that an entry has started it leaves that to the entry, where the
-//! panic is raised again, and elsewhere it hands it on unchanged. The shared and the static library
-//! bring a standard library of their own, where no panics but deldrift's arise.
+//! Rust announces a panic on the standard error stream before it unwinds. A library must not, so the first entry puts a
+//! hook in front of the one in place: inside an entry it writes the announcement to the message of the thread, on a
+//! thread of the library's own it leaves that to the entry that has work done there, where the panic is raised again,
+//! and elsewhere it hands it on unchanged. The shared and the static library bring a standard library of their own,
+//! where no panics but deldrift's arise.
 
 use std::cell::{Cell, RefCell};
 use std::ffi::c_char;

@@ -54,11 +54,11 @@ pub struct deldrift_options {
     pub struct_size: usize,
     /// Algorithm of later commits; may be changed by deldrift_set_algorithm. Default DELDRIFT_AUTO.
     pub algorithm: AlgorithmCode,
-    /// Greatest number of threads a call may use, the calling one included; 0, the default, lets the library
-    /// choose: as many as the system runs at the same time, but one for each 16,000 vertices in 2D or 5,000
-    /// in 3D. They are used to build and rebuild, and to move all, check all certificates and flip in repair, where
-    /// there is enough work for each; they end with the call. The cells do not depend on the number, their
-    /// order and the counts in reports may. Callbacks come from the calling thread only.
+    /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. As many are
+    /// used as pay, and no more than the system runs at the same time: one for each 16,000 vertices in 2D or 5,000
+    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
+    /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number,
+    /// their order and the counts in reports may. Callbacks come from the calling thread only.
     pub threads: u32,
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     pub coincidence: CoincidenceCode,
@@ -77,7 +77,7 @@ pub struct deldrift_options {
     pub switch_share: f64,
     /// Seed of its random samples: with the same seed, the same calls do the same. Default 0.
     pub switch_seed: u64,
-    /// How many vertices it samples each time. 0, the default, stands for 40.
+    /// How many vertices it samples each time, at most as many as there are. 0, the default, stands for 40.
     pub switch_sample: u32,
     /// It takes a sample at the first of every so many commits. 0, the default, stands for 4.
     pub switch_period: u32,

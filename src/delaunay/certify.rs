@@ -16,7 +16,7 @@ use crate::machine::memory;
 use crate::machine::threads;
 use crate::simd::{Avx2, LANES};
 
-/// A sweep of so many cells takes as long as to start a thread for them.
+/// A sweep of so many cells takes a few times as long as a thread takes to wake up.
 const SWEPT_AT_LEAST: usize = 1 << 14;
 
 /// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order at

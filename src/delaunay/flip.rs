@@ -24,8 +24,8 @@ use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::predicates::StaticFilter;
 
-/// Failing facets for each thread that take longer to flip than the thread to start; and as many if the number of
-/// threads is the caller's choice.
+/// Failing facets for each thread that take longer to flip than the thread to wake up; and as many if all threads are
+/// to be used.
 const FLIPPED_AT_LEAST: usize = 500;
 const FLIPPED_IF_ASKED: usize = 32;
 

@@ -210,7 +210,7 @@ mod tests {
     /// Parts are triangulated as such, and their sizes, hulls and counters are those of one triangulation.
     fn unites<G: Dimension>() {
         for threads in [2, 3, 5] {
-            let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
+            let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
             t.add_sites(&random::<G>(3000)).expect("room for it");
             let coincident = t.triangulate_parts(&mut |_| true).expect("room for it");
             assert_eq!(coincident, Some(Vec::new()));
@@ -234,7 +234,7 @@ mod tests {
     fn flat_parts_are_left_to_one_thread() {
         let mut points = random::<Plane>(3000);
         points.iter_mut().filter(|p| p[0] < 0.6).for_each(|p| p[1] = 0.0);
-        let mut t = Delaunay::<Plane>::on(Threads::at_most(2)).expect("room for it");
+        let mut t = Delaunay::<Plane>::on(Threads::exactly(2)).expect("room for it");
         t.add_sites(&points).expect("room for it");
         assert_eq!(t.triangulate_parts(&mut |_| true), Ok(None));
         assert_eq!(t.rebuild(&mut |_| true), Ok(Vec::new()));

@@ -240,5 +240,5 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-/// Sites of a part at least if the number of threads is the caller's choice.
+/// Sites of a part at least if all threads are to be used.
 const BUILT_IF_ASKED: usize = 256;

@@ -3,6 +3,8 @@
 //! It uses [`simd`](crate::simd) and [`error`](crate::error) alone: all else is above.
 
 pub mod memory;
+#[cfg(unix)]
+mod pool;
 pub mod prefetch;
 mod processors;
 pub mod tally;

@@ -1,29 +1,30 @@
 //! Work on several threads.
 //!
-//! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes.
-//! The compiler proves that there are no data races; no `unsafe` is involved but to start a thread, to take over what
-//! several threads have written side by side (here and in [`memory`]), and to move sites of which
-//! no two threads have the same one (`motion::moving`). Results are put together in the order of the work, so that they
-//! do not depend on which thread was faster.
+//! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes. The
+//! compiler proves that there are no data races; no `unsafe` is involved but in the [pool](super::pool) of threads, to
+//! take over what several threads have written side by side (here and in [`memory`]), and to move sites of which no two
+//! threads have the same one (`motion::moving`). Results are put together in the order of the work, so that they do not
+//! depend on which thread was faster.
 //!
-//! Threads are started where they are needed, for some 20 µs each. Where the system has none to give, the
-//! calling thread does the work of all. The standard library's would need memory that cannot be refused; the system's
-//! own need none of the process's, as the work and its result are on the stack of the thread that waits for them.
+//! How many threads there are follows the work: as many as pay, no more than the system runs at the same time, and no
+//! more than the caller allows. Where the system has none to give, or all are at work, the calling thread does the work
+//! of all.
+//!
+//! If the environment variable `DELDRIFT_ALL_THREADS` is set, to any value, as many are used as the caller allows,
+//! however little the work is and however many the system runs at the same time. This is for tests, which thus need no
+//! large inputs. The variable is read once.
 
 #![allow(unsafe_code)]
 
 use std::any::Any;
 use std::cell::Cell;
-#[cfg(unix)]
-use std::ffi::c_void;
-#[cfg(unix)]
-use std::mem::MaybeUninit;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
+#[cfg(unix)]
+use super::pool::{self, beside};
 use super::{memory, processors, tally};
 use crate::error::Result;
 
@@ -34,34 +35,87 @@ const RANGES: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Threads {
     most: usize,
-    is_given: bool,
+    /// Whether all are to be used.
+    all: bool,
 }
 
 impl Threads {
     /// The calling thread alone.
-    pub(crate) const ONE: Threads = Threads { most: 1, is_given: true };
+    pub(crate) const ONE: Threads = Threads { most: 1, all: false };
 
-    /// At most `given`, or with 0 as many as the system runs at the same time where that pays.
+    /// At most `given`, or with 0 no more than the system runs at the same time, which is the most that are used in any
+    /// case.
     pub(crate) fn at_most(given: u32) -> Self {
-        static AVAILABLE: OnceLock<usize> = OnceLock::new();
-        let available = || *AVAILABLE.get_or_init(processors::available);
-        let most = if given == 0 { available() } else { given as usize };
-        Threads { most, is_given: given != 0 }
+        if given > 1 && are_all_used() {
+            return Threads::exactly(given);
+        }
+        let available = available();
+        let most = if given == 0 { available } else { available.min(given as usize) };
+        if most > 1 {
+            // More than one call may run at a time.
+            allow_workers(available - 1);
+        }
+        Threads { most, all: false }
+    }
+
+    /// So many wherever the work can be divided, whether or not that pays.
+    pub(crate) fn exactly(n: u32) -> Self {
+        let most = n as usize;
+        allow_workers(most - 1);
+        Threads { most, all: true }
     }
 
     /// How many to use for work on `items` items: at most as many as leave each one `paying` items, below which a
-    /// thread more costs as much as it saves, or `least` if the number is the caller's choice.
+    /// thread more costs as much as it saves, or `least` if all are to be used.
     pub(crate) fn for_work(self, items: usize, paying: usize, least: usize) -> usize {
-        (items / if self.is_given { least } else { paying }).clamp(1, self.most)
+        (items / if self.all { least } else { paying }).clamp(1, self.most)
     }
 }
+
+/// How many threads the system runs at the same time; asked once.
+fn available() -> usize {
+    static AVAILABLE: AtomicUsize = AtomicUsize::new(0);
+    if AVAILABLE.load(Relaxed) == 0 {
+        AVAILABLE.store(processors::available(), Relaxed);
+    }
+    AVAILABLE.load(Relaxed)
+}
+
+/// Whether all threads are used that a caller allows: not known yet, no, or yes.
+static ARE_ALL_USED: AtomicU8 = AtomicU8::new(UNKNOWN);
+const UNKNOWN: u8 = 0;
+const NO: u8 = 1;
+const YES: u8 = 2;
+
+fn are_all_used() -> bool {
+    if ARE_ALL_USED.load(Relaxed) == UNKNOWN {
+        // SAFETY: the name ends with a zero, and what the answer points to is not read.
+        let is_set = !unsafe { libc::getenv(c"DELDRIFT_ALL_THREADS".as_ptr()) }.is_null();
+        ARE_ALL_USED.store(if is_set { YES } else { NO }, Relaxed);
+    }
+    ARE_ALL_USED.load(Relaxed) == YES
+}
+
+/// As if `DELDRIFT_ALL_THREADS` were set.
+#[cfg(feature = "internals")]
+pub fn use_all_threads() {
+    ARE_ALL_USED.store(YES, Relaxed);
+}
+
+#[cfg(unix)]
+fn allow_workers(n: usize) {
+    pool::allow(n);
+}
+
+/// Threads are started for each piece of work.
+#[cfg(not(unix))]
+fn allow_workers(_: usize) {}
 
 thread_local! {
     static IS_WORKER: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether the current thread is one of those started here. Its panics are raised again by the calling
-/// thread.
+/// Whether the current thread does work of another one, which raises its panics again.
 pub(crate) fn is_worker() -> bool {
     IS_WORKER.get()
 }
@@ -74,25 +128,28 @@ struct Task<F, B> {
 }
 
 impl<F: FnOnce() -> B, B> Task<F, B> {
-    /// Does the work on a thread that has done nothing else.
+    /// Does the work on another thread.
     fn run(&mut self) {
         IS_WORKER.set(true);
-        self.done =
-            self.work.take().map(|work| catch_unwind(AssertUnwindSafe(|| (work(), tally::exact_calls()))));
+        let before = tally::exact_calls();
+        self.done = self
+            .work
+            .take()
+            .map(|work| catch_unwind(AssertUnwindSafe(|| (work(), tally::exact_calls() - before))));
     }
 }
 
-/// Does both, the second on a thread of its own.
+/// Does both, the second on another thread if there is one to be had meanwhile.
 pub(crate) fn join<A, B: Send>(a: impl FnOnce() -> A, b: impl FnOnce() -> B + Send) -> (A, B) {
     let mut task = Task { work: Some(b), done: None };
-    let a = beside(&mut task, a);
+    let a = beside(&mut || task.run(), a);
     match (task.done, task.work) {
         (Some(Ok((b, exact_calls))), _) => {
             tally::add(exact_calls);
             (a, b)
         }
         (Some(Err(payload)), _) => panic!("on another thread: {}", message(&payload)),
-        (None, work) => (a, work.expect("the thread was not started")()),
+        (None, work) => (a, work.expect("it is there or done")()),
     }
 }
 
@@ -102,75 +159,17 @@ fn message(payload: &Box<dyn Any + Send>) -> &str {
     text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("no message")
 }
 
-/// Calls `a` while a task is run on a thread of its own, or not at all if there is none to be had.
-#[cfg(unix)]
-fn beside<A, B: Send, F: FnOnce() -> B + Send>(task: &mut Task<F, B>, a: impl FnOnce() -> A) -> A {
-    extern "C" fn run<B, F: FnOnce() -> B>(task: *mut c_void) -> *mut c_void {
-        // SAFETY: it is the task of `beside`, which touches it again after this thread has ended, and not before.
-        unsafe { &mut *task.cast::<Task<F, B>>() }.run();
-        std::ptr::null_mut()
-    }
-    // SAFETY: `run` takes a task of this type; what that owns and borrows may be sent to another thread; and it stays
-    // there until the thread has ended, as the thread is joined when this is dropped, also by a panic of `a`.
-    let worker = unsafe { Worker::start(run::<B, F>, std::ptr::from_mut(task).cast()) };
-    let a = a();
-    drop(worker);
-    a
-}
-
-/// Likewise.
+/// Calls `a` while another thread may do the work, if there is one to be had.
 #[cfg(not(unix))]
-fn beside<A, B: Send, F: FnOnce() -> B + Send>(task: &mut Task<F, B>, a: impl FnOnce() -> A) -> A {
+fn beside<A>(work: &mut (dyn FnMut() + Send), a: impl FnOnce() -> A) -> A {
     thread::scope(|scope| {
-        // One that is not started leaves the task as it was.
-        let _ = thread::Builder::new().spawn_scoped(scope, || task.run());
+        // What is not started is not done.
+        let _ = thread::Builder::new().spawn_scoped(scope, work);
         a()
     })
 }
 
-/// Bytes of stack of a thread started here, as the standard library has it.
-#[cfg(unix)]
-const STACK: usize = 2 << 20;
-
-/// A thread that runs; joined when dropped.
-#[cfg(unix)]
-struct Worker(libc::pthread_t);
-
-#[cfg(unix)]
-impl Worker {
-    /// A thread that calls `run` with `task`; `None` if there is none to be had.
-    ///
-    /// # Safety
-    /// `run` may be called with `task`, once, on another thread, at any time until the worker is dropped, which it must
-    /// be.
-    unsafe fn start(run: extern "C" fn(*mut c_void) -> *mut c_void, task: *mut c_void) -> Option<Self> {
-        let mut attributes = MaybeUninit::uninit();
-        let mut thread = MaybeUninit::uninit();
-        // SAFETY: the attributes are initialised before they are used, and not used after they are destroyed; a size of
-        // the stack that the system refuses leaves its own. The caller allows the call of `run`.
-        unsafe {
-            if libc::pthread_attr_init(attributes.as_mut_ptr()) != 0 {
-                return None;
-            }
-            libc::pthread_attr_setstacksize(attributes.as_mut_ptr(), STACK);
-            let failure = libc::pthread_create(thread.as_mut_ptr(), attributes.as_ptr(), run, task);
-            libc::pthread_attr_destroy(attributes.as_mut_ptr());
-            // It is initialised if there is no failure.
-            (failure == 0).then(|| Worker(thread.assume_init()))
-        }
-    }
-}
-
-#[cfg(unix)]
-impl Drop for Worker {
-    fn drop(&mut self) {
-        // SAFETY: a thread started above, which is joined but here.
-        let failure = unsafe { libc::pthread_join(self.0, std::ptr::null_mut()) };
-        debug_assert_eq!(failure, 0);
-    }
-}
-
-/// Does each piece of work of a range on a thread of its own.
+/// Does each piece of work of a range, on as many threads as there are pieces.
 pub(crate) fn for_each(range: Range<usize>, work: &(impl Fn(usize) + Sync)) {
     if range.len() <= 1 {
         range.for_each(work);
@@ -180,7 +179,7 @@ pub(crate) fn for_each(range: Range<usize>, work: &(impl Fn(usize) + Sync)) {
     join(|| for_each(range.start..middle, work), || for_each(middle..range.end, work));
 }
 
-/// Makes each entry of an array on a thread of its own, by its index.
+/// Makes each entry of an array by its index, on as many threads as there are entries.
 pub(crate) fn fill<R: Send>(results: &mut [R], work: &(impl Fn(usize) -> R + Sync)) {
     fill_from(0, results, work);
 }
@@ -197,7 +196,7 @@ fn fill_from<R: Send>(first: usize, results: &mut [R], work: &(impl Fn(usize) ->
     }
 }
 
-/// Works on parts of an array, each on a thread of its own; `first` is the index of its first entry.
+/// Works on as many parts of an array as there are threads; `first` is the index of its first entry.
 pub(crate) fn for_parts<R: Send>(
     entries: &mut [R],
     first: usize,
@@ -267,6 +266,7 @@ pub(crate) fn share(n: usize, k: usize, n_ranges: usize) -> Range<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicBool;
 
     #[test]
     fn all_work_is_done_in_order() {
@@ -284,17 +284,55 @@ mod tests {
         }
     }
 
+    /// Does both, the second certainly on another thread.
+    fn join_surely<A, B: Send>(a: impl FnOnce() -> A, b: impl FnOnce() -> B + Send) -> (A, B) {
+        Threads::exactly(3);
+        let has_begun = AtomicBool::new(false);
+        let wait = || {
+            while !has_begun.load(Relaxed) {
+                thread::yield_now();
+            }
+            a()
+        };
+        join(wait, || {
+            has_begun.store(true, Relaxed);
+            b()
+        })
+    }
+
     #[test]
     fn exact_calls_of_all_threads_count() {
         let before = tally::exact_calls();
+        for _ in 0..3 {
+            join_surely(tally::count, tally::count);
+        }
         for_each(0..5, &|_| tally::count());
-        assert_eq!(tally::exact_calls() - before, 5);
+        assert_eq!(tally::exact_calls() - before, 11);
     }
 
     #[test]
     #[should_panic(expected = "on another thread: cell 13 went missing")]
     fn panics_pass_on() {
-        join(|| (), || panic!("cell {} went missing", 13));
+        join_surely(|| (), || panic!("cell {} went missing", 13));
+    }
+
+    /// Threads are kept, and work is done as well when all have some: by those that have it.
+    #[test]
+    fn many_threads_have_work() {
+        Threads::exactly(3);
+        let sum = |n: usize| {
+            let sum = AtomicUsize::new(0);
+            for_each(0..n, &|k| {
+                for_each(0..3, &|_| thread::yield_now());
+                sum.fetch_add(k, Relaxed);
+            });
+            sum.into_inner()
+        };
+        thread::scope(|scope| {
+            for n in 1..20 {
+                scope.spawn(move || (0..100).for_each(|_| assert_eq!(sum(n), n * (n - 1) / 2)));
+            }
+        });
     }
 
     /// The other thread is waited for, as it may use what the panic is about to drop.
@@ -311,7 +349,7 @@ mod tests {
                 thread::sleep(std::time::Duration::from_millis(20));
                 seen.0.set(true);
             };
-            join(|| panic!("at once"), work)
+            join_surely(|| panic!("at once"), work)
         }));
         assert!(joined.is_err() && is_done.get());
     }
@@ -323,15 +361,18 @@ mod tests {
         assert_eq!(std::sync::Arc::strong_count(&shared), 1 + results.len());
         drop(results);
         join(|| (), || drop(shared.clone()));
+        join_surely(|| (), || drop(shared.clone()));
         assert_eq!(std::sync::Arc::strong_count(&shared), 1);
     }
 
     #[test]
     fn numbers_of_threads() {
-        let chosen = Threads { most: 4, is_given: false };
-        assert_eq!([0, 99, 199, 200, 1000].map(|n| chosen.for_work(n, 100, 10)), [1, 1, 1, 2, 4]);
-        let given = Threads { most: 4, is_given: true };
-        assert_eq!([0, 19, 20, 1000].map(|n| given.for_work(n, 100, 10)), [1, 1, 2, 4]);
+        let some = Threads { most: 4, all: false };
+        assert_eq!([0, 99, 199, 200, 1000].map(|n| some.for_work(n, 100, 10)), [1, 1, 1, 2, 4]);
+        let all = Threads::exactly(4);
+        assert_eq!([0, 19, 20, 1000].map(|n| all.for_work(n, 100, 10)), [1, 1, 2, 4]);
+        assert!(Threads::at_most(0).most == available() && Threads::at_most(u32::MAX).most == available());
+        assert_eq!(Threads::at_most(1).for_work(1 << 30, 100, 10), 1);
         assert_eq!(Threads::ONE.for_work(1 << 30, 100, 10), 1);
     }
 }

@@ -26,7 +26,7 @@ use crate::machine::{memory, threads};
 use crate::predicates::{are_within, distance_above};
 use crate::simd::{ALL, Avx2, LANES};
 
-/// Moves of so many vertices take as long as to start a thread for them.
+/// Moves of so many vertices take a few times as long as a thread takes to wake up.
 const MOVED_AT_LEAST: usize = 1 << 14;
 
 /// Whether two places, without negative zeros, differ.

@@ -8,7 +8,7 @@ use crate::delaunay::Dimension;
 /// When *rebuilding + tolerance* swaps from the one to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SwitchingRule {
-    /// Vertices sampled each time.
+    /// Vertices sampled each time, at most as many as there are.
     pub sample: u32,
     /// Commits from one sample to the next.
     pub period: u32,
@@ -50,12 +50,11 @@ pub type Monitor = Box<dyn FnMut(f64) -> bool + Send + Sync>;
 pub struct Options {
     /// Algorithm of [`commit_timestamp`](super::MovingTriangulation::commit_timestamp).
     pub algorithm: Algorithm,
-    /// Greatest number of threads for building, and for the moves, the sweep and the flips of
-    /// [`Algorithm::Repair`]; the rest of the work is done by the calling thread alone. 0, the default, lets
-    /// the library choose: as many as the system runs at the same time (asked once), but one for each 16,000
-    /// vertices in the plane or 5,000 in space, for each 16,384 cells of a sweep, and for each 500 facets from
-    /// which to flip. A number that is given is used from 256 vertices or cells or 32 facets for each thread
-    /// on, whether or not that pays.
+    /// Greatest number of threads for building, and for the moves, the sweep and the flips of [`Algorithm::Repair`];
+    /// the rest of the work is done by the calling thread alone. 0, the default, is no limit. As many are used as pay,
+    /// and no more than the system runs at the same time (asked once): one for each 16,000 vertices of a build in the
+    /// plane or 5,000 in space, for each 16,384 cells of a sweep, and for each 500 facets from which to flip. All
+    /// triangulations share them. They are kept, and sleep between calls.
     ///
     /// The cells do not depend on it. Their order does, and so do the counts of flips, placements and exact
     /// signs, as those depend on the order.

@@ -14,22 +14,27 @@
 //! contracts no operations, so each lane has the same bits as the scalar result, except after
 //! [`times_plus`](Real::times_plus) and [`minus_product`](Real::minus_product): they round once in lanes, where they take
 //! no longer than a product, and twice in `f64`.
+//!
+//! The crate `pulp` has such tokens, too. With those of its version 0.22, and its `vectorize`, a sweep takes 1.5 % more
+//! instructions in the plane and 3.1 % more in space. With `run_with` as it is here a sweep takes as many as now, and
+//! *tolerance* 0.3 to 0.5 % more; `avx2.rs` would have 18 lines less, and 3 blocks of `unsafe` for 13, at the price of
+//! 13 crates. `absent.rs` would stay, since the tokens are of one processor there, too.
 
 #![allow(unsafe_code)]
 
+#[cfg(not(target_arch = "x86_64"))]
+mod absent;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
-#[cfg(not(target_arch = "x86_64"))]
-mod elsewhere;
 #[cfg(test)]
 mod tests;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
+#[cfg(not(target_arch = "x86_64"))]
+pub use absent::{Avx2, Lanes};
 #[cfg(target_arch = "x86_64")]
 pub use avx2::{Avx2, Lanes};
-#[cfg(not(target_arch = "x86_64"))]
-pub use elsewhere::{Avx2, Lanes};
 
 /// Number of lanes.
 pub const LANES: usize = 4;
@@ -51,7 +56,7 @@ pub trait Real:
     fn abs(self) -> Self;
     /// Where a number is less than the other.
     fn is_less(self, other: Self) -> Self::Mask;
-    /// `yes` where the mask is set, `no` elsewhere.
+    /// `yes` where the mask is set, `no` absent.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
     /// `self` · `factor` + `term`, rounded once or twice.

@@ -11,7 +11,7 @@ fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<F
     let rng = &mut Rng::new(5);
     let mut points = vec![G::Point::default(); n];
     points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
-    let mut t = Delaunay::<G>::on(Threads::at_most(threads)).expect("room for it");
+    let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
     t.add_sites(&points).expect("room for it");
     t.rebuild(&mut |_| true).expect("room for it");
     t.sort_cells().expect("room for it");

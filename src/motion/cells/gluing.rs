@@ -11,7 +11,7 @@ use crate::machine::threads;
 use crate::motion::marks::Marks;
 use crate::motion::ordering::Ordering;
 
-/// Rows that take as long to write as it takes to start a thread for them.
+/// Rows that take a few times as long to write as a thread takes to wake up.
 const GLUED_AT_LEAST: usize = 1 << 13;
 
 impl<G: Dimension> Cells<G> {

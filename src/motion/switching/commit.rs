@@ -22,7 +22,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         self.stage_given(given)?;
-        let rule = self.options.switching;
+        let mut rule = self.options.switching;
+        rule.sample = rule.sample.min(self.site_of.len() as u32);
         let group = u64::from(rule.period.max(1));
         if self.switching.begin_commit(group) && self.sampled_share(&rule) >= rule.share_for::<G>() {
             self.switching.switch();

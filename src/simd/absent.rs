@@ -1,4 +1,4 @@
-//! On other processors there is no token and there are no lanes: none of this is ever called.
+//! The token that never exists, for processors without AVX2: nothing here is ever called.
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Not, Sub};
 
