@@ -39,6 +39,12 @@ pub use predicates::Coordinates;
 pub mod internals {
     pub use crate::delaunay::{Delaunay, Insertion, Shortcut};
 
+    /// What decides between two ways, and how to try other values.
+    pub mod constants {
+        pub use crate::motion::constants::trial::put_in_force;
+        pub use crate::motion::constants::{Constants, Costs, Reading, TABLE, Table};
+    }
+
     pub mod predicates {
         pub use crate::predicates::*;
     }

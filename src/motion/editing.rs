@@ -4,6 +4,7 @@
 //! first, at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or
 //! go it rebuilds. Either way all of it is one transaction.
 
+use super::constants::constants;
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
 use crate::complex::NONE;
@@ -11,10 +12,6 @@ use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use crate::machine::memory;
-
-/// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in so many is inserted or
-/// removed, all are rebuilt.
-const REBUILT_PER_EDIT: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those
@@ -96,7 +93,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(false);
         }
         let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
-        if self.kernel.has_cells() && REBUILT_PER_EDIT * n_edits <= self.n_present {
+        if self.kernel.has_cells() && constants::<G>().rebuilt_per_edit * n_edits <= self.n_present {
             if self.edit_cells(report)? {
                 return Ok(false);
             }

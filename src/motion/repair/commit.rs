@@ -27,24 +27,10 @@ use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::motion::constants::constants;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
-
-/// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
-/// vertex rebuilt, and flips are never stuck there.)
-const fn rebuilt_per_placement<G: Dimension>() -> usize {
-    if G::D == 2 { 8 } else { 20 }
-}
-
-/// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
-/// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
-const fn certified<G: Dimension>() -> u64 {
-    if G::D == 2 { 20 } else { 40 }
-}
-
-/// Times that flips may be stuck before the triangulation is rebuilt.
-const MAX_ROUNDS: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
@@ -114,12 +100,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<bool> {
-        let most = self.n_present / rebuilt_per_placement::<G>();
-        // A vertex taken back mends about three cells.
+        let constants = constants::<G>();
+        let most = self.n_present / constants.rebuilt_per_placement;
         if repair.failures.is_sweep_due {
             // Of a whole staging all applied, the positions staged are now those before.
             let before = self.staging.others_applied().then_some(self.staging.positions());
-            if !self.kernel.sweep(&mut repair.failures, 3 * most, before)? {
+            let most_failures = constants.failures_per_placement * most;
+            if !self.kernel.sweep(&mut repair.failures, most_failures, before)? {
                 return Ok(false);
             }
         }
@@ -127,8 +114,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
-        let last_certificate = self.kernel.certificates() + certified::<G>() * self.n_present as u64;
-        for _ in 0..MAX_ROUNDS {
+        let most_certificates = constants.certified_per_vertex * self.n_present as u64;
+        let last_certificate = self.kernel.certificates() + most_certificates;
+        for _ in 0..constants.max_rounds {
             if !(is_triangulation || self.take_back_failed(repair, most)? && self.winds_once(repair)?) {
                 return Ok(false);
             }
