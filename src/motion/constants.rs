@@ -162,7 +162,7 @@ const PLANE: Constants = Constants {
     rarer_changes: 3.0,
     vertices_per_used_up_to_watch: 60,
     max_excess: 0.25,
-    max_imbalance: 2.0,
+    max_imbalance: 1.0,
     max_share_beyond: 0.125,
     sampled_vertices: 64,
     min_share_within: 0.8,
@@ -198,7 +198,9 @@ const SPACE: Constants = Constants {
         exact: 135.0,
     },
     vertices_per_change: 250.0,
+    max_imbalance: 2.0,
     rebuilt_per_placement: 10,
+    failures_per_placement: 12,
     certified_per_vertex: 20,
     watched_share: 0.1,
     ..PLANE
