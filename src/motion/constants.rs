@@ -79,7 +79,8 @@ pub struct Constants {
     /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane,
     /// next to a vertex rebuilt, and flips are never stuck there.)
     pub rebuilt_per_placement: usize,
-    /// A vertex taken back mends about this number of cells: with more failures than that, a sweep ends at once.
+    /// A vertex taken back mends about this number of failures: where a sweep finds more than all that may be taken back
+    /// mend, it ends at once.
     pub failures_per_placement: usize,
     /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
     /// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
@@ -88,17 +89,18 @@ pub struct Constants {
     pub max_rounds: usize,
 
     // Watching, slack, and what regions have in common.
-    /// With more than this share of the vertices beyond their tolerance, watching, where it is not chosen by auto, leaves
-    /// the commit to repair.
+    /// With more than this share of the vertices beyond their tolerance, watching, where it is not chosen by auto,
+    /// leaves the commit to repair.
     pub max_share_beyond_alone: f64,
-    /// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices' steps
-    /// and of its size.
+    /// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices'
+    /// steps and of its size.
     pub watched_share: f64,
     /// With more than this share of the cells past their deadlines, a sweep of everything is cheaper.
     pub max_share_expired: f64,
     /// With more than this share of the cells changed, all bi-cells are computed again.
     pub max_share_followed: f64,
-    /// How far the static filter reaches beyond the vertices, as a share of their least extent: no tolerance is greater.
+    /// How far the static filter reaches beyond the vertices, as a share of their least extent: no tolerance is
+    /// greater.
     pub margin: f64,
     /// The static filter's box only grows as vertices move. After this number of moves per vertex it is fitted again,
     /// which takes as long as a small part of one commit.
