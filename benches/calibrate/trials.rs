@@ -90,7 +90,8 @@ pub struct Measured<'i> {
 }
 
 impl<'i> Measured<'i> {
-    pub const HEADING: &'static str = "D constant                        present   measured  regret   worst  noise  (of all inputs, at worst)";
+    pub const HEADING: &'static str = "D constant                        present   measured  regret   worst  noise  \
+                                       (of all inputs, at worst)";
     pub const COLUMNS: &'static str = "dimension,constant,present,measured,regret,worst,worst_input,noise";
 
     pub fn of(constant: &'i Constant, inputs: &'i [Input], rounds: usize, factors: &[f64]) -> Self {
