@@ -79,8 +79,8 @@ pub struct Constants {
     /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane,
     /// next to a vertex rebuilt, and flips are never stuck there.)
     pub rebuilt_per_placement: usize,
-    /// A vertex taken back mends about this number of failures: where a sweep finds more than all that may be taken back
-    /// mend, it ends at once.
+    /// A vertex taken back mends about this number of failures: where a sweep finds more than all that may be taken
+    /// back mend, it ends at once.
     pub failures_per_placement: usize,
     /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
     /// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
