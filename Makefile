@@ -26,7 +26,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test bench report memory large targets table lint header picture install library benchmark clean
+.PHONY: help test bench report memory large targets calibrate table lint header picture install library benchmark clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -58,6 +58,9 @@ large: benchmark ## 50 million points in 2D, 20 million in 3D: cpp-bench/results
 
 targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/results/targets.csv
 	cpp-bench/run --targets $(ARGS)
+
+calibrate: ## the constants by which algorithms are chosen: cpp-bench/results/calibrate.csv (ARGS=NAME... for some)
+	MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=-1 cargo bench --bench calibrate -- $(or $(ARGS),--csv cpp-bench/results/calibrate.csv)
 
 table: ## fill in the tables of README.md, from cpp-bench/results
 	cpp-bench/readme_table

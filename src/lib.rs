@@ -43,6 +43,12 @@ pub mod internals {
     pub use crate::ids::{SiteId, Slot};
     pub use crate::machine::threads::use_all_threads;
 
+    /// What decides between two ways, and how to try other values.
+    pub mod constants {
+        pub use crate::motion::constants::trial::put_in_force;
+        pub use crate::motion::constants::{Constants, Costs, Reading, TABLE, Table};
+    }
+
     pub mod predicates {
         pub use crate::predicates::*;
     }

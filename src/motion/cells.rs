@@ -16,6 +16,7 @@ mod gluing;
 mod renumbering;
 
 use super::changes::{Taken, Tracker, renumber};
+use super::constants::reading;
 use super::marks::{Bits, Marks};
 use super::matching::Matcher;
 use super::ordering::Ordering;
@@ -28,12 +29,9 @@ use crate::machine::memory;
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: CellId = CellId::NONE;
 
-/// When more than this share of the slots has changed, all are compared.
-const MAX_SHARE_LISTED: f64 = 0.5;
-
 /// Whether so many changed slots are too many of `n_slots` to be compared one by one.
 pub(super) fn are_most(n_changed: usize, n_slots: usize) -> bool {
-    n_changed as f64 > MAX_SHARE_LISTED * n_slots as f64
+    n_changed as f64 > reading().max_share_listed * n_slots as f64
 }
 
 /// Memory for this number of changes is always kept.

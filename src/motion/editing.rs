@@ -5,6 +5,7 @@
 //! go it rebuilds. Either way all of it is one transaction.
 
 use super::attempt::{Edited, SingleEdits};
+use super::constants::constants;
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
 use crate::delaunay::order::{Keyed, hilbert_order};
@@ -12,10 +13,6 @@ use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-
-/// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in so many is inserted or
-/// removed, all are rebuilt.
-const REBUILT_PER_EDIT: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those
@@ -97,7 +94,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(Edited::WithoutMoves);
         }
         let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
-        if self.kernel.has_cells() && REBUILT_PER_EDIT * n_edits <= self.n_present {
+        if self.kernel.has_cells() && constants::<G>().rebuilt_per_edit * n_edits <= self.n_present {
             if self.edit_cells(report)? == SingleEdits::Made {
                 return Ok(Edited::WithoutMoves);
             }

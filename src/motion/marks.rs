@@ -1,12 +1,10 @@
 //! Sets of slots, cells or vertices whose numbers are below a bound: a bit for each, and a list of those whose bit is
 //! set.
 
+use super::constants::reading;
 use crate::error::Result;
 use crate::ids::Id;
 use crate::machine::memory;
-
-/// Scanning the bits of this number of numbers takes as long as sorting one.
-const SCANNED_PER_SORTED: usize = 256;
 
 /// Bits by number; those beyond the end are 0.
 #[derive(Debug, Default)]
@@ -107,7 +105,7 @@ impl<I: Id> Marks<I> {
 
     /// Puts a list of all the numbers in ascending order.
     fn put_in_order(&self, list: &mut Vec<I>) {
-        if SCANNED_PER_SORTED * list.len() < 64 * self.bits.0.len() {
+        if reading().scanned_per_sorted * list.len() < 64 * self.bits.0.len() {
             list.sort_unstable();
         } else {
             list.clear();

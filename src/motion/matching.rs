@@ -3,18 +3,12 @@
 //! Few are found by a hash table. Many are listed by their lowest corner: cells with the same lowest corner are close
 //! together in memory, before and after, while the entries of a hash table are scattered, and each is a cache miss.
 
+use super::constants::reading;
 use crate::complex::Corners;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-
-/// From `MIN_CELLS_LISTED` on, cells are listed by their lowest corner, unless the ids are more than
-/// `MAX_IDS_PER_CELL` times as many as the cells, or more than `MAX_CELLS_PER_CORNER` cells have the same lowest
-/// corner: a search goes through all of these.
-const MIN_CELLS_LISTED: usize = 1 << 12;
-const MAX_IDS_PER_CELL: usize = 8;
-const MAX_CELLS_PER_CORNER: u32 = 256;
 
 /// Cache lines that are asked for in advance of the cells of a lowest corner.
 const LINES: usize = 4;
@@ -83,9 +77,11 @@ impl<C: Corners<VertexId>> Matcher<C> {
         self.entries.clear();
         memory::reserve(&mut self.entries, lost.len())?;
         self.ends.clear();
-        if lost.len() >= MIN_CELLS_LISTED {
+        if lost.len() >= reading().min_cells_listed {
             let n_ids = ahead(corners, lost).map(|(_, row)| lowest(row)).fold(0, usize::max) + 1;
-            if n_ids <= MAX_IDS_PER_CELL * lost.len() && self.list_by_lowest(corners, lost, n_ids)? {
+            if n_ids <= reading().max_ids_per_cell * lost.len()
+                && self.list_by_lowest(corners, lost, n_ids)?
+            {
                 return Ok(());
             }
             self.ends.clear();
@@ -115,7 +111,7 @@ impl<C: Corners<VertexId>> Matcher<C> {
         for (_, row) in ahead(corners, lost) {
             ends[lowest(row) + 1] += 1;
         }
-        if ends.iter().any(|&n| n > MAX_CELLS_PER_CORNER) {
+        if ends.iter().any(|&n| n > reading().max_cells_per_corner) {
             return Ok(false);
         }
         for v in 0..n_ids {

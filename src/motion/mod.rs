@@ -39,6 +39,7 @@ mod changes;
 mod coincidence;
 mod commit;
 mod compaction;
+pub(crate) mod constants;
 mod editing;
 mod edits;
 mod hidden;

@@ -4,6 +4,7 @@
 //! vertices are at their new and some at their old positions: two may meet that are never at the same place at a
 //! timestamp; they share a site for that while.
 
+use super::constants::constants;
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
@@ -18,9 +19,6 @@ pub(super) enum Placed {
     /// Outside the hyperplane of all others, so that there are cells again: they have to be built.
     BesideFlat,
 }
-
-/// Relocations between two calls of the monitor.
-const MONITORED: usize = 256;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Relocates the staged vertices one after the other.
@@ -49,7 +47,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                 // Nothing to walk in: what is left is placed at once.
                 return self.commit_by_rebuilding(k, report);
             }
-            if (k - first).is_multiple_of(MONITORED) && !self.monitor(k as f64 / n as f64) {
+            let is_call_due = (k - first).is_multiple_of(constants::<G>().relocations_per_call);
+            if is_call_due && !self.monitor(k as f64 / n as f64) {
                 return Err(Error::Cancelled);
             }
             self.staging.set_applied(k + 1);

@@ -8,6 +8,7 @@
 
 use std::cell::Cell;
 
+use super::constants::constants;
 use super::hidden::Hidden;
 use super::moving::differ;
 use super::staging::Given;
@@ -17,11 +18,6 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
-
-/// Sites are sorted when the mean distance of those next to each other has become so much greater. Measured with
-/// displacements of up to ten spacings (`make targets` keeps two, `leap_1` and `leap_10`): with less, it sorts
-/// without need; with more the walks take longer than to sort.
-const MAX_STRIDE_RATIO: f64 = 1.7;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates all vertices at their new positions, where none has moved yet.
@@ -161,7 +157,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// whether the sites have their indices from before.
     fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64, bool)> {
         let (mut stride, mut keeps_sites) = (self.sorted_stride, next.keeps_sites());
-        if next.mean_stride() > MAX_STRIDE_RATIO * stride || !next.has_even_parts() {
+        if next.mean_stride() > constants::<G>().max_stride_ratio * stride || !next.has_even_parts() {
             next.sort_sites()?;
             (stride, keeps_sites) = (next.mean_stride(), false);
         }

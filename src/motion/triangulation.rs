@@ -2,6 +2,7 @@
 
 use super::auto::Auto;
 use super::changes::Taken;
+use super::constants::constants;
 use super::edits::Edits;
 use super::hidden::Hidden;
 use super::options::Options;
@@ -21,10 +22,6 @@ use crate::predicates::{Array, exact_calls, is_in_range};
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
-
-/// The kernel's static filter holds for a box that only grows as vertices move. After this number of moves per vertex
-/// it is fitted to the points again, which takes as long as a small part of one commit.
-const MOVES_PER_VERTEX: u64 = 64;
 
 /// A Delaunay triangulation whose vertices move.
 #[derive(Debug)]
@@ -173,7 +170,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.exact_calls += report.exact_calls;
         sum.coincident = self.hidden.count() as u64;
         self.n_moved += report.moved + report.inserted;
-        if self.n_moved > MOVES_PER_VERTEX * self.n_present as u64 {
+        if self.n_moved > constants::<G>().moves_per_fit * self.n_present as u64 {
             self.n_moved = 0;
             self.regions.tighten_filter(&mut self.kernel);
         }

@@ -1,79 +1,8 @@
 //! Which certificates a commit checks, and what the last ones tell about that.
 
 use crate::delaunay::Dimension;
+use crate::motion::constants::constants;
 use crate::motion::report::{CommitReport, Evaluations};
-
-/// Shortest and longest wait for another try, in commits.
-const MIN_WAIT_COMMITS: u32 = 16;
-const MAX_WAIT_COMMITS: u32 = 256;
-
-/// Weight of the last commit in the mean number of changes of a commit.
-const WEIGHT_OF_LAST: f64 = 0.125;
-
-/// What the parts of a commit cost, in nanoseconds.
-#[derive(Clone, Copy, Debug)]
-struct Costs {
-    /// A watched bi-cell.
-    watched: f64,
-    /// A vertex beyond its tolerance.
-    beyond: f64,
-    /// Per vertex, what a sweep costs that is spared.
-    sweep: f64,
-    /// Per vertex, checking the slack of all cells; none if that never pays.
-    slack: Option<f64>,
-    /// A bi-cell that has used up its slack.
-    used_up: f64,
-    /// Per vertex, to compute all tolerances.
-    computed: f64,
-    /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices.
-    vertices_per_change: f64,
-    /// A vertex rebuilt, exact evaluations apart; also one of the link of a vertex of high degree.
-    rebuilt: f64,
-    /// A vertex placed.
-    placed: f64,
-    /// An exact evaluation.
-    exact: f64,
-}
-
-/// Measured with 1,000 vertices in the plane, 13,000 in space, in Lloyd's iterations; only the ratios matter. The last
-/// three are estimates from `cpp-bench/run --structured`: what a rebuild of random points takes, and what exact
-/// evaluations add to that on a rotated grid.
-const fn costs<G: Dimension>() -> Costs {
-    if G::D == 2 {
-        Costs {
-            watched: 5.0,
-            beyond: 1000.0,
-            sweep: 11.0,
-            slack: None,
-            used_up: 0.0,
-            computed: 90.0,
-            vertices_per_change: 1500.0,
-            rebuilt: 230.0,
-            placed: 1000.0,
-            exact: 50.0,
-        }
-    } else {
-        let slack = Some(18.0);
-        Costs {
-            watched: 20.0,
-            beyond: 7000.0,
-            sweep: 60.0,
-            slack,
-            used_up: 100.0,
-            computed: 500.0,
-            vertices_per_change: 250.0,
-            rebuilt: 1500.0,
-            placed: 5000.0,
-            exact: 130.0,
-        }
-    }
-}
-
-/// Watching is tried without slack before it after commits with at most one flip or placement per this number of
-/// vertices.
-const VERTICES_PER_CHANGE_TO_WATCH: f64 = 4000.0;
-/// Watching is tried when less than one bi-cell per this number of vertices uses up its slack.
-const VERTICES_PER_USED_UP_TO_WATCH: u64 = 60;
 
 /// Which certificates a commit checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,9 +15,6 @@ pub(super) enum Scope {
     /// Watching: all vertices, those beyond, and what is watched.
     Watched,
 }
-
-/// Most commits rebuilt without trying to repair.
-const MAX_REBUILDS: u32 = 15;
 
 /// What the last commits found.
 #[derive(Debug, Default)]
@@ -157,13 +83,13 @@ impl Auto {
         n: usize,
         report: &CommitReport,
     ) -> bool {
-        let costs = costs::<G>();
+        let costs = &constants::<G>().costs;
         let vertices = n as f64;
         let watched = n_watched as f64 * costs.watched;
         let beyond = (vertices - report.within_tolerance as f64) * costs.beyond;
         self.imbalance += watched - beyond;
         self.weigh::<G>(n, report, watched + beyond - vertices * costs.slack.unwrap_or(costs.sweep));
-        if 2.0 * self.imbalance.abs() <= vertices * costs.computed {
+        if self.imbalance.abs() <= constants::<G>().max_imbalance * costs.computed * vertices {
             return false;
         }
         self.imbalance = 0.0;
@@ -173,20 +99,22 @@ impl Auto {
 
     /// Weighs what slack has cost, for `n` vertices, against a sweep.
     pub(super) fn weigh_slack<G: Dimension>(&mut self, n: usize, report: &CommitReport) {
-        let costs = costs::<G>();
+        let costs = &constants::<G>().costs;
         let spared = costs.sweep - costs.slack.unwrap_or_default();
         self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared);
-        if self.wait == 0 && report.tolerances * VERTICES_PER_USED_UP_TO_WATCH < n as u64 {
+        let vertices_per_used_up = constants::<G>().vertices_per_used_up_to_watch;
+        if self.wait == 0 && report.tolerances * vertices_per_used_up < n as u64 {
             self.scope = Scope::Watched;
         }
     }
 
     /// Enters by how much a commit has cost more than the more expensive way, which is taken when the sum is too large.
     fn weigh<G: Dimension>(&mut self, n: usize, report: &CommitReport, excess: f64) {
-        self.follow_changes(report);
+        let constants = constants::<G>();
+        self.follow_changes::<G>(report);
         self.excess = (self.excess + excess).max(0.0);
         self.wait = self.wait.saturating_sub(1);
-        if 4.0 * self.excess > n as f64 * costs::<G>().computed {
+        if self.excess > constants.max_excess * constants.costs.computed * n as f64 {
             self.give_up::<G>();
         } else {
             self.next_wait = self.next_wait.saturating_sub(1);
@@ -195,14 +123,16 @@ impl Auto {
 
     /// From now on the more expensive way is taken.
     pub(super) fn give_up<G: Dimension>(&mut self) {
-        self.scope = if self.scope == Scope::Watched && costs::<G>().slack.is_some() {
+        let constants = constants::<G>();
+        self.scope = if self.scope == Scope::Watched && constants.costs.slack.is_some() {
             Scope::Slack
         } else {
             Scope::All
         };
         self.changes_at_stop = self.changes;
         (self.excess, self.imbalance, self.is_due) = (0.0, 0.0, false);
-        self.next_wait = (2 * self.next_wait + MIN_WAIT_COMMITS).min(MAX_WAIT_COMMITS);
+        let longer = constants.wait_growth * self.next_wait + constants.min_wait_commits;
+        self.next_wait = longer.min(constants.max_wait_commits);
         self.wait = self.next_wait;
     }
 
@@ -221,7 +151,11 @@ impl Auto {
     }
 
     /// Counts an immediate relocation in a round of so many; what has become of the round if it was the last.
-    pub(super) fn count_relocation(&mut self, round: u64, done: &CommitReport) -> Option<Round> {
+    pub(super) fn count_relocation<G: Dimension>(
+        &mut self,
+        round: u64,
+        done: &CommitReport,
+    ) -> Option<Round> {
         let is_last = self.is_round_ending(round);
         self.relocated += 1;
         self.within += done.within_tolerance;
@@ -229,7 +163,8 @@ impl Auto {
         if !is_last {
             return None;
         }
-        let are_most = |some: u64| 20 * some >= 17 * self.relocated;
+        let least = constants::<G>().min_share_of_round * self.relocated as f64;
+        let are_most = |some: u64| some as f64 >= least;
         let ended =
             Round { are_most_within: are_most(self.within), are_most_unchanged: are_most(self.unchanged) };
         (self.relocated, self.within, self.unchanged) = (0, 0, 0);
@@ -243,9 +178,9 @@ impl Auto {
         has_waited
     }
 
-    fn follow_changes(&mut self, report: &CommitReport) {
+    fn follow_changes<G: Dimension>(&mut self, report: &CommitReport) {
         let mended = (report.flips + report.placements) as f64;
-        self.changes += WEIGHT_OF_LAST * (mended - self.changes);
+        self.changes += constants::<G>().weight_of_last * (mended - self.changes);
     }
 
     /// Notes what a commit that rebuilt without trying to repair has evaluated.
@@ -260,7 +195,7 @@ impl Auto {
         report: &CommitReport,
         [before, after]: [Evaluations; 2],
     ) -> bool {
-        let (costs, exact) = (costs::<G>(), after.exact - before.exact);
+        let (costs, exact) = (&constants::<G>().costs, after.exact - before.exact);
         let spent = n as f64 * costs.sweep
             + report.placements as f64 * costs.placed
             + (after.link_sites - before.link_sites) as f64 * costs.rebuilt
@@ -277,21 +212,22 @@ impl Auto {
         report: &CommitReport,
         evaluations: [Evaluations; 2],
     ) {
-        self.follow_changes(report);
+        let constants = constants::<G>();
+        self.follow_changes::<G>(report);
         if report.rebuilds > 0 || self.is_too_expensive::<G>(n, report, evaluations) {
-            self.last_rebuilds = (2 * self.last_rebuilds + 1).min(MAX_REBUILDS);
+            let more = constants.rebuilds_growth * self.last_rebuilds + 1;
+            self.last_rebuilds = more.min(constants.max_rebuilds);
             self.rebuilds = self.last_rebuilds;
             return;
         }
         self.last_rebuilds = 0;
         self.wait = self.wait.saturating_sub(1);
         // Also before the wait is over if changes have become much rarer.
-        let may_try = self.wait == 0 || 3.0 * self.changes < self.changes_at_stop;
-        let costs = costs::<G>();
-        if may_try && self.changes * costs.vertices_per_change <= n as f64 {
-            let are_changes_rare = self.changes * VERTICES_PER_CHANGE_TO_WATCH <= n as f64;
-            self.scope =
-                if costs.slack.is_none() || are_changes_rare { Scope::Watched } else { Scope::Slack };
+        let may_try = self.wait == 0 || constants.rarer_changes * self.changes < self.changes_at_stop;
+        if may_try && self.changes * constants.vertices_per_change <= n as f64 {
+            let are_changes_rare = self.changes * constants.vertices_per_change_to_watch <= n as f64;
+            let skips_slack = constants.costs.slack.is_none() || are_changes_rare;
+            self.scope = if skips_slack { Scope::Watched } else { Scope::Slack };
         }
     }
 }

@@ -4,19 +4,10 @@ use super::choice::Scope;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 use crate::motion::attempt::Attempt;
+use crate::motion::constants::{Constants, constants};
 use crate::motion::regions::Filter;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation, SwitchingRule};
-
-/// Vertices that are swept in the time of a placement: where fewer than one in so many is staged, these are placed.
-const SWEPT_PER_PLACEMENT: usize = 20;
-
-/// Watching pays only while less than this share of the vertices is beyond its tolerance.
-const MAX_SHARE_BEYOND: f64 = 0.125;
-
-/// Vertices sampled before all tolerances are computed, and the share of them that must be within.
-const SAMPLED_VERTICES: u32 = 64;
-const MIN_SHARE_WITHIN: f64 = 0.8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_auto(
@@ -27,7 +18,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.kernel.has_cells() {
             return self.rebuild_given(given, report);
         }
-        if self.staging.count() * SWEPT_PER_PLACEMENT < self.n_present {
+        if self.staging.count() * constants::<G>().swept_per_placement < self.n_present {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
                 self.commit_by_tolerance(given, report)
             } else {
@@ -59,7 +50,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.auto.scope() == Scope::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
             if (is_kept || self.auto.take_due() || self.is_sample_within(given)?)
-                && self.commit_by_watching(MAX_SHARE_BEYOND, given, report)? == Attempt::Committed
+                && self.commit_by_watching(constants::<G>().max_share_beyond, given, report)?
+                    == Attempt::Committed
             {
                 if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.n_present, report) {
                     self.regions.invalidate();
@@ -92,14 +84,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Whether all but a few of a sample of the vertices stay within tolerance.
     fn is_sample_within(&mut self, given: &mut Given<'_, G>) -> Result<bool> {
         self.stage_given(given)?;
-        Ok(self.sampled_share(&SwitchingRule { sample: SAMPLED_VERTICES, ..SwitchingRule::default() })
-            >= MIN_SHARE_WITHIN)
+        let &Constants { sampled_vertices: sample, min_share_within, .. } = constants::<G>();
+        Ok(self.sampled_share(&SwitchingRule { sample, ..SwitchingRule::default() }) >= min_share_within)
     }
 
     /// Immediate relocations in a round.
     #[inline(always)]
     fn round(&self) -> u64 {
-        self.n_present.max(SAMPLED_VERTICES as usize) as u64
+        self.n_present.max(constants::<G>().sampled_vertices as usize) as u64
     }
 
     /// Whether the next immediate relocation is the last of its round.
@@ -118,7 +110,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn follow_relocation(&mut self, done: &CommitReport) {
         let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
         let round = self.round();
-        let Some(ended) = self.auto.count_relocation(round, done) else {
+        let Some(ended) = self.auto.count_relocation::<G>(round, done) else {
             return;
         };
         if is_kept {

@@ -2,9 +2,7 @@
 //! looked at for that.
 
 use crate::delaunay::{Delaunay, Dimension};
-
-/// The margin, as a share of the least extent of all vertices.
-const SHARE_OF_EXTENT: f64 = 1.0 / 16.0;
+use crate::motion::constants::constants;
 
 /// A distance from fixed positions that the static filter covers. No tolerance is greater.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,7 +13,7 @@ impl Margin {
     pub(in crate::motion) fn around_all<G: Dimension>(kernel: &mut Delaunay<G>) -> Margin {
         let (lower, upper) = kernel.tighten_filter();
         let extents = (0..G::D).map(|axis| upper[axis] - lower[axis]);
-        let margin = extents.fold(f64::INFINITY, f64::min) * SHARE_OF_EXTENT;
+        let margin = extents.fold(f64::INFINITY, f64::min) * constants::<G>().margin;
         kernel.cover_around(&lower, &upper, margin);
         Margin(margin)
     }

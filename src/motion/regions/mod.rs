@@ -28,6 +28,7 @@ mod store;
 pub(super) use margin::Margin;
 pub(super) use store::Store;
 
+use super::constants::constants;
 use super::safe_region::{Admission, SafeRegions};
 use super::slack::Slacks;
 use super::tolerance::{Fixed, Tolerances};
@@ -250,7 +251,8 @@ impl<G: Dimension> Regions<G> {
         let store = kept.store_mut();
         store.forget_cells(&changed);
         kernel.tidy_changes(&mut changed);
-        let n = if 2 * changed.len() > kernel.complex().n_finite() {
+        let most = constants::<G>().max_share_followed * kernel.complex().n_finite() as f64;
+        let n = if changed.len() as f64 > most {
             store.prepare(kernel, site_of.len(), other_positions)
         } else {
             store.follow(kernel, site_of, other_positions, &changed, &relocated)

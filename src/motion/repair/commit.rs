@@ -15,7 +15,7 @@
 //! taken back, so that a vertex that jumps across the domain goes first.
 //!
 //! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
-//! the plane and a fifteenth in space; a vertex taken back costs a placement, two or three vertices rebuilt.
+//! the plane and a fifteenth in space; a vertex taken back costs a placement, seven or eight vertices rebuilt.
 //! Where more break than is worth mending, the triangulation is rebuilt. The first repair after a build sorts
 //! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
 //! threads, all else by one.
@@ -29,24 +29,10 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::attempt::Mending;
+use crate::motion::constants::constants;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
-
-/// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane, next to a
-/// vertex rebuilt, and flips are never stuck there.)
-const fn rebuilt_per_placement<G: Dimension>() -> usize {
-    if G::D == 2 { 8 } else { 20 }
-}
-
-/// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
-/// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
-const fn certified<G: Dimension>() -> u64 {
-    if G::D == 2 { 20 } else { 40 }
-}
-
-/// Times that flips may be stuck before the triangulation is rebuilt.
-const MAX_ROUNDS: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
@@ -115,12 +101,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
-        let most = self.n_present / rebuilt_per_placement::<G>();
-        // A vertex taken back mends about three cells.
+        let constants = constants::<G>();
+        let most = self.n_present / constants.rebuilt_per_placement;
         if repair.failures.is_sweep_due {
             // Of a whole staging all applied, the positions staged are now those before.
             let before = self.staging.others_applied().then_some(self.staging.positions());
-            if !self.kernel.sweep(&mut repair.failures, 3 * most, before)? {
+            let most_failures = constants.failures_per_placement * most;
+            if !self.kernel.sweep(&mut repair.failures, most_failures, before)? {
                 return Ok(Mending::TooMuch);
             }
         }
@@ -128,8 +115,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
-        let last_certificate = self.kernel.certificates() + certified::<G>() * self.n_present as u64;
-        for _ in 0..MAX_ROUNDS {
+        let most_certificates = constants.certified_per_vertex * self.n_present as u64;
+        let last_certificate = self.kernel.certificates() + most_certificates;
+        for _ in 0..constants.max_rounds {
             let is_mended = is_triangulation
                 || self.take_back_failed(repair, most)? == Mending::Mended && self.winds_once(repair)?;
             if !is_mended {

@@ -22,14 +22,12 @@ use super::slacks::Expired;
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::motion::attempt::Attempt;
+use crate::motion::constants::constants;
 use crate::motion::moving::Motion;
 use crate::motion::regions::Filter;
 use crate::motion::repair::Repair;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
-
-/// With more than this share of the cells past their deadlines, a sweep of everything is cheaper.
-const MAX_SHARE_EXPIRED: f64 = 1.0 / 3.0;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by slack where that is possible, else by repair.
@@ -70,7 +68,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<Attempt> {
         let Motion { moved, greatest, fits } = self.move_all_on_record(given)?;
-        let most = (self.kernel.complex().n_finite() as f64 * MAX_SHARE_EXPIRED) as usize;
+        let most = (self.kernel.complex().n_finite() as f64 * constants::<G>().max_share_expired) as usize;
         let (before, (failures, _)) = (self.staging.positions(), repair.begin_check());
         let slacks = self.regions.slacks().expect("they have been prepared");
         let expired = slacks.check_expired(&self.kernel, before, greatest, most, failures)?;

@@ -42,13 +42,11 @@ use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::attempt::{Advance, Attempt, Mending};
+use crate::motion::constants::constants;
 use crate::motion::regions::Filter;
 use crate::motion::repair::Repair;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
-
-/// With more than this share of the vertices beyond their tolerance, a sweep of everything is cheaper.
-const MAX_SHARE_BEYOND: f64 = 0.25;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
@@ -58,7 +56,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let can_watch = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if can_watch && self.commit_by_watching(MAX_SHARE_BEYOND, given, report)? == Attempt::Committed {
+        let most = constants::<G>().max_share_beyond_alone;
+        if can_watch && self.commit_by_watching(most, given, report)? == Attempt::Committed {
             return Ok(());
         }
         self.commit_by_repair(given, report)

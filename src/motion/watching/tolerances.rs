@@ -5,15 +5,10 @@ use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
+use crate::motion::constants::constants;
 use crate::motion::regions::Store;
 use crate::motion::tolerance::{Fixed, Tolerances};
 use crate::predicates::squared_distance;
-
-/// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices' steps
-/// and of its size. Found by measurement (Lloyd's iterations); half and double are hardly slower.
-const fn watched_share<G: Dimension>() -> f64 {
-    if G::D == 2 { 1.0 } else { 0.1 }
-}
 
 /// A bi-cell is either watched, and lowers no tolerance, or has lowered those of its vertices.
 #[derive(Debug)]
@@ -80,7 +75,7 @@ fn is_soon_beyond<G: Dimension>(
     let steps = vertices.iter().map(step).fold(0.0, f64::max);
     let square = squared_distance(here(vertices[1]), here(vertices[2]));
     let t = tolerance * tolerance;
-    t * t <= watched_share::<G>() * steps * square
+    t * t <= constants::<G>().watched_share * steps * square
 }
 
 impl<G: Dimension> Store<G> for Watching<G> {

@@ -1,0 +1,262 @@
+//! The numbers that decide between two ways to the same cells.
+//!
+//! `make calibrate` measures every one of them: what the parts of a commit cost, and for a threshold what recorded
+//! motions take with it and with other values. It prints each beside the measured one, and by how much the one here is
+//! slower. Change one where that is clearly more than the noise printed next to it, twice.
+
+use crate::delaunay::Dimension;
+
+/// What the parts of a commit cost, in nanoseconds; only the ratios matter.
+#[derive(Clone, Copy, Debug)]
+pub struct Costs {
+    /// A watched bi-cell.
+    pub watched: f64,
+    /// A vertex beyond its tolerance.
+    pub beyond: f64,
+    /// Per vertex, what a sweep costs that is spared.
+    pub sweep: f64,
+    /// Per vertex, checking the slack of all cells; none if that never pays.
+    pub slack: Option<f64>,
+    /// A bi-cell that has used up its slack.
+    pub used_up: f64,
+    /// Per vertex, to compute all tolerances.
+    pub computed: f64,
+    /// A vertex rebuilt, exact evaluations apart; also one of the link of a vertex of high degree.
+    pub rebuilt: f64,
+    /// A vertex placed.
+    pub placed: f64,
+    /// An exact evaluation.
+    pub exact: f64,
+}
+
+/// The constants of one dimension.
+#[derive(Clone, Copy, Debug)]
+pub struct Constants {
+    /// By which auto weighs what a commit has counted.
+    pub costs: Costs,
+
+    // Auto: which certificates a commit checks.
+    /// Shortest wait for another try of a cheaper way, in commits.
+    pub min_wait_commits: u32,
+    /// The longest.
+    pub max_wait_commits: u32,
+    /// A wait is that much longer than the one before, and the shortest one more.
+    pub wait_growth: u32,
+    /// Weight of the last commit in the mean number of changes of a commit.
+    pub weight_of_last: f64,
+    /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices, ...
+    pub vertices_per_change: f64,
+    /// ... and watching without slack before it with at most one per this number.
+    pub vertices_per_change_to_watch: f64,
+    /// The wait ends early when changes are that many times rarer than when the cheaper way was given up.
+    pub rarer_changes: f64,
+    /// Watching is tried when less than one bi-cell per this number of vertices uses up its slack.
+    pub vertices_per_used_up_to_watch: u64,
+    /// The cheaper way is given up when it has cost more than the other by this share of computing all tolerances.
+    pub max_excess: f64,
+    /// All tolerances are computed again when watched bi-cells have cost more or less than vertices beyond by this
+    /// share of that.
+    pub max_imbalance: f64,
+    /// Watching pays only while less than this share of the vertices is beyond its tolerance.
+    pub max_share_beyond: f64,
+    /// Vertices sampled before all tolerances are computed, ...
+    pub sampled_vertices: u32,
+    /// ... and the share of them that must be within.
+    pub min_share_within: f64,
+
+    // Auto: other algorithms.
+    /// Vertices that are swept in the time of a placement: where fewer than one in so many is staged, these are placed.
+    pub swept_per_placement: usize,
+    /// Most commits rebuilt without trying to repair.
+    pub max_rebuilds: u32,
+    /// So many times as many as after the last repair that was too expensive, and one more.
+    pub rebuilds_growth: u32,
+    /// Tolerances are kept for immediate relocations after a round of which this share changed no cell, and while this
+    /// share is within.
+    pub min_share_of_round: f64,
+
+    // Repair.
+    /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane,
+    /// next to a vertex rebuilt, and flips are never stuck there.)
+    pub rebuilt_per_placement: usize,
+    /// A vertex taken back mends about this number of failures: where a sweep finds more than all that may be taken
+    /// back mend, it ends at once.
+    pub failures_per_placement: usize,
+    /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
+    /// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
+    pub certified_per_vertex: u64,
+    /// Times that flips may be stuck before the triangulation is rebuilt.
+    pub max_rounds: usize,
+
+    // Watching, slack, and what regions have in common.
+    /// With more than this share of the vertices beyond their tolerance, watching, where it is not chosen by auto,
+    /// leaves the commit to repair.
+    pub max_share_beyond_alone: f64,
+    /// The fourth power of the tolerance below which a bi-cell is watched, in units of the squares of its vertices'
+    /// steps and of its size.
+    pub watched_share: f64,
+    /// With more than this share of the cells past their deadlines, a sweep of everything is cheaper.
+    pub max_share_expired: f64,
+    /// With more than this share of the cells changed, all bi-cells are computed again.
+    pub max_share_followed: f64,
+    /// How far the static filter reaches beyond the vertices, as a share of their least extent: no tolerance is
+    /// greater.
+    pub margin: f64,
+    /// The static filter's box only grows as vertices move. After this number of moves per vertex it is fitted again,
+    /// which takes as long as a small part of one commit.
+    pub moves_per_fit: u64,
+
+    // Rebuilding, placement, edits.
+    /// Sites are sorted when the mean distance of those next to each other has become so much greater: with less, they
+    /// are sorted without need; with more the walks take longer than to sort.
+    pub max_stride_ratio: f64,
+    /// Relocations between two calls of the monitor.
+    pub relocations_per_call: usize,
+    /// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in so many is inserted
+    /// or removed, all are rebuilt.
+    pub rebuilt_per_edit: usize,
+}
+
+/// The constants of reading cells, the same in both dimensions.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading {
+    /// When more than this share of the slots has changed, all are compared.
+    pub max_share_listed: f64,
+    /// Scanning the bits of this number of numbers takes as long as sorting one.
+    pub scanned_per_sorted: usize,
+    /// From this number on, lost cells are listed by their lowest corner, ...
+    pub min_cells_listed: usize,
+    /// ... unless the ids are more than so many times as many, ...
+    pub max_ids_per_cell: usize,
+    /// ... or more cells than that have the same lowest corner: a search goes through all of these.
+    pub max_cells_per_corner: u32,
+}
+
+/// All of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Table {
+    /// In the plane.
+    pub plane: Constants,
+    /// In space.
+    pub space: Constants,
+    /// In both.
+    pub reading: Reading,
+}
+
+const PLANE: Constants = Constants {
+    costs: Costs {
+        watched: 5.0,
+        beyond: 1000.0,
+        sweep: 11.0,
+        slack: None,
+        used_up: 0.0,
+        computed: 90.0,
+        rebuilt: 150.0,
+        placed: 1050.0,
+        exact: 80.0,
+    },
+    min_wait_commits: 16,
+    max_wait_commits: 256,
+    wait_growth: 2,
+    weight_of_last: 0.25,
+    vertices_per_change: 1500.0,
+    vertices_per_change_to_watch: 4000.0,
+    rarer_changes: 3.0,
+    vertices_per_used_up_to_watch: 60,
+    max_excess: 0.25,
+    max_imbalance: 1.0,
+    max_share_beyond: 0.125,
+    sampled_vertices: 64,
+    min_share_within: 0.8,
+    swept_per_placement: 20,
+    max_rebuilds: 15,
+    rebuilds_growth: 2,
+    min_share_of_round: 0.85,
+    rebuilt_per_placement: 8,
+    failures_per_placement: 3,
+    certified_per_vertex: 8,
+    max_rounds: 8,
+    max_share_beyond_alone: 0.25,
+    watched_share: 1.0,
+    max_share_expired: 1.0 / 3.0,
+    max_share_followed: 1.0 / 3.0,
+    margin: 1.0 / 16.0,
+    moves_per_fit: 64,
+    max_stride_ratio: 1.7,
+    relocations_per_call: 256,
+    rebuilt_per_edit: 8,
+};
+
+const SPACE: Constants = Constants {
+    costs: Costs {
+        watched: 20.0,
+        beyond: 7000.0,
+        sweep: 60.0,
+        slack: Some(18.0),
+        used_up: 100.0,
+        computed: 500.0,
+        rebuilt: 1200.0,
+        placed: 9500.0,
+        exact: 135.0,
+    },
+    vertices_per_change: 250.0,
+    max_imbalance: 2.0,
+    rebuilt_per_placement: 10,
+    failures_per_placement: 12,
+    certified_per_vertex: 20,
+    watched_share: 0.1,
+    ..PLANE
+};
+
+/// The constants as they are.
+pub static TABLE: Table = Table {
+    plane: PLANE,
+    space: SPACE,
+    reading: Reading {
+        max_share_listed: 0.5,
+        scanned_per_sorted: 256,
+        min_cells_listed: 1 << 12,
+        max_ids_per_cell: 8,
+        max_cells_per_corner: 256,
+    },
+};
+
+/// The constants of a dimension.
+#[inline(always)]
+pub(super) fn constants<G: Dimension>() -> &'static Constants {
+    if G::D == 2 { &in_force().plane } else { &in_force().space }
+}
+
+/// Those of reading.
+#[inline(always)]
+pub(super) fn reading() -> &'static Reading {
+    &in_force().reading
+}
+
+#[cfg(not(feature = "internals"))]
+#[inline(always)]
+fn in_force() -> &'static Table {
+    &TABLE
+}
+
+#[cfg(feature = "internals")]
+#[inline(always)]
+fn in_force() -> &'static Table {
+    trial::IN_FORCE.get()
+}
+
+/// Other values, to be measured.
+#[cfg(feature = "internals")]
+pub mod trial {
+    use super::{TABLE, Table};
+    use std::cell::Cell;
+
+    thread_local! {
+        pub(super) static IN_FORCE: Cell<&'static Table> = const { Cell::new(&TABLE) };
+    }
+
+    /// From now on the calling thread decides by these.
+    pub fn put_in_force(table: &'static Table) {
+        IN_FORCE.set(table);
+    }
+}
