@@ -190,10 +190,10 @@ enum deldrift_algorithm
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation again from all positions (RR-6750, section 1).
     DELDRIFT_REBUILDING = 1,
-    /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
-    /// the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are then
-    /// undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
-    /// that move far.
+    /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change;
+    /// where the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are
+    /// then undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few
+    /// vertices that move far.
     DELDRIFT_PLACEMENT_FLIPS = 2,
     /// Keeps for each vertex a distance within which it is certain to change nothing but coordinates, see
     /// deldrift_tolerance. A vertex that stays within costs one distance, any other a placement and the
@@ -213,9 +213,9 @@ enum deldrift_algorithm
     /// distance for every facet of the star of each, and of the memory of a delimiter for every facet of every
     /// cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
     DELDRIFT_COMPARE_SAFE_REGION = 17,
-    /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within as
-    /// with either, and most cost one distance. Memory as for the safe region. In the recorded report slower than
-    /// DELDRIFT_TOLERANCE in 69 of 74 rows.
+    /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within
+    /// as with either, and most cost one distance. Memory as for the safe region. In the recorded report slower
+    /// than DELDRIFT_TOLERANCE in 69 of 74 rows.
     DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE = 18,
     /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
     /// rule is that of switch_share and the options behind it (RR-6750, section 5.2). A sample costs the tolerances
@@ -296,7 +296,7 @@ typedef struct deldrift_options {
     uint64_t switch_seed;
     /// How many vertices it samples each time, at most as many as there are. 0, the default, stands for 40.
     uint32_t switch_sample;
-    /// It takes a sample at the first of every so many commits. 0, the default, stands for 4.
+    /// It takes a sample at the first of every switch_period commits. 0, the default, stands for 4.
     uint32_t switch_period;
 } deldrift_options;
 
@@ -356,8 +356,8 @@ typedef struct deldrift_changes {
     size_t removed_count;
     /// The index that each had.
     const uint32_t *removed;
-    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the program
-    /// last took the changes. Vertices may have been removed since; after a compaction those are DELDRIFT_NONE.
+    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the
+    /// program last took the changes. Vertices may have been removed since; after a compaction those are DELDRIFT_NONE.
     const uint32_t *removed_vertices;
     /// Number of cells that existed under another index.
     size_t renumbered_count;

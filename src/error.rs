@@ -23,7 +23,7 @@ pub enum Error {
         /// What was given.
         value: f64,
     },
-    /// A coordinate is of a magnitude above 1e57.
+    /// The magnitude of a coordinate is too large.
     OutOfRange {
         /// Parameter at fault.
         argument: &'static str,
@@ -33,6 +33,8 @@ pub enum Error {
         axis: usize,
         /// What was given.
         value: f64,
+        /// Greatest magnitude possible.
+        limit: f64,
     },
     /// The id was never given to a vertex of this triangulation.
     NoSuchVertex {
@@ -109,10 +111,9 @@ impl fmt::Display for Error {
             Error::NotFinite { argument, index, axis, value } => {
                 write!(f, "{argument}[{index}], coordinate {axis}, is {value}, which is not finite")
             }
-            Error::OutOfRange { argument, index, axis, value } => write!(
+            Error::OutOfRange { argument, index, axis, value, limit } => write!(
                 f,
-                "{argument}[{index}], coordinate {axis}, is {value:e}, and its magnitude may not exceed {:e}",
-                crate::predicates::MAX_MAGNITUDE
+                "{argument}[{index}], coordinate {axis}, is {value:e}, and its magnitude may not exceed {limit:e}"
             ),
             Error::NoSuchVertex { argument, index, vertex, ids } => {
                 write!(f, "{argument}[{index}] is {vertex}, but only ids below {ids} have been given")

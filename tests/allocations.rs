@@ -23,8 +23,8 @@ const CALM: f64 = 1e-3;
 const BRISK: f64 = 0.01;
 const LIVELY: f64 = 0.03;
 
-/// Displacements at which an algorithm allocates nothing. (Lively repairs in space rebuild, as so many cells of a hull are
-/// inverted.)
+/// Displacements at which an algorithm allocates nothing. (Lively repairs in space rebuild, as so many cells of a hull
+/// are inverted.)
 fn displacements(dimension: usize, algorithm: Algorithm) -> [f64; 3] {
     let relocates = algorithm.row().commits == Commits::OneByOne;
     [STILL, CALM, if dimension == 2 || relocates { LIVELY } else { BRISK }]

@@ -666,7 +666,8 @@ fn nothing_has_changed_before_the_first_commit() {
     assert_eq!(t.changed_cells().expect("room"), &[]);
 }
 
-/// The first repair of many cells sorts them; nobody hears of that, and a commit that is cancelled then leaves all as it was.
+/// The first repair of many cells sorts them; nobody hears of that, and a commit that is cancelled then leaves all as
+/// it was.
 fn sorting_keeps_indices<G: Dimension>(n: usize, algorithm: Algorithm, threads: u32, cancelled_at: usize) {
     deldrift::internals::use_all_threads();
     let mut points = cloud::<G>(n, 8);

@@ -1,5 +1,5 @@
-//! Insertions and removals staged into commits, with moves and immediate calls in between: the cells are those of a fresh
-//! build after every commit, and a commit that is cancelled leaves everything as it was, staged.
+//! Insertions and removals staged into commits, with moves and immediate calls in between: the cells are those of a
+//! fresh build after every commit, and a commit that is cancelled leaves everything as it was, staged.
 
 mod common;
 

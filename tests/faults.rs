@@ -1,5 +1,5 @@
-//! Calls that fail midway: the k-th allocation of a call, or all from there on, finds no memory; or the monitor cancels. The
-//! call returns an error and all is as it was, and the same call then succeeds as if nothing had been.
+//! Calls that fail midway: the k-th allocation of a call, or all from there on, finds no memory; or the monitor
+//! cancels. The call returns an error and all is as it was, and the same call then succeeds as if nothing had been.
 //!
 //! Each fault happens in a process of its own, forked from one in which everything is ready: that is quick, and an
 //! allocation that cannot fail aborts that process alone. Such are counted and listed with their places.

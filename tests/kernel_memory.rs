@@ -51,8 +51,8 @@ unsafe impl GlobalAlloc for Failing {
     }
 }
 
-/// Does the work on something new each time, without the `k`-th allocation, for all `k` until it needs no more; returns how
-/// many there were. After an error `after` looks at what is left.
+/// Does the work on something new each time, without the `k`-th allocation, for all `k` until it needs no more; returns
+/// how many there were. After an error `after` looks at what is left.
 fn without_each<T>(
     make: impl Fn() -> T,
     mut work: impl FnMut(&mut T) -> Result<(), Error>,

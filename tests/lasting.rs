@@ -1,10 +1,10 @@
-//! What is kept from one commit to the next, under motions that go on: after every commit the cells are those of a fresh
-//! build.
+//! What is kept from one commit to the next, under motions that go on: after every commit the cells are those of a
+//! fresh build.
 //!
-//! Tolerances, slacks, watched bi-cells and what *auto* has learnt are right or wrong by what happened many commits ago. So a
-//! history here is a few phases, each of several commits of one of [`motions`] with lasting velocities, which use
-//! tolerances up a little at a time. In between come partial commits, cancelled and rejected ones, other algorithms,
-//! and calls that take effect at once. `DELDRIFT_SOAK` multiplies the number of seeds.
+//! Tolerances, slacks, watched bi-cells and what *auto* has learnt are right or wrong by what happened many commits
+//! ago. So a history here is a few phases, each of several commits of one of [`motions`] with lasting velocities, which
+//! use tolerances up a little at a time. In between come partial commits, cancelled and rejected ones, other
+//! algorithms, and calls that take effect at once. `DELDRIFT_SOAK` multiplies the number of seeds.
 
 mod common;
 
@@ -18,8 +18,8 @@ use deldrift::motion::{
 };
 use deldrift::{Dimension, Plane, Space, VertexId};
 
-/// Those that keep something, and those that move all vertices at once. Each has its own histories, and turns up now and
-/// then in those of the others.
+/// Those that keep something, and those that move all vertices at once. Each has its own histories, and turns up now
+/// and then in those of the others.
 fn lasting_algorithms() -> Vec<Algorithm> {
     let lasts = |algorithm: &Algorithm| {
         let row = algorithm.row();

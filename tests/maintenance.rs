@@ -122,8 +122,8 @@ fn maintenance_in_space_matches_fresh_builds() {
     all_agree::<Space>();
 }
 
-/// Exact arithmetic is for ties: all fours (eights) of a grid, none of random points. The grid's coordinates are rounded, as
-/// those of few bits need none.
+/// Exact arithmetic is for ties: all fours (eights) of a grid, none of random points. The grid's coordinates are
+/// rounded, as those of few bits need none.
 #[test]
 fn exact_signs_are_counted() {
     fn count<G: Dimension>(kind: u64, algorithm: Algorithm) -> u64 {
@@ -154,8 +154,8 @@ fn exact_signs_are_counted() {
     }
 }
 
-/// Filters are made for where vertices are, now and then in the middle of a commit. One that fails after that puts vertices
-/// back to places far away from there: the filters have to hold for these as well.
+/// Filters are made for where vertices are, now and then in the middle of a commit. One that fails after that puts
+/// vertices back to places far away from there: the filters have to hold for these as well.
 #[test]
 fn filters_hold_for_where_vertices_are_put_back() {
     fn check<G: Dimension>(algorithm: Algorithm) {
@@ -235,8 +235,8 @@ fn tolerances_follow_insertions_and_removals() {
     }
 }
 
-/// Immediate relocations within tolerance have a short way, which is not taken while there are views to end. It does, counts
-/// and refuses what the long way does.
+/// Immediate relocations within tolerance have a short way, which is not taken while there are views to end. It does,
+/// counts and refuses what the long way does.
 fn ways_agree<G: Dimension>(algorithm: Algorithm, coincidence: CoincidencePolicy) {
     let rng = &mut Rng::new(9);
     let mut now: Vec<G::Point> = positions::<G>(0, 90, rng).into_iter().flatten().collect();

@@ -1,5 +1,5 @@
-//! The algorithms that move all vertices at once, and *auto*, under adversarial motion: after every commit the cells are
-//! those of a fresh build.
+//! The algorithms that move all vertices at once, and *auto*, under adversarial motion: after every commit the cells
+//! are those of a fresh build.
 //!
 //! Each history is a sequence of motions, drawn by its seed from those of [`MOTIONS`], on random points or on
 //! a grid, whose ties every motion breaks or makes. `DELDRIFT_SOAK` multiplies the number of seeds.
@@ -187,7 +187,8 @@ fn relocations_by_auto_match_fresh_builds() {
     relocations_agree::<Space>();
 }
 
-/// Walks begin in the cell of the latest change, here an insertion: a flip that frees it must leave another one for that.
+/// Walks begin in the cell of the latest change, here an insertion: a flip that frees it must leave another one for
+/// that.
 #[test]
 fn walks_begin_in_a_cell_after_flips() {
     let mut flips = 0;

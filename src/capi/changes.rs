@@ -28,8 +28,8 @@ pub struct deldrift_changes {
     pub removed_count: usize,
     /// The index that each had.
     pub removed: *const u32,
-    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the program
-    /// last took the changes. Vertices may have been removed since; after a compaction those are DELDRIFT_NONE.
+    /// removed_count rows of 3 (2D) or 4 (3D) vertex ids: their vertices, in the order that their rows had when the
+    /// program last took the changes. Vertices may have been removed since; after a compaction those are DELDRIFT_NONE.
     pub removed_vertices: *const u32,
     /// Number of cells that existed under another index.
     pub renumbered_count: usize,

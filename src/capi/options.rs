@@ -79,7 +79,7 @@ pub struct deldrift_options {
     pub switch_seed: u64,
     /// How many vertices it samples each time, at most as many as there are. 0, the default, stands for 40.
     pub switch_sample: u32,
-    /// It takes a sample at the first of every so many commits. 0, the default, stands for 4.
+    /// It takes a sample at the first of every switch_period commits. 0, the default, stands for 4.
     pub switch_period: u32,
 }
 

@@ -26,7 +26,7 @@ pub enum Obstacle {
     /// The cells there are not such that a flip makes positive ones.
     Shape,
     /// A cell would change that is not of the range.
-    Elsewhere,
+    OtherRange,
     /// The range has no free cell.
     Full,
     /// There is no memory for undoing.
@@ -111,7 +111,7 @@ impl<C: Corners> CellRange<'_, C> {
     /// A cell of the range.
     #[inline(always)]
     pub(crate) fn cell(&self, cell: Slot) -> Result<&Cell<C>, Obstacle> {
-        self.cells.get(self.position(cell)).ok_or(Obstacle::Elsewhere)
+        self.cells.get(self.position(cell)).ok_or(Obstacle::OtherRange)
     }
 
     /// The corner opposite a facet of a cell of the range.
@@ -130,7 +130,7 @@ impl<C: Corners> CellRange<'_, C> {
     #[inline(always)]
     fn has_cells_of(&self, facets: &[Facet]) -> Result<(), Obstacle> {
         let has = |facet: &Facet| self.position(facet.cell()) < self.cells.len();
-        if facets.iter().all(has) { Ok(()) } else { Err(Obstacle::Elsewhere) }
+        if facets.iter().all(has) { Ok(()) } else { Err(Obstacle::OtherRange) }
     }
 
     /// Puts a cell, and both sides of all gluings.

@@ -29,7 +29,7 @@ pub enum Insertion {
 
 /// How a dimension inserts, and the scratch memory for that.
 pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
-    /// Gets ready to insert very many sites, of which cells will be so many: after that, and until
+    /// Gets ready to insert very many sites, which will have `n_cells` cells: after that, and until
     /// [`end_build`](Self::end_build), `BUILD` is true. The complex keeps no record meanwhile.
     fn begin_build(&mut self, _n_cells: usize) -> Result<()> {
         Ok(())

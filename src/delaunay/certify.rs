@@ -16,12 +16,12 @@ use crate::machine::memory;
 use crate::machine::threads;
 use crate::simd::{Avx2, LANES};
 
-/// A sweep of so many cells takes a few times as long as a thread takes to wake up.
+/// A sweep of this number of cells takes a few times as long as a thread takes to wake up.
 const SWEPT_AT_LEAST: usize = 1 << 14;
 
 /// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order at
-/// all ([`prefetch::FAR`](crate::machine::prefetch)), as most neighbours are stored close by.
-const FAR: usize = 4 << 20;
+/// all ([`prefetch::CACHE_BYTES`](crate::machine::prefetch)), as most neighbours are stored close by.
+const SWEPT_CACHE_BYTES: usize = 4 << 20;
 
 /// Facets between finite cells that wait until they are as many as can be checked together.
 #[derive(Debug)]
@@ -99,7 +99,7 @@ impl<G: Dimension> Delaunay<G> {
         visit: impl FnMut(Slot) -> bool,
     ) {
         let Some(avx2) = Avx2::new() else { return self.visit_uncertain_singly(cells, visit) };
-        if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > FAR {
+        if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > SWEPT_CACHE_BYTES {
             avx2.run_with(
                 self,
                 cells,

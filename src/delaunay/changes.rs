@@ -6,8 +6,8 @@ use crate::ids::Slot;
 use crate::machine::memory;
 
 /// Lists of more than one cell in this number are put in storage order, unless all cells are near the processor anyway.
-const SPARSE: usize = 32;
-const NEAR: usize = 1 << 14;
+const SLOTS_PER_CELL_LISTED: usize = 32;
+const MAX_SLOTS_IN_CACHE: usize = 1 << 14;
 
 impl<G: Dimension> Delaunay<G> {
     /// Starts a record of the cells that relocations, insertions and removals make or move, in `buffer`.
@@ -32,7 +32,8 @@ impl<G: Dimension> Delaunay<G> {
             }
             is_first
         });
-        if complex.n_slots() > NEAR && changed.len() * SPARSE > complex.n_slots() {
+        if complex.n_slots() > MAX_SLOTS_IN_CACHE && changed.len() * SLOTS_PER_CELL_LISTED > complex.n_slots()
+        {
             changed.clear();
             changed.extend(Slot::range(0..complex.n_slots()).filter(|&c| complex.mark(c) != 0));
         }

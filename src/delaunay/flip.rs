@@ -134,7 +134,7 @@ impl<G: Dimension> Flips<G> {
     fn put_off(&mut self, facet: Facet, obstacle: Obstacle) {
         let listed = match obstacle {
             Obstacle::Shape => memory::push(&mut self.stuck, facet),
-            Obstacle::Elsewhere | Obstacle::Full => memory::push(&mut self.later, facet),
+            Obstacle::OtherRange | Obstacle::Full => memory::push(&mut self.later, facet),
             Obstacle::Memory => Err(Error::OutOfMemory { bytes: 0 }),
         };
         self.has_failed = listed.is_err();
@@ -233,10 +233,11 @@ impl<G: Dimension> Flipper<'_, '_, G> {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that fail
-    /// still as they cannot be flipped. There are none in the plane; if there are, [`undo_flips`](Self::undo_flips) must
-    /// follow. Returns the number of flips; `None` if more than `most` certificates would have to be evaluated on the way, and
-    /// then [`undo_flips`](Self::undo_flips) must follow, too. After an error all is as it was.
+    /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that
+    /// fail still as they cannot be flipped. There are none in the plane; if there are,
+    /// [`undo_flips`](Self::undo_flips) must follow. Returns the number of flips; `None` if more than `most`
+    /// certificates would have to be evaluated on the way, and then [`undo_flips`](Self::undo_flips) must follow, too.
+    /// After an error all is as it was.
     pub(crate) fn flip_all(
         &mut self,
         suspects: &mut Vec<Facet>,
@@ -283,8 +284,8 @@ impl<G: Dimension> Delaunay<G> {
         self.flip_listed(flips, 1, u64::MAX)
     }
 
-    /// Flips from the suspects, and keeps that unless flips are stuck or too many; returns their number, and `None` in the
-    /// latter case. After an error all is as it was.
+    /// Flips from the suspects, and keeps that unless flips are stuck or too many; returns their number, and `None` in
+    /// the latter case. After an error all is as it was.
     fn flip_listed(&mut self, flips: &mut AllFlips<G>, n_threads: usize, most: u64) -> Result<Option<u64>> {
         let done = self.flip_as_far_as_possible(flips, n_threads, most);
         let is_exhausted = flips.own.is_exhausted;

@@ -2,17 +2,18 @@
 //! walk*: Mücke, Saias, Zhu, 10.1016/S0925-7721(98)00035-2).
 //!
 //! They are the leaves of a balanced tree of half-spaces, some six sites to a leaf wherever these are dense, so that a
-//! walk is as short in a cluster as elsewhere. All of it is hints: half-spaces are never checked, and a leaf may hold any
-//! site. So points may move, come and go without a word to the tree. A walk that was long leaves a site near its goal
-//! behind, for the next one that comes to this leaf. When walks together have been longer than that explains, there is a
-//! new tree.
+//! walk is as short in a cluster as elsewhere. All of it is hints: half-spaces are never checked, and a leaf may hold
+//! any site. So points may move, come and go without a word to the tree. A walk that was long leaves a site near its
+//! goal behind, for the next one that comes to this leaf. When walks together have been longer than that explains,
+//! there is a new tree.
 //!
 //! Invariant: a tree is used only to choose where to begin; what a walk finds does not depend on it.
 //!
-//! Cost: none before walks have crossed a cell for every [`SITES_PER_STEP`] sites. Then some 15 ns a site to make the tree
-//! and 2 bytes a site to keep it. A goal costs one path down, in an array that stays in a cache near the processor, and a walk
-//! through a few cells, however many there are. (Not so in space from the surface of a cluster: there half of the cells around
-//! a site reach other clusters, and a walk that begins in one of them first goes around the bundle.)
+//! Cost: none before walks have crossed a cell for every [`SITES_PER_STEP`] sites. Then some 15 ns a site to make the
+//! tree and 2 bytes a site to keep it. A goal costs one path down, in an array that stays in a cache near the
+//! processor, and a walk through a few cells, however many there are. (Not so in space from the surface of a cluster:
+//! there half of the cells around a site reach other clusters, and a walk that begins in one of them first goes around
+//! the bundle.)
 
 use std::sync::RwLock;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed};
@@ -22,8 +23,8 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
-/// A tree is made once walks have crossed one cell for this number of sites, beyond [`LONG_WALK`] each: that takes about
-/// as long as making it.
+/// A tree is made once walks have crossed one cell for this number of sites, beyond [`LONG_WALK`] each: that takes
+/// about as long as making it.
 const SITES_PER_STEP: usize = 8;
 
 /// After more steps a site near the goal becomes the landmark.
@@ -141,7 +142,7 @@ impl Landmarks {
         tree.as_ref().map_or(SiteId::NONE, |tree| SiteId::new(tree.leaves[tree.leaf::<G>(q)].load(Relaxed)))
     }
 
-    /// Enters a walk of so many steps to `q`, near the site `s`.
+    /// Enters a walk of `steps` steps to `q`, near the site `s`.
     #[inline(always)]
     fn follow<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
         if steps > SHORT_WALK {
@@ -196,7 +197,7 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Enters a walk to `q` that has ended in `cell` after so many steps.
+    /// Enters a walk to `q` that has ended in `cell` after `steps` steps.
     #[inline(always)]
     pub(super) fn note_walk(&self, q: &G::Point, cell: Slot, steps: u64) {
         // The last corner of a ghost cell is the ghost vertex.

@@ -9,7 +9,7 @@ use super::{Delaunay, Dimension, IndexSet};
 use crate::complex::{Complex, Corners};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
-use crate::machine::prefetch::{FAR, prefetch};
+use crate::machine::prefetch::{CACHE_BYTES, prefetch};
 use crate::predicates::StaticFilter;
 
 /// Where a point lies.
@@ -106,10 +106,11 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether sites and cells are too many to stay in a cache near the processor.
     #[inline(always)]
     pub(super) fn is_far(&self) -> bool {
-        size_of_val(&*self.sites) > FAR
+        size_of_val(&*self.sites) > CACHE_BYTES
     }
 
-    /// Asks for what a relocation of a site reads first, besides its star: the sites of the link and the cells beyond it.
+    /// Asks for what a relocation of a site reads first, besides its star: the sites of the link and the cells beyond
+    /// it.
     #[inline(always)]
     pub(crate) fn prefetch_around(&self, s: SiteId, star: &IndexSet<Slot>) {
         if !self.is_far() {

@@ -58,7 +58,7 @@ pub fn hilbert_order<'p, G: Dimension>(
     point: impl Fn(u32) -> &'p G::Point + Copy,
 ) -> Result<Vec<Keyed>> {
     let mut spare = Vec::new();
-    if items.len() > FEW {
+    if items.len() > MAX_COMPARED {
         memory::reserve_exact(&mut spare, items.len())?;
         spare.resize(items.len(), Keyed::default());
     }
@@ -69,7 +69,7 @@ pub fn hilbert_order<'p, G: Dimension>(
 /// Runs of one key up to this length stay unsorted: a walk through them is short anyway.
 const SHORT_RUN: usize = 8;
 
-/// The items have the same key and are ascending; `spare` is as long, or there are [`FEW`] of them.
+/// The items have the same key and are ascending; `spare` is as long, or there are [`MAX_COMPARED`] of them.
 fn sort_in_box<'p, G: Dimension>(
     point: impl Fn(u32) -> &'p G::Point + Copy,
     keyed: &mut [Keyed],
@@ -105,17 +105,17 @@ fn sort_in_box<'p, G: Dimension>(
 }
 
 /// Up to this number, items are sorted by comparisons: about as fast as by digits, and without spare memory.
-const FEW: usize = 256;
+const MAX_COMPARED: usize = 256;
 
 /// Up to this number of items digits have at most 8 bits: counting by more takes longer than another pass.
 const FEW_FOR_LONG_DIGITS: usize = 1 << 12;
 
 /// Sorts items by their keys, which have `bits` bits; items of the same key keep their order.
 ///
-/// By digits from the lowest on, with `spare` to write to, as a sort that makes its own room could not tell that there is
-/// none.
+/// By digits from the lowest on, with `spare` to write to, as a sort that makes its own room could not tell that there
+/// is none.
 fn sort_by_key(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
-    if keyed.len() <= FEW {
+    if keyed.len() <= MAX_COMPARED {
         keyed.sort_unstable_by_key(|k| k.0);
     } else if keyed.len() <= FEW_FOR_LONG_DIGITS {
         sort_by_digits::<{ 1 << 8 }, 4>(keyed, spare, bits);
@@ -167,8 +167,8 @@ fn sort_by_digits<const PLACES: usize, const DIGITS: usize>(
 /// state above them.
 ///
 /// The state is the transformation that the quadrants passed so far have put on the curve: whether both axes are
-/// mirrored (bit 0) and whether they are exchanged (bit 1). A quadrant with `y = 0` exchanges them for the curve within,
-/// and one with `x = 1` as well mirrors them first.
+/// mirrored (bit 0) and whether they are exchanged (bit 1). A quadrant with `y = 0` exchanges them for the curve
+/// within, and one with `x = 1` as well mirrors them first.
 static CURVE: [[u16; 256]; 4] = {
     let mut table = [[0; 256]; 4];
     let mut start = 0;
@@ -195,8 +195,8 @@ static CURVE: [[u16; 256]; 4] = {
     table
 };
 
-/// Position along the plane's Hilbert curve of the cell `(x, y)` of a grid of `2^bits` cells a side; `bits` is a multiple
-/// of 4.
+/// Position along the plane's Hilbert curve of the cell `(x, y)` of a grid of `2^bits` cells a side; `bits` is a
+/// multiple of 4.
 fn hilbert_key_2(x: u32, y: u32, bits: u32) -> u32 {
     let (mut key, mut state) = (0, 0);
     let mut shift = bits;

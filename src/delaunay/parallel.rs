@@ -4,9 +4,9 @@
 //! thread of its own, by the same insertions as on one thread; then triangulations on either side of a
 //! hyperplane are [united](super::unite), two by two.
 //!
-//! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner; that of the first part
-//! has the sites of all, each other one a copy of its own; the monitor is called by the calling thread alone. Ids break the ties in a part
-//! as in the whole, so the cells are those of a build on one thread.
+//! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner; that of the first
+//! part has the sites of all, each other one a copy of its own; the monitor is called by the calling thread alone. Ids
+//! break the ties in a part as in the whole, so the cells are those of a build on one thread.
 //!
 //! Cost: that of the largest part, and of uniting. Of a million sites in two parts 0.15 % are inserted again
 //! in the plane, and 1.7 % in space. Where spheres reach far into other parts, as those of points on one

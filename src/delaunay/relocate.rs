@@ -106,8 +106,8 @@ impl<G: Dimension> Delaunay<G> {
         done
     }
 
-    /// Makes sure that the gathered star, whose site has moved, is as it must be; if it is not, and flips may not or cannot
-    /// mend it, nothing changes.
+    /// Makes sure that the gathered star, whose site has moved, is as it must be; if it is not, and flips may not or
+    /// cannot mend it, nothing changes.
     fn repair_star(&mut self, shortcut: Shortcut) -> Result<Option<Relocation>> {
         if self.star_surely_holds() {
             return Ok(Some(Relocation::InPlace));

@@ -5,7 +5,7 @@ use crate::ids::Id;
 use crate::machine::memory;
 
 /// Up to this number, indices need no memory of their own: a power of two, less one.
-const FEW: usize = 63;
+const INLINE_CAPACITY: usize = 63;
 /// Places where to look for them: a power of two, four times as many and more, so that hardly any two meet.
 const PLACES: usize = 1 << u8::BITS;
 
@@ -14,13 +14,13 @@ const PLACES: usize = 1 << u8::BITS;
 pub(crate) struct IndexSet<I> {
     n: usize,
     /// From 1 on.
-    few: [I; FEW + 1],
+    few: [I; INLINE_CAPACITY + 1],
     /// The position in `few` of each, at its hash or behind; 0 where there is none.
     places: [u8; PLACES],
     /// All of them, once they are more.
     all: Vec<I>,
-    /// Then, where to find each: one above its position, at its hash or behind; a power of two of entries, half of them 0
-    /// at least.
+    /// Then, where to find each: one above its position, at its hash or behind; a power of two of entries, half of them
+    /// 0 at least.
     table: Vec<u32>,
 }
 
@@ -35,7 +35,13 @@ fn place_of(index: impl Id) -> usize {
 
 impl<I: Id> IndexSet<I> {
     pub(crate) fn new() -> Self {
-        IndexSet { n: 0, few: [I::new(0); FEW + 1], places: [0; PLACES], all: Vec::new(), table: Vec::new() }
+        IndexSet {
+            n: 0,
+            few: [I::new(0); INLINE_CAPACITY + 1],
+            places: [0; PLACES],
+            all: Vec::new(),
+            table: Vec::new(),
+        }
     }
 
     /// The indices.
@@ -61,7 +67,7 @@ impl<I: Id> IndexSet<I> {
     pub(crate) fn insert(&mut self, index: I) -> Result<bool> {
         let n = self.n;
         let mut n_after = n;
-        if n < FEW && self.is_entered(index, &mut n_after) {
+        if n < INLINE_CAPACITY && self.is_entered(index, &mut n_after) {
             self.n = n_after;
             return Ok(n_after > n);
         }
@@ -78,8 +84,8 @@ impl<I: Id> IndexSet<I> {
         self.insert(first)?;
         // The number is not kept in memory meanwhile: each entry would wait for that of the one before.
         let (mut n, mut next) = (self.n, 1);
-        while next <= n && n + N <= FEW {
-            for other in around(self.few[next & FEW]) {
+        while next <= n && n + N <= INLINE_CAPACITY {
+            for other in around(self.few[next & INLINE_CAPACITY]) {
                 if !self.is_entered(other, &mut n) {
                     self.n = n;
                     self.insert_elsewhere(other)?;
@@ -98,20 +104,21 @@ impl<I: Id> IndexSet<I> {
         Ok(())
     }
 
-    /// Enters an index, if it is not there, into the few, of which there are `n`, with room for one more. Returns whether
-    /// that could be done: not if another index is in its place.
+    /// Enters an index, if it is not there, into the few, of which there are `n`, with room for one more. Returns
+    /// whether that could be done: not if another index is in its place.
     #[inline(always)]
     fn is_entered(&mut self, index: I, n: &mut usize) -> bool {
         let at = place_of(index);
         let position = self.places[at];
-        // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its place.
-        let difference = self.few[usize::from(position) & FEW].get() ^ index.get();
+        // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its
+        // place.
+        let difference = self.few[usize::from(position) & INLINE_CAPACITY].get() ^ index.get();
         if u64::from(position) * u64::from(difference) != 0 {
             return false;
         }
         let n_new = u8::from(position == 0);
         // Where nothing is new, what is behind the last entry is written.
-        self.few[(*n + 1) & FEW] = index;
+        self.few[(*n + 1) & INLINE_CAPACITY] = index;
         *n += usize::from(n_new);
         self.places[at] = position | (*n as u8 & n_new.wrapping_neg());
         true
@@ -121,9 +128,9 @@ impl<I: Id> IndexSet<I> {
     /// cleared.
     #[inline(always)]
     pub(crate) fn push(&mut self, index: I) -> Result<()> {
-        if self.n < FEW {
+        if self.n < INLINE_CAPACITY {
             self.n += 1;
-            self.few[self.n & FEW] = index;
+            self.few[self.n & INLINE_CAPACITY] = index;
             return Ok(());
         }
         self.push_beyond(index)
@@ -133,7 +140,7 @@ impl<I: Id> IndexSet<I> {
     #[inline(never)]
     fn push_beyond(&mut self, index: I) -> Result<()> {
         if self.all.is_empty() {
-            memory::reserve(&mut self.all, FEW + 1)?;
+            memory::reserve(&mut self.all, INLINE_CAPACITY + 1)?;
             self.all.extend_from_slice(&self.few[1..]);
         }
         memory::push(&mut self.all, index)?;
@@ -145,7 +152,7 @@ impl<I: Id> IndexSet<I> {
     #[cold]
     #[inline(never)]
     fn insert_elsewhere(&mut self, index: I) -> Result<bool> {
-        if self.n > FEW {
+        if self.n > INLINE_CAPACITY {
             return self.insert_into_table(index);
         }
         let mut at = place_of(index);
@@ -155,7 +162,7 @@ impl<I: Id> IndexSet<I> {
             }
             at = (at + 1) % PLACES;
         }
-        if self.n == FEW {
+        if self.n == INLINE_CAPACITY {
             self.spill(index)?;
         } else {
             self.few[self.n + 1] = index;
@@ -176,8 +183,8 @@ impl<I: Id> IndexSet<I> {
     }
 
     fn spill(&mut self, index: I) -> Result<()> {
-        memory::reserve(&mut self.all, FEW + 1)?;
-        self.make_table(4 * (FEW + 1))?;
+        memory::reserve(&mut self.all, INLINE_CAPACITY + 1)?;
+        self.make_table(4 * (INLINE_CAPACITY + 1))?;
         self.all.extend_from_slice(&self.few[1..]);
         self.all.push(index);
         self.fill_table();

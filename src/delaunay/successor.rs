@@ -7,9 +7,9 @@ use crate::machine::memory;
 use crate::machine::prefetch::AHEAD;
 
 impl<G: Dimension> Delaunay<G> {
-    /// A kernel with the same sites, but without cells, and with room for `more` of them. `place` tells where a live one is;
-    /// `announce` is told of those that come later. The scratch memory goes along, until it is
-    /// [given back](Self::give_scratch_to).
+    /// A kernel with the same sites, but without cells, and with room for `more` of them. `place` tells where a live
+    /// one is; `announce` is told of those that come later. The scratch memory goes along, until it is [given
+    /// back](Self::give_scratch_to).
     pub(crate) fn successor(
         &mut self,
         more: usize,

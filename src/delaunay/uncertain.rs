@@ -137,7 +137,7 @@ mod tests {
         points
     }
 
-    /// Moves one site in so many by up to `size` along each axis.
+    /// Moves one site in every `one_in` by up to `size` along each axis.
     fn move_sites<G: Dimension>(t: &mut Delaunay<G>, one_in: f64, size: f64, rng: &mut Rng) {
         let (mut lower, mut upper) = (t.lower(), t.upper());
         for s in t.live_sites().collect::<Vec<_>>() {

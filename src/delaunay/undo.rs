@@ -1,13 +1,13 @@
 //! Undoing changes of the kernel: one that fails leaves no trace.
 //!
 //! Between [`begin`](Delaunay::begin) and [`end`](Delaunay::end) the complex keeps a [record](crate::complex) of its
-//! cells, and sites that are removed, added or renamed are *logged*: what they were is kept, in the order of the changes.
-//! [`undo`](Delaunay::undo) goes back through both and needs no memory.
+//! cells, and sites that are removed, added or renamed are *logged*: what they were is kept, in the order of the
+//! changes. [`undo`](Delaunay::undo) goes back through both and needs no memory.
 //!
 //! The filter holds for all places before as well, whatever it is made for meanwhile ([`tighten_filter`]).
 //!
-//! Places are not kept: who moves a site and leaves the cells as they are, or lets flips repair them, knows where it was.
-//! Those of sites that are removed are, be it that they come back elsewhere.
+//! Places are not kept: who moves a site and leaves the cells as they are, or lets flips repair them, knows where it
+//! was. Those of sites that are removed are, be it that they come back elsewhere.
 //!
 //! [`tighten_filter`]: Delaunay::tighten_filter
 

@@ -147,9 +147,9 @@ impl<G: Dimension> Delaunay<G> {
         !touches || clears(&self.complex.cell(c.neighbour(Self::LAST).cell()).corners)
     }
 
-    /// Unites the triangulation with one of other sites, which get the indices from `first` on, where they may be already
-    /// without their cells; it has been opened for the box of the sites before. Returns pairs of coincident sites, the
-    /// second in the cells. After an error the cells are half made.
+    /// Unites the triangulation with one of other sites, which get the indices from `first` on, where they may be
+    /// already without their cells; it has been opened for the box of the sites before. Returns pairs of coincident
+    /// sites, the second in the cells. After an error the cells are half made.
     pub(super) fn unite(
         &mut self,
         Open { t: right, border, mut rim }: Open<G>,

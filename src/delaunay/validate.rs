@@ -291,8 +291,8 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Whether the hull, of which these are all ghost cells and which is convex at every ridge, winds once around a point
-    /// inside a cell; `false` also if every cell is so thin that no double lies inside.
+    /// Whether the hull, of which these are all ghost cells and which is convex at every ridge, winds once around a
+    /// point inside a cell; `false` also if every cell is so thin that no double lies inside.
     pub(crate) fn winds_once(&self, ghosts: &[Slot]) -> bool {
         self.inner_point().is_some_and(|o| {
             let is_inside = |&g: &Slot| {

@@ -44,7 +44,8 @@ fn grow<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     Ok(())
 }
 
-/// As [`reserve`], but where the array has to grow, it is by an eighth: for large arrays, of which half must not stay empty.
+/// As [`reserve`], but where the array has to grow, it is by an eighth: for large arrays, of which half must not stay
+/// empty.
 pub(crate) fn reserve_sparingly<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     if array.capacity() - array.len() >= more {
         return Ok(());
@@ -74,7 +75,8 @@ pub(crate) fn push<T>(array: &mut Vec<T>, entry: T) -> Result<()> {
 pub(crate) fn boxed<T>(value: T) -> Result<Box<T>> {
     let layout = std::alloc::Layout::new::<T>();
     assert!(layout.size() > 0);
-    // SAFETY: the layout is not empty; the memory is written before it becomes a box, which frees it as it was allocated.
+    // SAFETY: the layout is not empty; the memory is written before it becomes a box, which frees it as it was
+    // allocated.
     unsafe {
         let place = std::alloc::alloc(layout).cast::<T>();
         if place.is_null() {
@@ -163,7 +165,8 @@ pub(crate) fn overwrite<T: Sync, U: Copy + Send>(
     n_threads: usize,
     make: &(impl Fn(&T) -> U + Sync),
 ) {
-    // SAFETY: what can be written to can be written to as if it were not initialised, with what is; `write` does no more.
+    // SAFETY: what can be written to can be written to as if it were not initialised, with what is; `write` does no
+    // more.
     let to = unsafe { &mut *(std::ptr::from_mut(to) as *mut [MaybeUninit<U>]) };
     write(from, to, n_threads, make);
 }

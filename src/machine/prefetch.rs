@@ -3,7 +3,7 @@
 pub(crate) use crate::simd::prefetch_at;
 
 /// Bytes of an array above which its entries are asked for in advance: as many as a cache near the processor has.
-pub(crate) const FAR: usize = 1 << 20;
+pub(crate) const CACHE_BYTES: usize = 1 << 20;
 
 /// How many entries in advance to ask.
 pub(crate) const AHEAD: usize = 24;

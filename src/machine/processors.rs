@@ -1,7 +1,7 @@
 //! How many threads the system runs at the same time.
 //!
-//! As [`std::thread::available_parallelism`] has it, which on Linux reads files into memory that cannot be refused; here
-//! they are read to the stack.
+//! As [`std::thread::available_parallelism`] has it, which on Linux reads files into memory that cannot be refused;
+//! here they are read to the stack.
 
 #![allow(unsafe_code)]
 
@@ -20,7 +20,8 @@ pub(crate) fn available() -> usize {
 /// The processors on which the thread may run; those of the machine where these are too many to be listed.
 #[cfg(target_os = "linux")]
 fn allowed() -> usize {
-    // SAFETY: a set of processors is numbers, for which zeros are fine; the system writes no more than there is room for.
+    // SAFETY: a set of processors is numbers, for which zeros are fine; the system writes no more than there is room
+    // for.
     let (is_listed, n) = unsafe {
         let mut set: libc::cpu_set_t = std::mem::zeroed();
         (libc::sched_getaffinity(0, size_of_val(&set), &mut set) == 0, libc::CPU_COUNT(&set))

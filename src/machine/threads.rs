@@ -251,8 +251,8 @@ pub(crate) fn for_ranges<R: Send>(
             unsafe { slots.write(k, work(share(n, k, n_ranges))) };
         }
     });
-    // SAFETY: each thread has gone on until all numbers were taken, and has written what it took. (After a panic this is
-    // not reached.)
+    // SAFETY: each thread has gone on until all numbers were taken, and has written what it took. (After a panic this
+    // is not reached.)
     unsafe { results.set_len(n_ranges) };
     Ok(results)
 }

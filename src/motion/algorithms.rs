@@ -88,10 +88,10 @@ macro_rules! for_algorithms {
             by: rebuild_given(),
         }
 
-        /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change; where
-        /// the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are then
-        /// undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few vertices
-        /// that move far.
+        /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change;
+        /// where the cells of the star stay positively oriented, flips repair it (in 3D these can get stuck, and are
+        /// then undone); else a walk from the old place, a removal and an insertion (RR-6750, section 3.2). For a few
+        /// vertices that move far.
         PlacementFlips = 2 {
             name: "placement_flips",
             purpose: Use,
@@ -151,9 +151,9 @@ macro_rules! for_algorithms {
             by: commit_by_safe_region(Filter::SafeRegion),
         }
 
-        /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within as
-        /// with either, and most cost one distance. Memory as for the safe region. In the recorded report slower than
-        /// DELDRIFT_TOLERANCE in 69 of 74 rows.
+        /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within
+        /// as with either, and most cost one distance. Memory as for the safe region. In the recorded report slower
+        /// than DELDRIFT_TOLERANCE in 69 of 74 rows.
         SafeRegionTolerance = 18 {
             name: "safe_region_tolerance",
             purpose: Comparison,
@@ -218,8 +218,8 @@ macro_rules! algorithm_enum {
             by: $method:ident($($argument:expr),*),
         }
     )+) => {
-        /// How [`commit_timestamp`](super::MovingTriangulation::commit_timestamp) brings the triangulation to the staged
-        /// positions. Every algorithm gives exactly the same cells; they differ in cost.
+        /// How [`commit_timestamp`](super::MovingTriangulation::commit_timestamp) brings the triangulation to the
+        /// staged positions. Every algorithm gives exactly the same cells; they differ in cost.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[repr(u32)]
         pub enum Algorithm {

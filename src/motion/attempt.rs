@@ -1,7 +1,8 @@
-//! How the parts of a commit end: each may give up where too much would have to be done, and says what it leaves behind.
+//! How the parts of a commit end: each may give up where too much would have to be done, and says what it leaves
+//! behind.
 
-/// How far a commit that checks only some certificates has come. Where it has given up, all that is kept is as it was but
-/// for the positions.
+/// How far a commit that checks only some certificates has come. Where it has given up, all that is kept is as it was
+/// but for the positions.
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Attempt {
@@ -17,7 +18,7 @@ pub(super) enum Attempt {
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Advance {
-    /// They have moved, so many of them to another position; those beyond are queued.
+    /// They have moved, this number of them to another position; those beyond are queued.
     Moved(u64),
     /// Too many are beyond; none has moved, and none is queued.
     TooManyBeyond,
@@ -30,7 +31,8 @@ pub(super) enum Mending {
     /// They are the triangulation of the vertices where these are now. Vertices taken back are queued, to be placed.
     Mended,
     /// Too many vertices would have to be placed, or flips took too long: they have to be built again. They are neither
-    /// the cells from before nor those of the vertices where these are now; vertices taken back are queued all the same.
+    /// the cells from before nor those of the vertices where these are now; vertices taken back are queued all the
+    /// same.
     TooMuch,
 }
 
@@ -50,7 +52,7 @@ pub(super) enum Edited {
 pub(super) enum SingleEdits {
     /// All have been made.
     Made,
-    /// A vertex has left the hyperplane of all others, so that a kernel has to be built. Some have been made, and have to
-    /// be undone.
+    /// A vertex has left the hyperplane of all others, so that a kernel has to be built. Some have been made, and have
+    /// to be undone.
     NeedBuild,
 }

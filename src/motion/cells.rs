@@ -29,7 +29,7 @@ use crate::machine::memory;
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: CellId = CellId::NONE;
 
-/// Whether so many changed slots are too many of `n_slots` to be compared one by one.
+/// Whether `n_changed` changed slots are too many of `n_slots` to be compared one by one.
 pub(super) fn are_most(n_changed: usize, n_slots: usize) -> bool {
     n_changed as f64 > reading().max_share_listed * n_slots as f64
 }

@@ -44,7 +44,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let views = self.views.renumbered(&self.kernel, &ids, &slots, kernel.complex().n_slots())?;
         // From here on nothing fails.
         site_of.resize(n, SiteId::NONE);
-        self.note_oblivion();
+        self.note_tolerances_dropped();
         (self.site_of, self.staging, self.edits, self.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();
         self.adopt(kernel, hidden, stride);

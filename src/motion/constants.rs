@@ -65,7 +65,8 @@ pub struct Constants {
     pub min_share_within: f64,
 
     // Auto: other algorithms.
-    /// Vertices that are swept in the time of a placement: where fewer than one in so many is staged, these are placed.
+    /// Vertices that are swept in the time of a placement: where fewer than one in this number is staged, these are
+    /// placed.
     pub swept_per_placement: usize,
     /// Most commits rebuilt without trying to repair.
     pub max_rebuilds: u32,
@@ -112,8 +113,8 @@ pub struct Constants {
     pub max_stride_ratio: f64,
     /// Relocations between two calls of the monitor.
     pub relocations_per_call: usize,
-    /// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in so many is inserted
-    /// or removed, all are rebuilt.
+    /// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in this number is
+    /// inserted or removed, all are rebuilt.
     pub rebuilt_per_edit: usize,
 }
 
@@ -126,7 +127,7 @@ pub struct Reading {
     pub scanned_per_sorted: usize,
     /// From this number on, lost cells are listed by their lowest corner, ...
     pub min_cells_listed: usize,
-    /// ... unless the ids are more than so many times as many, ...
+    /// ... unless the ids are more than this many times as many, ...
     pub max_ids_per_cell: usize,
     /// ... or more cells than that have the same lowest corner: a search goes through all of these.
     pub max_cells_per_corner: u32,

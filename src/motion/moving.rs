@@ -1,9 +1,9 @@
 //! All vertices of a whole staging, moved in one loop.
 //!
-//! Applying a move exchanges the staged position with that of the vertex's site. Vertices are taken in the order of their
-//! ids, and sites are stored in another one, so of a large triangulation they are asked for in advance. Positions that are
-//! not staged yet are staged block by block on the way: so they are read once, and written once more in the cache next to
-//! the processor.
+//! Applying a move exchanges the staged position with that of the vertex's site. Vertices are taken in the order of
+//! their ids, and sites are stored in another one, so of a large triangulation they are asked for in advance. Positions
+//! that are not staged yet are staged block by block on the way: so they are read once, and written once more in the
+//! cache next to the processor.
 //!
 //! Every vertex must have a site of its own: a staging is whole only if no vertex is removed, and none may be hidden.
 //!
@@ -21,12 +21,12 @@ use super::tolerance::Fixed;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
-use crate::machine::prefetch::{AHEAD, FAR, prefetch, prefetch_at};
+use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch, prefetch_at};
 use crate::machine::{memory, threads};
 use crate::predicates::{are_within, distance_above};
 use crate::simd::{ALL, Avx2, LANES};
 
-/// Moves of so many vertices take a few times as long as a thread takes to wake up.
+/// Moves of this number of vertices take a few times as long as a thread takes to wake up.
 const MOVED_AT_LEAST: usize = 1 << 14;
 
 /// Whether two places, without negative zeros, differ.
@@ -66,8 +66,8 @@ struct Movers<'m, G: Dimension> {
 }
 
 impl<G: Dimension> Movers<'_, G> {
-    /// Queues those of a few vertices of which a bit is set, and moves the others, or all if `MOVES_ALL`; ends, and does
-    /// nothing, where there is no room in the queue.
+    /// Queues those of a few vertices of which a bit is set, and moves the others, or all if `MOVES_ALL`; ends, and
+    /// does nothing, where there is no room in the queue.
     #[cold]
     #[inline(never)]
     fn queue_or_move<const MOVES_ALL: bool>(
@@ -119,7 +119,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         given: &mut Given<'_, G>,
     ) -> Result<Advance> {
         let mut blocks = Blocks { given: given.positions(), are_good: true };
-        let moved = if size_of_val(self.kernel.sites()) > FAR {
+        let moved = if size_of_val(self.kernel.sites()) > CACHE_BYTES {
             self.move_and_queue_from::<MOVES_ALL, true>(most, &mut blocks)?
         } else {
             self.move_and_queue_from::<MOVES_ALL, false>(most, &mut blocks)?
@@ -248,8 +248,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(moved.n)
     }
 
-    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Slacks must be kept. Errors as those of
-    /// [`move_and_queue`](Self::move_and_queue).
+    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Slacks must be kept. Errors as those
+    /// of [`move_and_queue`](Self::move_and_queue).
     pub(super) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<Motion> {
         let slacks = self.regions.slacks().expect("they have been prepared");
         let mut moved = 0_u64;
@@ -399,7 +399,7 @@ impl<G: Dimension> SharedSites<G> {
             moved.hold(&more.lower, &more.upper);
             return moved;
         }
-        let is_far = self.n * size_of::<Site<G>>() > FAR;
+        let is_far = self.n * size_of::<Site<G>>() > CACHE_BYTES;
         let mut moved = Moved::none();
         for (first, positions) in (0..).step_by(BLOCK).zip(positions.chunks_mut(BLOCK)) {
             if let Some(given) = given {

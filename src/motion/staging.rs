@@ -4,7 +4,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::predicates::{Array, is_in_range};
+use crate::predicates::{Array, MAX_MAGNITUDE, is_in_range};
 
 /// Staged positions by vertex id. During and after a commit the entries of its vertices hold the positions
 /// *before* it: applying a move exchanges the two.
@@ -340,7 +340,7 @@ pub(super) fn check_position<G: Dimension>(
             continue;
         }
         return Err(if value.is_finite() {
-            Error::OutOfRange { argument, index, axis, value }
+            Error::OutOfRange { argument, index, axis, value, limit: MAX_MAGNITUDE }
         } else {
             Error::NotFinite { argument, index, axis, value }
         });

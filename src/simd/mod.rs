@@ -1,19 +1,20 @@
-//! Arithmetic on four numbers at a time. All intrinsics, all `target_feature` and all detection of the processor are here.
+//! Arithmetic on four numbers at a time. All intrinsics, all `target_feature` and all detection of the processor are
+//! here.
 //!
-//! An [`Avx2`] is a token: it exists only if the processor has AVX2 and FMA, since only [`Avx2::new`], which detects them,
-//! makes one. [`Lanes`] are made by a token or from other lanes, so every operation on them is safe.
+//! An [`Avx2`] is a token: it exists only if the processor has AVX2 and FMA, since only [`Avx2::new`], which detects
+//! them, makes one. [`Lanes`] are made by a token or from other lanes, so every operation on them is safe.
 //!
-//! Code that uses lanes is called through [`Avx2::run`] or [`Avx2::run_with`], which compile it for AVX2 and FMA. It must
-//! be inlined for that: the closure and all functions of lanes that it calls are `#[inline(always)]`. If one is not, results
-//! are the same, but every operation is a function call.
+//! Code that uses lanes is called through [`Avx2::run`] or [`Avx2::run_with`], which compile it for AVX2 and FMA. It
+//! must be inlined for that: the closure and all functions of lanes that it calls are `#[inline(always)]`. If one is
+//! not, results are the same, but every operation is a function call.
 //!
 //! If the environment variable `DELDRIFT_SCALAR` is set, to any value, there is no token, and everything runs as on a
 //! processor without AVX2. This is for tests. The variable is read once.
 //!
-//! Functions over [`Real`] compile to scalar code for `f64`, and to one instruction for four numbers for [`Lanes`]. Rust
-//! contracts no operations, so each lane has the same bits as the scalar result, except after
-//! [`times_plus`](Real::times_plus) and [`minus_product`](Real::minus_product): they round once in lanes, where they take
-//! no longer than a product, and twice in `f64`.
+//! Functions over [`Real`] compile to scalar code for `f64`, and to one instruction for four numbers for [`Lanes`].
+//! Rust contracts no operations, so each lane has the same bits as the scalar result, except after
+//! [`times_plus`](Real::times_plus) and [`minus_product`](Real::minus_product): they round once in lanes, where they
+//! take no longer than a product, and twice in `f64`.
 //!
 //! The crate `pulp` has such tokens, too. With those of its version 0.22, and its `vectorize`, a sweep takes 1.5 % more
 //! instructions in the plane and 3.1 % more in space. With `run_with` as it is here a sweep takes as many as now, and

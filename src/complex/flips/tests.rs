@@ -197,7 +197,7 @@ fn flips_need_all_their_cells() {
                 *tried = range.flip_2_3(facet).err();
             })
             .unwrap();
-        assert_eq!(tried, [Some(Obstacle::Elsewhere); 2]);
+        assert_eq!(tried, [Some(Obstacle::OtherRange); 2]);
         assert_eq!(cells(&complex), before);
         assert_eq!(complex.free_cells().len(), 3);
     }

@@ -71,7 +71,7 @@ impl Auto {
     }
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.
-    pub(super) fn note_oblivion(&mut self) {
+    pub(super) fn note_tolerances_dropped(&mut self) {
         self.is_due |= self.scope == Scope::Watched;
     }
 
@@ -136,7 +136,7 @@ impl Auto {
         self.wait = self.next_wait;
     }
 
-    /// Whether the next immediate relocation is the last of a round of so many.
+    /// Whether the next immediate relocation is the last of a round of `round`.
     #[inline(always)]
     pub(super) fn is_round_ending(&self, round: u64) -> bool {
         self.relocated + 1 >= round
@@ -150,7 +150,7 @@ impl Auto {
         self.unchanged += relocated;
     }
 
-    /// Counts an immediate relocation in a round of so many; what has become of the round if it was the last.
+    /// Counts an immediate relocation in a round of `round`; what has become of the round if it was the last.
     pub(super) fn count_relocation<G: Dimension>(
         &mut self,
         round: u64,

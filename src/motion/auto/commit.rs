@@ -75,9 +75,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.
-    pub(in crate::motion) fn note_oblivion(&mut self) {
+    pub(in crate::motion) fn note_tolerances_dropped(&mut self) {
         if self.regions.kept_for() == Some(Filter::Watch) {
-            self.auto.note_oblivion();
+            self.auto.note_tolerances_dropped();
         }
     }
 

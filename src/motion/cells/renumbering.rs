@@ -12,8 +12,8 @@ use crate::motion::changes::Tracker;
 use crate::motion::ordering::Ordering;
 
 impl<G: Dimension> Cells<G> {
-    /// Gives every cell its index. What is listed as lost has been used up afterwards, and cells that have other indices
-    /// than before are listed as moved.
+    /// Gives every cell its index. What is listed as lost has been used up afterwards, and cells that have other
+    /// indices than before are listed as moved.
     pub(super) fn renumber(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Vertices>) {
         let n = kernel.complex().n_finite();
         self.index_of.resize(kernel.complex().n_slots(), NO_CELL);
@@ -53,7 +53,8 @@ impl<G: Dimension> Cells<G> {
         }
     }
 
-    /// Enters the cells found again in their slots, and new ones in the place of the cell before in theirs, of `n` cells.
+    /// Enters the cells found again in their slots, and new ones in the place of the cell before in theirs, of `n`
+    /// cells.
     fn enter_in_slots(&mut self, found: &[Found<G::Vertices>], n: usize) {
         for (k, &Found { slot, index, ids }) in found.iter().enumerate() {
             if let Some(next) = found.get(k + 2 * AHEAD) {

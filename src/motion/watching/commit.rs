@@ -63,8 +63,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.commit_by_repair(given, report)
     }
 
-    /// Brings all vertices of a whole staging to their new positions, or none if more than this share of them leave their
-    /// tolerance. No two vertices may share a site.
+    /// Brings all vertices of a whole staging to their new positions, or none if more than this share of them leave
+    /// their tolerance. No two vertices may share a site.
     pub(in crate::motion) fn commit_by_watching(
         &mut self,
         max_share_beyond: f64,

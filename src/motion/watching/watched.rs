@@ -8,7 +8,7 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::Slot;
 use crate::machine::memory;
-use crate::machine::prefetch::{AHEAD, FAR, prefetch};
+use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch};
 
 #[derive(Debug, Default)]
 pub(super) struct Watched {
@@ -71,7 +71,7 @@ impl Watched {
 
     /// Visits all members named from live cells, and drops the others.
     pub(super) fn for_each<G: Dimension>(&mut self, kernel: &Delaunay<G>, mut visit: impl FnMut(Facet)) {
-        let is_far = size_of_val(kernel.sites()) > FAR;
+        let is_far = size_of_val(kernel.sites()) > CACHE_BYTES;
         let mut n = 0;
         for k in 0..self.list.len() {
             if is_far {
