@@ -444,3 +444,43 @@ fn lasting_motion_in_the_plane_matches_fresh_builds() {
 fn lasting_motion_in_space_matches_fresh_builds() {
     all_agree::<Space>();
 }
+
+/// *Auto*, when one vertex in a hundred is staged for every commit, keeps tolerances when nearly all of
+/// them change no cell, and gives them up when they move far.
+fn few_vertices_are_followed<G: Dimension>() {
+    let rng = &mut Rng::new(3);
+    let n = 2_000;
+    let side = (n as f64).powf(1.0 / G::D as f64);
+    let mut places: Vec<Point<G>> = (0..n).map(|_| point::<G>(|_| side * rng.unit())).collect();
+    let mut t = MovingTriangulation::<G>::new(&places, Options::default()).expect("points in range");
+    let mut commits = |t: &mut MovingTriangulation<G>, n_commits: u64, step: f64| {
+        let before = t.statistics();
+        for _ in 0..n_commits {
+            let first = rng.below(n / 20);
+            for v in VertexId::range(0..n).skip(first).step_by(n / 20) {
+                let p = places[v];
+                places[v] = point::<G>(|axis| p[axis] + step * (2.0 * rng.unit() - 1.0));
+                t.move_vertices(&[v], &[places[v]]).expect("good places");
+            }
+            t.commit_timestamp().expect("good places");
+        }
+        let after = t.statistics();
+        (after.within_tolerance - before.within_tolerance) as f64 / (after.moved - before.moved) as f64
+    };
+    commits(&mut t, 100, 1e-7);
+    assert!(commits(&mut t, 100, 1e-7) > 0.95, "tolerances are kept");
+    commits(&mut t, 100, 0.3);
+    assert_eq!(commits(&mut t, 20, 0.3), 0.0, "tolerances are given up");
+    let places: Vec<_> = places.into_iter().map(Some).collect();
+    assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&places), || "in the end".into());
+}
+
+#[test]
+fn few_vertices_are_followed_in_the_plane() {
+    few_vertices_are_followed::<Plane>();
+}
+
+#[test]
+fn few_vertices_are_followed_in_space() {
+    few_vertices_are_followed::<Space>();
+}

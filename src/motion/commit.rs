@@ -46,6 +46,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.count(report);
         report.timestamp = self.statistics.timestamp;
         report.coincident = self.statistics.coincident;
+        self.follow_commit(&report);
         Ok(report)
     }
 

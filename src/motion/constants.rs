@@ -72,9 +72,13 @@ pub struct Constants {
     pub max_rebuilds: u32,
     /// So many times as many as after the last repair that was too expensive, and one more.
     pub rebuilds_growth: u32,
-    /// Tolerances are kept for immediate relocations after a round of which this share changed no cell, and while this
-    /// share is within.
+    /// Vertices that move one at a time, at once or few in a commit, are counted in rounds of this share of all.
+    pub share_of_round: f64,
+    /// Tolerances are kept for them after a round of which this share changed no cell, and while this share is within.
     pub min_share_of_round: f64,
+    /// While tolerances are kept, rounds are shorter by this factor: where they are of no use, every move is the more
+    /// expensive for them.
+    pub shorter_rounds: f64,
 
     // Repair.
     /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane,
@@ -172,7 +176,9 @@ const PLANE: Constants = Constants {
     swept_per_placement: 20,
     max_rebuilds: 15,
     rebuilds_growth: 2,
+    share_of_round: 0.125,
     min_share_of_round: 0.85,
+    shorter_rounds: 8.0,
     rebuilt_per_placement: 8,
     failures_per_placement: 3,
     certified_per_vertex: 8,

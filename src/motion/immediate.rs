@@ -51,7 +51,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.enter_evaluations(&mut report, before);
         self.count(report);
         if self.options.algorithm == Algorithm::Auto && self.kernel.has_cells() {
-            self.follow_relocation(&report);
+            self.follow_relocations(&report);
         }
         Ok(())
     }

@@ -37,7 +37,9 @@ pub(in crate::motion) struct Auto {
     last_rebuilds: u32,
     /// Exact evaluations of the last commit that rebuilt without trying to repair, if there was one.
     exact_of_rebuild: Option<u64>,
-    /// Immediate relocations in this round, those within tolerance, and those that changed no cell.
+    /// Whether the latest commit relocated few vertices, one after the other.
+    is_of_few: bool,
+    /// Relocations in this round, those within tolerance, and those that changed no cell.
     relocated: u64,
     within: u64,
     unchanged: u64,
@@ -136,10 +138,10 @@ impl Auto {
         self.wait = self.next_wait;
     }
 
-    /// Whether the next immediate relocation is the last of a round of `round`.
+    /// Whether a round of `round` relocations ends with this number of further ones.
     #[inline(always)]
-    pub(super) fn is_round_ending(&self, round: u64) -> bool {
-        self.relocated + 1 >= round
+    pub(super) fn is_round_ending(&self, more: u64, round: u64) -> bool {
+        self.relocated + more >= round
     }
 
     /// Counts immediate relocations within tolerance, none of them the last of its round.
@@ -150,14 +152,24 @@ impl Auto {
         self.unchanged += relocated;
     }
 
-    /// Counts an immediate relocation in a round of `round`; what has become of the round if it was the last.
-    pub(super) fn count_relocation<G: Dimension>(
+    /// The commit relocates few vertices, one after the other.
+    pub(super) fn note_few(&mut self) {
+        self.is_of_few = true;
+    }
+
+    /// Whether the commit before was such a one; not any more after that.
+    pub(super) fn take_few(&mut self) -> bool {
+        std::mem::take(&mut self.is_of_few)
+    }
+
+    /// Counts relocations in a round of `round`; what has become of the round if it ends with them.
+    pub(super) fn count_relocations<G: Dimension>(
         &mut self,
         round: u64,
         done: &CommitReport,
     ) -> Option<Round> {
-        let is_last = self.is_round_ending(round);
-        self.relocated += 1;
+        let is_last = self.is_round_ending(done.moved, round);
+        self.relocated += done.moved;
         self.within += done.within_tolerance;
         self.unchanged += done.within_tolerance + done.unchanged;
         if !is_last {

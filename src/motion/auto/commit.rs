@@ -7,7 +7,7 @@ use crate::motion::attempt::Attempt;
 use crate::motion::constants::{Constants, constants};
 use crate::motion::regions::Filter;
 use crate::motion::staging::Given;
-use crate::motion::{CommitReport, MovingTriangulation, SwitchingRule};
+use crate::motion::{Algorithm, CommitReport, MovingTriangulation, SwitchingRule};
 
 impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_auto(
@@ -15,10 +15,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
+        // One that failed may have left that.
+        self.auto.take_few();
         if !self.kernel.has_cells() {
             return self.rebuild_given(given, report);
         }
         if self.staging.count() * constants::<G>().swept_per_placement < self.n_present {
+            self.auto.note_few();
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
                 self.commit_by_tolerance(given, report)
             } else {
@@ -88,16 +91,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(self.sampled_share(&SwitchingRule { sample, ..SwitchingRule::default() }) >= min_share_within)
     }
 
-    /// Immediate relocations in a round.
+    /// Relocations in a round.
     #[inline(always)]
-    fn round(&self) -> u64 {
-        self.n_present.max(constants::<G>().sampled_vertices as usize) as u64
+    fn round(&self, is_kept: bool) -> u64 {
+        let constants = constants::<G>();
+        let longest = self.n_present as f64 * constants.share_of_round;
+        let round = if is_kept { longest / constants.shorter_rounds } else { longest };
+        round.max(f64::from(constants.sampled_vertices)) as u64
     }
 
-    /// Whether the next immediate relocation is the last of its round.
+    /// Whether the next relocation, while tolerances are kept, is the last of its round.
     #[inline(always)]
     pub(in crate::motion) fn is_round_ending(&self) -> bool {
-        self.auto.is_round_ending(self.round())
+        self.auto.is_round_ending(1, self.round(true))
     }
 
     /// Counts immediate relocations within tolerance, none of them the last of its round.
@@ -106,11 +112,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.auto.count_within(relocated);
     }
 
-    /// Counts an immediate relocation, and decides after a round of them whether tolerances are to be kept.
-    pub(in crate::motion) fn follow_relocation(&mut self, done: &CommitReport) {
+    /// Counts the relocations of a commit of few vertices.
+    pub(in crate::motion) fn follow_commit(&mut self, done: &CommitReport) {
+        if self.options.algorithm == Algorithm::Auto && self.auto.take_few() && self.kernel.has_cells() {
+            self.follow_relocations(done);
+        }
+    }
+
+    /// Counts relocations, and decides after a round of them whether tolerances are to be kept.
+    pub(in crate::motion) fn follow_relocations(&mut self, done: &CommitReport) {
         let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
-        let round = self.round();
-        let Some(ended) = self.auto.count_relocation::<G>(round, done) else {
+        let round = self.round(is_kept);
+        let Some(ended) = self.auto.count_relocations::<G>(round, done) else {
             return;
         };
         if is_kept {
