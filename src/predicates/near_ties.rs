@@ -2,12 +2,14 @@
 
 use std::cmp::Ordering;
 
-use super::filter::{extents, incircle_bound, insphere_bound, is_certain, largest, orient3d_bound};
+use super::filter::{
+    extents, incircle_bound, insphere_bound, insphere_bound_of_terms, is_certain, largest, orient3d_bound,
+};
 use super::integer::{LongScaled, Scaled};
 use super::plane::{incircle_rounded, incircle_sign};
-use super::space::{insphere_rounded, insphere_sign, orient3d_sign, volume};
+use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
-use super::{MAX_MAGNITUDE, big};
+use super::{MAX_MAGNITUDE, big, is_side_certain, side_of_sphere, sphere};
 use crate::random::Rng;
 
 /// Numbers of up to 53 bits with exponents up to `spread` apart, at any place of the range.
@@ -107,6 +109,44 @@ fn near_ties_of_spheres_are_those_of_long_integers() {
         }
     }
     assert_all_taken(&counts);
+}
+
+/// Corners of a small lattice at any scale, with noise of any size: many differences are nearly zero.
+fn noisy_lattice(rng: &mut Rng) -> [[f64; 3]; 5] {
+    let unit = 2f64.powi(rng.within(-180, 150) as i32);
+    let noise = unit * 2f64.powi(-rng.within(30, 60) as i32);
+    let (size, offset) = (rng.within(1, 3), rng.within(0, 30));
+    std::array::from_fn(|_| {
+        std::array::from_fn(|_| {
+            (offset + rng.within(0, size)) as f64 * unit + noise * rng.unit() * rng.within(0, 1) as f64
+        })
+    })
+}
+
+/// What the bound of the points or that of the terms calls certain has the sign of long integers.
+#[test]
+fn near_ties_of_spheres_that_are_certain_have_the_exact_sign() {
+    let rng = &mut Rng::new(4);
+    let (mut n_sides, mut n_by_terms, mut n_open) = (0, 0, 0);
+    for k in 0..1_200_000 {
+        let points = if k % 3 == 0 { near_tie::<3, 5>(rng) } else { noisy_lattice(rng) };
+        let refs @ [a, b, c, d, q] = points.each_ref();
+        let (extents, det) = (extents(refs), insphere_rounded(refs));
+        let side = side_of_sphere(&sphere(a, b, c, d), a, q);
+        let is_side_certain = is_side_certain(side, refs);
+        let by_extents = is_certain(det, insphere_bound(extents), extents);
+        let by_terms = det.abs() > insphere_bound_of_terms(insphere_magnitudes(refs), extents);
+        (n_sides, n_open) =
+            (n_sides + u32::from(is_side_certain), n_open + u32::from(!by_extents && !by_terms));
+        n_by_terms += u32::from(by_terms && !by_extents);
+        if is_side_certain || by_terms {
+            let expected = sign(big::insphere(1.0, refs));
+            assert!(!is_side_certain || sign(side) == expected, "{points:?}");
+            assert!(!by_terms || sign(det) == expected, "{points:?}");
+        }
+    }
+    println!("{n_sides} sides, {n_by_terms} by terms, {n_open} open");
+    assert!(n_sides > 100_000 && n_by_terms > 50_000 && n_open > 100_000);
 }
 
 #[test]

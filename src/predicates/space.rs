@@ -4,7 +4,9 @@
 //! right-handed basis, that is, when `abc` turns counter-clockwise seen from `d`.
 
 use super::big::{self, has_room};
-use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
+use super::filter::{
+    StaticFilter, extents, insphere_bound, insphere_bound_of_terms, is_certain, largest, orient3d_bound,
+};
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
@@ -63,7 +65,9 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
 #[inline(never)]
 fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     let extents = extents(points);
-    if is_certain(det, insphere_bound(extents), extents) {
+    if is_certain(det, insphere_bound(extents), extents)
+        || det.abs() > insphere_bound_of_terms(insphere_magnitudes(points), extents)
+    {
         return det;
     }
     tally::count();
@@ -95,6 +99,21 @@ pub(super) fn insphere_rounded([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
     volume_uvs * dot(&w, &minus(d, b))
         - volume_uws * dot(&v, &minus(c, b))
         - volume_uvw * dot(&s, &minus(e, b))
+}
+
+/// The sum of the magnitudes of all terms of [`insphere_rounded`], computed in the same order.
+pub(super) fn insphere_magnitudes([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
+    let magnitudes = |p, q| minus::<f64, 3>(p, q).map(f64::abs);
+    let (u, v, w, s) = (magnitudes(b, a), magnitudes(c, a), magnitudes(d, a), magnitudes(e, a));
+    let minor = |p: &[f64; 3], q: &[f64; 3]| p[0] * q[1] + p[1] * q[0];
+    let (minor_uv, minor_uw, minor_us) = (minor(&u, &v), minor(&u, &w), minor(&u, &s));
+    let (minor_vw, minor_vs, minor_ws) = (minor(&v, &w), minor(&v, &s), minor(&w, &s));
+    let volume_uvw = minor_vw * u[2] + minor_uw * v[2] + minor_uv * w[2];
+    let volume_uvs = minor_vs * u[2] + minor_us * v[2] + minor_uv * s[2];
+    let volume_uws = minor_ws * u[2] + minor_us * w[2] + minor_uw * s[2];
+    volume_uvs * dot(&w, &magnitudes(d, b))
+        + volume_uws * dot(&v, &magnitudes(c, b))
+        + volume_uvw * dot(&s, &magnitudes(e, b))
 }
 
 /// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
