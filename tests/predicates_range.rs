@@ -319,8 +319,8 @@ fn prepared_spheres_are_certain_or_open() {
     Prepared { filter: StaticFilter::space, side }.check();
 }
 
-/// The stages after the static bound of spheres: the bound of the points themselves, that of the determinant's terms, and
-/// what is left for integers.
+/// The stages after the static bound of spheres: the bound of the points themselves, that of the determinant's terms,
+/// and what is left for integers.
 #[test]
 fn stages_after_the_static_bound_of_spheres_are_exact() {
     let mut random = Random::new(2_026);

@@ -3,9 +3,9 @@
 //! New cells have the site first, and its rim facet's corners after it in an order that keeps the orientation and
 //! leaves a ghost corner last; so which facet of a new cell is which is known to the compiler. Each edge of the rim is
 //! seen once in each direction: the facet that sees it as `kl` meets the one that sees it as `lk`. The meeting place is
-//! a square table over local labels of the rim's sites (a small one on the stack until the first rim that is too large
-//! for it: triangulations of few sites would spend half their time to clear the large one); a label is kept in the site's `cell` field, which the
-//! insertion overwrites anyway, and holds if the list of labels agrees.
+//! a square table over local labels of the rim's sites (a small one on the stack until the first rim that is too
+//! large for it: triangulations of few sites would spend half their time to clear the large one); a label is kept in
+//! the site's `cell` field, which the insertion overwrites anyway, and holds if the list of labels agrees.
 //!
 //! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept.
 
@@ -215,7 +215,8 @@ fn grow(
     if rim.len() < n_rim + 4 {
         let n = if n_rim == 0 { FEW_RIM } else { 2 * n_rim + 64 };
         if n > FEW_RIM {
-            // First, as whoever has room for such a rim has room for the meetings; the table last, as it stands for all.
+            // First, as whoever has room for such a rim has room for the meetings; the table last, as it stands for
+            // all.
             memory::lengthen(&mut meetings.labels, MAX_LABELS, INFINITE)?;
             memory::lengthen(&mut meetings.local, SMALL_RIM, [0; 4])?;
             memory::lengthen(&mut meetings.table, TABLE, facet)?;

@@ -119,8 +119,8 @@ fn prepare(entries: &mut [Entry], t: &Delaunay<Space>, cell: Slot, q: &[f64; 3],
     is_inside(entry(entries, cell), t, cell, q, id)
 }
 
-/// After the static bound. Where spacings differ much, it is that of the largest and nearly all tests come here: so these
-/// are decided by a bound of their own, with what has been computed.
+/// After the static bound. Where spacings differ much, it is that of the largest and nearly all tests come here: so
+/// these are decided by a bound of their own, with what has been computed.
 #[cold]
 #[inline(never)]
 fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: Slot, q: &[f64; 3], id: VertexId, side: f64) -> bool {

@@ -52,15 +52,15 @@
 //!
 //! # Sums of magnitudes
 //!
-//! Ties and near ties are mostly those of structured points, many differences of which are nearly zero. Multiplied out, the
-//! in-sphere determinant of `space.rs` is a sum of products of five differences each. A computed one has been rounded at
-//! most 16 times on the way of each product into the sum: in its five differences, twice in a minor, three times more in a
-//! volume, and in a scalar product, once in their product and twice in the last sums. So it is off by at most a factor
-//! 1 ± u to the power of 16 in each product, and with P for the sum of their magnitudes, the determinant by ((1 + u)¹⁶ − 1)
-//! P. Evaluated in the same order, with magnitudes for differences and sums for differences of products, P comes out too
-//! small by a factor (1 − u)¹⁶ at most. To first order the bound is 16 u P ([`insphere_bound_of_terms`]); second-order
-//! terms, and its own rounding, are less than 50 u of it, and left to [`ROUND_UP`]. Underflow adds what it adds to the bound
-//! by extents. In the bound by extents P is as large as it can be.
+//! Ties and near ties are mostly those of structured points, many differences of which are nearly zero. Multiplied
+//! out, the in-sphere determinant of `space.rs` is a sum of products of five differences each. A computed one has
+//! been rounded at most 16 times on the way of each product into the sum: in its five differences, twice in a minor,
+//! three times more in a volume, and in a scalar product, once in their product and twice in the last sums. So it is
+//! off by at most a factor 1 ± u to the power of 16 in each product, and with P for the sum of their magnitudes, the
+//! determinant by ((1 + u)¹⁶ − 1) P. Evaluated in the same order, with magnitudes for differences and sums for
+//! differences of products, P comes out too small by a factor (1 − u)¹⁶ at most. To first order the bound is 16 u P
+//! ([`insphere_bound_of_terms`]); second-order terms, and its own rounding, are less than 50 u of it, and left to
+//! [`ROUND_UP`]. Underflow adds what it adds to the bound by extents.
 //!
 //! # Rounding of the bounds
 //!

@@ -65,13 +65,16 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
 #[inline(never)]
 fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     let extents = extents(points);
-    if is_certain(det, insphere_bound(extents), extents)
-        || det.abs() > insphere_bound_of_terms(insphere_magnitudes(points), extents)
-    {
+    let bound = insphere_bound(extents);
+    if is_certain(det, bound, extents) {
+        return det;
+    }
+    let bound = bound.min(insphere_bound_of_terms(insphere_magnitudes(points), extents));
+    if det.abs() > bound {
         return det;
     }
     tally::count();
-    if let Some(sign) = insphere_sign(points, largest(extents)) {
+    if let Some(sign) = insphere_sign(points, largest(extents), bound) {
         return with_sign(det, sign);
     }
     if !has_room(points, 5) {
@@ -117,11 +120,17 @@ pub(super) fn insphere_magnitudes([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
 }
 
 /// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
-pub(super) fn insphere_sign([origin, others @ ..]: [&[f64; 3]; 5], extent: f64) -> Option<Ordering> {
+pub(super) fn insphere_sign(
+    [origin, others @ ..]: [&[f64; 3]; 5],
+    extent: f64,
+    bound: f64,
+) -> Option<Ordering> {
     let Some(scaled) = Scaled::new(origin, others, extent) else {
         let scaled = LongScaled::new(origin, others, extent)?;
-        return Some(match scaled.n_bits {
-            ..=85 => insphere_modular(&scaled.modular::<Limbs<6>>()).sign(),
+        return Some(match scaled.n_bits_within(bound, extent) {
+            ..=256 => insphere_modular(&scaled.modular::<Limbs<4>>()).sign(),
+            257..=320 => insphere_modular(&scaled.modular::<Limbs<5>>()).sign(),
+            321..=384 => insphere_modular(&scaled.modular::<Limbs<6>>()).sign(),
             _ => insphere_modular(&scaled.modular::<Limbs<8>>()).sign(),
         });
     };
