@@ -319,6 +319,30 @@ fn prepared_spheres_are_certain_or_open() {
     Prepared { filter: StaticFilter::space, side }.check();
 }
 
+/// The stages after the static bound of spheres: the bound of the points themselves, that of the determinant's terms,
+/// and what is left for integers.
+#[test]
+fn stages_after_the_static_bound_of_spheres_are_exact() {
+    let mut random = Random::new(2_026);
+    let wide = StaticFilter::space([-MAX_MAGNITUDE; 3], [MAX_MAGNITUDE; 3]);
+    let (mut tally, mut n_certain) = (Tally::default(), 0);
+    for family in FAMILIES {
+        for _ in 0..130_000 {
+            let points = family.points::<3, 5>(&mut random);
+            let expected = exact_sign(&points, &mut tally);
+            let [a, b, c, d, q] = points.each_ref();
+            let side = side_of_sphere(&sphere(a, b, c, d), a, q);
+            if is_side_certain(side, [a, b, c, d, q]) {
+                assert_eq!(side.partial_cmp(&0.0), Some(expected), "{points:?}");
+                n_certain += 1;
+            }
+            assert_eq!(insphere(&wide, a, b, c, d, q).partial_cmp(&0.0), Some(expected), "{points:?}");
+        }
+    }
+    println!("{n_certain} certain of {}", tally.cases);
+    assert!(tally.cases >= 1_000_000 && n_certain >= tally.cases / 20);
+}
+
 #[test]
 fn prepared_half_spaces_are_certain_or_open() {
     let side = |f: &StaticFilter, [a, b, c, q]: &[[f64; 3]; 4]| side_of_sphere(&half_space(f, a, b, c), a, q);

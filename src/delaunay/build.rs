@@ -28,6 +28,9 @@ const MONITORED: usize = 1024;
 /// Number of distances in a sample.
 const STRIDES: usize = 1024;
 
+/// Up to this number of sites a build in space prepares nothing for later insertions: there are not enough of them.
+const FEW: usize = 16;
+
 /// From this number on, cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
 
@@ -137,7 +140,8 @@ impl<G: Dimension> Delaunay<G> {
         self.complex.clear();
         self.is_sorted = false;
         // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
-        self.complex.reserve(n * if G::D == 2 { 2 } else { 7 } + 64)?;
+        let more = (4 * n).min(64);
+        self.complex.reserve(n * if G::D == 2 { 2 } else { 7 } + more)?;
         for site in &mut self.sites {
             site.cell = Slot::NONE;
         }
@@ -167,25 +171,28 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
         debug_assert!(!self.complex.is_recording());
+        if G::D == 3 && order.len() <= FEW {
+            return self.insert_each::<false>(order, monitor);
+        }
         self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;
-        let inserted = self.insert_while_begun(order, monitor);
+        let inserted = self.insert_each::<true>(order, monitor);
         self.cavity.scratch.end_build();
         inserted
     }
 
-    fn insert_while_begun(
+    fn insert_each<const BUILD: bool>(
         &mut self,
         order: &[SiteId],
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
         let mut cavity = std::mem::take(&mut self.cavity);
-        let inserted = self.insert_with(&mut cavity, order, monitor);
+        let inserted = self.insert_with::<BUILD>(&mut cavity, order, monitor);
         self.cavity = cavity;
         inserted
     }
 
     #[inline(always)]
-    fn insert_with(
+    fn insert_with<const BUILD: bool>(
         &mut self,
         cavity: &mut Cavity<G>,
         order: &[SiteId],
@@ -199,7 +206,7 @@ impl<G: Dimension> Delaunay<G> {
             if self.site(s).cell != Slot::NONE {
                 continue;
             }
-            match self.insert_into_cells::<true>(cavity, s, self.recent)? {
+            match self.insert_into_cells::<BUILD>(cavity, s, self.recent)? {
                 Insertion::New => self.record(cavity.made().iter().copied()),
                 Insertion::Coincident(t) => memory::push(&mut coincident, (s, t))?,
                 Insertion::Spans => unreachable!("there are cells"),

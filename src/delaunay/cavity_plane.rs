@@ -162,7 +162,8 @@ fn grow(
     Cavity { cells, scratch: Scratch { turns, rim }, .. }: &mut Cavity<Plane>,
     n_cells: usize,
 ) -> Result<()> {
-    let room = 2 * n_cells + 64;
+    // Little at first, as the first insertion of all has to write it.
+    let room = 2 * n_cells + 14;
     let facet = Facet::new(Slot::new(0), 0);
     let seen = Lifted::new(&[0.0; 2], &[0.0; 2]);
     memory::lengthen(rim, room, (INFINITE, facet))?;

@@ -3,8 +3,9 @@
 //! New cells have the site first, and its rim facet's corners after it in an order that keeps the orientation and
 //! leaves a ghost corner last; so which facet of a new cell is which is known to the compiler. Each edge of the rim is
 //! seen once in each direction: the facet that sees it as `kl` meets the one that sees it as `lk`. The meeting place is
-//! a square table over local labels of the rim's sites; a label is kept in the site's `cell` field, which the
-//! insertion overwrites anyway, and holds if the list of labels agrees.
+//! a square table over local labels of the rim's sites (a small one on the stack until the first rim that is too
+//! large for it: triangulations of few sites would spend half their time to clear the large one); a label is kept in
+//! the site's `cell` field, which the insertion overwrites anyway, and holds if the list of labels agrees.
 //!
 //! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept.
 
@@ -20,6 +21,10 @@ use crate::machine::memory;
 const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
 const MAX_LABELS: usize = 64;
 const TABLE: usize = MAX_LABELS * MAX_LABELS;
+
+/// Rims up to this size go through a smaller table, which takes no memory of its own, until there is a larger one.
+const FEW_LABELS: usize = 16;
+const FEW_RIM: usize = 2 * (FEW_LABELS - 2);
 
 /// A facet of the rim.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +104,7 @@ impl Insert<Space> for Scratch {
     }
 }
 
-/// Where the two facets of a ridge meet.
+/// Where the two facets of a ridge meet; without room until a rim is larger than [`FEW_RIM`].
 #[derive(Debug, Default)]
 struct Meetings {
     /// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
@@ -206,16 +211,20 @@ fn grow(
     meetings: &mut Meetings,
     [n_zone, n_rim]: [usize; 2],
 ) -> Result<()> {
-    // First, as whoever has room for a zone has room for the meetings.
     let facet = Facet::new(Slot::new(0), 0);
-    memory::lengthen(&mut meetings.table, TABLE, facet)?;
-    memory::lengthen(&mut meetings.labels, MAX_LABELS, INFINITE)?;
-    memory::lengthen(&mut meetings.local, SMALL_RIM, [0; 4])?;
     if rim.len() < n_rim + 4 {
-        memory::lengthen(rim, 2 * n_rim + 64, Rim { corners: [INFINITE; 4], out: facet })?;
+        let n = if n_rim == 0 { FEW_RIM } else { 2 * n_rim + 64 };
+        if n > FEW_RIM {
+            // First, as whoever has room for such a rim has room for the meetings; the table last, as it stands for
+            // all.
+            memory::lengthen(&mut meetings.labels, MAX_LABELS, INFINITE)?;
+            memory::lengthen(&mut meetings.local, SMALL_RIM, [0; 4])?;
+            memory::lengthen(&mut meetings.table, TABLE, facet)?;
+        }
+        memory::lengthen(rim, n, Rim { corners: [INFINITE; 4], out: facet })?;
     }
     if zone.len() < n_zone + 4 {
-        memory::lengthen(zone, 2 * n_zone + 64, Slot::new(0))?;
+        memory::lengthen(zone, 2 * n_zone + 30, Slot::new(0))?;
     }
     Ok(())
 }
@@ -233,7 +242,14 @@ fn glue<const BUILD: bool>(
     if rim.len() > SMALL_RIM {
         glue_sorted(t, rim, cells, ridges);
     } else {
-        glue_by_table(t, rim, cells, meetings);
+        let Meetings { table, labels, local } = meetings;
+        // Of fixed lengths, so that the compiler sees masked indices in bounds.
+        match (table.as_mut_slice().try_into(), labels.as_mut_slice().try_into()) {
+            (Ok(table), Ok(labels)) => {
+                glue_by_table::<MAX_LABELS, TABLE>(t, rim, cells, table, labels, local)
+            }
+            _ => glue_few(t, rim, cells),
+        }
     }
     if BUILD {
         let mut spheres = spheres.table();
@@ -243,20 +259,33 @@ fn glue<const BUILD: bool>(
     }
 }
 
+/// As the table of [`Meetings`], for a rim of [`FEW_RIM`] facets at most.
+#[cold]
+#[inline(never)]
+fn glue_few(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot]) {
+    let mut table = [Facet::new(Slot::new(0), 0); FEW_LABELS * FEW_LABELS];
+    let (mut labels, mut local) = ([INFINITE; FEW_LABELS], [[0; 4]; FEW_RIM]);
+    glue_by_table(t, rim, cells, &mut table, &mut labels, &mut local);
+}
+
+/// Glues by a table of `LABELS` times `LABELS` entries.
 #[inline(always)]
-fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], meetings: &mut Meetings) {
-    let Meetings { table, labels, local } = meetings;
-    // Of fixed lengths, so that the compiler sees masked indices in bounds.
-    let table: &mut [Facet; TABLE] = table.as_mut_slice().try_into().expect("made with the zone");
-    let labels: &mut [SiteId; MAX_LABELS] = labels.as_mut_slice().try_into().expect("made with the zone");
+fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
+    t: &mut Delaunay<Space>,
+    rim: &[Rim],
+    cells: &[Slot],
+    table: &mut [Facet; ENTRIES],
+    labels: &mut [SiteId; LABELS],
+    local: &mut [[u8; 4]],
+) {
     let mut n_labels = 0;
-    for ((facet, &cell), local) in rim.iter().zip(cells).zip(&mut *local) {
+    for ((facet, &cell), local) in rim.iter().zip(cells).zip(local.iter_mut()) {
         let mut label = |v: SiteId| {
             let site = t.corner_mut(v);
             let old = site.cell.get();
-            let is_known = (old < n_labels) & (labels[old as usize % MAX_LABELS] == v);
+            let is_known = (old < n_labels) & (labels[old as usize % LABELS] == v);
             let label = if is_known { old } else { n_labels };
-            labels[label as usize % MAX_LABELS] = v;
+            labels[label as usize % LABELS] = v;
             site.cell = Slot::new(label);
             n_labels += !is_known as u32;
             label as usize
@@ -264,13 +293,13 @@ fn glue_by_table(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], meetings:
         let [_, k, l, m] = facet.corners;
         let (k, l, m) = (label(k), label(l), label(m));
         *local = [0, k as u8, l as u8, m as u8];
-        table[(l * MAX_LABELS + m) % TABLE] = Facet::new(cell, 1);
-        table[(m * MAX_LABELS + k) % TABLE] = Facet::new(cell, 2);
-        table[(k * MAX_LABELS + l) % TABLE] = Facet::new(cell, 3);
+        table[(l * LABELS + m) % ENTRIES] = Facet::new(cell, 1);
+        table[(m * LABELS + k) % ENTRIES] = Facet::new(cell, 2);
+        table[(k * LABELS + l) % ENTRIES] = Facet::new(cell, 3);
     }
-    for ((facet, &cell), label) in rim.iter().zip(cells).zip(&*local) {
+    for ((facet, &cell), label) in rim.iter().zip(cells).zip(local.iter()) {
         let [_, k, l, m] = label.map(usize::from);
-        let at = |from: usize, to: usize| table[(from * MAX_LABELS + to) % TABLE];
+        let at = |from: usize, to: usize| table[(from * LABELS + to) % ENTRIES];
         t.complex.put_glued(cell, facet.corners, [facet.out, at(m, l), at(k, m), at(l, k)]);
         for i in 1..4 {
             t.corner_mut(facet.corners[i]).cell = cell;

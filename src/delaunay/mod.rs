@@ -135,6 +135,11 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Nothing, not even the placeholder for the ghost vertex.
     fn empty() -> Self {
+        Self::empty_on(Threads::ONE)
+    }
+
+    #[inline(always)]
+    fn empty_on(threads: Threads) -> Self {
         let origin = G::Point::default();
         Delaunay {
             sites: Vec::new(),
@@ -156,13 +161,13 @@ impl<G: Dimension> Delaunay<G> {
             changed: None,
             certificates: 0,
             link_sites: 0,
-            threads: Threads::ONE,
+            threads,
         }
     }
 
     /// A triangulation without sites that uses several threads.
     pub(crate) fn on(threads: Threads) -> Result<Self> {
-        let mut t = Delaunay { threads, ..Delaunay::empty() };
+        let mut t = Delaunay::empty_on(threads);
         memory::push(&mut t.sites, Site::new(G::Point::default(), GHOST))?;
         Ok(t)
     }

@@ -57,6 +57,9 @@ pub fn hilbert_order<'p, G: Dimension>(
     mut items: Vec<Keyed>,
     point: impl Fn(u32) -> &'p G::Point + Copy,
 ) -> Result<Vec<Keyed>> {
+    if items.len() <= SHORT_RUN {
+        return Ok(items);
+    }
     let mut spare = Vec::new();
     if items.len() > MAX_COMPARED {
         memory::reserve_exact(&mut spare, items.len())?;
@@ -66,7 +69,7 @@ pub fn hilbert_order<'p, G: Dimension>(
     Ok(items)
 }
 
-/// Runs of one key up to this length stay unsorted: a walk through them is short anyway.
+/// So many items, and runs of one key up to this length, stay unsorted: a walk through them is short anyway.
 const SHORT_RUN: usize = 8;
 
 /// The items have the same key and are ascending; `spare` is as long, or there are [`MAX_COMPARED`] of them.

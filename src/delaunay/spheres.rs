@@ -108,7 +108,7 @@ fn put(entries: &mut [Entry], t: &Delaunay<Space>, cell: Slot, corners: &[SiteId
 #[inline(always)]
 fn is_inside(entry: &Entry, t: &Delaunay<Space>, cell: Slot, q: &[f64; 3], id: VertexId) -> bool {
     let side = predicates::side_of_sphere(&entry.sphere, &entry.first, q);
-    if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id) }
+    if side.abs() > t.filter.prepared { side > 0.0 } else { is_in_uncertain_conflict(t, cell, q, id, side) }
 }
 
 /// As [`Table::is_in_conflict`], for a cell that is not there yet.
@@ -119,15 +119,22 @@ fn prepare(entries: &mut [Entry], t: &Delaunay<Space>, cell: Slot, q: &[f64; 3],
     is_inside(entry(entries, cell), t, cell, q, id)
 }
 
+/// After the static bound. Where spacings differ much, it is that of the largest and nearly all tests come here: so
+/// these are decided by a bound of their own, with what has been computed.
 #[cold]
 #[inline(never)]
-fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: Slot, q: &[f64; 3], id: VertexId) -> bool {
+fn is_in_uncertain_conflict(t: &Delaunay<Space>, cell: Slot, q: &[f64; 3], id: VertexId, side: f64) -> bool {
     let corners = t.complex.cell(cell).corners;
-    if !t.filter.is_exact || corners[3] == INFINITE {
+    if corners[3] == INFINITE {
         return t.is_in_conflict(cell, q, id);
     }
-    // The side of the sphere is exact, so it is zero: a tie.
     let [a, b, c, d] = corners.map(|s| t.view().point(s));
+    if !t.filter.is_exact {
+        // The sphere has been prepared from the corners in this order.
+        let is_certain = predicates::is_side_certain(side, [a, b, c, d, q]);
+        return if is_certain { side > 0.0 } else { t.is_in_conflict(cell, q, id) };
+    }
+    // The side of the sphere is exact, so it is zero: a tie.
     let [i, j, k, l] = corners.map(|s| t.view().id(s).get());
     predicates::is_inside_cospherical(&t.filter, [a, b, c, d, q], [i, j, k, l, id.get()])
 }

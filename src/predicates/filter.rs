@@ -50,6 +50,18 @@
 //! uncertain that are below 10⁻³⁰⁷ where extents are up to 1, and below 10⁻¹³⁴ where one is as large as can
 //! be.
 //!
+//! # Sums of magnitudes
+//!
+//! Ties and near ties are mostly those of structured points, many differences of which are nearly zero. Multiplied
+//! out, the in-sphere determinant of `space.rs` is a sum of products of five differences each. A computed one has
+//! been rounded at most 16 times on the way of each product into the sum: in its five differences, twice in a minor,
+//! three times more in a volume, and in a scalar product, once in their product and twice in the last sums. So it is
+//! off by at most a factor 1 ± u to the power of 16 in each product, and with P for the sum of their magnitudes, the
+//! determinant by ((1 + u)¹⁶ − 1) P. Evaluated in the same order, with magnitudes for differences and sums for
+//! differences of products, P comes out too small by a factor (1 − u)¹⁶ at most. To first order the bound is 16 u P
+//! ([`insphere_bound_of_terms`]); second-order terms, and its own rounding, are less than 50 u of it, and left to
+//! [`ROUND_UP`]. Underflow adds what it adds to the bound by extents.
+//!
 //! # Rounding of the bounds
 //!
 //! The calculus adds and multiplies positive numbers only, fewer than 200 times, and evaluating a bound
@@ -99,6 +111,9 @@ const IN_SPHERE: f64 = {
     let term = volume.times(dot);
     term.plus(term).last_plus(term)
 };
+
+/// Bound of `insphere` / the sum of the magnitudes of its terms.
+const IN_SPHERE_TERMS: f64 = 16.0 * UNIT * ROUND_UP;
 
 /// Bound of `side_of_seen_circle` / (extent x · extent y · largest extent²), see `lifted.rs`.
 const LIFTED: f64 = {
@@ -270,6 +285,13 @@ pub(super) fn orient3d_bound(extents @ [x, y, z]: [f64; 3]) -> f64 {
 
 pub(super) fn insphere_bound(extents: [f64; 3]) -> f64 {
     lifted_bound_3d(IN_SPHERE, extents)
+}
+
+/// The same for points of which the terms of the determinant have this sum of magnitudes, in the order of operations of
+/// the determinant.
+pub(super) fn insphere_bound_of_terms(magnitudes: f64, extents: [f64; 3]) -> f64 {
+    let amplified = largest(extents).max(1.0);
+    IN_SPHERE_TERMS * magnitudes + UNDERFLOW * (amplified * amplified * amplified)
 }
 
 /// Bound of a prepared circle of a triangle of this largest extent, for points no further than `reach` from

@@ -10,8 +10,10 @@
 //! 2 · 756 u · 2⁵ᵇ·(1 + 2⁻⁴⁰) < 2⁵ᵇ⁻⁴² for `insphere`, 2 · 72 u · 2⁴ᵇ < 2⁴ᵇ⁻⁴⁵ for `incircle` and 2 · 40 u · 2³ᵇ < 2³ᵇ⁻⁴⁶ for
 //! `orient3d`, and what the bound allows for underflow is less than a thousandth of that (see [`MIN_EXTENT`]). Hence it
 //! suffices to know D modulo a power of two above twice that number, which costs a few wrapping multiplications
-//! ([`Modular`]), and overflow of intermediate values is of no consequence: 64 bits for neighbours on a lattice, 256 where
-//! differences have all bits of coordinates of one exponent, 512 where exponents differ by up to fifty.
+//! ([`Modular`]), and overflow of intermediate values is of no consequence: 64 bits for neighbours on a lattice, 256
+//! where differences have all bits of coordinates of one exponent, 512 where exponents differ by up to fifty. Long
+//! differences mostly are those of points that are much closer along one axis than along another: the bound that has
+//! not been exceeded is small then, and D shorter still ([`LongScaled::n_bits_within`]).
 
 use std::cmp::Ordering;
 
@@ -119,6 +121,14 @@ impl<const D: usize, const N: usize> LongScaled<D, N> {
     /// As [`Scaled::modular`].
     pub fn modular<M: Modular>(&self) -> [[M; D]; N] {
         self.differences.map(|difference| difference.map(M::from))
+    }
+
+    /// Bits of a determinant of degree five of differences within `extent`, sign included, where neither the rounded
+    /// one nor its error exceeds `bound`, a normal number.
+    pub fn n_bits_within(&self, bound: f64, extent: f64) -> i32 {
+        let unit = exponent_of(extent) - (self.n_bits as i32 - 1);
+        // Twice the bound is less than two to the power of its exponent and two.
+        exponent_of(bound) + 2 - 5 * unit + 1
     }
 }
 

@@ -10,7 +10,8 @@
 //!
 //! 1. *Static*: one bound per predicate, valid for all points of a bounding box ([`StaticFilter`]). The
 //!    only work beside the determinant is one comparison; this much is inlined into the caller.
-//! 2. *Semi-static*: the same bound for the bounding box of this call's own points.
+//! 2. *Semi-static*: the same bound for the bounding box of this call's own points; for `insphere` then a sharper
+//!    one, from the magnitudes of its terms.
 //! 3. *Integer*: where differences are integers that fit, as those of neighbours on a grid are, the determinant
 //!    modulo 2⁶⁴ to 2⁵¹², by the length of the differences (`integer.rs`; not for `orient2d`, whose expansions are short).
 //! 4. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
@@ -112,8 +113,8 @@ pub use plane::{incircle, orient2d};
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};
 pub use sphere::{
-    Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, side_of_circle, side_of_sphere,
-    sphere,
+    Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, is_side_certain,
+    side_of_circle, side_of_sphere, sphere,
 };
 pub(crate) use tolerance::are_within;
 pub use tolerance::{

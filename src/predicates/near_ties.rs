@@ -2,12 +2,14 @@
 
 use std::cmp::Ordering;
 
-use super::filter::{extents, incircle_bound, insphere_bound, is_certain, largest, orient3d_bound};
+use super::filter::{
+    extents, incircle_bound, insphere_bound, insphere_bound_of_terms, is_certain, largest, orient3d_bound,
+};
 use super::integer::{LongScaled, Scaled};
 use super::plane::{incircle_rounded, incircle_sign};
-use super::space::{insphere_rounded, insphere_sign, orient3d_sign, volume};
+use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
-use super::{MAX_MAGNITUDE, big};
+use super::{MAX_MAGNITUDE, big, is_side_certain, side_of_sphere, sphere};
 use crate::random::Rng;
 
 /// Numbers of up to 53 bits with exponents up to `spread` apart, at any place of the range.
@@ -98,15 +100,74 @@ fn near_ties_of_spheres_are_those_of_long_integers() {
         let [a, others @ ..] = points.each_ref();
         let extents = extents(points.each_ref());
         let det = insphere_rounded(points.each_ref());
-        if is_certain(det, insphere_bound(extents), extents) {
+        let by_terms = insphere_bound_of_terms(insphere_magnitudes(points.each_ref()), extents);
+        let bound = insphere_bound(extents).min(by_terms);
+        if is_certain(det, bound, extents) {
             continue;
         }
         counts[length(a, others, largest(extents), &[21, 33, 59, 85, 110])] += 1;
-        if let Some(found) = insphere_sign(points.each_ref(), largest(extents)) {
+        if let Some(found) = insphere_sign(points.each_ref(), largest(extents), bound) {
             assert_eq!(found, sign(big::insphere(1.0, points.each_ref())), "{points:?}");
         }
     }
     assert_all_taken(&counts);
+}
+
+/// Corners of a small lattice at any scale, narrower along some axes, with noise of any size: many differences are
+/// nearly zero.
+fn noisy_lattice(rng: &mut Rng) -> [[f64; 3]; 5] {
+    let unit = 2f64.powi(rng.within(-150, 150) as i32);
+    let noise = unit * 2f64.powi(-rng.within(30, 60) as i32);
+    let (size, offset) = (rng.within(1, 3), rng.within(0, 30));
+    let spacings: [f64; 3] = std::array::from_fn(|_| {
+        if rng.one_in(2) { unit } else { unit * rng.unit() * 2f64.powi(-rng.within(0, 40) as i32) }
+    });
+    std::array::from_fn(|_| {
+        spacings.map(|spacing| {
+            let noise = noise * rng.unit() * rng.within(0, 1) as f64;
+            (offset + rng.within(0, size)) as f64 * spacing + if rng.one_in(3) { noise } else { 0.0 }
+        })
+    })
+}
+
+/// What the bound of the points or that of the terms calls certain has the sign of long integers, and so has what is
+/// left to integers as long as the sharper bound allows.
+#[test]
+fn stages_after_the_static_bound_of_spheres_are_exact() {
+    let rng = &mut Rng::new(4);
+    let (mut n_sides, mut n_by_terms, mut n_open) = (0, 0, 0);
+    let mut n_long = [0; 4];
+    for k in 0..1_200_000 {
+        let points = if k % 3 == 0 { near_tie::<3, 5>(rng) } else { noisy_lattice(rng) };
+        let refs @ [a, b, c, d, q] = points.each_ref();
+        let (extents, det) = (extents(refs), insphere_rounded(refs));
+        let expected = sign(big::insphere(1.0, refs));
+        let side = side_of_sphere(&sphere(a, b, c, d), a, q);
+        if is_side_certain(side, refs) {
+            assert_eq!(sign(side), expected, "{points:?}");
+            n_sides += 1;
+        }
+        let bound = insphere_bound(extents);
+        if is_certain(det, bound, extents) {
+            continue;
+        }
+        let bound = bound.min(insphere_bound_of_terms(insphere_magnitudes(refs), extents));
+        if det.abs() > bound {
+            assert_eq!(sign(det), expected, "{points:?}");
+            n_by_terms += 1;
+        } else if let Some(found) = insphere_sign(refs, largest(extents), bound) {
+            assert_eq!(found, expected, "{points:?}");
+            n_open += 1;
+            if let Some(scaled) = LongScaled::new(a, [b, c, d, q], largest(extents)) {
+                let n_bits = scaled.n_bits_within(bound, largest(extents));
+                let format = [256, 320, 384].iter().position(|&most| n_bits <= most).unwrap_or(3);
+                n_long[format] += u32::from(scaled.n_bits > 59);
+            }
+        }
+    }
+    println!("{n_sides} sides, {n_by_terms} by terms, {n_open} open, {n_long:?} long");
+    assert!(n_sides > 100_000 && n_by_terms > 50_000 && n_open > 100_000);
+    assert!(n_long.iter().all(|&n| n > 1_000));
 }
 
 #[test]

@@ -4,7 +4,9 @@
 //! right-handed basis, that is, when `abc` turns counter-clockwise seen from `d`.
 
 use super::big::{self, has_room};
-use super::filter::{StaticFilter, extents, insphere_bound, is_certain, largest, orient3d_bound};
+use super::filter::{
+    StaticFilter, extents, insphere_bound, insphere_bound_of_terms, is_certain, largest, orient3d_bound,
+};
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
@@ -63,11 +65,16 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
 #[inline(never)]
 fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     let extents = extents(points);
-    if is_certain(det, insphere_bound(extents), extents) {
+    let bound = insphere_bound(extents);
+    if is_certain(det, bound, extents) {
+        return det;
+    }
+    let bound = bound.min(insphere_bound_of_terms(insphere_magnitudes(points), extents));
+    if det.abs() > bound {
         return det;
     }
     tally::count();
-    if let Some(sign) = insphere_sign(points, largest(extents)) {
+    if let Some(sign) = insphere_sign(points, largest(extents), bound) {
         return with_sign(det, sign);
     }
     if !has_room(points, 5) {
@@ -97,12 +104,33 @@ pub(super) fn insphere_rounded([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
         - volume_uvw * dot(&s, &minus(e, b))
 }
 
+/// The sum of the magnitudes of all terms of [`insphere_rounded`], computed in the same order.
+pub(super) fn insphere_magnitudes([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
+    let magnitudes = |p, q| minus::<f64, 3>(p, q).map(f64::abs);
+    let (u, v, w, s) = (magnitudes(b, a), magnitudes(c, a), magnitudes(d, a), magnitudes(e, a));
+    let minor = |p: &[f64; 3], q: &[f64; 3]| p[0] * q[1] + p[1] * q[0];
+    let (minor_uv, minor_uw, minor_us) = (minor(&u, &v), minor(&u, &w), minor(&u, &s));
+    let (minor_vw, minor_vs, minor_ws) = (minor(&v, &w), minor(&v, &s), minor(&w, &s));
+    let volume_uvw = minor_vw * u[2] + minor_uw * v[2] + minor_uv * w[2];
+    let volume_uvs = minor_vs * u[2] + minor_us * v[2] + minor_uv * s[2];
+    let volume_uws = minor_ws * u[2] + minor_us * w[2] + minor_uw * s[2];
+    volume_uvs * dot(&w, &magnitudes(d, b))
+        + volume_uws * dot(&v, &magnitudes(c, b))
+        + volume_uvw * dot(&s, &magnitudes(e, b))
+}
+
 /// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
-pub(super) fn insphere_sign([origin, others @ ..]: [&[f64; 3]; 5], extent: f64) -> Option<Ordering> {
+pub(super) fn insphere_sign(
+    [origin, others @ ..]: [&[f64; 3]; 5],
+    extent: f64,
+    bound: f64,
+) -> Option<Ordering> {
     let Some(scaled) = Scaled::new(origin, others, extent) else {
         let scaled = LongScaled::new(origin, others, extent)?;
-        return Some(match scaled.n_bits {
-            ..=85 => insphere_modular(&scaled.modular::<Limbs<6>>()).sign(),
+        return Some(match scaled.n_bits_within(bound, extent) {
+            ..=256 => insphere_modular(&scaled.modular::<Limbs<4>>()).sign(),
+            257..=320 => insphere_modular(&scaled.modular::<Limbs<5>>()).sign(),
+            321..=384 => insphere_modular(&scaled.modular::<Limbs<6>>()).sign(),
             _ => insphere_modular(&scaled.modular::<Limbs<8>>()).sign(),
         });
     };

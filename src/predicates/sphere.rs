@@ -11,8 +11,8 @@
 //!
 //! since u·n = |u|² V, and likewise for v and w, determines n. A test costs 9 or 14 operations instead of 25
 //! or 74, and fewer in lanes, where a product and a sum are one. The bound is derived like those of the
-//! other determinants, for this operation order, and is static only: what it leaves uncertain goes to
-//! [`incircle`](super::incircle) or [`insphere`](super::insphere).
+//! other determinants, for this operation order. What the static bound leaves uncertain goes to
+//! [`incircle`](super::incircle), or in space to [`is_side_certain`] and then to [`insphere`](super::insphere).
 //!
 //! The half-space beyond a hull facet is the sphere of a ghost cell: V = 0 and n is the facet's outer normal,
 //! times [`StaticFilter::largest_square`], so that its values have the same degree. Their sign is that of the
@@ -26,7 +26,7 @@
 //! exceed infinity.
 
 use super::StaticFilter;
-use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d};
+use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d, semi_static_bounds_3d};
 use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
 use crate::simd::Real;
 
@@ -76,6 +76,20 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
 pub fn side_of_sphere<T: Real>(&[x, y, z, volume]: &Sphere<T>, a: &[T; 3], q: &[T; 3]) -> T {
     let s = minus(q, a);
     fused_dot(&s, &[x, y, z]).minus_product(fused_dot(&s, &s), volume)
+}
+
+/// Whether the side of `q`, as computed from the sphere of `abcd`, is certain where it does not exceed
+/// [`StaticFilter::prepared`]: by the same bound for the greatest differences of these points from `a`, which are all
+/// that it has been computed from.
+#[inline(always)]
+pub fn is_side_certain(side: f64, [a, b, c, d, q]: [&[f64; 3]; 5]) -> bool {
+    let differences = [b, c, d, q].map(|p| minus(p, a));
+    let greatest = |axis: usize| {
+        let [u, v, w, s] = differences.map(|difference| difference[axis].abs());
+        Real::max(Real::max(u, v), Real::max(w, s))
+    };
+    let [_, bound] = semi_static_bounds_3d([greatest(0), greatest(1), greatest(2)]);
+    side.abs() > bound
 }
 
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
