@@ -17,8 +17,8 @@ const MAX_RUNS: usize = 256;
 
 impl<G: Dimension> Delaunay<G> {
     /// Checks the certificates of some cells, in runs at equal distances in storage, as [`sweep`](Self::sweep) does
-    /// those of all. Returns how many slots each stands for; `None`, and nothing listed, if there are too few cells. What
-    /// is listed is of use for nothing but to be counted.
+    /// those of all. Returns how many slots each stands for; `None`, and nothing listed, if there are too few cells.
+    /// What is listed is of use for nothing but to be counted.
     pub(crate) fn sample(
         &mut self,
         failures: &mut Failures,

@@ -93,7 +93,7 @@ pub struct Constants {
     /// are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
     pub max_failing: f64,
     /// The same where there are ties. Measured with lattices, face-centred ones, layers and grids with noise, sheared
-    /// and back: where repair takes longer, they have a seventh and more.
+    /// and back: where repair takes longer, an eighth and more fail.
     pub max_failing_of_ties: f64,
     /// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random
     /// points need none, those of a sheared lattice about one, or one in ten if they are noisy.)
