@@ -231,3 +231,116 @@ fn repairs_that_would_flip_without_end_rebuild() {
     let positions: Vec<_> = now.iter().copied().map(Some).collect();
     assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || "an ellipsoid".into());
 }
+
+/// A lattice of so many points along each axis, of these spacings, in any order.
+fn lattice<G: Dimension>(side: usize, spacing: [f64; 3], rng: &mut Rng) -> Vec<Point<G>> {
+    let n = side.pow(G::D as u32);
+    let place = |i: usize| point::<G>(|k| spacing[k] * (i / [1, side, side * side][k] % side) as f64);
+    let mut points: Vec<_> = (0..n).map(place).collect();
+    rng.shuffle(&mut points);
+    points
+}
+
+fn sheared<G: Dimension>(points: &[Point<G>], by: f64) -> Vec<Point<G>> {
+    let mut points = points.to_vec();
+    points.iter_mut().for_each(|p| p[0] += by * p[1]);
+    points
+}
+
+/// Points in lattices, sheared by as much as in each of these commits; returns the reports.
+fn shear_lattice<G: Dimension>(
+    algorithm: Algorithm,
+    first: &[Point<G>],
+    shears: &[f64],
+    checks: bool,
+) -> Vec<CommitReport> {
+    let options = Options { algorithm, threads: 1, ..Options::default() };
+    let mut t = MovingTriangulation::<G>::new(first, options).expect("a build");
+    let commit = |&by: &f64| {
+        let now = sheared::<G>(first, by);
+        let report = t.commit_positions(&now).expect("a commit");
+        if checks {
+            let positions: Vec<_> = now.into_iter().map(Some).collect();
+            assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&positions), || {
+                format!("{algorithm:?}, {}D, sheared by {by}", G::D)
+            });
+        }
+        report
+    };
+    shears.iter().map(commit).collect()
+}
+
+/// Whatever is foreseen, the cells are those of a fresh build, and it is foreseen again.
+#[test]
+fn foresight_changes_no_cell_and_depends_on_nothing_else() {
+    fn agree<G: Dimension>(side: usize) {
+        let rng = &mut Rng::new(17);
+        for (spacing, noise) in
+            [([1.0; 3], 0.0), ([1.0, if G::D == 2 { 1e-3 } else { 1.0 }, 1e-3], 0.0), ([1.0; 3], 1e-12)]
+        {
+            let mut first = lattice::<G>(side, spacing, rng);
+            if noise > 0.0 {
+                tremble::<G>(&mut first, noise, rng);
+            }
+            let shears = [1e-3, 0.0, 1e-3, 2e-3, 3e-3, 0.0];
+            for algorithm in [Algorithm::Repair, Algorithm::Auto] {
+                let reports = shear_lattice::<G>(algorithm, &first, &shears, true);
+                assert_eq!(reports, shear_lattice::<G>(algorithm, &first, &shears, false));
+            }
+        }
+    }
+    agree::<Plane>(130);
+    agree::<Space>(19);
+}
+
+/// A repair of a lattice that is sheared evaluates hardly more than a rebuild does. Where there are enough cells for a
+/// sample it does not even sweep all of them.
+#[test]
+fn sheared_lattices_are_rebuilt_at_once() {
+    for side in [8, 19] {
+        let first = lattice::<Space>(side, [1.0; 3], &mut Rng::new(19));
+        let n = first.len() as u64;
+        let [rebuilding, repair] = [Algorithm::Rebuilding, Algorithm::Repair]
+            .map(|algorithm| shear_lattice::<Space>(algorithm, &first, &[1e-3], false)[0]);
+        assert_eq!(repair.rebuilds, 1);
+        let (certificates, share) = if side == 8 { (20 * n, 1.5) } else { (n, 1.1) };
+        assert!(repair.certificates < certificates, "{repair:?}");
+        assert!((repair.exact_calls as f64) < share * rebuilding.exact_calls as f64, "{repair:?}");
+    }
+}
+
+/// Vertices on flat parts of the hull, which take as long as a rebuild each, are not placed to the end.
+#[test]
+fn placing_is_given_up_where_it_would_take_too_long() {
+    let first = lattice::<Space>(24, [1.0, 1.0, 1e-3], &mut Rng::new(23));
+    let shears = [1e-3, 2e-3, 3e-3];
+    let [rebuilding, repair] = [Algorithm::Rebuilding, Algorithm::Repair]
+        .map(|algorithm| shear_lattice::<Space>(algorithm, &first, &shears, false)[2]);
+    assert!(repair.exact_calls < 2 * rebuilding.exact_calls, "{repair:?}");
+}
+
+/// What a repair does well is left to it: lattices that move as a whole, random points, few that go far.
+#[test]
+fn repairs_that_are_cheap_are_not_replaced() {
+    fn repairs<G: Dimension>(first: &[Point<G>], mut motion: impl FnMut(&mut [Point<G>]), name: &str) {
+        let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(first, options).expect("a build");
+        let mut now = first.to_vec();
+        for _ in 0..3 {
+            motion(&mut now);
+            let report = t.commit_positions(&now).expect("a commit");
+            assert_eq!(report.rebuilds, 0, "{name}, {}D: {report:?}", G::D);
+        }
+    }
+    fn all_repair<G: Dimension>(side: usize, step: f64) {
+        let rng = &mut Rng::new(29);
+        let grid = lattice::<G>(side, [1.0; 3], rng);
+        repairs::<G>(&grid, |now| now.iter_mut().for_each(|p| p[0] += 1e-3), "a lattice moved");
+        let random: Vec<_> = grid.iter().map(|_| point::<G>(|_| side as f64 * rng.unit())).collect();
+        repairs::<G>(&random, |now| tremble::<G>(now, step, rng), "random points");
+        let far = |now: &mut [Point<G>]| tremble::<G>(&mut now[..grid.len() / 200], side as f64 / 4.0, rng);
+        repairs::<G>(&random, far, "few");
+    }
+    all_repair::<Plane>(130, 0.15);
+    all_repair::<Space>(19, 0.06);
+}

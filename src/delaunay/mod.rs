@@ -52,6 +52,7 @@ mod parts;
 mod plane;
 mod relocate;
 mod remove;
+mod sample;
 mod set;
 pub mod site;
 mod space;

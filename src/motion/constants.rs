@@ -93,6 +93,26 @@ pub struct Constants {
     /// Times that flips may be stuck before the triangulation is rebuilt.
     pub max_rounds: usize,
 
+    /// Rebuild when more facets fail than this number for each finite cell. Measured with random points, uniform and
+    /// in clusters, in steps of 0.01 to 0.6 spacings: with so many, repair and rebuild take as long. In the plane flips
+    /// are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
+    pub max_failing: f64,
+    /// The same where there are ties. Measured with lattices, face-centred ones, layers and grids with noise, sheared
+    /// and back: where repair takes longer, an eighth and more fail.
+    pub max_failing_of_ties: f64,
+    /// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random
+    /// points need none, those of a sheared lattice about one, or one in ten if they are noisy.)
+    pub exact_of_ties: f64,
+    /// How many times the limit a sample has to find to be believed: about the error of a small one.
+    pub sample_margin: f64,
+    /// Exact evaluations of a rebuild for each one of a sweep, measured with sheared lattices: three to five in space.
+    pub exact_per_swept: f64,
+    /// Placing vertices is given up where, by what is counted, those left would cost more than this number of rebuilds.
+    /// (Among ties in space placing takes several times as long as the counts tell.)
+    pub max_placing: f64,
+    /// That is looked at when this share of a rebuild has been spent.
+    pub min_share_spent: f64,
+
     // Watching, slack, and what regions have in common.
     /// With more than this share of the vertices beyond their tolerance, watching, where it is not chosen by auto,
     /// leaves the commit to repair.
@@ -183,6 +203,13 @@ const PLANE: Constants = Constants {
     failures_per_placement: 3,
     certified_per_vertex: 8,
     max_rounds: 8,
+    max_failing: 0.3,
+    max_failing_of_ties: 0.3,
+    exact_of_ties: 0.1,
+    sample_margin: 1.25,
+    exact_per_swept: 2.0,
+    max_placing: 2.0,
+    min_share_spent: 1.0 / 16.0,
     max_share_beyond_alone: 0.25,
     watched_share: 1.0,
     max_share_expired: 1.0 / 3.0,
@@ -211,6 +238,10 @@ const SPACE: Constants = Constants {
     rebuilt_per_placement: 10,
     failures_per_placement: 12,
     certified_per_vertex: 20,
+    max_failing: 0.28,
+    max_failing_of_ties: 0.1,
+    exact_per_swept: 4.0,
+    max_placing: 0.5,
     watched_share: 0.1,
     ..PLANE
 };

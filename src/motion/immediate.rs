@@ -178,7 +178,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         match self.with_regions(report, |t, report| t.relocate_noted(vertex, q, report))? {
             Placed::InCells => Ok(()),
-            Placed::BesideFlat => self.rebuild_as_is(report),
+            Placed::NeedBuild => self.rebuild_as_is(report),
         }
     }
 
@@ -189,7 +189,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         match self.relocate(vertex, q, Shortcut::Flips, report)? {
             Placed::InCells => Ok(()),
-            Placed::BesideFlat => self.rebuild_as_is(report),
+            Placed::NeedBuild => self.rebuild_as_is(report),
         }
     }
 

@@ -16,8 +16,9 @@ use crate::ids::{SiteId, VertexId};
 pub(super) enum Placed {
     /// In a triangulation, or in a set of sites that spans no cell.
     InCells,
-    /// Outside the hyperplane of all others, so that there are cells again: they have to be built.
-    BesideFlat,
+    /// All have to be built: it is outside the hyperplane of all others, so that there are cells again, or it would take
+    /// longer to place those that are left.
+    NeedBuild,
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -59,7 +60,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 report.moved += 1;
                 match relocate(self, v, &new, report) {
                     Ok(Placed::InCells) => {}
-                    Ok(Placed::BesideFlat) => return self.commit_by_rebuilding(k + 1, report),
+                    Ok(Placed::NeedBuild) => return self.commit_by_rebuilding(k + 1, report),
                     Err(error) => {
                         // It counts as not moved; what has become of its site is in the record.
                         self.staging.positions_mut()[v] = new;
@@ -92,7 +93,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 report.placements += 1;
                 self.hide(vertex, t)?;
             }
-            Relocation::Spans => return Ok(Placed::BesideFlat),
+            Relocation::Spans => return Ok(Placed::NeedBuild),
         }
         Ok(Placed::InCells)
     }
@@ -113,7 +114,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
             Insertion::New => {}
             Insertion::Coincident(t) => self.hide(vertex, t)?,
-            Insertion::Spans => return Ok(Placed::BesideFlat),
+            Insertion::Spans => return Ok(Placed::NeedBuild),
         }
         Ok(Placed::InCells)
     }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! move all staged vertices
+//! rebuild if a sample of the cells foretells that this is faster
 //! sweep: orientation of every cell, empty sphere of every facet, convexity of every ridge of the hull
 //! while a cell is inverted or a ridge is not convex:
 //!     take a vertex of it back to its old place
@@ -16,11 +17,13 @@
 //!
 //! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
 //! the plane and a fifteenth in space; a vertex taken back costs a placement, seven or eight vertices rebuilt.
-//! Where more break than is worth mending, the triangulation is rebuilt. The first repair after a build sorts
+//! Where more break than is worth mending, the triangulation is rebuilt, at once where that is foreseen
+//! ([`foresight`](super::foresight)). The first repair after a build sorts
 //! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
 //! threads, all else by one.
 
 use super::Repair;
+use super::foresight::Budget;
 use super::scratch::At;
 use crate::complex::{Corners, INFINITE};
 use crate::delaunay::{Dimension, Shortcut};
@@ -30,6 +33,7 @@ use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::attempt::Mending;
 use crate::motion::constants::constants;
+use crate::motion::placement::Placed;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
@@ -73,12 +77,18 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.mend(&mut repair, report)
         });
         report.unchanged += report.moved.saturating_sub(accepted);
+        let exact = repair.exact;
         self.repair = repair;
         if mended? == Mending::TooMuch {
             return self.commit_by_rebuilding(self.staging.applied(), report);
         }
         self.transaction.want_order();
-        self.place_staged(report, |t, v, new, report| t.relocate(v, new, Shortcut::Flips, report))
+        let left = self.staging.vertices().len() - self.staging.applied();
+        let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report);
+        self.place_staged(report, |t, v, new, report| {
+            let placed = t.relocate(v, new, Shortcut::Flips, report)?;
+            Ok(if budget.is_exceeded::<G>(t.evaluations(), report) { Placed::NeedBuild } else { placed })
+        })
     }
 
     /// Mends a triangulation all staged vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
@@ -103,13 +113,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
         let most = self.n_present / constants.rebuilt_per_placement;
-        if repair.failures.is_sweep_due {
-            // Of a whole staging all applied, the positions staged are now those before.
-            let before = self.staging.others_applied().then_some(self.staging.positions());
-            let most_failures = constants.failures_per_placement * most;
-            if !self.kernel.sweep(&mut repair.failures, most_failures, before)? {
-                return Ok(Mending::TooMuch);
-            }
+        if repair.failures.is_sweep_due
+            && self.sweep(repair, constants.failures_per_placement * most)? == Mending::TooMuch
+        {
+            return Ok(Mending::TooMuch);
         }
         let mut is_triangulation = repair.failures.is_triangulation();
         if !self.monitor(0.5) {
@@ -165,7 +172,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         repair.at.clear();
         memory::reserve(&mut repair.at, self.site_of.len())?;
         repair.queue.clear();
-        (repair.n_new, repair.n_old) = (0, 0);
+        (repair.n_new, repair.n_old, repair.exact) = (0, 0, 0);
         if self.staging.is_whole() {
             repair.at.resize(self.site_of.len(), At::New);
             repair.n_new = moved as usize;

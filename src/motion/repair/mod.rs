@@ -1,6 +1,7 @@
 //! *Repair*: everything moves at once, every certificate is checked, and what has failed is repaired.
 
 mod commit;
+mod foresight;
 mod scratch;
 
 pub(super) use scratch::Repair;

@@ -29,6 +29,8 @@ pub(in crate::motion) struct Repair {
     pub(super) at: Vec<At>,
     pub(super) n_new: usize,
     pub(super) n_old: usize,
+    /// Exact evaluations of the sweep.
+    pub(super) exact: u64,
     /// Sites to be taken back.
     pub(super) sites: Vec<SiteId>,
     /// Vertices to be placed.

@@ -1,0 +1,112 @@
+//! Whether a repair is going to take longer than a rebuild, as far as that can be told before.
+//!
+//! | when | from what |
+//! |---|---|
+//! | before the sweep | facets that fail and exact evaluations in a sample of the cells |
+//! | after it | those of all cells |
+//! | while vertices are placed | what those placed so far have cost |
+//!
+//! On random points a repair takes as long as a rebuild where about every seventh facet in space, or every fifth in
+//! the plane, fails. Where many vertices in space are cospherical, or nearly so, flips get stuck in flat cells, or
+//! evaluate the certificates of one cluster again and again: then a repair takes longer from a third as many on. That
+//! there are such clusters shows in exact evaluations.
+//!
+//! A vertex on a flat part of the hull may have a star of slivers with all others there. How long it takes to place
+//! some of these is known only from the first ones.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::motion::MovingTriangulation;
+use crate::motion::attempt::Mending;
+use crate::motion::constants::constants;
+use crate::motion::repair::Repair;
+use crate::motion::report::{CommitReport, Evaluations};
+use crate::predicates::exact_calls;
+
+/// What a sweep finds, or is going to find.
+#[derive(Clone, Copy, Debug)]
+struct Findings {
+    /// Facets that fail.
+    failing: f64,
+    /// Exact evaluations.
+    exact: f64,
+}
+
+impl Findings {
+    /// Whether a repair would take longer than a rebuild, for this number of finite cells.
+    fn call_for_rebuild<G: Dimension>(self, n_cells: f64) -> bool {
+        let constants = constants::<G>();
+        let has_ties = self.exact > constants.exact_of_ties * n_cells;
+        let most = if has_ties { constants.max_failing_of_ties } else { constants.max_failing };
+        self.failing > most * n_cells
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Sweeps all cells, of which `most` may fail; too much also if a sample or the sweep shows that a repair would
+    /// take longer than a rebuild.
+    pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Mending> {
+        // Of a whole staging all applied, the positions staged are now those before.
+        let before = self.staging.others_applied().then_some(self.staging.positions());
+        let n_cells = self.kernel.complex().n_finite() as f64;
+        let start = exact_calls();
+        if let Some(slots) = self.kernel.sample(&mut repair.failures, before)? {
+            // A sample may err: it decides where it is far from the limit.
+            let weight = slots as f64 / constants::<G>().sample_margin;
+            let failing = weight * repair.failures.facets.len() as f64;
+            let exact = weight * (exact_calls() - start) as f64;
+            if (Findings { failing, exact }).call_for_rebuild::<G>(n_cells) {
+                return Ok(Mending::TooMuch);
+            }
+        }
+        let start = exact_calls();
+        if !self.kernel.sweep(&mut repair.failures, most, before)? {
+            return Ok(Mending::TooMuch);
+        }
+        repair.exact = exact_calls() - start;
+        let found = Findings { failing: repair.failures.facets.len() as f64, exact: repair.exact as f64 };
+        Ok(if found.call_for_rebuild::<G>(n_cells) { Mending::TooMuch } else { Mending::Mended })
+    }
+}
+
+/// The time that placing vertices may take.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget {
+    /// What had been evaluated, and how many vertices placed, at the beginning.
+    evaluations: Evaluations,
+    placements: u64,
+    /// Vertices still to be relocated, and of how many.
+    left: usize,
+    all: usize,
+    /// What a rebuild would cost.
+    rebuild: f64,
+}
+
+impl Budget {
+    /// For `left` vertices to be relocated out of `n`, after a sweep with so many exact evaluations.
+    pub(super) fn new<G: Dimension>(
+        n: usize,
+        left: usize,
+        exact: u64,
+        evaluations: Evaluations,
+        report: &CommitReport,
+    ) -> Self {
+        let constants = constants::<G>();
+        let costs = &constants.costs;
+        let rebuild = n as f64 * costs.rebuilt + constants.exact_per_swept * exact as f64 * costs.exact;
+        Budget { evaluations, placements: report.placements, left, all: left, rebuild }
+    }
+
+    /// Counts a relocation; whether all others, if they cost what the first ones have, cost more than a rebuild.
+    pub(super) fn is_exceeded<G: Dimension>(&mut self, now: Evaluations, report: &CommitReport) -> bool {
+        let constants = constants::<G>();
+        let costs = &constants.costs;
+        self.left -= 1;
+        let spent = (report.placements - self.placements) as f64 * costs.placed
+            + (now.link_sites - self.evaluations.link_sites) as f64 * costs.rebuilt
+            + (now.exact - self.evaluations.exact) as f64 * costs.exact;
+        let done = (self.all - self.left) as f64;
+        spent > constants.min_share_spent * self.rebuild
+            && spent / done * self.left as f64 > constants.max_placing * self.rebuild
+    }
+}
