@@ -168,9 +168,9 @@ impl<G: Dimension> Delaunay<G> {
 
     /// A triangulation without sites that uses several threads.
     pub(crate) fn on(threads: Threads) -> Result<Self> {
-        let mut t = Delaunay::empty_on(threads);
-        memory::push(&mut t.sites, Site::new(G::Point::default(), GHOST))?;
-        Ok(t)
+        let mut sites = Vec::new();
+        memory::push(&mut sites, Site::new(G::Point::default(), GHOST))?;
+        Ok(Delaunay { sites, ..Delaunay::empty_on(threads) })
     }
 
     /// The cells.
