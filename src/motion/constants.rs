@@ -196,7 +196,7 @@ const PLANE: Constants = Constants {
     swept_per_placement: 20,
     max_rebuilds: 15,
     rebuilds_growth: 2,
-    share_of_round: 0.125,
+    share_of_round: 1.0,
     min_share_of_round: 0.85,
     shorter_rounds: 8.0,
     rebuilt_per_placement: 8,
