@@ -2,20 +2,13 @@
 #ifndef CHECK_H
 #define CHECK_H
 
+#include "condition.h"
+
 #include <deldrift.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-#define CHECK(condition)                                                              \
-    do {                                                                              \
-        if (!(condition)) {                                                           \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);   \
-            exit(1);                                                                  \
-        }                                                                             \
-    } while (0)
 
 // The call gives this status.
 #define CHECK_STATUS(call, expected) check_status((call), (expected), #call, __FILE__, __LINE__)
@@ -77,5 +70,19 @@ static const double SQUARE[] = {0, 0, 4, 0, 5, 5, 0, 4, 1, 2};
 enum { SQUARE_COUNT = 5 };
 static const double TETRAHEDRON[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 0.5, 0.5, 0.75};
 enum { TETRAHEDRON_COUNT = 5 };
+
+static inline deldrift_cells_view cells_of(const deldrift_triangulation *t) {
+    deldrift_cells_view view;
+    memset(&view, 255, sizeof view);
+    OK(deldrift_cells(t, &view));
+    return view;
+}
+
+static inline bool has_corner(const uint32_t *cell, uint32_t corners, uint32_t vertex) {
+    for (uint32_t i = 0; i < corners; i++) {
+        if (cell[i] == vertex) return true;
+    }
+    return false;
+}
 
 #endif

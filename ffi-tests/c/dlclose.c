@@ -1,20 +1,12 @@
 // A program that loads the library, has it work on several threads, and unloads it: again and again, and then waits for
 // what may run on.
 #define _DEFAULT_SOURCE
+#include "condition.h"
+
 #include <deldrift.h>
 #include <dlfcn.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-#define CHECK(condition)                                                             \
-    do {                                                                             \
-        if (!(condition)) {                                                          \
-            fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);  \
-            exit(1);                                                                 \
-        }                                                                            \
-    } while (0)
 
 enum { COUNT = 2000, THREADS = 3, ROUNDS = 4 };
 

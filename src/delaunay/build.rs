@@ -29,7 +29,7 @@ const MONITORED: usize = 1024;
 const STRIDES: usize = 1024;
 
 /// Up to this number of sites a build in space prepares nothing for later insertions: there are not enough of them.
-const FEW: usize = 16;
+const MAX_UNPREPARED: usize = 16;
 
 /// From this number on, cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
@@ -171,7 +171,7 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
         debug_assert!(!self.complex.is_recording());
-        if G::D == 3 && order.len() <= FEW {
+        if G::D == 3 && order.len() <= MAX_UNPREPARED {
             return self.insert_each::<false>(order, monitor);
         }
         self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;

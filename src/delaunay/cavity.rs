@@ -115,8 +115,10 @@ impl<G: Dimension> Delaunay<G> {
         let near = self.cell_towards(&q, self.recent);
         let before = self.cavity.steps;
         let inserted = self.insert_site(s, near);
-        let steps = self.cavity.steps - before;
-        self.note_walk(&q, self.recent, steps);
+        // Otherwise the last change is elsewhere.
+        if inserted == Ok(Insertion::New) {
+            self.note_walk(&q, self.recent, self.cavity.steps - before);
+        }
         inserted
     }
 

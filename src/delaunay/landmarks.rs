@@ -71,12 +71,12 @@ impl Tree {
         }
         let depth = (n / 4).ilog2();
         let n_leaves = 1 << depth;
-        // Sites are in an order of their places, so that every k-th is near each other one.
+        // Sites are stored in the order of their places along a curve, so every k-th is a sample as dense as they are.
         let mut items = Vec::new();
         memory::reserve_exact(&mut items, n_leaves)?;
         let is_in_cells = |site: &Site<G>| site.is_live() && site.cell != Slot::NONE;
         let picked = (0..n_leaves).map(|k| 1 + (k as u64 * (n - 1) as u64 / n_leaves as u64) as usize);
-        items.extend(picked.filter(|&s| is_in_cells(&sites[s])).map(|s| (sites[s].point, s as u32)));
+        items.extend(picked.filter(|&s| is_in_cells(&sites[s])).map(|s| (sites[s].point, SiteId::at(s))));
         let Some(&last) = items.last() else {
             return Ok(None);
         };
@@ -94,7 +94,7 @@ impl Tree {
             }
         }
         let mut leaves = Vec::new();
-        memory::collect(&mut leaves, items.iter().map(|&(_, s)| AtomicU32::new(s)))?;
+        memory::collect(&mut leaves, items.iter().map(|&(_, s)| AtomicU32::new(s.get())))?;
         Ok(Some(Tree { splits, leaves }))
     }
 
@@ -105,7 +105,7 @@ impl Tree {
         let mut node = 1;
         while node < n {
             let split = self.splits[node];
-            // Four axes, so that there is no check; the last is never asked for.
+            // The remainder spares a check of the bounds.
             let axis = (split.to_bits() & 3) as usize % G::D;
             node = 2 * node + usize::from(q[axis] >= split);
         }
@@ -114,7 +114,7 @@ impl Tree {
 }
 
 /// The axis along which these places extend farthest.
-fn widest<G: Dimension>(items: &[(G::Point, u32)]) -> usize {
+fn widest<G: Dimension>(items: &[(G::Point, SiteId)]) -> usize {
     let (mut lower, mut upper) = (items[0].0, items[0].0);
     for (p, _) in items {
         for axis in 0..G::D {

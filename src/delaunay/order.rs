@@ -69,7 +69,7 @@ pub fn hilbert_order<'p, G: Dimension>(
     Ok(items)
 }
 
-/// So many items, and runs of one key up to this length, stay unsorted: a walk through them is short anyway.
+/// This number of items, and runs of one key up to this length, stay unsorted: a walk through them is short anyway.
 const SHORT_RUN: usize = 8;
 
 /// The items have the same key and are ascending; `spare` is as long, or there are [`MAX_COMPARED`] of them.
@@ -111,7 +111,7 @@ fn sort_in_box<'p, G: Dimension>(
 const MAX_COMPARED: usize = 256;
 
 /// Up to this number of items digits have at most 8 bits: counting by more takes longer than another pass.
-const FEW_FOR_LONG_DIGITS: usize = 1 << 12;
+const MAX_BY_SHORT_DIGITS: usize = 1 << 12;
 
 /// Sorts items by their keys, which have `bits` bits; items of the same key keep their order.
 ///
@@ -120,7 +120,7 @@ const FEW_FOR_LONG_DIGITS: usize = 1 << 12;
 fn sort_by_key(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
     if keyed.len() <= MAX_COMPARED {
         keyed.sort_unstable_by_key(|k| k.0);
-    } else if keyed.len() <= FEW_FOR_LONG_DIGITS {
+    } else if keyed.len() <= MAX_BY_SHORT_DIGITS {
         sort_by_digits::<{ 1 << 8 }, 4>(keyed, spare, bits);
     } else {
         // Longer ones would be more places to write to than the processor keeps at hand.

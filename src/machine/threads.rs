@@ -58,7 +58,7 @@ impl Threads {
         Threads { most, all: false }
     }
 
-    /// So many wherever the work can be divided, whether or not that pays.
+    /// This number wherever the work can be divided, whether or not that pays.
     pub(crate) fn exactly(n: u32) -> Self {
         let most = n as usize;
         allow_workers(most - 1);

@@ -36,6 +36,16 @@ pub(super) enum Mending {
     TooMuch,
 }
 
+/// What a sweep, or taking vertices back, has shown of cells that are to be mended.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Prospect {
+    /// They can be mended; what has to be is listed.
+    Mendable,
+    /// That would take longer than to build them again.
+    TooMuch,
+}
+
 /// What has become of the staged insertions and removals.
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

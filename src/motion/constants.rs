@@ -4,6 +4,7 @@
 //! motions take with it and with other values. It prints each beside the measured one, and by how much the one here is
 //! slower. Change one where that is clearly more than the noise printed next to it, twice.
 
+use super::report::Evaluations;
 use crate::delaunay::Dimension;
 
 /// What the parts of a commit cost, in nanoseconds; only the ratios matter.
@@ -27,6 +28,15 @@ pub struct Costs {
     pub placed: f64,
     /// An exact evaluation.
     pub exact: f64,
+}
+
+impl Costs {
+    /// What placements and evaluations have cost.
+    pub(super) fn of(&self, placements: u64, evaluations: Evaluations) -> f64 {
+        placements as f64 * self.placed
+            + evaluations.link_sites as f64 * self.rebuilt
+            + evaluations.exact as f64 * self.exact
+    }
 }
 
 /// The constants of one dimension.
@@ -72,8 +82,7 @@ pub struct Constants {
     pub max_rebuilds: u32,
     /// So many times as many as after the last repair that was too expensive, and one more.
     pub rebuilds_growth: u32,
-    /// Vertices that move one at a time, at once or few in a commit, are counted in rounds of this share of all.
-    pub share_of_round: f64,
+    /// Vertices that move one at a time, at once or few in a commit, are counted in rounds of as many as there are.
     /// Tolerances are kept for them after a round of which this share changed no cell, and while this share is within.
     pub min_share_of_round: f64,
     /// While tolerances are kept, rounds are shorter by this factor: where they are of no use, every move is the more
@@ -196,7 +205,6 @@ const PLANE: Constants = Constants {
     swept_per_placement: 20,
     max_rebuilds: 15,
     rebuilds_growth: 2,
-    share_of_round: 1.0,
     min_share_of_round: 0.85,
     shorter_rounds: 8.0,
     rebuilt_per_placement: 8,

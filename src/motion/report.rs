@@ -47,3 +47,14 @@ pub(super) struct Evaluations {
     /// Sites of links that were triangulated in removals of vertices of high degree.
     pub(super) link_sites: u64,
 }
+
+impl Evaluations {
+    /// What has been evaluated since.
+    pub(super) fn since(self, before: Self) -> Self {
+        Evaluations {
+            certificates: self.certificates - before.certificates,
+            exact: self.exact - before.exact,
+            link_sites: self.link_sites - before.link_sites,
+        }
+    }
+}

@@ -152,12 +152,12 @@ impl Auto {
         self.unchanged += relocated;
     }
 
-    /// The commit relocates few vertices, one after the other.
-    pub(super) fn note_few(&mut self) {
-        self.is_of_few = true;
+    /// Notes whether the commit relocates few vertices, one after the other.
+    pub(super) fn note_few(&mut self, is_of_few: bool) {
+        self.is_of_few = is_of_few;
     }
 
-    /// Whether the commit before was such a one; not any more after that.
+    /// Whether the commit has done so; not any more after that.
     pub(super) fn take_few(&mut self) -> bool {
         std::mem::take(&mut self.is_of_few)
     }
@@ -207,13 +207,10 @@ impl Auto {
         report: &CommitReport,
         [before, after]: [Evaluations; 2],
     ) -> bool {
-        let (costs, exact) = (&constants::<G>().costs, after.exact - before.exact);
-        let spent = n as f64 * costs.sweep
-            + report.placements as f64 * costs.placed
-            + (after.link_sites - before.link_sites) as f64 * costs.rebuilt
-            + exact as f64 * costs.exact;
+        let (costs, done) = (&constants::<G>().costs, after.since(before));
+        let spent = n as f64 * costs.sweep + costs.of(report.placements, done);
         // While it is not known it counts as equal.
-        let exact_of_rebuild = self.exact_of_rebuild.unwrap_or(exact);
+        let exact_of_rebuild = self.exact_of_rebuild.unwrap_or(done.exact);
         spent > n as f64 * costs.rebuilt + exact_of_rebuild as f64 * costs.exact
     }
 

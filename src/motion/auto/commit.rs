@@ -15,13 +15,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        // One that failed may have left that.
-        self.auto.take_few();
+        let is_of_few = self.staging.count() * constants::<G>().swept_per_placement < self.n_present;
+        self.auto.note_few(is_of_few);
         if !self.kernel.has_cells() {
             return self.rebuild_given(given, report);
         }
-        if self.staging.count() * constants::<G>().swept_per_placement < self.n_present {
-            self.auto.note_few();
+        if is_of_few {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
                 self.commit_by_tolerance(given, report)
             } else {
@@ -95,8 +94,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(always)]
     fn round(&self, is_kept: bool) -> u64 {
         let constants = constants::<G>();
-        let longest = self.n_present as f64 * constants.share_of_round;
-        let round = if is_kept { longest / constants.shorter_rounds } else { longest };
+        let all = self.n_present as f64;
+        let round = if is_kept { all / constants.shorter_rounds } else { all };
         round.max(f64::from(constants.sampled_vertices)) as u64
     }
 

@@ -16,7 +16,8 @@
 //! taken back, so that a vertex that jumps across the domain goes first.
 //!
 //! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
-//! the plane and a fifteenth in space; a vertex taken back costs a placement, seven or eight vertices rebuilt.
+//! the plane and a fifteenth in space; a vertex taken back costs a placement, seven or eight vertices rebuilt (`make
+//! calibrate`).
 //! Where more break than is worth mending, the triangulation is rebuilt, at once where that is foreseen
 //! ([`foresight`](super::foresight)). The first repair after a build sorts
 //! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
@@ -31,7 +32,7 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::motion::attempt::Mending;
+use crate::motion::attempt::{Mending, Prospect};
 use crate::motion::constants::constants;
 use crate::motion::placement::Placed;
 use crate::motion::staging::Given;
@@ -114,7 +115,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let constants = constants::<G>();
         let most = self.n_present / constants.rebuilt_per_placement;
         if repair.failures.is_sweep_due
-            && self.sweep(repair, constants.failures_per_placement * most)? == Mending::TooMuch
+            && self.sweep(repair, constants.failures_per_placement * most)? == Prospect::TooMuch
         {
             return Ok(Mending::TooMuch);
         }
@@ -126,7 +127,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let last_certificate = self.kernel.certificates() + most_certificates;
         for _ in 0..constants.max_rounds {
             let is_mended = is_triangulation
-                || self.take_back_failed(repair, most)? == Mending::Mended && self.winds_once(repair)?;
+                || self.take_back_failed(repair, most)? == Prospect::Mendable && self.winds_once(repair)?;
             if !is_mended {
                 return Ok(Mending::TooMuch);
             }
@@ -227,7 +228,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Takes vertices back until every cell is positive and the hull convex; too much if more than `most` are back.
-    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> Result<Mending> {
+    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
         loop {
             while let Some(c) = repair.failures.cells.pop() {
                 if self.kernel.is_positive(c) {
@@ -238,14 +239,14 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.failures.cells.push(c);
                 self.take_back(repair, s)?;
                 if repair.n_old > most {
-                    return Ok(Mending::TooMuch);
+                    return Ok(Prospect::TooMuch);
                 }
             }
             let (at, before) = (&repair.at, self.staging.positions());
             let before = |id: VertexId| (at[id] != At::Old).then(|| &before[id]);
             self.kernel.check_ridges(&mut repair.failures, before)?;
             if repair.failures.ridges.is_empty() {
-                return Ok(Mending::Mended);
+                return Ok(Prospect::Mendable);
             }
             while let Some(ridge) = repair.failures.ridges.pop() {
                 if self.kernel.is_convex(ridge) {
@@ -262,7 +263,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 repair.failures.ridges.push(ridge);
                 self.take_back(repair, s)?;
                 if repair.n_old > most {
-                    return Ok(Mending::TooMuch);
+                    return Ok(Prospect::TooMuch);
                 }
                 if !repair.failures.cells.is_empty() {
                     break;

@@ -17,7 +17,7 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::motion::MovingTriangulation;
-use crate::motion::attempt::Mending;
+use crate::motion::attempt::Prospect;
 use crate::motion::constants::constants;
 use crate::motion::repair::Repair;
 use crate::motion::report::{CommitReport, Evaluations};
@@ -45,7 +45,7 @@ impl Findings {
 impl<G: Dimension> MovingTriangulation<G> {
     /// Sweeps all cells, of which `most` may fail; too much also if a sample or the sweep shows that a repair would
     /// take longer than a rebuild.
-    pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Mending> {
+    pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
         // Of a whole staging all applied, the positions staged are now those before.
         let before = self.staging.others_applied().then_some(self.staging.positions());
         let n_cells = self.kernel.complex().n_finite() as f64;
@@ -56,16 +56,16 @@ impl<G: Dimension> MovingTriangulation<G> {
             let failing = weight * repair.failures.facets.len() as f64;
             let exact = weight * (exact_calls() - start) as f64;
             if (Findings { failing, exact }).call_for_rebuild::<G>(n_cells) {
-                return Ok(Mending::TooMuch);
+                return Ok(Prospect::TooMuch);
             }
         }
         let start = exact_calls();
         if !self.kernel.sweep(&mut repair.failures, most, before)? {
-            return Ok(Mending::TooMuch);
+            return Ok(Prospect::TooMuch);
         }
         repair.exact = exact_calls() - start;
         let found = Findings { failing: repair.failures.facets.len() as f64, exact: repair.exact as f64 };
-        Ok(if found.call_for_rebuild::<G>(n_cells) { Mending::TooMuch } else { Mending::Mended })
+        Ok(if found.call_for_rebuild::<G>(n_cells) { Prospect::TooMuch } else { Prospect::Mendable })
     }
 }
 
@@ -83,7 +83,7 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    /// For `left` vertices to be relocated out of `n`, after a sweep with so many exact evaluations.
+    /// For `left` vertices to be relocated out of `n`, after a sweep with `exact` exact evaluations.
     pub(super) fn new<G: Dimension>(
         n: usize,
         left: usize,
@@ -100,11 +100,8 @@ impl Budget {
     /// Counts a relocation; whether all others, if they cost what the first ones have, cost more than a rebuild.
     pub(super) fn is_exceeded<G: Dimension>(&mut self, now: Evaluations, report: &CommitReport) -> bool {
         let constants = constants::<G>();
-        let costs = &constants.costs;
         self.left -= 1;
-        let spent = (report.placements - self.placements) as f64 * costs.placed
-            + (now.link_sites - self.evaluations.link_sites) as f64 * costs.rebuilt
-            + (now.exact - self.evaluations.exact) as f64 * costs.exact;
+        let spent = constants.costs.of(report.placements - self.placements, now.since(self.evaluations));
         let done = (self.all - self.left) as f64;
         spent > constants.min_share_spent * self.rebuild
             && spent / done * self.left as f64 > constants.max_placing * self.rebuild
