@@ -1,4 +1,5 @@
-//! What is said of algorithms elsewhere: it follows from their rows in src/motion/algorithms.rs, or is compared with them.
+//! What is said of algorithms elsewhere: it follows from their rows in src/motion/algorithms.rs, or is compared with
+//! them.
 
 use std::collections::BTreeMap;
 

@@ -37,7 +37,8 @@ const LARGE: usize = 1 << 15;
 /// Cells between free ones where several threads will flip.
 const GAP_AFTER: usize = 63;
 
-/// After how many cells there is a free one, for this number of threads: each that flips in space needs free cells of its own.
+/// After how many cells there is a free one, for this number of threads: each that flips in space needs free cells of
+/// its own.
 fn gap_after<G: Dimension>(n_threads: usize) -> usize {
     if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX }
 }
@@ -252,8 +253,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Puts the cells in the order of the sites, so that what is near in space is near in memory for sweeps over all: a
-    /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and more,
-    /// and several threads need it to have cells of their own.
+    /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and
+    /// more, and several threads need it to have cells of their own.
     ///
     /// Returns the new slot of each, [`Slot::NONE`] for free ones, unless they stay as they are.
     pub(crate) fn sort_cells(&mut self) -> Result<Option<Vec<Slot>>> {

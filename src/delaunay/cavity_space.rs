@@ -310,8 +310,8 @@ fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
 /// An edge of the rim, and a facet there.
 type Ridge = ([SiteId; 2], Facet);
 
-/// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room for
-/// all `ridges`.
+/// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room
+/// for all `ridges`.
 #[cold]
 fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], mut ridges: Vec<Ridge>) {
     for (facet, &cell) in rim.iter().zip(cells) {

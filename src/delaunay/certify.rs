@@ -1,9 +1,9 @@
 //! Certificates of many cells at once, after sites have moved and before any cell has changed.
 //!
-//! Cells are a triangulation again if every finite one is positively oriented, the hull is convex at every ridge, and it
-//! winds once: it is then the boundary of a convex set, and the cells, all of one orientation, cover that as often as
-//! their boundary winds. They are the Delaunay triangulation if also no facet fails the empty-sphere test (Delaunay's
-//! lemma, ties broken by id).
+//! Cells are a triangulation again if every finite one is positively oriented, the hull is convex at every ridge, and
+//! it winds once: it is then the boundary of a convex set, and the cells, all of one orientation, cover that as often
+//! as their boundary winds. They are the Delaunay triangulation if also no facet fails the empty-sphere test
+//! (Delaunay's lemma, ties broken by id).
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -19,8 +19,8 @@ use crate::simd::{Avx2, LANES};
 /// A sweep of this number of cells takes a few times as long as a thread takes to wake up.
 const SWEPT_AT_LEAST: usize = 1 << 14;
 
-/// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order at
-/// all ([`prefetch::CACHE_BYTES`](crate::machine::prefetch)), as most neighbours are stored close by.
+/// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order
+/// at all ([`prefetch::CACHE_BYTES`](crate::machine::prefetch)), as most neighbours are stored close by.
 const SWEPT_CACHE_BYTES: usize = 4 << 20;
 
 /// Facets between finite cells that wait until they are as many as can be checked together.
@@ -38,8 +38,9 @@ impl Default for Waiting {
 
 impl<G: Dimension> Delaunay<G> {
     /// Checks every certificate of the finite cells once, and lists the ghosts; `false`, before the end,
-    /// when more than `most` cells have failed. What has been listed before an error is of no use. Where it is known where all
-    /// vertices were `before`, by id, certificates of those that have not moved are not evaluated again in exact arithmetic.
+    /// when more than `most` cells have failed. What has been listed before an error is of no use. Where it is known
+    /// where all vertices were `before`, by id, certificates of those that have not moved are not evaluated again in
+    /// exact arithmetic.
     pub(crate) fn sweep(
         &mut self,
         failures: &mut Failures,
@@ -161,8 +162,8 @@ impl<G: Dimension> Delaunay<G> {
         Ok(true)
     }
 
-    /// Checks the ridges of the ghost cells that are open. Finite cells must be positive. `before` tells, by id, from where a
-    /// vertex has come, if it has moved.
+    /// Checks the ridges of the ghost cells that are open. Finite cells must be positive. `before` tells, by id, from
+    /// where a vertex has come, if it has moved.
     pub(crate) fn check_ridges<'p>(
         &self,
         failures: &mut Failures,
@@ -211,8 +212,8 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// As [`check_bicell`](Self::check_bicell) of many bi-cells, of which those of finite cells wait for each other; after
-    /// the last one comes [`check_waiting`](Self::check_waiting).
+    /// As [`check_bicell`](Self::check_bicell) of many bi-cells, of which those of finite cells wait for each other;
+    /// after the last one comes [`check_waiting`](Self::check_waiting).
     #[inline(always)]
     pub(crate) fn check_bicell_of_many(
         &self,
@@ -371,8 +372,8 @@ impl<G: Dimension> Delaunay<G> {
         })
     }
 
-    /// Whether a simplex that is not negative now has not become so on the way from where its vertices were before: it was
-    /// certainly positive all the way, or nothing has moved.
+    /// Whether a simplex that is not negative now has not become so on the way from where its vertices were before: it
+    /// was certainly positive all the way, or nothing has moved.
     fn stayed_positive<'p>(
         &self,
         corners: &G::Corners,
@@ -413,8 +414,8 @@ impl<G: Dimension> Delaunay<G> {
         G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
     }
 
-    /// Whether the hull is convex or flat at the ridge that is this facet of a ghost cell, and not folded. The finite cells
-    /// there must be positive.
+    /// Whether the hull is convex or flat at the ridge that is this facet of a ghost cell, and not folded. The finite
+    /// cells there must be positive.
     pub(crate) fn is_convex(&self, ridge: Facet) -> bool {
         let ghost = self.complex.cell(ridge.cell());
         let apex = self.place(self.complex.apex(ghost.neighbour(ridge.index())));

@@ -21,6 +21,7 @@
 //! | `changes` | a record of the cells made or moved |
 //! | `successor` | a kernel to be built beside another one |
 //! | `certify`, `uncertain`, `failures` | all certificates at once |
+//! | `sample` | those of a few cells |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
 //! | `validate` | the exact check of everything |
 //! | `set` | small sets of indices |

@@ -7,8 +7,8 @@ use crate::ids::Slot;
 /// Slots next to each other that are sampled together: their neighbours and sites are near each other in memory.
 const RUN: usize = 16;
 
-/// One slot in this number is sampled, so that a sample costs less than a hundredth of a sweep, also where its runs have
-/// to be fetched from memory: then a cell takes three times as long as in a sweep (40,000 random points in space).
+/// One slot in this number is sampled, so that a sample costs less than a hundredth of a sweep, also where its runs
+/// have to be fetched from memory: then a cell takes three times as long as in a sweep (40,000 random points in space).
 const SLOTS_PER_SAMPLED: usize = 512;
 
 /// Fewer runs say too little, and more say no more.

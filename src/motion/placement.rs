@@ -16,8 +16,8 @@ use crate::ids::{SiteId, VertexId};
 pub(super) enum Placed {
     /// In a triangulation, or in a set of sites that spans no cell.
     InCells,
-    /// All have to be built: it is outside the hyperplane of all others, so that there are cells again, or it would take
-    /// longer to place those that are left.
+    /// All have to be built: it is outside the hyperplane of all others, so that there are cells again, or it would
+    /// take longer to place those that are left.
     NeedBuild,
 }
 

@@ -5,11 +5,11 @@
 //! points of which one is at a place like 10⁻⁶⁴.
 //!
 //! The integers are of fixed size and on the stack, as there is no way to report from here that memory has run out. A
-//! coordinate is of magnitude at most 10⁵⁷ < 2¹⁹⁰ and a multiple of 2⁻¹⁰⁷⁴, so at most 2¹²⁶⁴ units; a difference is below
-//! 2¹²⁶⁵. In space the greatest determinant is `insphere`. Each of its four terms is the product of a square, three
-//! products of two differences, and a volume, six of three: below 4 · 3 · 6 · 2⁵·¹²⁶⁵ < 2⁶³³², and so are all sums on the way.
-//! That fits 99 limbs of 64 bits, the sign apart. Integers of very different lengths are made on the way, so their limbs
-//! follow each other in one [`Room`] for all of a determinant.
+//! coordinate is of magnitude at most 10⁵⁷ < 2¹⁹⁰ and a multiple of 2⁻¹⁰⁷⁴, so at most 2¹²⁶⁴ units; a difference is
+//! below 2¹²⁶⁵. In space the greatest determinant is `insphere`. Each of its four terms is the product of a square,
+//! three products of two differences, and a volume, six of three: below 4 · 3 · 6 · 2⁵·¹²⁶⁵ < 2⁶³³², and so are all
+//! sums on the way. That fits 99 limbs of 64 bits, the sign apart. Integers of very different lengths are made on the
+//! way, so their limbs follow each other in one [`Room`] for all of a determinant.
 
 #![allow(unsafe_code)]
 
@@ -135,10 +135,10 @@ fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Integer<'r>; 3]) 
 
 /// Limbs of all integers that a determinant takes.
 ///
-/// Those of `insphere` are the most. A difference has 20 limbs, and a product as many as both factors; a sum takes one more
-/// than the longer term, which stays zero (see the module's documentation), and so do numbers to be shifted. 15 coordinates
-/// and 12 differences are 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of these and
-/// 3 · 60 + 2 · 61. Four squares, four volumes, four products of 100 and three sums of 101 make 4,738 in all.
+/// Those of `insphere` are the most. A difference has 20 limbs, and a product as many as both factors; a sum takes one
+/// more than the longer term, which stays zero (see the module's documentation), and so do numbers to be shifted. 15
+/// coordinates and 12 differences are 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of
+/// these and 3 · 60 + 2 · 61. Four squares, four volumes, four products of 100 and three sums of 101 make 4,738 in all.
 const LIMBS: usize = 4738;
 
 /// Room for integers, which are given up together.
@@ -160,8 +160,8 @@ impl Room {
         let first = self.n.get();
         assert!(n <= LIMBS - first, "room for a determinant");
         self.n.set(first + n);
-        // SAFETY: there are so many, nobody else has them as the number of those in use never falls, and they are written
-        // before they are handed out.
+        // SAFETY: there are so many, nobody else has them as the number of those in use never falls, and they are
+        // written before they are handed out.
         unsafe {
             let first = self.limbs.get().cast::<u64>().add(first);
             first.write_bytes(0, n);

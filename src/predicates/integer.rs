@@ -7,13 +7,13 @@
 //! bits in a unit that is a power of two ([`Scaled`], [`LongScaled`]). A determinant D of degree k consists of terms
 //! of k times as many bits, but D itself is shorter: this stage is entered only when the rounded determinant does
 //! not exceed its error bound, so |D| is at most twice that bound. With an extent of b bits that is
-//! 2 · 756 u · 2⁵ᵇ·(1 + 2⁻⁴⁰) < 2⁵ᵇ⁻⁴² for `insphere`, 2 · 72 u · 2⁴ᵇ < 2⁴ᵇ⁻⁴⁵ for `incircle` and 2 · 40 u · 2³ᵇ < 2³ᵇ⁻⁴⁶ for
-//! `orient3d`, and what the bound allows for underflow is less than a thousandth of that (see [`MIN_EXTENT`]). Hence it
-//! suffices to know D modulo a power of two above twice that number, which costs a few wrapping multiplications
-//! ([`Modular`]), and overflow of intermediate values is of no consequence: 64 bits for neighbours on a lattice, 256
-//! where differences have all bits of coordinates of one exponent, 512 where exponents differ by up to fifty. Long
-//! differences mostly are those of points that are much closer along one axis than along another: the bound that has
-//! not been exceeded is small then, and D shorter still ([`LongScaled::n_bits_within`]).
+//! 2 · 756 u · 2⁵ᵇ·(1 + 2⁻⁴⁰) < 2⁵ᵇ⁻⁴² for `insphere`, 2 · 72 u · 2⁴ᵇ < 2⁴ᵇ⁻⁴⁵ for `incircle` and 2 · 40 u · 2³ᵇ <
+//! 2³ᵇ⁻⁴⁶ for `orient3d`, and what the bound allows for underflow is less than a thousandth of that (see
+//! [`MIN_EXTENT`]). Hence it suffices to know D modulo a power of two above twice that number, which costs a few
+//! wrapping multiplications ([`Modular`]), and overflow of intermediate values is of no consequence: 64 bits for
+//! neighbours on a lattice, 256 where differences have all bits of coordinates of one exponent, 512 where exponents
+//! differ by up to fifty. Long differences mostly are those of points that are much closer along one axis than along
+//! another: the bound that has not been exceeded is small then, and D shorter still ([`LongScaled::n_bits_within`]).
 
 use std::cmp::Ordering;
 
@@ -51,8 +51,8 @@ pub(super) struct Scaled<const D: usize, const N: usize> {
 }
 
 impl<const D: usize, const N: usize> Scaled<D, N> {
-    /// The differences from `origin` to `points` if all of them are multiples of 2⁻⁵⁸ times the largest power of two not
-    /// above `extent`. The latter bounds their magnitudes, up to rounding; it must not be too small.
+    /// The differences from `origin` to `points` if all of them are multiples of 2⁻⁵⁸ times the largest power of two
+    /// not above `extent`. The latter bounds their magnitudes, up to rounding; it must not be too small.
     pub fn new(origin: &[f64; D], points: [&[f64; D]; N], extent: f64) -> Option<Self> {
         if extent < MIN_EXTENT {
             return None;

@@ -1,9 +1,9 @@
 //! Points on a lattice, whose determinants are computed without rounding.
 //!
-//! Where all coordinates are multiples of one power of two, and differences are few of these, every intermediate value of a
-//! determinant is an integer of at most 53 bits in that unit to some power, so that every operation is exact. A rounded
-//! determinant that is not zero has the right sign then, and zero is a tie: no later stage is needed. Structured meshes
-//! begin like that, and a build of one would spend most of its time on ties otherwise.
+//! Where all coordinates are multiples of one power of two, and differences are few of these, every intermediate value
+//! of a determinant is an integer of at most 53 bits in that unit to some power, so that every operation is exact. A
+//! rounded determinant that is not zero has the right sign then, and zero is a tie: no later stage is needed.
+//! Structured meshes begin like that, and a build of one would spend most of its time on ties otherwise.
 
 use super::filter::{DIFFERENCE, MINOR, ROUND_UP, SQUARE, StaticFilter, box_extents, largest};
 
@@ -28,8 +28,8 @@ const _: () = {
     assert!(magnitude_3d * ROUND_UP * space * space * space * space * space <= mantissa);
 };
 
-/// Bounds for points between `lower` and `upper` if these and all of them are multiples of one unit and so few apart that
-/// determinants are computed without rounding; `None` if they are not. `bounds` gives those of a box.
+/// Bounds for points between `lower` and `upper` if these and all of them are multiples of one unit and so few apart
+/// that determinants are computed without rounding; `None` if they are not. `bounds` gives those of a box.
 ///
 /// Where points are in no such order, that is found out after a few of them.
 pub fn exact_filter<'p, const D: usize>(

@@ -13,7 +13,8 @@
 //! 2. *Semi-static*: the same bound for the bounding box of this call's own points; for `insphere` then a sharper
 //!    one, from the magnitudes of its terms.
 //! 3. *Integer*: where differences are integers that fit, as those of neighbours on a grid are, the determinant
-//!    modulo 2⁶⁴ to 2⁵¹², by the length of the differences (`integer.rs`; not for `orient2d`, whose expansions are short).
+//!    modulo 2⁶⁴ to 2⁵¹², by the length of the differences (`integer.rs`; not for `orient2d`, whose expansions are
+//!    short).
 //! 4. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
 //! 5. *Big integers*: where expansions would underflow, the determinant in long integers (`big.rs`).
 //!

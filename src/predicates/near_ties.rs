@@ -47,8 +47,8 @@ fn near_tie<const D: usize, const N: usize>(rng: &mut Rng) -> [[f64; D]; N] {
     points
 }
 
-/// Integers on a sphere, and one that is next to it: with squares of the distances from the origin that differ by a small
-/// k, the determinant is k times a volume, and as large as it can be where it is still uncertain.
+/// Integers on a sphere, and one that is next to it: with squares of the distances from the origin that differ by a
+/// small k, the determinant is k times a volume, and as large as it can be where it is still uncertain.
 ///
 /// From (x, y) to (x − s, y + 1) the square grows by s² − 2 s x + 2 y + 1, which is k for y = s x + (k − s² − 1) / 2.
 fn near_sphere<const D: usize, const N: usize>(rng: &mut Rng) -> [[f64; D]; N] {

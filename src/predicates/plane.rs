@@ -72,7 +72,8 @@ pub(super) fn incircle_rounded([a, b, c, d]: [&[f64; 2]; 4]) -> f64 {
     minor(&u, &w) * dot(&v, &minus(c, b)) - minor(&u, &v) * dot(&w, &minus(d, b))
 }
 
-/// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
+/// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too
+/// long.
 pub(super) fn incircle_sign([origin, others @ ..]: [&[f64; 2]; 4], extent: f64) -> Option<Ordering> {
     let Some(scaled) = Scaled::new(origin, others, extent) else {
         let scaled = LongScaled::new(origin, others, extent)?;

@@ -119,7 +119,8 @@ pub(super) fn insphere_magnitudes([a, b, c, d, e]: [&[f64; 3]; 5]) -> f64 {
         + volume_uvw * dot(&s, &magnitudes(e, b))
 }
 
-/// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too long.
+/// The sign of a determinant that does not exceed its error bound, if the differences are integers that are not too
+/// long.
 pub(super) fn insphere_sign(
     [origin, others @ ..]: [&[f64; 3]; 5],
     extent: f64,

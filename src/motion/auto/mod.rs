@@ -17,8 +17,8 @@
 //! watched or what is recomputed has cost more than the other by a share of a computation of all, all tolerances are
 //! computed again, so that what is watched follows from how far the vertices go now.
 //!
-//! **Rebuilding.** After a repair that had to rebuild, or has cost more than that, the next commits rebuild at once: one
-//! after the first such repair, and twice as many and one more after each that follows. What a repair has cost is
+//! **Rebuilding.** After a repair that had to rebuild, or has cost more than that, the next commits rebuild at once:
+//! one after the first such repair, and twice as many and one more after each that follows. What a repair has cost is
 //! estimated from what it has counted. On lattices exact evaluations, and removals of vertices of high degree near the
 //! hull, cost more than flips.
 //!

@@ -12,8 +12,8 @@
 //!
 //! Invariant: with every vertex taken back all is as before the commit, so taking back comes to an end; and when it
 //! has, the cells are the Delaunay triangulation of the vertices where they are
-//! ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the one that moved farthest is
-//! taken back, so that a vertex that jumps across the domain goes first.
+//! ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the one that moved farthest
+//! is taken back, so that a vertex that jumps across the domain goes first.
 //!
 //! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
 //! the plane and a fifteenth in space; a vertex taken back costs a placement, seven or eight vertices rebuilt (`make
@@ -40,8 +40,8 @@ use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there already
-    /// may be taken back like the others.
+    /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there
+    /// already may be taken back like the others.
     pub(in crate::motion) fn commit_by_repair(
         &mut self,
         given: &mut Given<'_, G>,
@@ -92,8 +92,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         })
     }
 
-    /// Mends a triangulation all staged vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
-    /// does, after a check that has found failures.
+    /// Mends a triangulation all staged vertices of which have been moved, as
+    /// [`commit_by_repair`](Self::commit_by_repair) does, after a check that has found failures.
     pub(in crate::motion) fn mend_moved(
         &mut self,
         repair: &mut Repair,
@@ -194,7 +194,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.begin_moves(repair, 0)?;
         // At shared places there are the hidden vertices, and no more representatives than these.
         memory::reserve(&mut repair.queue, self.staging.vertices().len().min(2 * self.hidden.count()))?;
-        // As in the test for tolerances: sites are asked for in advance, as they are in another order than the vertices.
+        // As in the test for tolerances: sites are asked for in advance, as they are in another order than the
+        // vertices.
         let (site_of, applied) = (&self.site_of[..], self.staging.applied());
         let (positions, queued) = self.staging.parts_mut();
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
@@ -331,8 +332,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         taken
     }
 
-    /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed. There is
-    /// room for them.
+    /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed. There
+    /// is room for them.
     fn settle(&mut self, repair: &mut Repair) {
         let is_whole = self.staging.is_whole();
         let vertices = self.staging.vertices_mut();
