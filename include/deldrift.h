@@ -185,7 +185,7 @@ enum deldrift_algorithm
  {
     /// Chooses at each commit by what the last ones found. Where all vertices are staged: repair, of only those
     /// certificates that can fail while displacements are small compared with the spacing, or rebuilding where too
-    /// much would fail. Where fewer than one vertex in twenty is staged: tolerance if that is up to date, else
+    /// much would fail. Where fewer than one vertex in ten is staged: tolerance if that is up to date, else
     /// placement with flips.
     DELDRIFT_AUTO = 0,
     /// Builds the triangulation again from all positions (RR-6750, section 1).

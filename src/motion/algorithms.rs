@@ -67,7 +67,7 @@ macro_rules! for_algorithms {
 
         /// Chooses at each commit by what the last ones found. Where all vertices are staged: repair, of only those
         /// certificates that can fail while displacements are small compared with the spacing, or rebuilding where too
-        /// much would fail. Where fewer than one vertex in twenty is staged: tolerance if that is up to date, else
+        /// much would fail. Where fewer than one vertex in ten is staged: tolerance if that is up to date, else
         /// placement with flips.
         Auto = 0 {
             name: "auto",
