@@ -48,7 +48,7 @@ impl Kernel<Plane> for Plane {
             return sign > 0.0;
         }
         let [i, j, k] = v.map(|s| sites.id(s).get());
-        predicates::incircle_perturbed(f, [a, b, c, q], [i, j, k, id.get()])
+        predicates::is_inside_cocircular(f, [a, b, c, q], [i, j, k, id.get()])
     }
 
     #[inline(always)]

@@ -48,7 +48,7 @@ impl Kernel<Space> for Space {
             return sign > 0.0;
         }
         let [i, j, k, l] = v.map(|s| sites.id(s).get());
-        predicates::insphere_perturbed(f, [a, b, c, d, q], [i, j, k, l, id.get()])
+        predicates::is_inside_cospherical(f, [a, b, c, d, q], [i, j, k, l, id.get()])
     }
 
     #[inline(always)]

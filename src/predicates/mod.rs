@@ -12,11 +12,13 @@
 //!    only work beside the determinant is one comparison; this much is inlined into the caller.
 //! 2. *Semi-static*: the same bound for the bounding box of this call's own points; for `insphere` then a sharper
 //!    one, from the magnitudes of its terms.
-//! 3. *Integer*: where differences are integers that fit, as those of neighbours on a grid are, the determinant
+//! 3. *Two heights*: where a coordinate has two values, as at the corners of boxes, prisms and layers, the determinant
+//!    is zero by comparisons alone, or one of lower degree (`two_heights.rs`; before the sharper bound).
+//! 4. *Integer*: where differences are integers that fit, as those of neighbours on a grid are, the determinant
 //!    modulo 2⁶⁴ to 2⁵¹², by the length of the differences (`integer.rs`; not for `orient2d`, whose expansions are
 //!    short).
-//! 4. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
-//! 5. *Big integers*: where expansions would underflow, the determinant in long integers (`big.rs`).
+//! 5. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
+//! 6. *Big integers*: where expansions would underflow, the determinant in long integers (`big.rs`).
 //!
 //! The error constants are not quoted but computed by the compiler, from the operation order of each
 //! determinant (`filter.rs`, which holds the analysis).
@@ -93,6 +95,7 @@ mod separator;
 mod space;
 mod sphere;
 mod tolerance;
+mod two_heights;
 mod vectors;
 
 pub use crate::machine::tally::exact_calls;
@@ -109,7 +112,7 @@ pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, side_of_seen_circle};
 pub use path::{stays_positive2d, stays_positive3d};
-pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical};
+pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cocircular, is_inside_cospherical};
 pub use plane::{incircle, orient2d};
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};

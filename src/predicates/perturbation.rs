@@ -56,9 +56,10 @@ pub fn insphere_perturbed(f: &StaticFilter, points: [&[f64; 3]; 5], ids: [u32; 5
     if det != 0.0 { det > 0.0 } else { is_inside_cospherical(f, points, ids) }
 }
 
+/// As [`incircle_perturbed`], of points that are cocircular.
 #[cold]
 #[inline(never)]
-fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u32; 4]) -> bool {
+pub fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u32; 4]) -> bool {
     debug_assert!(orient2d(f, a, b, c) > 0.0, "the triangle is not counter-clockwise");
     is_inside_raised(ids, |vertex| match vertex {
         0 => orient2d(f, d, b, c),

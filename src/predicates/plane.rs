@@ -3,6 +3,7 @@
 use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
+use super::two_heights::incircle_at_two_heights;
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
 use robust::Coord;
@@ -27,6 +28,21 @@ pub fn incircle(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2], d: &
     if det.abs() > f.in_sphere { det } else { incircle_uncertain(det, [a, b, c, d]) }
 }
 
+/// The sign of [`orient2d`], without a filter's box.
+pub(super) fn orient2d_sign(points: [&[f64; 2]; 3]) -> Ordering {
+    let [a, b, c] = points;
+    sign_of(orient2d_uncertain(minor(&minus(b, a), &minus(c, a)), points))
+}
+
+/// The sign of [`incircle`], without a filter's box.
+pub(super) fn incircle_sign_of(points: [&[f64; 2]; 4]) -> Ordering {
+    sign_of(incircle_uncertain(incircle_rounded(points), points))
+}
+
+fn sign_of(det: f64) -> Ordering {
+    det.partial_cmp(&0.0).expect("a determinant is a number")
+}
+
 /// The later stages, after the rounded determinant.
 #[cold]
 #[inline(never)]
@@ -49,6 +65,9 @@ fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
     let extents = extents(points);
     if is_certain(det, incircle_bound(extents), extents) {
         return det;
+    }
+    if let Some(sign) = incircle_at_two_heights(points) {
+        return with_sign(det, sign);
     }
     tally::count();
     if let Some(sign) = incircle_sign(points, largest(extents)) {

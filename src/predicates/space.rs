@@ -8,6 +8,7 @@ use super::filter::{
     StaticFilter, extents, insphere_bound, insphere_bound_of_terms, is_certain, largest, orient3d_bound,
 };
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
+use super::two_heights::{insphere_at_two_heights, orient3d_at_two_heights};
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
 use robust::Coord3D;
@@ -49,6 +50,9 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
     if is_certain(det, orient3d_bound(extents), extents) {
         return det;
     }
+    if let Some(sign) = orient3d_at_two_heights(points) {
+        return with_sign(det, sign);
+    }
     tally::count();
     if let Some(sign) = orient3d_sign(points, largest(extents)) {
         return with_sign(det, sign);
@@ -68,6 +72,9 @@ fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     let bound = insphere_bound(extents);
     if is_certain(det, bound, extents) {
         return det;
+    }
+    if let Some(sign) = insphere_at_two_heights(points) {
+        return with_sign(det, sign);
     }
     let bound = bound.min(insphere_bound_of_terms(insphere_magnitudes(points), extents));
     if det.abs() > bound {

@@ -1,0 +1,174 @@
+//! Signs of points at *two heights*: one of their coordinates has two values.
+//!
+//! So are the corners of boxes, prisms and layers, which is where meshes along the axes have their ties.
+//!
+//! # Derivation
+//!
+//! Let z be the coordinate, 0 at the points of Q and H at those of P. Then z² = Hz: in the in-sphere determinant, with
+//! rows (x, y, z, x² + y² + z², 1), H times the third column can be taken from the fourth. Expanded by the third,
+//! which is H for P and 0 for Q, it is
+//!
+//! H Σ (−1)ᵏ incircle(all points but the k-th, in their order), over the k of P, counted from zero.
+//!
+//! The same holds one dimension below, where what is left is the determinant of rows (x, x², 1), a product of
+//! differences, and for orientations, where it is an orientation of the plane.
+//!
+//! A term with two points at the same place is zero: with P and Q exchanged if need be, there are one or two points in
+//! P, and of two, each is absent from one term. So the determinant is zero, or one determinant of lower degree, unless
+//! there are two points in P and neither is above or below one of Q. That case is left to others.
+//!
+//! # Cost
+//!
+//! Comparisons alone in the plane and for the corners of boxes; a sign of the plane otherwise.
+
+use super::plane::{incircle_sign_of, orient2d_sign};
+use std::array::from_fn;
+use std::cmp::Ordering;
+
+/// The sign of the in-circle determinant, if the points are at two heights and one term is left at most.
+pub(super) fn incircle_at_two_heights(points: [&[f64; 2]; 4]) -> Option<Ordering> {
+    (0..2).find_map(|axis| {
+        let x = points.map(|p| p[1 - axis]);
+        let sign = the_term(points, axis, |k, l| x[k] == x[l], |k| vandermonde(&all_but(k, &x)))?;
+        // An exchange of the coordinates changes the sign, and so does the column of the height, the second of four.
+        Some(if axis == 0 { sign } else { sign.reverse() })
+    })
+}
+
+/// The sign of the in-sphere determinant, likewise.
+pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering> {
+    (0..3).find_map(|axis| {
+        let flat = points.map(|p| without(p, axis));
+        let term = |k| incircle_sign_of(all_but(k, &flat.each_ref()));
+        // Tetrahedra are positive when they are negative for the determinant of the derivation.
+        the_term(points, axis, |k, l| flat[k] == flat[l], term).map(Ordering::reverse)
+    })
+}
+
+/// The sign of the orientation, likewise.
+pub(super) fn orient3d_at_two_heights(points: [&[f64; 3]; 4]) -> Option<Ordering> {
+    (0..3).find_map(|axis| {
+        let flat = points.map(|p| without(p, axis));
+        let term = |k| orient2d_sign(all_but(k, &flat.each_ref()));
+        the_term(points, axis, |k, l| flat[k] == flat[l], term).map(Ordering::reverse)
+    })
+}
+
+/// `H Σ (−1)ᵏ term(k)` over the points of P, where P and Q are exchanged if P is larger; none if two terms are left.
+fn the_term<const D: usize, const N: usize>(
+    points: [&[f64; D]; N],
+    axis: usize,
+    is_above: impl Fn(usize, usize) -> bool,
+    term: impl Fn(usize) -> Ordering,
+) -> Option<Ordering> {
+    let low = points[0][axis];
+    let high = points.iter().map(|p| p[axis]).find(|&z| z != low).unwrap_or(low);
+    let is_high: [bool; N] = from_fn(|k| points[k][axis] != low);
+    if points.iter().any(|p| p[axis] != low && p[axis] != high) {
+        return None;
+    }
+    let n_high = is_high.iter().filter(|&&is_high| is_high).count();
+    let is_few_high = 2 * n_high <= N;
+    let few = || (0..N).filter(|&k| is_high[k] == is_few_high);
+    let is_left = |k: usize| {
+        few().filter(|&j| j != k).all(|j| (0..N).all(|q| is_high[q] == is_few_high || !is_above(j, q)))
+    };
+    let mut left = few().filter(|&k| is_left(k));
+    let Some(k) = left.next() else {
+        return Some(Ordering::Equal);
+    };
+    if left.next().is_some() {
+        return None;
+    }
+    let is_positive = (k % 2 == 0) == ((high > low) == is_few_high);
+    Some(if is_positive { term(k) } else { term(k).reverse() })
+}
+
+/// The sign of the determinant with rows (x, x², 1).
+fn vandermonde([x, y, z]: &[f64; 3]) -> Ordering {
+    let sign = |a: &f64, b: &f64| a.partial_cmp(b).expect("coordinates are numbers") as i8;
+    (sign(y, x) * sign(z, x) * sign(z, y)).cmp(&0)
+}
+
+/// The other two coordinates, in cyclic order.
+fn without(p: &[f64; 3], axis: usize) -> [f64; 2] {
+    [p[(axis + 1) % 3], p[(axis + 2) % 3]]
+}
+
+fn all_but<T: Copy, const N: usize, const M: usize>(k: usize, items: &[T; N]) -> [T; M] {
+    from_fn(|i| items[i + usize::from(i >= k)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::big;
+    use super::*;
+    use crate::random::Rng;
+
+    const CASES: usize = 100_000;
+
+    /// Points whose coordinates are among a few, `n_values[axis]` of them, which are of any length.
+    fn few_values<const D: usize, const N: usize>(rng: &mut Rng, n_values: [usize; D]) -> [[f64; D]; N] {
+        let scale = [1.0, 1e-3, 1e57, 1e-300][rng.below(4)];
+        let values: [[f64; 5]; D] = from_fn(|_| from_fn(|_| (rng.unit() - 0.5) * scale));
+        from_fn(|_| from_fn(|axis| values[axis][rng.below(n_values[axis])]))
+    }
+
+    fn sign(det: f64) -> Ordering {
+        det.partial_cmp(&0.0).expect("a number")
+    }
+
+    /// Compares the signs that are given with those of long integers. At least this share must be given, and this
+    /// share of those must be zero, and not zero.
+    fn check<const D: usize, const N: usize>(
+        at_two_heights: impl Fn([&[f64; D]; N]) -> Option<Ordering>,
+        expected: impl Fn([&[f64; D]; N]) -> Ordering,
+    ) {
+        let rng = &mut Rng::new(16);
+        let (mut given, mut ties) = (0, 0);
+        for case in 0..CASES {
+            let mut n_values = [5; D];
+            // The axis that has two values, and at times another one.
+            n_values[case % D] = 2;
+            n_values[rng.below(D)] = 2 + rng.below(2);
+            let points = few_values::<D, N>(rng, n_values);
+            let Some(sign) = at_two_heights(points.each_ref()) else { continue };
+            assert_eq!(sign, expected(points.each_ref()), "{points:?}");
+            given += 1;
+            ties += usize::from(sign == Ordering::Equal);
+        }
+        assert!(given > CASES / 3, "{given}");
+        assert!(ties > given / 8 && given - ties > given / 8, "{ties} of {given}");
+    }
+
+    #[test]
+    fn signs_of_circles_are_exact() {
+        check(incircle_at_two_heights, |points| sign(big::incircle(1.0, points)));
+    }
+
+    #[test]
+    fn signs_of_spheres_are_exact() {
+        check(insphere_at_two_heights, |points| sign(big::insphere(1.0, points)));
+    }
+
+    #[test]
+    fn signs_of_volumes_are_exact() {
+        check(orient3d_at_two_heights, |points| sign(big::orient3d(1.0, points)));
+    }
+
+    /// Any five corners of a box are a tie that needs no arithmetic, whatever the lengths of its edges.
+    #[test]
+    fn corners_of_a_box_are_cospherical() {
+        let edges = [[0.1, 0.3], [-7e50, 1.0 / 3.0], [1e-40, 2e-40]];
+        let corner = |bits: usize| -> [f64; 3] { from_fn(|axis| edges[axis][bits >> axis & 1]) };
+        let mut n = 0;
+        for set in 0u32..256 {
+            let corners: Vec<_> = (0..8).filter(|bit| set >> bit & 1 == 1).map(corner).collect();
+            if let [a, b, c, d, e] = &corners[..] {
+                assert_eq!(insphere_at_two_heights([a, b, c, d, e]), Some(Ordering::Equal), "{corners:?}");
+                n += 1;
+            }
+        }
+        assert_eq!(n, 56);
+    }
+}
