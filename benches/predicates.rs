@@ -125,12 +125,14 @@ fn ties_and_distances(criterion: &mut Criterion) {
     let f = StaticFilter::plane([0.0; 2], [1.25; 2]);
     let square = [[0.1, 0.1], [1.1, 0.1], [1.1, 1.1], [0.1, 1.1]];
     let circles = vec![square; N_CASES];
-    bench(&mut group, "incircle_perturbed", &circles, |p| incircle_perturbed(&f, p.each_ref(), [3, 1, 4, 2]));
+    bench(&mut group, "incircle_perturbed", &circles, |p| {
+        incircle_perturbed(&f, p.each_ref(), || [3, 1, 4, 2])
+    });
     let f = StaticFilter::space([0.0; 3], [1.25; 3]);
     let cube = [[0.1, 0.1, 0.1], [1.1, 0.1, 0.1], [0.1, 1.1, 0.1], [0.1, 0.1, 1.1], [1.1, 1.1, 1.1]];
     let spheres = vec![cube; N_CASES];
     bench(&mut group, "insphere_perturbed", &spheres, |p| {
-        insphere_perturbed(&f, p.each_ref(), [3, 1, 4, 2, 0])
+        insphere_perturbed(&f, p.each_ref(), || [3, 1, 4, 2, 0])
     });
     group.finish();
 

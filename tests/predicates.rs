@@ -419,12 +419,12 @@ struct Perturbed<const D: usize, const N: usize> {
 }
 
 const IN_CIRCLE_PERTURBED: Perturbed<2, 4> = Perturbed {
-    is_inside: |f, points, ids| incircle_perturbed(f, points.each_ref(), ids),
+    is_inside: |f, points, ids| incircle_perturbed(f, points.each_ref(), || ids),
     orientation: |f, [a, b, c, _]| orient2d(f, a, b, c),
     filter: StaticFilter::plane,
 };
 const IN_SPHERE_PERTURBED: Perturbed<3, 5> = Perturbed {
-    is_inside: |f, points, ids| insphere_perturbed(f, points.each_ref(), ids),
+    is_inside: |f, points, ids| insphere_perturbed(f, points.each_ref(), || ids),
     orientation: |f, [a, b, c, d, _]| orient3d(f, a, b, c, d),
     filter: StaticFilter::space,
 };
@@ -521,7 +521,7 @@ fn perturbed_circles_triangulate_a_grid() {
             let (j, k) = if orientation < 0.0 { (k, j) } else { (j, k) };
             let is_empty = |l: usize| {
                 let positions = [i, j, k, l].map(|v| &points[v]);
-                [i, j, k].contains(&l) || !incircle_perturbed(&f, positions, [i, j, k, l].map(|v| ids[v]))
+                [i, j, k].contains(&l) || !incircle_perturbed(&f, positions, || [i, j, k, l].map(|v| ids[v]))
             };
             if orientation != 0.0 && (0..25).all(is_empty) {
                 n_triangles += 1;
@@ -554,7 +554,7 @@ fn perturbed_spheres_triangulate_a_grid() {
             let is_empty = |m: usize| {
                 let positions = [i, j, k, l, m].map(|v| &points[v]);
                 [i, j, k, l].contains(&m)
-                    || !insphere_perturbed(&f, positions, [i, j, k, l, m].map(|v| ids[v]))
+                    || !insphere_perturbed(&f, positions, || [i, j, k, l, m].map(|v| ids[v]))
             };
             if orientation != 0.0 && (0..27).all(is_empty) {
                 volume += orientation.abs();

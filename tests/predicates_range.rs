@@ -385,7 +385,7 @@ fn check_perturbed<const D: usize, const N: usize, const M: usize>(
 #[test]
 fn incircle_perturbed_is_the_sign_of_the_raised_determinant() {
     check_perturbed::<2, 4, 3>(
-        |f, points, ids| incircle_perturbed(f, points.each_ref(), ids),
+        |f, points, ids| incircle_perturbed(f, points.each_ref(), || ids),
         StaticFilter::plane,
     );
 }
@@ -393,7 +393,7 @@ fn incircle_perturbed_is_the_sign_of_the_raised_determinant() {
 #[test]
 fn insphere_perturbed_is_the_sign_of_the_raised_determinant() {
     check_perturbed::<3, 5, 4>(
-        |f, points, ids| insphere_perturbed(f, points.each_ref(), ids),
+        |f, points, ids| insphere_perturbed(f, points.each_ref(), || ids),
         StaticFilter::space,
     );
 }

@@ -43,12 +43,10 @@ impl Kernel<Plane> for Plane {
     ) -> bool {
         debug_assert!(v[2] != INFINITE);
         let [a, b, c] = v.map(|s| sites.point(s));
-        let sign = predicates::incircle(f, a, b, c, q);
-        if sign != 0.0 {
-            return sign > 0.0;
-        }
-        let [i, j, k] = v.map(|s| sites.id(s).get());
-        predicates::is_inside_cocircular(f, [a, b, c, q], [i, j, k, id.get()])
+        predicates::incircle_perturbed(f, [a, b, c, q], || {
+            let [i, j, k] = v.map(|s| sites.id(s).get());
+            [i, j, k, id.get()]
+        })
     }
 
     #[inline(always)]

@@ -43,12 +43,10 @@ impl Kernel<Space> for Space {
     ) -> bool {
         debug_assert!(v[3] != INFINITE);
         let [a, b, c, d] = v.map(|s| sites.point(s));
-        let sign = predicates::insphere(f, a, b, c, d, q);
-        if sign != 0.0 {
-            return sign > 0.0;
-        }
-        let [i, j, k, l] = v.map(|s| sites.id(s).get());
-        predicates::is_inside_cospherical(f, [a, b, c, d, q], [i, j, k, l, id.get()])
+        predicates::insphere_perturbed(f, [a, b, c, d, q], || {
+            let [i, j, k, l] = v.map(|s| sites.id(s).get());
+            [i, j, k, l, id.get()]
+        })
     }
 
     #[inline(always)]

@@ -112,7 +112,7 @@ pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, side_of_seen_circle};
 pub use path::{stays_positive2d, stays_positive3d};
-pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cocircular, is_inside_cospherical};
+pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical};
 pub use plane::{incircle, orient2d};
 pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::{insphere, orient3d};

@@ -36,30 +36,31 @@ use super::filter::StaticFilter;
 use super::plane::{incircle, orient2d};
 use super::space::{insphere, orient3d};
 
-/// Whether the last point is inside the circle of the first three, ties being decided by `ids`.
+/// Whether the last point is inside the circle of the first three, ties being decided by `ids`, which only these ask
+/// for.
 ///
 /// The first three points are in counter-clockwise order and no two points coincide; ids are distinct.
 #[inline(always)]
-pub fn incircle_perturbed(f: &StaticFilter, points: [&[f64; 2]; 4], ids: [u32; 4]) -> bool {
+pub fn incircle_perturbed(f: &StaticFilter, points: [&[f64; 2]; 4], ids: impl FnOnce() -> [u32; 4]) -> bool {
     let [a, b, c, d] = points;
     let det = incircle(f, a, b, c, d);
-    if det != 0.0 { det > 0.0 } else { is_inside_cocircular(f, points, ids) }
+    if det != 0.0 { det > 0.0 } else { is_inside_cocircular(f, points, ids()) }
 }
 
-/// Whether the last point is inside the sphere of the first four, ties being decided by `ids`.
+/// Whether the last point is inside the sphere of the first four, ties being decided by `ids`, which only these ask
+/// for.
 ///
 /// The first four points are in positive orientation and no two points coincide; ids are distinct.
 #[inline(always)]
-pub fn insphere_perturbed(f: &StaticFilter, points: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
+pub fn insphere_perturbed(f: &StaticFilter, points: [&[f64; 3]; 5], ids: impl FnOnce() -> [u32; 5]) -> bool {
     let [a, b, c, d, e] = points;
     let det = insphere(f, a, b, c, d, e);
-    if det != 0.0 { det > 0.0 } else { is_inside_cospherical(f, points, ids) }
+    if det != 0.0 { det > 0.0 } else { is_inside_cospherical(f, points, ids()) }
 }
 
-/// As [`incircle_perturbed`], of points that are cocircular.
 #[cold]
 #[inline(never)]
-pub fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u32; 4]) -> bool {
+fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u32; 4]) -> bool {
     debug_assert!(orient2d(f, a, b, c) > 0.0, "the triangle is not counter-clockwise");
     is_inside_raised(ids, |vertex| match vertex {
         0 => orient2d(f, d, b, c),

@@ -54,7 +54,9 @@ pub(super) fn orient3d_at_two_heights(points: [&[f64; 3]; 4]) -> Option<Ordering
     })
 }
 
-/// `H Σ (−1)ᵏ term(k)` over the points of P, where P and Q are exchanged if P is larger; none if two terms are left.
+/// `H Σ (−1)ᵏ term(k)` over the points of P, where P and Q are exchanged if P is larger; none if two terms are left, or
+/// if there are more than two heights.
+#[inline(always)]
 fn the_term<const D: usize, const N: usize>(
     points: [&[f64; D]; N],
     axis: usize,
@@ -62,25 +64,33 @@ fn the_term<const D: usize, const N: usize>(
     term: impl Fn(usize) -> Ordering,
 ) -> Option<Ordering> {
     let low = points[0][axis];
-    let high = points.iter().map(|p| p[axis]).find(|&z| z != low).unwrap_or(low);
-    let is_high: [bool; N] = from_fn(|k| points[k][axis] != low);
-    if points.iter().any(|p| p[axis] != low && p[axis] != high) {
+    let (mut high, mut others) = (low, 0u32);
+    for (k, point) in points.iter().enumerate() {
+        let z = point[axis];
+        if z != low {
+            if others != 0 && z != high {
+                return None;
+            }
+            (high, others) = (z, others | 1 << k);
+        }
+    }
+    let is_p_high = 2 * others.count_ones() as usize <= N;
+    let p = if is_p_high { others } else { others ^ ((1 << N) - 1) };
+    // Each point of P that is above or below one of Q makes the terms without any other point of P zero.
+    let mut left = p;
+    for k in (0..N).filter(|k| p >> k & 1 != 0) {
+        if (0..N).any(|q| p >> q & 1 == 0 && is_above(k, q)) {
+            left &= 1 << k;
+        }
+    }
+    if left.count_ones() > 1 {
         return None;
     }
-    let n_high = is_high.iter().filter(|&&is_high| is_high).count();
-    let is_few_high = 2 * n_high <= N;
-    let few = || (0..N).filter(|&k| is_high[k] == is_few_high);
-    let is_left = |k: usize| {
-        few().filter(|&j| j != k).all(|j| (0..N).all(|q| is_high[q] == is_few_high || !is_above(j, q)))
-    };
-    let mut left = few().filter(|&k| is_left(k));
-    let Some(k) = left.next() else {
+    if left == 0 {
         return Some(Ordering::Equal);
-    };
-    if left.next().is_some() {
-        return None;
     }
-    let is_positive = (k % 2 == 0) == ((high > low) == is_few_high);
+    let k = left.trailing_zeros() as usize;
+    let is_positive = (k % 2 == 0) == ((high > low) == is_p_high);
     Some(if is_positive { term(k) } else { term(k).reverse() })
 }
 
