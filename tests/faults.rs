@@ -12,7 +12,8 @@ mod common;
 use common::carried::{Carried, List};
 use common::history::Snapshot;
 use common::{Rng, ids, point, seeds, sorted, vertex};
-use deldrift::motion::{Algorithm, CommitReport, Level, Location, Monitor, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, CommitReport, Interpolation, Level, Location, Monitor};
+use deldrift::motion::{MovingTriangulation, Options, Rows, VertexValues};
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 use deldrift::{Error, Result};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -245,6 +246,15 @@ enum Call {
     ChangedCells,
     TakeChanges,
     Tolerance,
+    Circumspheres,
+    MaskBoundary,
+    Edges,
+    VertexNeighbours,
+    VertexCells,
+    MirrorIndices,
+    VoronoiVolumes,
+    VoronoiFacets,
+    Interpolate(Interpolation),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -267,6 +277,9 @@ impl Call {
         calls.extend([Call::MoveVertices, Call::MoveAll, Call::Cells, Call::Star, Call::Locate]);
         calls.extend([Call::Nearest, Call::Validate, Call::AnnulusWidths, Call::StandardDelimiter]);
         calls.extend([Call::ChangedCells, Call::TakeChanges, Call::Tolerance]);
+        calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
+        calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
+        calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls
     }
 
@@ -297,6 +310,9 @@ struct Scene<G: Dimension> {
     carried: Option<Carried>,
     call: Call,
     options: Option<Options>,
+    /// An entry for each cell, and a value for each id.
+    mask: Vec<u8>,
+    values: Vec<f64>,
 }
 
 /// What a call gave, as far as that does not depend on the order of cells.
@@ -308,6 +324,8 @@ enum Given {
     Report(u64, u64, u64),
     Where(Option<VertexId>),
     Numbers(Vec<u64>),
+    Pairs(Vec<[VertexId; 2]>),
+    Lists(Rows<VertexId>),
     Nearest(Option<VertexId>),
 }
 
@@ -393,12 +411,13 @@ impl<G: Dimension> Scene<G> {
             t.stage_removals(&leaving).expect("removals");
         }
         let options = Some(options());
-        Scene { t, points, carried, call, options }
+        let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
+        Scene { t, points, carried, call, options, mask, values }
     }
 
     /// Makes the call, and disarms as soon as it is back.
     fn call(&mut self) -> Result<Given> {
-        let Scene { t, points, call, options, .. } = self;
+        let Scene { t, points, call, options, mask, values, .. } = self;
         let goal = |goal: Goal| match goal {
             Goal::Near => point::<G>(|k| points[12][k] + 1e-3),
             Goal::Far => point::<G>(|k| 1.5 + k as f64),
@@ -499,6 +518,44 @@ impl<G: Dimension> Scene<G> {
                 let carried = self.carried.get_or_insert_default();
                 carried.follow(t, &list, &|| "taken".to_string());
                 Given::Nothing
+            }
+            Call::Circumspheres => {
+                let n = given(t.circumspheres().map(Iterator::count))?;
+                Given::Numbers(vec![n as u64, t.volumes()?.len() as u64])
+            }
+            Call::MaskBoundary => {
+                let mut n = 0;
+                given(t.mask_boundary(mask, |_| n += 1))?;
+                Given::Numbers(vec![n])
+            }
+            Call::Edges => Given::Pairs(given(t.edges())?),
+            Call::VertexNeighbours => Given::Lists(given(t.vertex_neighbours())?),
+            Call::VertexCells => {
+                let lists = given(t.vertex_cells())?;
+                Given::Numbers(vec![lists.entries.len() as u64])
+            }
+            Call::MirrorIndices => {
+                let n = given(t.mirror_indices().map(Iterator::count))?;
+                Given::Numbers(vec![n as u64])
+            }
+            Call::VoronoiVolumes => {
+                let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
+                let volumes = given(t.voronoi_volumes(Some(clip)))?;
+                Given::Numbers(vec![volumes.len() as u64])
+            }
+            Call::VoronoiFacets => {
+                let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
+                let measures = given(t.voronoi_facets(Some(clip)))?;
+                Given::Numbers(vec![measures.len() as u64])
+            }
+            Call::Interpolate(method) => {
+                let places = [point::<G>(|_| 0.5), point::<G>(|axis| 0.4 + 0.1 * axis as f64)];
+                let values = VertexValues { values, n_values: 1 };
+                let mut n = 0;
+                given(
+                    t.interpolate(method, values, &places, None, |result| n += u64::from(result.is_some())),
+                )?;
+                Given::Numbers(vec![n])
             }
             Call::Tolerance => {
                 let tolerance = given(t.tolerance(vertex(12)))?;
