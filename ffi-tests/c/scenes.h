@@ -5,6 +5,8 @@
 #include "requests.h"
 #include "state.h"
 
+#include <unistd.h>
+
 // What a triangulation has gone through before a call.
 typedef struct {
     size_t n;
@@ -40,7 +42,8 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS, COMMIT,
     COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
-    DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, N_KINDS } kind;
+    DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU,
+    WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -48,7 +51,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_stage_removals", "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
     "deldrift_commit_positions", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_annulus_widths", "deldrift_standard_delimiter", "deldrift_locate",
-    "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells",
+    "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells", "deldrift_clone", "deldrift_save",
+    "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu", "deldrift_write_medit",
 };
 
 // A call: `goal` is for those of one vertex, which goes near, far, or to a place that is taken.
@@ -77,6 +81,15 @@ typedef struct {
 enum { ROOM = 1 << 16 };
 static uint32_t ids_out[ROOM], more_out[ROOM];
 static double numbers_out[ROOM];
+static unsigned char bytes_out[8 * ROOM];
+
+// A file for calls that write one, or read it.
+static const char *file_of_test(void) {
+    static char path[300];
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/deldrift-faults-%d", folder == NULL ? "/tmp" : folder, (int)getpid());
+    return path;
+}
 
 static bool never(void *user_data) {
     (void)user_data;
@@ -228,6 +241,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     deldrift_status status = DELDRIFT_OK;
     ids_out[0] = more_out[0] = 77;
     numbers_out[0] = 77;
+    size_t size = 0;
+    const deldrift_field field = {"field", numbers_out, 1};
+    const char *file = file_of_test();
+    if (s->call.kind == LOAD) OK(deldrift_save(s->t, bytes_out, sizeof bytes_out, &size));
+    if (s->call.kind == LOAD_FILE) OK(deldrift_save_file(s->t, file));
+    bytes_out[sizeof bytes_out - 1] = 77;
     count_requests(first, too);
     switch (s->call.kind) {
         case CREATE: status = deldrift_create(d, s->points, s->n, &options, &made); break;
@@ -254,9 +273,23 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case LOCATE_POINTS: status = deldrift_locate_points(s->t, to, 1, NULL, &location); break;
         case NEAREST: status = deldrift_nearest_vertex(s->t, to, &out); break;
         case CHANGED_CELLS: status = deldrift_changed_cells(s->t, &indices); break;
+        case CLONE: status = deldrift_clone(s->t, &made); break;
+        case SAVE: status = deldrift_save(s->t, bytes_out, sizeof bytes_out, &count); break;
+        case LOAD: status = deldrift_load(bytes_out, size, &options, &made); break;
+        case SAVE_FILE: status = deldrift_save_file(s->t, file); break;
+        case LOAD_FILE: status = deldrift_load_file(file, &options, &made); break;
+        case WRITE_VTU: status = deldrift_write_vtu(s->t, file, &field, 1, NULL, 0); break;
+        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file); break;
         case N_KINDS: break;
     }
     stop_counting();
+    // It is there exactly if it has been written.
+    bool writes = s->call.kind == SAVE_FILE || s->call.kind == WRITE_VTU || s->call.kind == WRITE_MEDIT;
+    bool is_there = unlink(file) == 0;
+    if (writes && is_there != (status == DELDRIFT_OK)) {
+        *wrong = "half a file";
+        return status;
+    }
     *wrong = NULL;
     *given = status;
     if (status != DELDRIFT_OK) {
@@ -266,6 +299,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     }
     switch (s->call.kind) {
         case CREATE:
+        case CLONE:
+        case LOAD:
+        case LOAD_FILE:
             *given = arrays_of(made).cells;
             if (deldrift_validate(made, 3) != DELDRIFT_OK) *wrong = "no triangulation";
             deldrift_destroy(made);
@@ -290,6 +326,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             if (count > 0 && memcmp(more_out, view.neighbours, bytes) != 0) *wrong = "not a copy";
             break;
         }
+        case SAVE: *given = digest_of(bytes_out, count); break;
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
         case ANNULUS_WIDTHS:

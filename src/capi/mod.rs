@@ -37,10 +37,12 @@
 
 mod changes;
 mod fence;
+mod files;
 mod motion;
 mod options;
 mod pointers;
 mod query;
+mod saving;
 mod state;
 mod status;
 mod triangulation;
@@ -49,6 +51,7 @@ pub use changes::*;
 pub use motion::*;
 pub use options::*;
 pub use query::*;
+pub use saving::*;
 pub use state::*;
 pub use status::*;
 pub use triangulation::*;
