@@ -137,6 +137,13 @@ enum deldrift_status
     DELDRIFT_NO_SUCH_FACET = 24,
     /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
     DELDRIFT_NO_DELIMITER = 25,
+    /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
+    /// later version; the message says what is wrong, and where.
+    DELDRIFT_INVALID_DATA = 26,
+    /// The system cannot read or write a file; the message has the path, and what the system says.
+    DELDRIFT_IO_ERROR = 27,
+    /// A field has no name, one that is not UTF-8, or no components; the message has its index.
+    DELDRIFT_INVALID_FIELD = 28,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
