@@ -326,7 +326,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             if (count > 0 && memcmp(more_out, view.neighbours, bytes) != 0) *wrong = "not a copy";
             break;
         }
-        case SAVE: *given = digest_of(bytes_out, count); break;
+        case SAVE: *given = count; break;
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
         case ANNULUS_WIDTHS:

@@ -213,7 +213,8 @@ pub unsafe extern "C" fn deldrift_load_file(
 pub struct deldrift_field {
     /// What it is called: UTF-8, with a NUL at the end.
     pub name: *const c_char,
-    /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by index.
+    /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
+    /// index.
     pub values: *const f64,
     /// How many numbers each has, at least 1.
     pub components: usize,
