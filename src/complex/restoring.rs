@@ -11,6 +11,7 @@ use crate::damage::{Damage, LoadError};
 use crate::error::Error;
 use crate::ids::{CellId, SiteId, Slot};
 use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 
 /// Where corner `a` of a cell is in the ghost cell at its facet opposite corner `i`.
 fn place_in_ghost(n: usize, i: usize, a: usize) -> usize {
@@ -31,17 +32,39 @@ fn ghost_of<C: Corners>(corners: &C, i: usize) -> C {
 }
 
 /// Whether two cells meet in the facets opposite corners `i` and `j`, each on its own side: with corner `i` replaced
-/// by the other's corner `j`, one has the other's corners in an order of the opposite orientation.
+/// by the other's corner `j`, one has the other's corners in an order of the opposite orientation. Without branches, as
+/// the orders are random.
+#[inline(always)]
 fn meet<C: Corners>(one: &C, i: usize, other: &C, j: usize) -> bool {
-    let mut places = [0; 4];
+    let (mut places, mut n_found) = ([0; 4], 0);
     for a in 0..C::N {
-        let place = if a == i { Some(j) } else { (0..C::N).find(|&b| b != j && other[b] == one[a]) };
-        let Some(place) = place else { return false };
-        places[a] = place;
+        for b in 0..C::N {
+            let is_there = usize::from(one[a] == other[b] && a != i && b != j);
+            places[a] |= b * is_there;
+            n_found += is_there;
+        }
     }
-    let is_inversion = |a: usize, b: usize| places[a] > places[b];
-    let n_inversions = (0..C::N).map(|b| (0..b).filter(|&a| is_inversion(a, b)).count()).sum::<usize>();
-    n_inversions % 2 == 1
+    places[i] = j;
+    let mut is_odd = false;
+    for b in 1..C::N {
+        for a in 0..b {
+            is_odd ^= places[a] > places[b];
+        }
+    }
+    // Corners are distinct, so each is found once at most.
+    n_found == C::N - 1 && is_odd
+}
+
+/// The only place of a number in a row, if it has one.
+#[inline(always)]
+fn place_of<N: Corners<CellId>>(row: &N, cell: CellId) -> Option<usize> {
+    let (mut place, mut n_found) = (0, 0);
+    for j in 0..N::N {
+        let is_there = usize::from(row[j] == cell);
+        place |= j * is_there;
+        n_found += is_there;
+    }
+    (n_found == 1).then_some(place)
 }
 
 impl<C: Corners> Complex<C> {
@@ -67,6 +90,12 @@ impl<C: Corners> Complex<C> {
         marks.resize(n + n_ghosts, 0);
         let mut complex = Complex { cells, marks, free: Vec::new(), n_ghosts, record: Record::default() };
         for (c, row) in neighbours.iter().enumerate() {
+            if let Some(later) = neighbours.get(c + AHEAD) {
+                for i in 0..C::N {
+                    prefetch(&complex.cells, later[i].index());
+                    prefetch(neighbours, later[i].index());
+                }
+            }
             for i in 0..C::N {
                 if !complex.glue_row(neighbours, c, i) {
                     let (cell, given) = (CellId::at(c), row[i]);
@@ -97,10 +126,12 @@ impl<C: Corners> Complex<C> {
             return self.cells[c].neighbours[i] != Facet::NONE
                 && self.cells[c].neighbours[i].cell().index() == d;
         }
-        let Some(row) = neighbours.get(d).filter(|_| d != c) else { return false };
-        let is_side =
-            |&j: &usize| row[j].index() == c && meet(&self.cells[c].corners, i, &self.cells[d].corners, j);
-        let Some(j) = (0..C::N).find(is_side) else { return false };
+        // Two cells that met in more than one facet would have the same corners.
+        let row = neighbours.get(d).filter(|_| d != c);
+        let Some(j) = row.and_then(|row| place_of(row, CellId::at(c))) else { return false };
+        if !meet(&self.cells[c].corners, i, &self.cells[d].corners, j) {
+            return false;
+        }
         if self.cells[d].neighbours[j] != Facet::NONE {
             return false;
         }

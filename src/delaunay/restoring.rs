@@ -10,6 +10,7 @@ use crate::damage::{Damage, LoadError};
 use crate::error::Result;
 use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::machine::threads::Threads;
 
 /// Cells as programs know them: the vertices of each, and its neighbours.
@@ -72,6 +73,15 @@ impl<G: Dimension> Delaunay<G> {
     fn enter_rows(&mut self, rows: Rows<'_, G>, site_of: &[SiteId]) -> Result<(), LoadError> {
         let sites = &mut self.sites;
         let corners = rows.corners.iter().enumerate().map(|(c, row)| {
+            let later = [rows.corners.get(c + 2 * AHEAD), rows.corners.get(c + AHEAD)];
+            for i in 0..G::Corners::N {
+                if let Some(row) = later[0] {
+                    prefetch(site_of, row[i].index());
+                }
+                if let Some(s) = later[1].and_then(|row| site_of.get(row[i].index())) {
+                    prefetch(sites, s.index());
+                }
+            }
             let mut corners = G::Corners::filled(SiteId::NONE);
             for i in 0..G::Corners::N {
                 let s = site_of.get(row[i].index()).copied().unwrap_or(SiteId::NONE);
