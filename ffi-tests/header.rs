@@ -10,7 +10,7 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 12] = [
     "status",
     "options",
     "triangulation",
@@ -22,6 +22,7 @@ const SOURCES: [&str; 11] = [
     "incidence",
     "voronoi",
     "interpolation",
+    "saving",
 ];
 
 /// With `DELDRIFT_UPDATE_HEADER=1` the files are written instead.

@@ -139,6 +139,13 @@ enum deldrift_status
     DELDRIFT_NO_DELIMITER = 25,
     /// A number has no meaning for its argument, as a negative squared radius.
     DELDRIFT_INVALID_VALUE = 26,
+    /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
+    /// later version; the message says what is wrong, and where.
+    DELDRIFT_INVALID_DATA = 26,
+    /// The system cannot read or write a file; the message has the path, and what the system says.
+    DELDRIFT_IO_ERROR = 27,
+    /// A field has no name, one that is not UTF-8, or no components; the message has its index.
+    DELDRIFT_INVALID_FIELD = 28,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -436,6 +443,17 @@ typedef struct deldrift_indices_view {
     /// The indices, in ascending order. NULL if there are none.
     const uint32_t *indices;
 } deldrift_indices_view;
+
+/// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
+typedef struct deldrift_field {
+    /// What it is called: UTF-8, with a NUL at the end.
+    const char *name;
+    /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
+    /// index.
+    const double *values;
+    /// How many numbers each has, at least 1.
+    size_t components;
+} deldrift_field;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1150,6 +1168,116 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
                                      const deldrift_location *near,
                                      const double *outside,
                                      double *results);
+/// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
+/// deldrift_destroy; it is written on success only.
+///
+/// Positions, ids, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
+/// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
+/// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
+/// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
+/// alone.
+///
+/// Takes a pass over the memory of t, and as much memory again; nothing is triangulated. If deldrift_cells has been
+/// called before, this also does what the next deldrift_cells would do.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_clone(const deldrift_triangulation *t,
+                               deldrift_triangulation **out);
+
+/// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
+///
+/// Saved are positions, ids, removed and hidden vertices, cells with their indices, staged moves, insertions and
+/// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
+/// which changes have been taken. docs/FORMAT.md describes the bytes.
+///
+/// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
+/// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
+///
+/// Takes a pass over what is saved, and does what deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_save(const deldrift_triangulation *t,
+                              void *buffer,
+                              size_t capacity,
+                              size_t *count);
+
+/// Makes a triangulation of bytes that deldrift_save has written, to *out, which the caller has to hand to
+/// deldrift_destroy; it is written on success only.
+///
+/// The triangulation is as the one that was saved, cells with their indices included, and gives the same cells after
+/// the same calls; those cells that are new then may have other indices. It has given no changes yet: the first
+/// deldrift_take_changes lists all cells as created, and deldrift_changed_cells none before the next commit. Like one
+/// whose cells have been read, it keeps the arrays of deldrift_cells.
+///
+/// data: size bytes, with any alignment, read during the call only. options: as for deldrift_create. They are not
+/// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are not
+/// called.
+///
+/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data. These may be any: what is not
+/// a Delaunay triangulation, exactly, is refused, even if the checksum is right.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
+/// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. May be called from any number of
+/// threads at once.
+deldrift_status deldrift_load(const void *data,
+                              size_t size,
+                              const deldrift_options *options,
+                              deldrift_triangulation **out);
+
+/// Saves the triangulation to a file, as deldrift_save does.
+///
+/// path: of a file that is made, or replaced. The bytes go to a new file in the same folder, which takes the place of
+/// the old one when it is complete and stored, so that after a failure or a crash there is either; a symbolic link is
+/// replaced itself. A device or a pipe is written at once.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_save_file(const deldrift_triangulation *t,
+                                   const char *path);
+
+/// Makes a triangulation of a file that deldrift_save_file has written, to *out, as deldrift_load does.
+///
+/// The file is read as a whole, so that memory for it is needed during the call, too.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS, DELDRIFT_IO_ERROR,
+/// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY. May be called from any number of threads at once.
+deldrift_status deldrift_load_file(const char *path,
+                                   const deldrift_options *options,
+                                   deldrift_triangulation **out);
+
+/// Writes a file for ParaView and VTK: an unstructured grid of the cells, in VTK's XML format (.vtu).
+///
+/// Its points are the vertices that are present, hidden ones included, ascending by id; their ids are the point data
+/// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: as for
+/// deldrift_save_file.
+///
+/// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
+/// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
+///
+/// Does what deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
+/// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
+                                   const char *path,
+                                   const deldrift_field *vertex_fields,
+                                   size_t vertex_field_count,
+                                   const deldrift_field *cell_fields,
+                                   size_t cell_field_count);
+
+/// Writes a file for Mmg, FreeFem, Gmsh and others: MEDIT's text format (.mesh).
+///
+/// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
+/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells, with the reference 1.
+/// Reading the numbers gives the same doubles. path: as for deldrift_save_file.
+///
+/// Does what deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
+                                     const char *path);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -126,6 +126,13 @@ struct Lists {
     }
 };
 
+// Numbers for each vertex id, or for each cell, that are written along with a mesh: components for each.
+struct Field {
+    std::string name;
+    span<const double> values;
+    std::size_t components = 1;
+};
+
 // The default options, to be changed and passed on.
 inline deldrift_options default_options() noexcept {
     deldrift_options options;
@@ -146,6 +153,41 @@ public:
     }
     // Takes over what deldrift_create has made.
     explicit Triangulation(deldrift_triangulation *t) : t_(t) { check(deldrift_dimension(t, &dimension_)); }
+
+    // An independent triangulation that is as this one.
+    Triangulation clone() const {
+        deldrift_triangulation *t = nullptr;
+        check(deldrift_clone(native(), &t));
+        return Triangulation(t);
+    }
+    std::vector<unsigned char> save() const {
+        std::size_t count = 0;
+        check(deldrift_save(native(), nullptr, 0, &count));
+        std::vector<unsigned char> bytes(count);
+        check(deldrift_save(native(), bytes.data(), count, &count));
+        return bytes;
+    }
+    // Of bytes that save() gave.
+    static Triangulation load(span<const unsigned char> bytes, const deldrift_options &options = default_options()) {
+        deldrift_triangulation *t = nullptr;
+        check(deldrift_load(bytes.data(), bytes.size(), &options, &t));
+        return Triangulation(t);
+    }
+    void save_file(const std::string &path) const { check(deldrift_save_file(native(), path.c_str())); }
+    static Triangulation load_file(const std::string &path, const deldrift_options &options = default_options()) {
+        deldrift_triangulation *t = nullptr;
+        check(deldrift_load_file(path.c_str(), &options, &t));
+        return Triangulation(t);
+    }
+    // For ParaView and VTK.
+    void write_vtu(const std::string &path, const std::vector<Field> &vertex_fields = {},
+                   const std::vector<Field> &cell_fields = {}) const {
+        const std::vector<deldrift_field> vertices = fields_of(vertex_fields, id_count());
+        const std::vector<deldrift_field> cells = fields_of(cell_fields, cell_count());
+        check(deldrift_write_vtu(native(), path.c_str(), vertices.data(), vertices.size(), cells.data(), cells.size()));
+    }
+    // For Mmg, FreeFem, Gmsh and others.
+    void write_medit(const std::string &path) const { check(deldrift_write_medit(native(), path.c_str())); }
 
     // For the functions of deldrift.h; null when moved from.
     deldrift_triangulation *native() noexcept { return t_.get(); }
@@ -387,6 +429,15 @@ private:
         if (given == wanted) return;
         throw Error(DELDRIFT_WRONG_COUNT, argument + (" has " + std::to_string(given)) + " numbers, but must have " +
                                               std::to_string(wanted));
+    }
+    // What C reads of fields for n vertices or cells.
+    static std::vector<deldrift_field> fields_of(const std::vector<Field> &fields, std::size_t n) {
+        std::vector<deldrift_field> read;
+        for (const Field &field : fields) {
+            expect(field.name.c_str(), field.values.size(), n * field.components);
+            read.push_back({field.name.c_str(), field.values.data(), field.components});
+        }
+        return read;
     }
     // What a query writes to its last argument.
     template <class T, class Query, class... Arguments>

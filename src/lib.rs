@@ -18,6 +18,7 @@
 
 pub mod capi;
 mod complex;
+mod damage;
 mod delaunay;
 mod error;
 mod ids;
@@ -29,6 +30,7 @@ mod predicates;
 mod random;
 mod simd;
 
+pub use damage::{Damage, LoadError};
 pub use delaunay::{Dimension, Plane, Space};
 pub use error::{Error, Result};
 pub use ids::{CellId, VertexId};

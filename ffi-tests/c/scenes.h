@@ -5,6 +5,8 @@
 #include "requests.h"
 #include "state.h"
 
+#include <unistd.h>
+
 // What a triangulation has gone through before a call.
 typedef struct {
     size_t n;
@@ -42,7 +44,8 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
-    VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL, N_KINDS } kind;
+    VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
+    CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -55,6 +58,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_edges", "deldrift_vertex_neighbours", "deldrift_vertex_cells", "deldrift_mirror_indices",
     "deldrift_mirror_index", "deldrift_ordered_star", "deldrift_voronoi_volumes", "deldrift_voronoi_facets",
     "deldrift_interpolate", "deldrift_interpolate, natural",
+    "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu",
+    "deldrift_write_medit",
 };
 
 // A call: `goal` is for those of one vertex, which goes near, far, or to a place that is taken.
@@ -83,11 +88,19 @@ typedef struct {
 enum { ROOM = 1 << 16 };
 static uint32_t ids_out[ROOM], more_out[ROOM];
 static double numbers_out[ROOM];
-static uint8_t bytes_out[ROOM];
+static uint8_t bytes_out[8 * ROOM];
 static const uint8_t *all_cells(void) {
     static uint8_t mask[ROOM];
     memset(mask, 1, sizeof mask);
     return mask;
+}
+
+// A file for calls that write one, or read it.
+static const char *file_of_test(void) {
+    static char path[300];
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/deldrift-faults-%d", folder == NULL ? "/tmp" : folder, (int)getpid());
+    return path;
 }
 
 static bool never(void *user_data) {
@@ -245,6 +258,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     const uint8_t *mask = all_cells();
     size_t n_cells = cell_count(s->t), id_count = 0;
     OK(deldrift_id_count(s->t, &id_count));
+    size_t size = 0;
+    const deldrift_field field = {"field", numbers_out, 1};
+    const char *file = file_of_test();
+    if (s->call.kind == LOAD) OK(deldrift_save(s->t, bytes_out, sizeof bytes_out, &size));
+    if (s->call.kind == LOAD_FILE) OK(deldrift_save_file(s->t, file));
+    bytes_out[sizeof bytes_out - 1] = 77;
     count_requests(first, too);
     switch (s->call.kind) {
         case CREATE: status = deldrift_create(d, s->points, s->n, &options, &made); break;
@@ -293,9 +312,23 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_interpolate(s->t, s->call.kind == INTERPOLATE_NATURAL, s->points, id_count, 1, at, 1, NULL,
                                           NULL, numbers_out);
             break;
+        case CLONE: status = deldrift_clone(s->t, &made); break;
+        case SAVE: status = deldrift_save(s->t, bytes_out, sizeof bytes_out, &count); break;
+        case LOAD: status = deldrift_load(bytes_out, size, &options, &made); break;
+        case SAVE_FILE: status = deldrift_save_file(s->t, file); break;
+        case LOAD_FILE: status = deldrift_load_file(file, &options, &made); break;
+        case WRITE_VTU: status = deldrift_write_vtu(s->t, file, &field, 1, NULL, 0); break;
+        case WRITE_MEDIT: status = deldrift_write_medit(s->t, file); break;
         case N_KINDS: break;
     }
     stop_counting();
+    // It is there exactly if it has been written.
+    bool writes = s->call.kind == SAVE_FILE || s->call.kind == WRITE_VTU || s->call.kind == WRITE_MEDIT;
+    bool is_there = unlink(file) == 0;
+    if (writes && is_there != (status == DELDRIFT_OK)) {
+        *wrong = "half a file";
+        return status;
+    }
     *wrong = NULL;
     *given = status;
     if (status != DELDRIFT_OK) {
@@ -305,6 +338,9 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     }
     switch (s->call.kind) {
         case CREATE:
+        case CLONE:
+        case LOAD:
+        case LOAD_FILE:
             *given = arrays_of(made).cells;
             if (deldrift_validate(made, 3) != DELDRIFT_OK) *wrong = "no triangulation";
             deldrift_destroy(made);
@@ -330,6 +366,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             break;
         }
         case ORDERED_STAR:
+        case SAVE: *given = count; break;
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
         case INTERPOLATE:

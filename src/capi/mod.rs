@@ -37,6 +37,7 @@
 
 mod changes;
 mod fence;
+mod files;
 mod geometry;
 mod incidence;
 mod interpolation;
@@ -44,6 +45,7 @@ mod motion;
 mod options;
 mod pointers;
 mod query;
+mod saving;
 mod state;
 mod status;
 mod triangulation;
@@ -56,6 +58,7 @@ pub use interpolation::*;
 pub use motion::*;
 pub use options::*;
 pub use query::*;
+pub use saving::*;
 pub use state::*;
 pub use status::*;
 pub use triangulation::*;

@@ -6,6 +6,7 @@ use std::ptr;
 
 use super::pointers;
 use super::status::Failure;
+use crate::error::Error;
 use crate::machine::memory;
 use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRule};
 
@@ -167,7 +168,7 @@ impl deldrift_options {
             coincidence,
             track_changes,
             switching: self.switching()?,
-            monitor: self.monitor()?,
+            monitor: self.callbacks().monitor()?,
         })
     }
 
@@ -187,18 +188,15 @@ impl deldrift_options {
         })
     }
 
-    fn monitor(&self) -> Result<Option<Monitor>, Failure> {
-        if self.cancel.is_none() && self.progress.is_none() {
-            return Ok(None);
-        }
-        let callbacks = Callbacks { cancel: self.cancel, progress: self.progress, user_data: self.user_data };
-        let monitor = memory::boxed(move |fraction| callbacks.go_on(fraction))?;
-        Ok(Some(monitor))
+    /// The callbacks.
+    pub(super) fn callbacks(&self) -> Callbacks {
+        Callbacks { cancel: self.cancel, progress: self.progress, user_data: self.user_data }
     }
 }
 
 /// The callbacks of one triangulation.
-struct Callbacks {
+#[derive(Clone, Copy)]
+pub(super) struct Callbacks {
     cancel: Option<unsafe extern "C" fn(*mut c_void) -> bool>,
     progress: Option<unsafe extern "C" fn(*mut c_void, f64)>,
     user_data: *mut c_void,
@@ -211,6 +209,17 @@ unsafe impl Send for Callbacks {}
 unsafe impl Sync for Callbacks {}
 
 impl Callbacks {
+    /// What calls them, if there are any.
+    pub(super) fn monitor(self) -> Result<Option<Monitor>, Error> {
+        if self.cancel.is_none() && self.progress.is_none() {
+            return Ok(None);
+        }
+        // The closure has all of it, not its fields alone, which could not be sent.
+        let callbacks = self;
+        let monitor = memory::boxed(move |fraction| callbacks.go_on(fraction))?;
+        Ok(Some(monitor))
+    }
+
     /// Reports progress and asks whether to go on.
     fn go_on(&self, fraction: f64) -> bool {
         if let Some(progress) = self.progress {

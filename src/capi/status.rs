@@ -4,6 +4,8 @@ use std::ffi::{CStr, c_char};
 use std::fmt;
 
 use super::fence;
+use super::files::FileError;
+use crate::damage::Damage;
 use crate::error::Error;
 use crate::motion::Violation;
 
@@ -69,6 +71,13 @@ pub enum deldrift_status {
     DELDRIFT_NO_DELIMITER = 25,
     /// A number has no meaning for its argument, as a negative squared radius.
     DELDRIFT_INVALID_VALUE = 26,
+    /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
+    /// later version; the message says what is wrong, and where.
+    DELDRIFT_INVALID_DATA = 27,
+    /// The system cannot read or write a file; the message has the path, and what the system says.
+    DELDRIFT_IO_ERROR = 28,
+    /// A field has no name, one that is not UTF-8, or no components; the message has its index.
+    DELDRIFT_INVALID_FIELD = 29,
 }
 
 use deldrift_status::*;
@@ -78,7 +87,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 27] = [
+    const ALL: [deldrift_status; 30] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -106,6 +115,9 @@ impl deldrift_status {
         DELDRIFT_NO_SUCH_FACET,
         DELDRIFT_NO_DELIMITER,
         DELDRIFT_INVALID_VALUE,
+        DELDRIFT_INVALID_DATA,
+        DELDRIFT_IO_ERROR,
+        DELDRIFT_INVALID_FIELD,
     ];
 
     fn text(self) -> &'static CStr {
@@ -137,6 +149,9 @@ impl deldrift_status {
             DELDRIFT_NO_SUCH_FACET => c"no cell has this facet",
             DELDRIFT_NO_DELIMITER => c"a facet of the hull has no delimiter",
             DELDRIFT_INVALID_VALUE => c"a number has no meaning for its argument",
+            DELDRIFT_INVALID_DATA => c"the data are not those of a saved triangulation",
+            DELDRIFT_IO_ERROR => c"a file cannot be read or written",
+            DELDRIFT_INVALID_FIELD => c"a field is invalid",
         }
     }
 }
@@ -151,11 +166,14 @@ pub(super) enum Failure {
     NotOfThePlane,
     Option { field: &'static str, value: u64, wanted: &'static str },
     Share { field: &'static str, value: f64 },
+    Field { argument: &'static str, index: usize, part: &'static str, wanted: &'static str },
     Level { given: u32 },
     BufferTooSmall { argument: &'static str, capacity: usize, needed: usize },
     NoSuchFacet { cell: u32, corner: u32, cells: usize, corners: usize },
     HullFacet { cell: u32, corner: u32 },
     Invalid(Violation),
+    Data { argument: &'static str, damage: Damage },
+    File(FileError),
     Busy,
     Poisoned,
     Kernel(Error),
@@ -167,6 +185,15 @@ impl From<Error> for Failure {
     }
 }
 
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        match error {
+            FileError::Call(error) => error.into(),
+            error => Failure::File(error),
+        }
+    }
+}
+
 impl Failure {
     pub(super) fn status(&self) -> deldrift_status {
         match self {
@@ -175,11 +202,14 @@ impl Failure {
             Failure::SizeOverflow { .. } => DELDRIFT_SIZE_OVERFLOW,
             Failure::Dimension { .. } | Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
             Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
+            Failure::Field { .. } => DELDRIFT_INVALID_FIELD,
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
             Failure::BufferTooSmall { .. } => DELDRIFT_BUFFER_TOO_SMALL,
             Failure::NoSuchFacet { .. } => DELDRIFT_NO_SUCH_FACET,
             Failure::HullFacet { .. } => DELDRIFT_NO_DELIMITER,
             Failure::Invalid(_) => DELDRIFT_INVALID,
+            Failure::Data { .. } => DELDRIFT_INVALID_DATA,
+            Failure::File(_) => DELDRIFT_IO_ERROR,
             Failure::Busy => DELDRIFT_BUSY,
             Failure::Poisoned => DELDRIFT_POISONED,
             Failure::Kernel(error) => match error {
@@ -217,6 +247,9 @@ impl fmt::Display for Failure {
             Failure::Share { field, value } => {
                 write!(f, "{field} is {value:?}, but must be 0, or above 0 and at most 1")
             }
+            Failure::Field { argument, index, part, wanted } => {
+                write!(f, "{part} of {argument}[{index}] must be {wanted}")
+            }
             Failure::Level { given } => write!(f, "level is {given}, but must be 1, 2 or 3"),
             Failure::BufferTooSmall { argument, capacity, needed } => {
                 write!(f, "{argument} is {capacity}, but {needed} entries are to be written")
@@ -229,6 +262,8 @@ impl fmt::Display for Failure {
                 write!(f, "cell is {cell} and corner is {corner}, which is opposite a facet of the hull")
             }
             Failure::Invalid(violation) => write!(f, "{}", violation.message),
+            Failure::Data { argument, damage } => write!(f, "{argument}: {damage}"),
+            Failure::File(error) => write!(f, "{error}"),
             Failure::Busy => write!(f, "t is in use by a call that is changing it"),
             Failure::Poisoned => write!(f, "t is unusable since a call on it ended in an internal error"),
             Failure::Kernel(error) => write!(f, "{error}"),

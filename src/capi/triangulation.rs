@@ -1,11 +1,11 @@
 //! The object itself: creation, destruction, and what is chosen for its whole life.
 
 use std::cell::UnsafeCell;
-use std::mem;
+use std::mem::{self, MaybeUninit};
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::fence;
-use super::options::{self, AlgorithmCode, deldrift_options};
+use super::options::{self, AlgorithmCode, Callbacks, deldrift_options};
 use super::pointers;
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Dimension, Plane, Space};
@@ -16,6 +16,8 @@ use crate::motion::{MAX_VERTICES, MovingTriangulation};
 /// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.
 pub struct deldrift_triangulation {
     kernel: UnsafeCell<Kernel>,
+    // What the kernel calls, for those that are made from it.
+    callbacks: Callbacks,
     // Written only by calls that change the triangulation, which exclude all others by contract. They are
     // atomic so that a caller who breaks the contract reads a flag and not garbage; nothing is ordered.
     is_changing: AtomicBool,
@@ -52,9 +54,10 @@ macro_rules! tell {
 pub(super) use tell;
 
 impl deldrift_triangulation {
-    fn new(kernel: Kernel) -> Self {
+    fn new(kernel: Kernel, callbacks: Callbacks) -> Self {
         Self {
             kernel: UnsafeCell::new(kernel),
+            callbacks,
             is_changing: AtomicBool::new(false),
             is_poisoned: AtomicBool::new(false),
         }
@@ -62,6 +65,10 @@ impl deldrift_triangulation {
 
     pub(super) fn kernel(&self) -> *mut Kernel {
         self.kernel.get()
+    }
+
+    pub(super) fn callbacks(&self) -> Callbacks {
+        self.callbacks
     }
 
     pub(super) fn check_idle(&self) -> Result<(), Failure> {
@@ -140,11 +147,20 @@ pub unsafe extern "C" fn deldrift_create(
     unsafe {
         fence::enter(|| {
             let out = pointers::output("out", out)?;
-            let kernel = Kernel::new(dimension, positions, count, options)?;
-            out.write(Box::into_raw(memory::boxed(deldrift_triangulation::new(kernel))?));
-            Ok(())
+            let (kernel, callbacks) = Kernel::new(dimension, positions, count, options)?;
+            hand_out(out, kernel, callbacks)
         })
     }
+}
+
+/// Gives a triangulation to the caller.
+pub(super) fn hand_out(
+    out: &mut MaybeUninit<*mut deldrift_triangulation>,
+    kernel: Kernel,
+    callbacks: Callbacks,
+) -> Result<(), Failure> {
+    out.write(Box::into_raw(memory::boxed(deldrift_triangulation::new(kernel, callbacks))?));
+    Ok(())
 }
 
 impl Kernel {
@@ -157,21 +173,22 @@ impl Kernel {
         positions: *const f64,
         count: usize,
         options: *const deldrift_options,
-    ) -> Result<Self, Failure> {
+    ) -> Result<(Self, Callbacks), Failure> {
         let is_plane = match dimension {
             2 => true,
             3 => false,
             given => return Err(Failure::Dimension { given }),
         };
         // SAFETY: the caller's promise.
-        let options = unsafe { deldrift_options::read(options) }?.convert()?;
+        let options = unsafe { deldrift_options::read(options) }?;
+        let (callbacks, options) = (options.callbacks(), options.convert()?);
         // Looked at here as well, lest an absurd count becomes the length of a slice.
         if count > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
         }
         // SAFETY: the caller's promise.
-        unsafe {
-            Ok(if is_plane {
+        let kernel = unsafe {
+            if is_plane {
                 Kernel::Plane(MovingTriangulation::new(
                     points::<Plane>("positions", positions, count)?,
                     options,
@@ -181,8 +198,9 @@ impl Kernel {
                     points::<Space>("positions", positions, count)?,
                     options,
                 )?)
-            })
-        }
+            }
+        };
+        Ok((kernel, callbacks))
     }
 }
 

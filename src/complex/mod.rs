@@ -20,9 +20,11 @@
 #![allow(unsafe_code)]
 
 mod cell;
+mod copying;
 mod corners;
 mod flips;
 mod record;
+mod restoring;
 mod sorting;
 
 pub use cell::{Cell, Facet};

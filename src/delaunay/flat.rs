@@ -71,6 +71,14 @@ impl<G: Dimension> Flat<G> {
         *self = Flat::default();
     }
 
+    /// A copy.
+    pub(super) fn copied(&self) -> Result<Self> {
+        let mut flat = Flat { places: HashMap::new(), basis: self.basis };
+        memory::reserve_map(&mut flat.places, self.places.len())?;
+        flat.places.extend(&self.places);
+        Ok(flat)
+    }
+
     /// A copy in which the sites have other names, listed by the old ones.
     pub(super) fn renamed(&self, names: &[SiteId]) -> Result<Self> {
         let mut flat = Flat { places: HashMap::new(), basis: self.basis };

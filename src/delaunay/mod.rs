@@ -20,6 +20,7 @@
 //! | `undo` | undoing any change |
 //! | `changes` | a record of the cells made or moved |
 //! | `successor` | a kernel to be built beside another one |
+//! | `copying`, `restoring` | a copy of a kernel; one of cells that are known, all of them checked |
 //! | `certify`, `uncertain`, `failures` | all certificates at once |
 //! | `sample` | those of a few cells |
 //! | `flat` | fewer than `D + 1` sites, or all in one hyperplane: no cells |
@@ -39,6 +40,7 @@ mod cavity_plane;
 mod cavity_space;
 mod certify;
 mod changes;
+mod copying;
 mod dimension;
 mod failures;
 mod flat;
@@ -53,6 +55,7 @@ mod parts;
 mod plane;
 mod relocate;
 mod remove;
+mod restoring;
 mod sample;
 mod set;
 pub mod site;
@@ -71,6 +74,7 @@ pub use dimension::{Dimension, Plane, Space};
 pub use failures::Failures;
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
+pub(crate) use restoring::Rows;
 pub(crate) use set::IndexSet;
 pub use site::Site;
 pub use validate::{Level, Violation};

@@ -330,6 +330,37 @@ impl<G: Dimension> Cells<G> {
         Ok(cells)
     }
 
+    /// A copy, without scratch memory.
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Cells {
+            corners: memory::copy_of(&self.corners)?,
+            neighbours: memory::copy_of(&self.neighbours)?,
+            index_of: memory::copy_of(&self.index_of)?,
+            slots: memory::copy_of(&self.slots)?,
+            orderings: memory::copy_of(&self.orderings)?,
+            since_taken: self.since_taken.as_ref().map(Tracker::copied).transpose()?,
+            since_commit: self.since_commit.as_ref().map(Tracker::copied).transpose()?,
+            ..Cells::default()
+        })
+    }
+
+    /// Those of a kernel that has cell k of these rows in slot k, and as many slots.
+    pub(super) fn of_rows(
+        corners: Vec<G::Vertices>,
+        neighbours: Vec<G::Neighbours>,
+        n_slots: usize,
+    ) -> Result<Self> {
+        let n = corners.len();
+        let (mut index_of, mut slots, mut orderings) = (Vec::new(), Vec::new(), Vec::new());
+        memory::reserve_exact(&mut index_of, n_slots)?;
+        index_of.extend(CellId::range(0..n));
+        index_of.resize(n_slots, NO_CELL);
+        memory::reserve_exact(&mut slots, n)?;
+        slots.extend(Slot::range(0..n));
+        memory::lengthen(&mut orderings, n, Ordering::SAME)?;
+        Ok(Cells { corners, neighbours, index_of, slots, orderings, ..Cells::default() })
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         let trackers = [&self.since_taken, &self.since_commit].into_iter().flatten();
         memory::bytes_of(&self.corners)

@@ -176,6 +176,18 @@ impl<C: Corners<VertexId>> Tracker<C> {
         })
     }
 
+    /// A copy.
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Tracker {
+            origin: memory::copy_of(&self.origin)?,
+            touched: self.touched.copied()?,
+            removed: memory::copy_of(&self.removed)?,
+            n_refreshed: self.n_refreshed,
+            n_renumbered: self.n_renumbered,
+            turned: memory::copy_of(&self.turned)?,
+        })
+    }
+
     /// Lists, ascending, the cells that are not among those of the base.
     pub(super) fn list_created(&self, corners: &[C], created: &mut Vec<CellId>) -> Result<()> {
         let removed = self.sorted_removed()?;

@@ -118,6 +118,14 @@ impl<G: Dimension> Edits<G> {
         Ok(Edits { insertions, removals, is_leaving })
     }
 
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Edits {
+            insertions: memory::copy_of(&self.insertions)?,
+            removals: memory::copy_of(&self.removals)?,
+            is_leaving: memory::copy_of(&self.is_leaving)?,
+        })
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         self.insertions.capacity() * size_of::<(VertexId, G::Point)>()
             + self.removals.capacity() * 4

@@ -89,6 +89,27 @@ impl Hidden {
         Ok(hidden)
     }
 
+    /// The chains of the vertices at the same places, of each of which the representative is given;
+    /// [`VertexId::NONE`] for ids that have none.
+    pub(super) fn of_representatives(representatives: &[VertexId]) -> Result<Self> {
+        let mut hidden = Hidden::default();
+        let all = VertexId::range(0..representatives.len()).zip(representatives);
+        let others = all.filter(|&(v, &first)| first != VertexId::NONE && first != v);
+        // Each is put in front of those with higher ids.
+        for (v, &first) in others.rev() {
+            hidden.reserve(representatives.len())?;
+            hidden.set_next(v, hidden.next(first));
+            hidden.set_next(first, v);
+            hidden.count += 1;
+        }
+        Ok(hidden)
+    }
+
+    /// A copy.
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Hidden { next: memory::copy_of(&self.next)?, count: self.count })
+    }
+
     /// A copy in which the vertices have other ids, `n` in all: those listed by the old ones.
     pub(super) fn renumbered(&self, ids: &[VertexId], n: usize) -> Result<Self> {
         let mut hidden = Hidden { next: Vec::new(), count: self.count };

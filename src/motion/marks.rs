@@ -60,6 +60,10 @@ impl Bits {
         })
     }
 
+    fn copied(&self) -> Result<Self> {
+        Ok(Bits(memory::copy_of(&self.0)?))
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         self.0.capacity() * 8
     }
@@ -139,6 +143,10 @@ impl<I: Id> Marks<I> {
         if self.list.capacity() > n {
             self.list = Vec::new();
         }
+    }
+
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Marks { list: memory::copy_of(&self.list)?, bits: self.bits.copied()? })
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

@@ -19,7 +19,8 @@
 //! Each of `tolerance`, `safe_region`, `watching` and `slack` has a store and a commit; `regions` keeps one of the
 //! stores, and lets it follow changes. `immediate` relocates, inserts and removes one vertex at a time; `moving` has
 //! the loops that move all vertices; `transaction` what undoes a change; `cells` and `changes` what callers read of
-//! it; `geometry` what they compute from that; `compaction` forgets removed vertices.
+//! it; `geometry` what they compute from that; `compaction` forgets removed vertices; `cloning` and `saving` copy
+//! everything.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
@@ -36,12 +37,15 @@ mod auto;
 mod bicell;
 mod cells;
 mod changes;
+mod chunks;
+mod cloning;
 mod coincidence;
 mod commit;
 mod compaction;
 pub(crate) mod constants;
 mod editing;
 mod edits;
+mod exporting;
 mod geometry;
 mod hidden;
 mod immediate;
@@ -59,6 +63,7 @@ mod regions;
 mod repair;
 mod report;
 mod safe_region;
+mod saving;
 mod slack;
 mod staging;
 mod switching;
@@ -74,10 +79,12 @@ pub use crate::delaunay::{Level, Violation};
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use cells::{NO_CELL, NO_CORNER};
 pub use changes::{Changes, NO_VERTEX};
+pub use exporting::Field;
 pub use geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues};
 pub use options::{CoincidencePolicy, Monitor, Options, SwitchingRule};
 pub use query::Location;
 pub(crate) use query::cells_at;
 pub use report::CommitReport;
+pub use saving::Saved;
 pub use triangulation::{MAX_VERTICES, MovingTriangulation};
 pub use views::CellsView;

@@ -318,6 +318,18 @@ impl<G: Dimension> Staging<G> {
         Ok(staging)
     }
 
+    /// A copy.
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Staging {
+            positions: memory::copy_of(&self.positions)?,
+            is_staged: memory::copy_of(&self.is_staged)?,
+            vertices: memory::copy_of(&self.vertices)?,
+            applied: self.applied,
+            is_whole: self.is_whole,
+            others_applied: self.others_applied,
+        })
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         self.positions.capacity() * size_of::<G::Point>()
             + self.is_staged.capacity()

@@ -60,26 +60,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         if positions.len() > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
         }
-        let mut t = MovingTriangulation {
-            kernel: Delaunay::on(Threads::at_most(options.threads))?,
-            site_of: Vec::new(),
-            hidden: Hidden::default(),
-            n_present: positions.len(),
-            staging: Staging::default(),
-            edits: Edits::default(),
-            regions: Regions::default(),
-            switching: Switching::default(),
-            repair: Repair::default(),
-            auto: Auto::default(),
-            options,
-            statistics: CommitReport::default(),
-            n_moved: 0,
-            sorted_stride: 0.0,
-            transaction: Transaction::default(),
-            views: Views::default(),
-            taken: Taken::default(),
-            takes_changes: false,
-        };
+        let kernel = Delaunay::on(Threads::at_most(options.threads))?;
+        let mut t = Self::of_parts(kernel, Vec::new(), Hidden::default(), positions.len(), options);
         // Without a branch for each, several at a time are looked at.
         if !G::Point::flattened(positions).iter().fold(true, |are_good, &x| are_good & is_in_range(x)) {
             return Err(first_bad::<G>(positions));
@@ -90,6 +72,37 @@ impl<G: Dimension> MovingTriangulation<G> {
         t.build_first()?;
         t.statistics.coincident = t.hidden.count() as u64;
         Ok(t)
+    }
+
+    /// A triangulation of which nothing is known but the kernel, the site of each id, and which of the `n_present`
+    /// vertices are hidden.
+    pub(super) fn of_parts(
+        kernel: Delaunay<G>,
+        site_of: Vec<SiteId>,
+        hidden: Hidden,
+        n_present: usize,
+        options: Options,
+    ) -> Self {
+        MovingTriangulation {
+            sorted_stride: kernel.mean_stride(),
+            kernel,
+            site_of,
+            hidden,
+            n_present,
+            staging: Staging::default(),
+            edits: Edits::default(),
+            regions: Regions::default(),
+            switching: Switching::default(),
+            repair: Repair::default(),
+            auto: Auto::default(),
+            options,
+            statistics: CommitReport::default(),
+            n_moved: 0,
+            transaction: Transaction::default(),
+            views: Views::default(),
+            taken: Taken::default(),
+            takes_changes: false,
+        }
     }
 
     /// The site of a vertex that must be present and not about to be removed.

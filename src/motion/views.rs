@@ -206,6 +206,24 @@ impl<G: Dimension> Views<G> {
         Ok(views)
     }
 
+    /// A copy, of arrays that are brought up to date for it if there are any.
+    pub(super) fn copied(&self, kernel: &Delaunay<G>) -> Result<Self> {
+        let visibilities = self.visibilities.copied()?;
+        let exist = self.current.get().is_some() || self.lock().cells.is_some();
+        let mut views = Views { visibilities, ..Views::default() };
+        if exist {
+            views.show(self.cells(kernel)?.copied()?)?;
+        }
+        Ok(views)
+    }
+
+    /// These are the arrays, up to date.
+    pub(super) fn show(&mut self, cells: Cells<G>) -> Result<()> {
+        self.current = OnceLock::from(memory::boxed(cells)?);
+        self.behind().are_all = false;
+        Ok(())
+    }
+
     /// From now on changes are since this commit: the arrays have been up to date when it began.
     pub(super) fn begin_commit(&mut self) {
         self.changed.take();

@@ -66,6 +66,10 @@ impl Visibilities {
         Ok(renumbered)
     }
 
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Visibilities(memory::copy_of(&self.0)?))
+    }
+
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.0)
     }

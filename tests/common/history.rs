@@ -152,6 +152,15 @@ impl<G: Dimension> History<G> {
         self.staged.clear();
     }
 
+    /// Goes on with another triangulation, which should be the same; `knows_changes` unless it has been loaded.
+    pub fn replace(&mut self, t: MovingTriangulation<G>, knows_changes: bool) -> MovingTriangulation<G> {
+        self.log.push(format!("replaced, knows changes: {knows_changes}"));
+        if !knows_changes {
+            self.baseline = None;
+        }
+        std::mem::replace(&mut self.t, t)
+    }
+
     /// Some random calls, checked; returns after a check.
     pub fn step(&mut self) {
         match self.rng.below(8) {

@@ -17,7 +17,7 @@ pub(super) enum Scope {
 }
 
 /// What the last commits found.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Auto {
     scope: Scope,
     /// By how much that has cost more than the expensive way would have, and what the watched bi-cells have cost more

@@ -74,6 +74,15 @@ impl<G: Dimension> Kept<G> {
         }
     }
 
+    fn copied(&self) -> Result<Self> {
+        Ok(match self {
+            Kept::Tolerance(store) => Kept::Tolerance(store.copied()?),
+            Kept::SafeRegion(store) => Kept::SafeRegion(store.copied()?),
+            Kept::Watching(store) => Kept::Watching(store.copied()?),
+            Kept::Slack(store) => Kept::Slack(store.copied()?),
+        })
+    }
+
     /// The filter that they are for.
     #[inline(always)]
     fn filter(&self) -> Filter {
@@ -124,6 +133,11 @@ impl<G: Dimension> Default for Regions<G> {
 }
 
 impl<G: Dimension> Regions<G> {
+    /// A copy of what is kept.
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Regions { kept: self.kept.as_ref().map(Kept::copied).transpose()?, ..Regions::default() })
+    }
+
     /// The filter that regions are kept for.
     #[inline(always)]
     pub(super) fn kept_for(&self) -> Option<Filter> {

@@ -49,6 +49,16 @@ impl<G: Dimension> SafeRegions<G> {
         SafeRegions { tests_tolerance, tolerances, reach: Vec::new(), delimiters: Vec::new() }
     }
 
+    /// A copy.
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        Ok(SafeRegions {
+            tests_tolerance: self.tests_tolerance,
+            tolerances: self.tolerances.copied()?,
+            reach: memory::copy_of(&self.reach)?,
+            delimiters: memory::copy_of(&self.delimiters)?,
+        })
+    }
+
     pub(in crate::motion) fn tests_tolerance(&self) -> bool {
         self.tests_tolerance
     }

@@ -100,6 +100,23 @@ impl<G: Dimension> Default for Slacks<G> {
 }
 
 impl<G: Dimension> Slacks<G> {
+    /// A copy.
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        Ok(Slacks {
+            margin: self.margin,
+            room: self.room,
+            per_length: self.per_length,
+            unfit: self.unfit,
+            enough: self.enough,
+            travelled: memory::copy_of(&self.travelled)?,
+            entries: memory::copy_of(&self.entries)?,
+            expired: memory::copy_of(&self.expired)?,
+            facets: memory::copy_of(&self.facets)?,
+            open: memory::copy_of(&self.open)?,
+            is_open: memory::copy_of(&self.is_open)?,
+        })
+    }
+
     /// Follows the number of sites and cells.
     fn grow(&mut self, kernel: &Delaunay<G>) -> Result<()> {
         let more_sites = kernel.sites().len().saturating_sub(self.travelled.len());

@@ -1,7 +1,7 @@
 //! Which of the two algorithms has its turn.
 
 /// Where the algorithm is.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Switching {
     has_switched: bool,
     commits: u64,

@@ -52,6 +52,11 @@ impl<G: Dimension> Default for Tolerances<G> {
 }
 
 impl<G: Dimension> Tolerances<G> {
+    /// A copy.
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        Ok(Tolerances { margin: self.margin, fixed: memory::copy_of(&self.fixed)? })
+    }
+
     /// Fixed positions and tolerances by vertex id.
     #[inline(always)]
     pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {

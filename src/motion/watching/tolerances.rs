@@ -24,6 +24,11 @@ impl<G: Dimension> Default for Watching<G> {
 }
 
 impl<G: Dimension> Watching<G> {
+    /// A copy.
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        Ok(Watching { tolerances: self.tolerances.copied()?, watched: self.watched.copied()? })
+    }
+
     /// Fixed positions and tolerances by vertex id.
     #[inline(always)]
     pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {

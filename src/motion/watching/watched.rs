@@ -20,6 +20,11 @@ pub(super) struct Watched {
 const LISTED: u8 = 0xf0;
 
 impl Watched {
+    /// A copy.
+    pub(super) fn copied(&self) -> Result<Self> {
+        Ok(Watched { list: memory::copy_of(&self.list)?, bits: memory::copy_of(&self.bits)? })
+    }
+
     /// Empties the set.
     pub(super) fn clear(&mut self) {
         self.list.clear();

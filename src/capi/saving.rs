@@ -1,0 +1,314 @@
+//! A triangulation as bytes, in memory or in a file, and a second one like it.
+
+use std::ffi::{CStr, c_char, c_void};
+use std::mem::MaybeUninit;
+
+use super::fence;
+use super::files::{self, NewFile};
+use super::options::deldrift_options;
+use super::pointers::{self, Room, copy_out};
+use super::status::{Failure, deldrift_status};
+use super::triangulation::{Kernel, deldrift_triangulation, hand_out, in_its_dimension};
+use crate::damage::LoadError;
+use crate::machine::memory;
+use crate::motion::{Field, MovingTriangulation, Saved};
+
+/// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
+/// deldrift_destroy; it is written on success only.
+///
+/// Positions, ids, cells with their indices, hidden vertices, staged moves, insertions and removals, the timestamp,
+/// statistics, options, the changes that deldrift_take_changes has not given yet, and what the algorithm keeps between
+/// commits are those of t: after the same calls both have the same cells. The callbacks of the options are called for
+/// either, so what user_data points to must live as long as both. Views, and changes that have been taken, belong to t
+/// alone.
+///
+/// Takes a pass over the memory of t, and as much memory again; nothing is triangulated. If deldrift_cells has been
+/// called before, this also does what the next deldrift_cells would do.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_clone(
+    t: *const deldrift_triangulation,
+    out: *mut *mut deldrift_triangulation,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::enter(|| {
+            let handle = pointers::reference("t", t)?;
+            handle.check_ready()?;
+            let out = pointers::output("out", out)?;
+            let callbacks = handle.callbacks();
+            let monitor = callbacks.monitor()?;
+            // No call below this one on the stack is changing it, and none of another thread by contract.
+            let kernel = match &*handle.kernel() {
+                Kernel::Plane(t) => Kernel::Plane(t.try_clone(monitor)?),
+                Kernel::Space(t) => Kernel::Space(t.try_clone(monitor)?),
+            };
+            hand_out(out, kernel, callbacks)
+        })
+    }
+}
+
+/// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
+///
+/// Saved are positions, ids, removed and hidden vertices, cells with their indices, staged moves, insertions and
+/// removals, the timestamp and statistics. Not saved are the options, what the algorithm keeps between commits, and
+/// which changes have been taken. docs/FORMAT.md describes the bytes.
+///
+/// buffer: room for capacity bytes, with any alignment. count: receives the number of bytes, which is also written
+/// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
+///
+/// Takes a pass over what is saved, and does what deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_save(
+    t: *const deldrift_triangulation,
+    buffer: *mut c_void,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let (buffer, needed) = (buffer.cast::<u8>(), t.saved_size());
+                copy_out(Room { capacity, count }, needed, &[("buffer", buffer)], || {
+                    let mut rest = pointers::buffer("buffer", buffer, needed)?;
+                    t.save(|bytes| {
+                        rest = fill_front(std::mem::take(&mut rest), bytes);
+                        Ok(())
+                    })
+                })
+            })
+        })
+    }
+}
+
+/// Writes bytes to the beginning of a buffer, which has room for them; returns the rest of it.
+fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [MaybeUninit<u8>] {
+    let (front, rest) = buffer.split_at_mut(bytes.len());
+    for (place, &byte) in front.iter_mut().zip(bytes) {
+        place.write(byte);
+    }
+    rest
+}
+
+/// Makes a triangulation of bytes that deldrift_save has written, to *out, which the caller has to hand to
+/// deldrift_destroy; it is written on success only.
+///
+/// The triangulation is as the one that was saved, cells with their indices included, and gives the same cells after
+/// the same calls; those cells that are new then may have other indices. It has given no changes yet: the first
+/// deldrift_take_changes lists all cells as created, and deldrift_changed_cells none before the next commit. Like one
+/// whose cells have been read, it keeps the arrays of deldrift_cells.
+///
+/// data: size bytes, with any alignment, read during the call only. options: as for deldrift_create. They are not
+/// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are not
+/// called.
+///
+/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data. These may be any: what is not
+/// a Delaunay triangulation, exactly, is refused, even if the checksum is right.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
+/// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. May be called from any number of
+/// threads at once.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_load(
+    data: *const c_void,
+    size: usize,
+    options: *const deldrift_options,
+    out: *mut *mut deldrift_triangulation,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::enter(|| {
+            let out = pointers::output("out", out)?;
+            let data = pointers::array("data", data.cast::<u8>(), size)?;
+            load("data", data, deldrift_options::read(options)?, out)
+        })
+    }
+}
+
+/// Makes a triangulation of the bytes of an argument.
+fn load(
+    argument: &'static str,
+    data: &[u8],
+    options: deldrift_options,
+    out: &mut MaybeUninit<*mut deldrift_triangulation>,
+) -> Result<(), Failure> {
+    let failed = |error| match error {
+        LoadError::Call(error) => Failure::Kernel(error),
+        LoadError::Data(damage) => Failure::Data { argument, damage },
+    };
+    let callbacks = options.callbacks();
+    let options = options.convert()?;
+    let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
+    let kernel = if saved.dimension() == 2 {
+        Kernel::Plane(MovingTriangulation::load(&saved, options).map_err(failed)?)
+    } else {
+        Kernel::Space(MovingTriangulation::load(&saved, options).map_err(failed)?)
+    };
+    hand_out(out, kernel, callbacks)
+}
+
+/// A path from C.
+unsafe fn path_of<'a>(path: *const c_char) -> Result<&'a CStr, Failure> {
+    // SAFETY: the caller's promise.
+    unsafe { pointers::reference("path", path) }?;
+    // SAFETY: it is not NULL, and the caller vouches for the NUL at its end.
+    Ok(unsafe { CStr::from_ptr(path) })
+}
+
+/// Saves the triangulation to a file, as deldrift_save does.
+///
+/// path: of a file that is made, or replaced. The bytes go to a new file in the same folder, which takes the place of
+/// the old one when it is complete and stored, so that after a failure or a crash there is either; a symbolic link is
+/// replaced itself. A device or a pipe is written at once.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_save_file(
+    t: *const deldrift_triangulation,
+    path: *const c_char,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            let mut file = NewFile::create(path_of(path)?)?;
+            in_its_dimension!(kernel, t => t.save(|bytes| file.put(bytes)))?;
+            Ok(file.finish()?)
+        })
+    }
+}
+
+/// Makes a triangulation of a file that deldrift_save_file has written, to *out, as deldrift_load does.
+///
+/// The file is read as a whole, so that memory for it is needed during the call, too.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS, DELDRIFT_IO_ERROR,
+/// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
+/// DELDRIFT_OUT_OF_MEMORY. May be called from any number of threads at once.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_load_file(
+    path: *const c_char,
+    options: *const deldrift_options,
+    out: *mut *mut deldrift_triangulation,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::enter(|| {
+            let out = pointers::output("out", out)?;
+            let options = deldrift_options::read(options)?;
+            let data = files::read(path_of(path)?)?;
+            load("path", &data, options, out)
+        })
+    }
+}
+
+/// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct deldrift_field {
+    /// What it is called: UTF-8, with a NUL at the end.
+    pub name: *const c_char,
+    /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
+    /// index.
+    pub values: *const f64,
+    /// How many numbers each has, at least 1.
+    pub components: usize,
+}
+
+/// Fields from C, each for `n` vertices or cells.
+///
+/// # Safety
+/// As for [`deldrift_write_vtu`].
+unsafe fn fields_of<'a>(
+    argument: &'static str,
+    fields: *const deldrift_field,
+    count: usize,
+    n: usize,
+) -> Result<Vec<Field<'a>>, Failure> {
+    let mut read = Vec::new();
+    // SAFETY: the caller's promise.
+    let fields = unsafe { pointers::array(argument, fields, count) }?;
+    memory::reserve_exact(&mut read, fields.len())?;
+    for (index, field) in fields.iter().enumerate() {
+        let bad = |part, wanted| Failure::Field { argument, index, part, wanted };
+        if field.name.is_null() {
+            return Err(bad("name", "not NULL"));
+        }
+        // SAFETY: the caller vouches for the NUL at its end.
+        let name = unsafe { CStr::from_ptr(field.name) }.to_str().map_err(|_| bad("name", "UTF-8"))?;
+        if field.components == 0 {
+            return Err(bad("components", "at least 1"));
+        }
+        let n_values = n.saturating_mul(field.components);
+        // SAFETY: the caller's promise.
+        let values = unsafe { pointers::array(argument, field.values, n_values) }?;
+        read.push(Field { name, components: field.components, values });
+    }
+    Ok(read)
+}
+
+/// Writes a file for ParaView and VTK: an unstructured grid of the cells, in VTK's XML format (.vtu).
+///
+/// Its points are the vertices that are present, hidden ones included, ascending by id; their ids are the point data
+/// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: as for
+/// deldrift_save_file.
+///
+/// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
+/// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
+///
+/// Does what deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
+/// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_write_vtu(
+    t: *const deldrift_triangulation,
+    path: *const c_char,
+    vertex_fields: *const deldrift_field,
+    vertex_field_count: usize,
+    cell_fields: *const deldrift_field,
+    cell_field_count: usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let path = path_of(path)?;
+                let vertices = fields_of("vertex_fields", vertex_fields, vertex_field_count, t.id_count())?;
+                let cells = fields_of("cell_fields", cell_fields, cell_field_count, t.cell_count())?;
+                let mut file = NewFile::create(path)?;
+                t.write_vtu(&vertices, &cells, |bytes| file.put(bytes))?;
+                Ok(file.finish()?)
+            })
+        })
+    }
+}
+
+/// Writes a file for Mmg, FreeFem, Gmsh and others: MEDIT's text format (.mesh).
+///
+/// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
+/// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells, with the reference 1.
+/// Reading the numbers gives the same doubles. path: as for deldrift_save_file.
+///
+/// Does what deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_write_medit(
+    t: *const deldrift_triangulation,
+    path: *const c_char,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            let mut file = NewFile::create(path_of(path)?)?;
+            in_its_dimension!(kernel, t => t.write_medit(|bytes| file.put(bytes)))?;
+            Ok(file.finish()?)
+        })
+    }
+}

@@ -1,0 +1,19 @@
+//! A copy of all cells, in the same slots.
+
+use super::record::Record;
+use super::{Complex, Corners};
+use crate::error::Result;
+use crate::machine::memory;
+
+impl<C: Corners> Complex<C> {
+    /// A copy, without room for more cells. No record must be kept.
+    pub(crate) fn copied(&self) -> Result<Self> {
+        debug_assert!(!self.is_recording());
+        let cells = memory::copy_of(&self.cells)?;
+        let mut marks = Vec::new();
+        memory::reserve_exact(&mut marks, cells.capacity())?;
+        marks.resize(cells.len(), 0);
+        let free = memory::copy_of(&self.free)?;
+        Ok(Complex { cells, marks, free, n_ghosts: self.n_ghosts, record: Record::default() })
+    }
+}

@@ -1,0 +1,190 @@
+//! A complex from the rows of its finite cells: the ghost cells around them are found, not listed.
+//!
+//! The rows may come from anywhere. What is returned is closed and keeps the invariants of the module, and its cells
+//! are oriented alike: those on the two sides of a facet see it from different sides.
+//!
+//! Cost: a pass over the rows, and around each ridge of the hull one over the cells there.
+
+use super::record::Record;
+use super::{Cell, Complex, Corners, Facet, INFINITE, MAX_CELLS};
+use crate::damage::{Damage, LoadError};
+use crate::error::Error;
+use crate::ids::{CellId, SiteId, Slot};
+use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
+
+/// Where corner `a` of a cell is in the ghost cell at its facet opposite corner `i`.
+fn place_in_ghost(n: usize, i: usize, a: usize) -> usize {
+    match a {
+        0 | 1 if i == n - 1 => 1 - a,
+        _ if a == n - 1 => i,
+        _ => a,
+    }
+}
+
+/// The corners of the ghost cell at the facet opposite corner `i`: those of the facet as seen from outside.
+fn ghost_of<C: Corners>(corners: &C, i: usize) -> C {
+    let mut ghost = C::filled(INFINITE);
+    for a in (0..C::N).filter(|&a| a != i) {
+        ghost[place_in_ghost(C::N, i, a)] = corners[a];
+    }
+    ghost
+}
+
+/// Whether two cells meet in the facets opposite corners `i` and `j`, each on its own side: with corner `i` replaced
+/// by the other's corner `j`, one has the other's corners in an order of the opposite orientation. Without branches, as
+/// the orders are random.
+#[inline(always)]
+fn meet<C: Corners>(one: &C, i: usize, other: &C, j: usize) -> bool {
+    let (mut places, mut n_found) = ([0; 4], 0);
+    for a in 0..C::N {
+        for b in 0..C::N {
+            let is_there = usize::from(one[a] == other[b] && a != i && b != j);
+            places[a] |= b * is_there;
+            n_found += is_there;
+        }
+    }
+    places[i] = j;
+    let mut is_odd = false;
+    for b in 1..C::N {
+        for a in 0..b {
+            is_odd ^= places[a] > places[b];
+        }
+    }
+    // Corners are distinct, so each is found once at most.
+    n_found == C::N - 1 && is_odd
+}
+
+/// The only place of a number in a row, if it has one.
+#[inline(always)]
+fn place_of<N: Corners<CellId>>(row: &N, cell: CellId) -> Option<usize> {
+    let (mut place, mut n_found) = (0, 0);
+    for j in 0..N::N {
+        let is_there = usize::from(row[j] == cell);
+        place |= j * is_there;
+        n_found += is_there;
+    }
+    (n_found == 1).then_some(place)
+}
+
+impl<C: Corners> Complex<C> {
+    /// The complex of finite cells with these corners, distinct in each, and these neighbours, opposite each corner:
+    /// [`CellId::NONE`] at the hull. Cell k gets slot k, the ghost cells follow.
+    pub(crate) fn of_rows<N: Corners<CellId>>(
+        corners: impl ExactSizeIterator<Item = Result<C, LoadError>>,
+        neighbours: &[N],
+    ) -> Result<Self, LoadError> {
+        let n = neighbours.len();
+        debug_assert_eq!(corners.len(), n);
+        let at_hull = |row: &N| row.as_ref().iter().filter(|&&across| across == CellId::NONE).count();
+        let n_ghosts = neighbours.iter().map(at_hull).sum::<usize>();
+        if n + n_ghosts > MAX_CELLS {
+            return Err(Error::TooManyCells { limit: MAX_CELLS }.into());
+        }
+        let (mut cells, mut marks) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut cells, n + n_ghosts)?;
+        memory::reserve_exact(&mut marks, cells.capacity())?;
+        for corners in corners {
+            cells.push(Cell { corners: corners?, ..Cell::free() });
+        }
+        marks.resize(n + n_ghosts, 0);
+        let mut complex = Complex { cells, marks, free: Vec::new(), n_ghosts, record: Record::default() };
+        for (c, row) in neighbours.iter().enumerate() {
+            if let Some(later) = neighbours.get(c + AHEAD) {
+                for i in 0..C::N {
+                    prefetch(&complex.cells, later[i].index());
+                    prefetch(neighbours, later[i].index());
+                }
+            }
+            for i in 0..C::N {
+                if !complex.glue_row(neighbours, c, i) {
+                    let (cell, given) = (CellId::at(c), row[i]);
+                    return Err(Damage::Neighbour { cell, corner: i, given }.into());
+                }
+            }
+        }
+        for g in n..n + n_ghosts {
+            complex.glue_ghost(Slot::at(g), n);
+        }
+        Ok(complex)
+    }
+
+    /// Glues the facet of cell `c` opposite corner `i` to its neighbour's, or to a new ghost cell; `false` if the two
+    /// do not meet there.
+    fn glue_row<N: Corners<CellId>>(&mut self, neighbours: &[N], c: usize, i: usize) -> bool {
+        let (facet, across) = (Facet::new(Slot::at(c), i), neighbours[c][i]);
+        if across == CellId::NONE {
+            let ghost = ghost_of(&self.cells[c].corners, i);
+            let out = Facet::new(Slot::at(self.cells.len()), C::N - 1);
+            self.cells.push(Cell { corners: ghost, ..Cell::free() });
+            self.glue(facet, out);
+            return true;
+        }
+        let d = across.index();
+        if d < c {
+            // It has been glued from there.
+            return self.cells[c].neighbours[i] != Facet::NONE
+                && self.cells[c].neighbours[i].cell().index() == d;
+        }
+        // Two cells that met in more than one facet would have the same corners.
+        let row = neighbours.get(d).filter(|_| d != c);
+        let Some(j) = row.and_then(|row| place_of(row, CellId::at(c))) else { return false };
+        if !meet(&self.cells[c].corners, i, &self.cells[d].corners, j) {
+            return false;
+        }
+        if self.cells[d].neighbours[j] != Facet::NONE {
+            return false;
+        }
+        self.glue(facet, Facet::new(Slot::at(d), j));
+        true
+    }
+
+    /// Glues the ridges of a ghost cell to those of others, where `n` finite cells are glued to each other: around a
+    /// ridge, from one finite cell to the next, until there is none. As each gluing is one to one that comes to an end,
+    /// and not where it began.
+    fn glue_ghost(&mut self, ghost: Slot, n: usize) {
+        let at_hull = self.cells[ghost].neighbours[C::N - 1];
+        for a in (0..C::N).filter(|&a| a != at_hull.index()) {
+            // The ridge is the cell without corners `i` and `b`; it is left through the facet opposite `b`.
+            let (mut c, mut i, mut b) = (at_hull.cell(), at_hull.index(), a);
+            let other = loop {
+                let out = self.cells[c].neighbours[b];
+                if out.cell().index() >= n {
+                    break out.cell();
+                }
+                let kept: SiteId = self.cells[c].corners[i];
+                (c, i, b) = (out.cell(), out.index(), self.cells[out.cell()].index_of(kept));
+            };
+            let ridge = Facet::new(ghost, place_in_ghost(C::N, at_hull.index(), a));
+            self.glue(ridge, Facet::new(other, place_in_ghost(C::N, b, i)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ghost_has_the_corners_of_its_facet_and_the_opposite_orientation() {
+        let cell = [5, 6, 7, 8].map(SiteId::new);
+        for i in 0..4 {
+            let ghost = ghost_of(&cell, i);
+            assert_eq!(ghost[3], INFINITE);
+            assert!((0..4).all(|a| a == i || ghost[place_in_ghost(4, i, a)] == cell[a]));
+            assert!(meet(&cell, i, &ghost, 3), "{i}: {ghost:?}");
+        }
+        let cell = [5, 6, 7].map(SiteId::new);
+        assert!((0..3).all(|i| meet(&cell, i, &ghost_of(&cell, i), 2)));
+    }
+
+    #[test]
+    fn cells_meet_only_on_different_sides_of_a_facet() {
+        let cell = [1, 2, 3].map(SiteId::new);
+        assert!(meet(&cell, 2, &[2, 1, 4].map(SiteId::new), 2));
+        assert!(!meet(&cell, 2, &[1, 2, 4].map(SiteId::new), 2));
+        assert!(!meet(&cell, 2, &[2, 4, 1].map(SiteId::new), 1));
+        assert!(meet(&cell, 2, &[1, 4, 2].map(SiteId::new), 1));
+        assert!(!meet(&cell, 2, &[2, 5, 4].map(SiteId::new), 2));
+    }
+}

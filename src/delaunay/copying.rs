@@ -1,0 +1,26 @@
+//! A copy of a kernel: sites and cells keep their names.
+
+use super::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::machine::memory;
+
+impl<G: Dimension> Delaunay<G> {
+    /// A copy, without scratch memory and landmarks. No change must be under way.
+    pub(crate) fn copied(&self) -> Result<Self> {
+        Ok(Delaunay {
+            sites: memory::copy_of(&self.sites)?,
+            free_sites: memory::copy_of(&self.free_sites)?,
+            parts: self.parts.copy()?,
+            complex: self.complex.copied()?,
+            filter: self.filter,
+            lower: self.lower,
+            upper: self.upper,
+            flat: self.flat.copied()?,
+            is_sorted: self.is_sorted,
+            recent: self.recent,
+            certificates: self.certificates,
+            link_sites: self.link_sites,
+            ..Delaunay::empty_on(self.threads)
+        })
+    }
+}

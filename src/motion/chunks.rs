@@ -1,0 +1,72 @@
+//! Bytes and text on their way out, handed on in chunks.
+
+use std::fmt::{self, Write};
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+
+/// Bytes that are handed on at a time, at most.
+const CHUNK: usize = 1 << 14;
+
+/// What waits to be handed on to `put`.
+pub(super) struct Chunks<P> {
+    put: P,
+    n: usize,
+    bytes: [u8; CHUNK],
+}
+
+impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
+    pub(super) fn new(put: P) -> Self {
+        Chunks { put, n: 0, bytes: [0; CHUNK] }
+    }
+
+    fn flush(&mut self) -> Result<(), E> {
+        let n = std::mem::take(&mut self.n);
+        (self.put)(&self.bytes[..n])
+    }
+
+    /// Writes a few bytes.
+    #[inline(always)]
+    pub(super) fn write<const N: usize>(&mut self, bytes: [u8; N]) -> Result<(), E> {
+        const { assert!(N <= CHUNK) };
+        if self.n + N > CHUNK {
+            self.flush()?;
+        }
+        self.bytes[self.n..self.n + N].copy_from_slice(&bytes);
+        self.n += N;
+        Ok(())
+    }
+
+    pub(super) fn point<G: Dimension>(&mut self, point: &G::Point) -> Result<(), E> {
+        (0..G::D).try_for_each(|axis| self.write(point[axis].to_le_bytes()))
+    }
+
+    pub(super) fn numbers(&mut self, numbers: &[u32]) -> Result<(), E> {
+        numbers.iter().try_for_each(|number| self.write(number.to_le_bytes()))
+    }
+
+    /// Writes a text.
+    pub(super) fn text(&mut self, text: fmt::Arguments<'_>) -> Result<(), E> {
+        let mut writer = Text { chunks: self, failed: Ok(()) };
+        // It fails where a chunk cannot be handed on.
+        let _ = writer.write_fmt(text);
+        writer.failed
+    }
+
+    /// Hands on the rest.
+    pub(super) fn end(mut self) -> Result<(), E> {
+        self.flush()
+    }
+}
+
+struct Text<'c, E, P> {
+    chunks: &'c mut Chunks<P>,
+    failed: Result<(), E>,
+}
+
+impl<E, P: FnMut(&[u8]) -> Result<(), E>> Write for Text<'_, E, P> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.failed = text.bytes().try_for_each(|byte| self.chunks.write([byte]));
+        if self.failed.is_ok() { Ok(()) } else { Err(fmt::Error) }
+    }
+}
