@@ -77,5 +77,6 @@ pub use options::{CoincidencePolicy, Monitor, Options, SwitchingRule};
 pub use query::Location;
 pub(crate) use query::cells_at;
 pub use report::CommitReport;
+pub(crate) use staging::check_position;
 pub use triangulation::{MAX_VERTICES, MovingTriangulation};
 pub use views::CellsView;
