@@ -50,4 +50,5 @@ foreach(link IN ITEMS "${DELDRIFT_SONAME}" libdeldrift.so)
 endforeach()
 install(FILES "${PROJECT_BINARY_DIR}/deldriftConfig.cmake" "${PROJECT_BINARY_DIR}/deldriftConfigVersion.cmake"
   DESTINATION "${package_dir}")
+install(FILES LICENSE-MIT LICENSE-APACHE cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES "${PROJECT_BINARY_DIR}/deldrift.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

@@ -3,9 +3,9 @@
 //! (`cargo test --test ffi -- --include-ignored`).
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 use crate::coverage::exported_functions;
 use crate::support::{command, fresh_folder, library_folder, repository, succeed, text_of};
@@ -50,21 +50,53 @@ fn library_is_a_part_of_another_project() {
     programs_run(&build);
 }
 
+#[test]
+#[ignore = "needs CMake, dpkg-dev and pkg-config"]
+fn package_for_debian_is_whole() {
+    let folder = fresh_folder("package");
+    let build = build_for_installation(&folder, Path::new("/usr"));
+    succeed(command("cpack").args(["-G", "DEB", "-B"]).arg(&folder).current_dir(&build));
+    let mut files =
+        fs::read_dir(&folder).expect("the folder is there").map(|entry| entry.expect("so is this").path());
+    let package =
+        files.find(|file| file.extension().is_some_and(|extension| extension == "deb")).expect("it is made");
+    let fields = succeed(command("dpkg-deb").arg("--field").arg(&package));
+    for field in
+        ["Package: libdeldrift-dev", concat!("Version: ", env!("CARGO_PKG_VERSION")), "Depends: libc6"]
+    {
+        assert!(fields.contains(field), "{field}: {fields}");
+    }
+    let root = folder.join("root");
+    succeed(command("dpkg-deb").arg("--extract").arg(&package).arg(&root));
+    assert!(root.join("usr/share/doc/deldrift/copyright").is_file());
+    let libraries = library_files(&root.join("usr"));
+    commands_of_the_readme_find_it(&folder, &libraries);
+    only_the_header_is_exported(&libraries);
+}
+
 /// What `make install` does, with the libraries that this test was built with; the prefix.
 fn install(folder: &Path) -> PathBuf {
-    let (prefix, build) = (folder.join("prefix"), folder.join("build"));
+    let prefix = folder.join("prefix");
+    let build = build_for_installation(folder, &prefix);
+    succeed(command("cmake").arg("--install").arg(&build));
+    prefix
+}
+
+/// All that is to be installed to a prefix; the folder.
+fn build_for_installation(folder: &Path, prefix: &Path) -> PathBuf {
+    let build = folder.join("build");
     let mut configure = command("cmake");
     configure.arg("-S").arg(repository(".")).arg("-B").arg(&build);
     configure.arg(format!("-DCMAKE_INSTALL_PREFIX={}", prefix.display()));
     succeed(configure.arg(format!("-DDELDRIFT_LIBRARY_DIR={}", library_folder().display())));
     succeed(command("cmake").arg("--build").arg(&build));
-    succeed(command("cmake").arg("--install").arg(&build));
-    prefix
+    build
 }
 
-/// The folder of the libraries, under all the names that they should have.
+/// The folder of the libraries, under all the names that they should have: on Debian below that of the architecture.
 fn library_files(prefix: &Path) -> PathBuf {
-    let mut folders = ["lib", "lib64"].iter().map(|name| prefix.join(name));
+    let architecture = format!("lib/{}-linux-gnu", env::consts::ARCH);
+    let mut folders = [architecture.as_str(), "lib", "lib64"].iter().map(|name| prefix.join(name));
     let folder = folders.find(|folder| folder.is_dir()).expect("libraries are installed");
     let file = folder.join(format!("libdeldrift.so.{}", env!("CARGO_PKG_VERSION")));
     assert!(file.is_file() && !file.is_symlink() && folder.join("libdeldrift.a").is_file());
