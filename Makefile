@@ -94,6 +94,7 @@ deb: ## a package for Debian, libdeldrift-dev, in build/packages
 	cmake -S . -B build/deb -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_DOCDIR=share/doc/libdeldrift-dev
 	cmake --build build/deb
 	cd build/deb && cpack -G DEB -B "$(CURDIR)/build/packages"
+	rm -rf build/packages/_CPack_Packages
 
 dist: ## archives in build/packages: sources that build without a network, and what is installed
 	@.ci/packages cmake

@@ -19,5 +19,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
 # Needs what the shared library is linked with, and tells others what it takes to be linked with it.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 include(CPack)

@@ -96,7 +96,7 @@ fn build_for_installation(folder: &Path, prefix: &Path) -> PathBuf {
 /// The folder of the libraries, under all the names that they should have: on Debian below that of the architecture.
 fn library_files(prefix: &Path) -> PathBuf {
     let architecture = format!("lib/{}-linux-gnu", env::consts::ARCH);
-    let mut folders = [architecture.as_str(), "lib", "lib64"].iter().map(|name| prefix.join(name));
+    let mut folders = [architecture.as_str(), "lib", "lib64"].into_iter().map(|name| prefix.join(name));
     let folder = folders.find(|folder| folder.is_dir()).expect("libraries are installed");
     let file = folder.join(format!("libdeldrift.so.{}", env!("CARGO_PKG_VERSION")));
     assert!(file.is_file() && !file.is_symlink() && folder.join("libdeldrift.a").is_file());
