@@ -26,13 +26,14 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test bench report memory large targets calibrate table lint header picture install library benchmark clean
+.PHONY: help test bench report memory large targets calibrate table lint header picture install deb dist
+.PHONY: library benchmark clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
 
 test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
-	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) pkg-config valgrind
+	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) pkg-config valgrind dpkg-dev
 	-@.ci/packages chromium
 	cargo test
 	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
@@ -87,6 +88,17 @@ install: ## library, headers, CMake and pkg-config files, to PREFIX (/usr/local)
 	cmake -S . -B build/install -DCMAKE_INSTALL_PREFIX="$(PREFIX)"
 	cmake --build build/install
 	DESTDIR="$(DESTDIR)" cmake --install build/install
+
+deb: ## a package for Debian, libdeldrift-dev, in build/packages
+	@.ci/packages cmake dpkg-dev
+	cmake -S . -B build/deb -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_DOCDIR=share/doc/libdeldrift-dev
+	cmake --build build/deb
+	cd build/deb && cpack -G DEB -B "$(CURDIR)/build/packages"
+	rm -rf build/packages/_CPack_Packages
+
+dist: ## archives in build/packages: sources that build without a network, and what is installed
+	@.ci/packages cmake
+	cmake/make_dist
 
 library: ## the library alone: libdeldrift.so and libdeldrift.a in target/release
 	cargo build --release --lib

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
-use crate::support::{sources, text_of};
+use crate::support::{repository, sources, text_of};
 
 /// Statuses that no C program can bring about on purpose, and the unit tests in `src/capi` that stand in:
 /// a program would need 2^30 cells for the first, and a defect of the library for the others.
@@ -75,17 +76,21 @@ fn every_status_is_asserted() {
 }
 
 #[test]
-fn every_member_of_the_cpp_wrapper_is_used() {
-    let wrapper = text_of("include/deldrift.hpp");
-    let programs = programs("cpp");
-    let public = wrapper.split("\nprivate:").enumerate().map(|(i, part)| {
-        // What follows the word up to the end of the class is private.
-        if i == 0 { part } else { part.split_once("\n};").map_or("", |(_, rest)| rest) }
-    });
-    let members: BTreeSet<&str> = public.flat_map(str::lines).filter_map(member_name).collect();
-    assert!(members.len() > 20, "{members:?}");
+fn every_member_of_the_cpp_headers_is_used() {
+    let folders =
+        [repository("include"), repository("include/deldrift"), repository("include/deldrift/cgal")];
+    let headers: Vec<String> = folders.iter().flat_map(|folder| headers_in(folder)).collect();
+    let others = ["ffi-tests/cpp/check.hpp", "ffi-tests/cgal/both.cpp"];
+    let programs = programs("cpp") + &others.map(text_of).concat();
+    let members: BTreeSet<&str> = headers.iter().flat_map(|header| public_members(header)).collect();
+    assert!(members.len() > 130, "{members:?}");
     let missing: Vec<&&str> = members.iter().filter(|name| !programs.contains(&format!("{name}("))).collect();
     assert!(missing.is_empty(), "no C++ program uses {missing:?}");
+}
+
+/// The functions of the header that are in the library.
+pub fn exported_functions(header: &str) -> BTreeSet<&str> {
+    declarations(header).filter(|line| !line.starts_with("static ")).filter_map(function_name).collect()
 }
 
 /// Lines that are no comments, without their indentation.
@@ -102,13 +107,44 @@ fn function_name(line: &str) -> Option<&str> {
     line[start..].split('(').next()
 }
 
-/// The function that a line of the wrapper declares; constructors are used wherever there is an object.
+/// The members that a program may call, of all classes of a header.
+fn public_members(header: &str) -> Vec<&str> {
+    let (mut class, mut is_public, mut members) = ("", false, Vec::new());
+    for line in header.lines() {
+        if let Some((kind, name)) =
+            line.split_once(' ').filter(|&(kind, _)| kind == "class" || kind == "struct")
+        {
+            (class, is_public) = (name.split([' ', '<', ';']).next().unwrap_or(name), kind == "struct");
+        } else if line == "};" || line == "private:" || line == "protected:" {
+            is_public = false;
+        } else if line == "public:" {
+            is_public = true;
+        } else if is_public {
+            // Constructors are used wherever there is an object.
+            members.extend(member_name(line).filter(|&name| name != class));
+        }
+    }
+    members
+}
+
+/// The function that a line of a class declares.
 fn member_name(line: &str) -> Option<&str> {
     let declaration = line.strip_prefix("    ").filter(|line| !line.starts_with([' ', '/', '}', ':']))?;
     let (head, _) = declaration.split_once('(')?;
-    let (_, name) = head.rsplit_once([' ', '*', '&'])?;
+    let (before, name) = head.rsplit_once([' ', '*', '&'])?;
     let is_name = !name.is_empty() && name.chars().all(|c| c.is_ascii_lowercase() || c == '_');
-    (is_name && name != "span").then_some(name)
+    // Operators are no names, and `selects` is for iterators to call.
+    let is_operator = name == "operator" || before.ends_with("operator");
+    (is_name && !is_operator && name != "selects" && !before.starts_with("template")).then_some(name)
+}
+
+/// The texts of the C++ headers in a folder, but the one that programs see nothing of.
+fn headers_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("the folder is there");
+    let paths = entries.map(|entry| entry.expect("a folder can be listed to its end").path());
+    let headers = paths.filter(|path| path.extension().is_some_and(|extension| extension == "hpp"));
+    let headers = headers.filter(|path| !path.ends_with("cgal/mesh.hpp"));
+    headers.map(|path| fs::read_to_string(path).expect("a header can be read")).collect()
 }
 
 /// All programs of a language, one after the other.

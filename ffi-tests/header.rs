@@ -10,7 +10,7 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 12] = [
+const SOURCES: [&str; 13] = [
     "status",
     "options",
     "triangulation",
@@ -23,6 +23,7 @@ const SOURCES: [&str; 12] = [
     "voronoi",
     "interpolation",
     "saving",
+    "predicates",
 ];
 
 /// With `DELDRIFT_UPDATE_HEADER=1` the files are written instead.
@@ -38,13 +39,21 @@ fn header_is_what_the_sources_say() {
 }
 
 #[test]
-fn header_compiles_alone_as_c11_and_cpp17() {
+fn headers_compile_alone_as_c11_cpp17_and_cpp20() {
     let folder = fresh_folder("header");
-    for (name, include) in [("c.c", "deldrift.h"), ("c.cpp", "deldrift.h"), ("cpp.cpp", "deldrift.hpp")] {
+    let (c, cpp17, cpp20) = ("-std=c11", "-std=c++17", "-std=c++20");
+    for (name, include, standard) in [
+        ("c.c", "deldrift.h", c),
+        ("c.cpp", "deldrift.h", cpp17),
+        ("cpp.cpp", "deldrift.hpp", cpp17),
+        ("cpp.cpp", "deldrift.hpp", cpp20),
+        ("cgal.cpp", "deldrift/cgal.hpp", cpp17),
+        ("cgal.cpp", "deldrift/cgal.hpp", cpp20),
+    ] {
         let source = folder.join(name);
         let text = format!("#include <{include}>\n#include <{include}>\nint main(void) {{ return 0; }}\n");
         fs::write(&source, text).expect("a source can be written");
-        let strict = ["-Wconversion", "-Wshadow", "-Wundef", "-fsyntax-only"];
+        let strict = ["-Wconversion", "-Wshadow", "-Wundef", "-fsyntax-only", standard];
         succeed(compiler(&source).args(strict).arg(&source));
     }
 }

@@ -1,43 +1,102 @@
-//! An installed deldrift, found by programs of someone else's through CMake and through pkg-config. Needs
-//! both, so it runs only where it is asked for (`cargo test --test ffi -- --include-ignored`).
+//! An installed deldrift, found by programs of someone else's through CMake and through pkg-config, and one that is
+//! a part of their CMake project. Needs both tools, so it runs only where it is asked for
+//! (`cargo test --test ffi -- --include-ignored`).
 
-use std::fs;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
-use crate::support::{command, compiler, fresh_folder, library_folder, repository, succeed};
+use crate::coverage::exported_functions;
+use crate::support::{command, fresh_folder, library_folder, repository, succeed, text_of};
 
 #[test]
 #[ignore = "needs CMake and pkg-config"]
 fn installed_library_is_found() {
     let folder = fresh_folder("installation");
     let prefix = install(&folder);
-    let libraries = library_files(&prefix);
-    programs_find_it_through_cmake(&folder, &prefix);
-    shared_program_finds_it_through_pkg_config(&folder, &libraries);
-    static_program_finds_it_through_pkg_config(&folder, &libraries);
+    programs_find_it_through_cmake(&folder.join("consumers"), &prefix);
+    // Wherever it is moved to.
+    let moved = folder.join("moved");
+    fs::rename(&prefix, &moved).expect("a folder can be moved");
+    let libraries = library_files(&moved);
+    commands_of_the_readme_find_it(&folder, &libraries);
+    only_the_header_is_exported(&libraries);
+}
+
+#[test]
+#[ignore = "needs CMake"]
+fn library_is_a_part_of_another_project() {
+    let folder = fresh_folder("part_of_a_project");
+    let libraries = library_folder();
+
+    // Built along with the project, by what stands in for cargo.
+    let build = folder.join("subdirectory");
+    let stand_in = format!("-DDELDRIFT_CARGO={}", repository("ffi-tests/consumers/cargo").display());
+    let mut configure = configure_consumers(&build, Some(&repository(".")));
+    succeed(configure.arg(stand_in).env_remove("CARGO_TARGET_DIR"));
+    succeed(command("cmake").arg("--build").arg(&build).env("LIBRARIES", &libraries));
+    programs_run(&build);
+    only_the_project_is_installed(&build, &folder.join("installed"));
+
+    // Fetched, with a library that is there already.
+    let archive = folder.join("deldrift.tar.gz");
+    let sources = ["CMakeLists.txt", "Cargo.toml", "cmake", "deldrift.pc.in", "include"];
+    succeed(command("tar").arg("-czf").arg(&archive).arg("-C").arg(repository(".")).args(sources));
+    let build = folder.join("fetched");
+    let given = format!("-DDELDRIFT_LIBRARY_DIR={}", libraries.display());
+    succeed(configure_consumers(&build, Some(&archive)).arg(given));
+    succeed(command("cmake").arg("--build").arg(&build));
+    programs_run(&build);
+}
+
+#[test]
+#[ignore = "needs CMake, dpkg-dev and pkg-config"]
+fn package_for_debian_is_whole() {
+    let folder = fresh_folder("package");
+    let build = build_for_installation(&folder, Path::new("/usr"));
+    succeed(command("cpack").args(["-G", "DEB", "-B"]).arg(&folder).current_dir(&build));
+    let mut files =
+        fs::read_dir(&folder).expect("the folder is there").map(|entry| entry.expect("so is this").path());
+    let package =
+        files.find(|file| file.extension().is_some_and(|extension| extension == "deb")).expect("it is made");
+    let fields = succeed(command("dpkg-deb").arg("--field").arg(&package));
+    for field in
+        ["Package: libdeldrift-dev", concat!("Version: ", env!("CARGO_PKG_VERSION")), "Depends: libc6"]
+    {
+        assert!(fields.contains(field), "{field}: {fields}");
+    }
+    let root = folder.join("root");
+    succeed(command("dpkg-deb").arg("--extract").arg(&package).arg(&root));
+    assert!(root.join("usr/share/doc/deldrift/copyright").is_file());
+    let libraries = library_files(&root.join("usr"));
+    commands_of_the_readme_find_it(&folder, &libraries);
+    only_the_header_is_exported(&libraries);
 }
 
 /// What `make install` does, with the libraries that this test was built with; the prefix.
 fn install(folder: &Path) -> PathBuf {
-    let (prefix, build) = (folder.join("prefix"), folder.join("build"));
-    let given = format!("-DDELDRIFT_LIBRARY_DIR={}", library_folder().display());
-    succeed(cmake_configure(&repository("."), &build, &prefix).arg(given));
-    succeed(command("cmake").arg("--build").arg(&build));
+    let prefix = folder.join("prefix");
+    let build = build_for_installation(folder, &prefix);
     succeed(command("cmake").arg("--install").arg(&build));
     prefix
 }
 
-fn cmake_configure(source: &Path, build: &Path, prefix: &Path) -> Command {
+/// All that is to be installed to a prefix; the folder.
+fn build_for_installation(folder: &Path, prefix: &Path) -> PathBuf {
+    let build = folder.join("build");
     let mut configure = command("cmake");
-    configure.arg("-S").arg(source).arg("-B").arg(build);
+    configure.arg("-S").arg(repository(".")).arg("-B").arg(&build);
     configure.arg(format!("-DCMAKE_INSTALL_PREFIX={}", prefix.display()));
-    configure
+    succeed(configure.arg(format!("-DDELDRIFT_LIBRARY_DIR={}", library_folder().display())));
+    succeed(command("cmake").arg("--build").arg(&build));
+    build
 }
 
-/// The folder of the libraries, under all the names that they should have.
+/// The folder of the libraries, under all the names that they should have: on Debian below that of the architecture.
 fn library_files(prefix: &Path) -> PathBuf {
-    let mut folders = ["lib", "lib64"].iter().map(|name| prefix.join(name));
+    let architecture = format!("lib/{}-linux-gnu", env::consts::ARCH);
+    let mut folders = [architecture.as_str(), "lib", "lib64"].into_iter().map(|name| prefix.join(name));
     let folder = folders.find(|folder| folder.is_dir()).expect("libraries are installed");
     let file = folder.join(format!("libdeldrift.so.{}", env!("CARGO_PKG_VERSION")));
     assert!(file.is_file() && !file.is_symlink() && folder.join("libdeldrift.a").is_file());
@@ -46,38 +105,75 @@ fn library_files(prefix: &Path) -> PathBuf {
     folder
 }
 
-fn programs_find_it_through_cmake(folder: &Path, prefix: &Path) {
-    let build = folder.join("consumers");
+/// The consumers, with the sources of deldrift, or with an installation that they have to find.
+fn configure_consumers(build: &Path, sources: Option<&Path>) -> Command {
+    let mut configure = command("cmake");
+    configure.arg("-S").arg(repository("ffi-tests/consumers")).arg("-B").arg(build);
+    if let Some(sources) = sources {
+        configure.arg(format!("-DDELDRIFT_FROM={}", sources.display()));
+    }
+    configure
+}
+
+fn programs_find_it_through_cmake(build: &Path, prefix: &Path) {
     let found = format!("-DCMAKE_PREFIX_PATH={}", prefix.display());
-    succeed(cmake_configure(&repository("ffi-tests/consumers"), &build, prefix).arg(found));
-    succeed(command("cmake").arg("--build").arg(&build));
+    succeed(configure_consumers(build, None).arg(found));
+    succeed(command("cmake").arg("--build").arg(build));
+    programs_run(build);
+}
+
+fn programs_run(build: &Path) {
     for program in ["c_program", "cpp_program", "static_program"] {
         assert!(succeed(&mut command(build.join(program))).contains("triangle"));
     }
 }
 
-fn shared_program_finds_it_through_pkg_config(folder: &Path, libraries: &Path) {
-    let flags = succeed(pkg_config(libraries).args(["--cflags", "--libs"]));
-    let program = build_consumer(folder, &flags);
-    succeed(command(program).env("LD_LIBRARY_PATH", libraries));
+fn only_the_project_is_installed(build: &Path, prefix: &Path) {
+    succeed(command("cmake").arg("--install").arg(build).arg("--prefix").arg(prefix));
+    let installed = succeed(command("find").arg(".").args(["-type", "f"]).current_dir(prefix));
+    assert_eq!(installed, "./bin/c_program\n");
 }
 
-fn static_program_finds_it_through_pkg_config(folder: &Path, libraries: &Path) {
-    let flags = succeed(pkg_config(libraries).args(["--cflags", "--libs", "--static"]));
-    // Of two libraries with the same name the linker takes the shared one, unless it is told the file.
-    let program = build_consumer(folder, &flags.replace("-ldeldrift", "-l:libdeldrift.a"));
-    succeed(&mut command(program));
+/// The commands with pkg-config, as the README has them.
+fn commands_of_the_readme_find_it(folder: &Path, libraries: &Path) {
+    let solver = folder.join("solver");
+    let source = folder.join("solver.c");
+    fs::copy(repository("ffi-tests/c/readme_example.c"), source).expect("a file can be copied");
+    let readme = text_of("README.md");
+    let commands: Vec<&str> = readme.lines().filter(|line| line.starts_with("cc solver.c")).collect();
+    assert!(commands.len() == 2 && commands[1].contains("--static"), "{commands:?}");
+    for (line, is_static) in commands.into_iter().zip([false, true]) {
+        let mut shell = command("sh");
+        shell.args(["-ec", line]).current_dir(folder).env("PKG_CONFIG_PATH", libraries.join("pkgconfig"));
+        succeed(&mut shell);
+        let mut program = command(&solver);
+        if !is_static {
+            program.env("LD_LIBRARY_PATH", libraries);
+        }
+        assert!(succeed(&mut program).contains("triangle"));
+        let needed = succeed(command("readelf").arg("-d").arg(&solver));
+        assert_eq!(needed.contains("libdeldrift"), !is_static, "{line}");
+    }
 }
 
-fn pkg_config(libraries: &Path) -> Command {
-    let mut question = command("pkg-config");
-    question.env("PKG_CONFIG_PATH", libraries.join("pkgconfig")).arg("deldrift");
-    question
-}
-
-fn build_consumer(folder: &Path, flags: &str) -> PathBuf {
-    let source = repository("ffi-tests/consumers/lloyd.cpp");
-    let program = folder.join("pkg_config_program");
-    succeed(compiler(&source).arg(&source).arg("-o").arg(&program).args(flags.split_whitespace()));
-    program
+/// Nor is there debug information.
+fn only_the_header_is_exported(libraries: &Path) {
+    let header = text_of("include/deldrift.h");
+    let declared = exported_functions(&header);
+    assert!(declared.len() > 40, "{declared:?}");
+    for (library, dynamic) in [("libdeldrift.so", Some("-D")), ("libdeldrift.a", None)] {
+        let library = libraries.join(library);
+        let mut nm = command("nm");
+        nm.args(dynamic).args(["--extern-only", "--defined-only", "--format=posix"]).arg(&library);
+        let symbols = succeed(&mut nm);
+        // Besides the symbols there are lines with the name of a member of the archive.
+        let exported: BTreeSet<&str> = symbols
+            .lines()
+            .filter(|line| !line.ends_with(':'))
+            .filter_map(|line| line.split_whitespace().next())
+            .collect();
+        assert_eq!(exported, declared, "{}", library.display());
+        let sections = succeed(command("readelf").args(["--sections", "--wide"]).arg(&library));
+        assert!(sections.contains(".text") && !sections.contains(".debug_"), "{}", library.display());
+    }
 }

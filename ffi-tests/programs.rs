@@ -43,6 +43,31 @@ fn run_all(language: &str, linkage: Linkage) {
     }
 }
 
+/// With ranges and spans of the standard library.
+#[test]
+fn cpp_programs_run_as_cpp20() {
+    let folder = fresh_folder("cpp20");
+    for source in sources("ffi-tests/cpp", "cpp") {
+        let program = build(&source, &folder, Linkage::Shared, &["-std=c++20"]);
+        assert_eq!(succeed(&mut command(program)), "", "{}", source.display());
+    }
+}
+
+/// A program for CGAL writes the same with deldrift in its place.
+#[test]
+#[ignore = "needs CGAL"]
+fn program_for_cgal_writes_the_same() {
+    let source = repository("ffi-tests/cgal/both.cpp");
+    let run = |name, flags: &[&str]| {
+        succeed(&mut command(build(&source, &fresh_folder(name), Linkage::Shared, flags)))
+    };
+    // CGAL's headers have warnings of their own, and need the libraries of big numbers.
+    let with_cgal = run("with_cgal", &["-DWITH_CGAL", "-w", "-lgmp", "-lmpfr"]);
+    let with_deldrift = run("with_deldrift", &[]);
+    assert!(with_deldrift.lines().count() > 2000, "{with_deldrift}");
+    assert_eq!(with_deldrift, with_cgal);
+}
+
 /// The example of a solver carries its data to the end, and checks them.
 #[test]
 fn the_example_of_a_solver_keeps_its_data() {

@@ -1278,6 +1278,20 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
                                      const char *path);
+/// The orientation of points, exactly, to *sign: 1, -1 or 0.
+///
+/// dimension: 2 or 3. points: dimension + 1 points, one after the other, 2 or 3 numbers each. Of 3 points in the
+/// plane it is 1 if they are in counter-clockwise order, -1 if they are in clockwise order, and 0 on a line. Of 4
+/// points a, b, c, d in space it is the sign of the determinant of the rows b - a, c - a, d - a, and 0 on a plane.
+/// The cells of a triangulation have orientation 1. With another point in the place of a corner it tells on which
+/// side of the opposite facet that point lies: 1 on the side of the cell, 0 on the facet's line or plane.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE. Constant time, some nanoseconds except close to 0. May be called from any number of threads
+/// at once.
+deldrift_status deldrift_orientation(uint32_t dimension,
+                                     const double *points,
+                                     int32_t *sign);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1,100 +1,39 @@
-// deldrift for C++17: deldrift.h with an owner, exceptions and spans.
+// deldrift for C++17: deldrift.h with an owner, exceptions, ranges and spans.
 //
-//     const std::vector<double> square{0, 0, 4, 0, 4, 3, 0, 3, 1, 1};
+//     const std::vector<std::array<double, 2>> square{{0, 0}, {4, 0}, {4, 3}, {0, 3}, {1, 1}};
 //     deldrift::Triangulation t(2, square);
 //     t.move_vertex(4, {3.0, 2.0});
 //     t.commit_timestamp();
-//     for (auto triangle : t.cells()) std::cout << triangle[0] << triangle[1] << triangle[2] << '\n';
+//     for (auto [a, b, c] : t.cells().rows<3>()) std::cout << a << ' ' << b << ' ' << c << '\n';
 //
 // A Triangulation owns a deldrift_triangulation and destroys it. Every member calls the function of the
 // same name in deldrift.h, which describes shapes, errors and the life of views; const members may be called
 // from several threads at once. A member that is not noexcept throws deldrift::Error, and has had no effect
 // then. To do without exceptions, call the functions of deldrift.h on native(): they return a status.
+//
+// Positions come from any contiguous container of double, float, std::array or a program's own points, or with a
+// stride, or from arrays of x, y and z: see deldrift/positions.hpp. Cells, facets, stars and vertices are ranges with
+// iterators for <algorithm> and <ranges>: see deldrift/cells.hpp. Ranges end like the views that they are made of, with
+// the next change. deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "deldrift.h"
+#include "deldrift/cells.hpp"
+#include "deldrift/positions.hpp"
+#include "deldrift/span.hpp"
+#include "deldrift/vertices.hpp"
 
 namespace deldrift {
-
-// A call failed: what() names the argument, the index and the value.
-class Error : public std::runtime_error {
-public:
-    explicit Error(deldrift_status status, const std::string &message = deldrift_last_error())
-        : std::runtime_error(message), status_(status) {}
-    deldrift_status status() const noexcept { return status_; }
-
-private:
-    deldrift_status status_;
-};
-
-// Contiguous values that belong to someone else: a pointer and a count.
-template <class T>
-class span {
-public:
-    constexpr span() noexcept = default;
-    constexpr span(T *data, std::size_t size) noexcept : data_(data), size_(size) {}
-    // Of anything with data() and size(): vectors, arrays, std::span.
-    template <class C, class = std::enable_if_t<std::is_convertible_v<decltype(std::declval<C &>().data()), T *>>>
-    constexpr span(C &&values) noexcept : data_(values.data()), size_(values.size()) {}
-    // Of values in braces, for the duration of the call that they are written in.
-    constexpr span(std::initializer_list<std::remove_const_t<T>> values) noexcept : size_(values.size()) {
-        data_ = values.begin();
-    }
-
-    constexpr T *data() const noexcept { return data_; }
-    constexpr std::size_t size() const noexcept { return size_; }
-    constexpr bool empty() const noexcept { return size_ == 0; }
-    constexpr T &operator[](std::size_t i) const noexcept { return data_[i]; }
-    constexpr T *begin() const noexcept { return data_; }
-    constexpr T *end() const noexcept { return data_ + size_; }
-
-private:
-    T *data_ = nullptr;
-    std::size_t size_ = 0;
-};
-
-// The cells, without a copy, until the triangulation changes; see deldrift_cells_view.
-class Cells {
-public:
-    using Row = span<const std::uint32_t>;
-
-    explicit Cells(const deldrift_cells_view &view) noexcept : view_(view) {}
-    std::size_t size() const noexcept { return view_.count; }
-    std::size_t corners_per_cell() const noexcept { return view_.corners_per_cell; }
-    // The vertices of one cell, the cells across its facets, and all rows of either.
-    Row operator[](std::size_t cell) const noexcept { return row(view_.vertices, cell); }
-    Row neighbours_of(std::size_t cell) const noexcept { return row(view_.neighbours, cell); }
-    Row vertices() const noexcept { return {view_.vertices, size() * corners_per_cell()}; }
-    Row neighbours() const noexcept { return {view_.neighbours, size() * corners_per_cell()}; }
-
-    struct iterator {
-        const Cells *cells;
-        std::size_t cell;
-        Row operator*() const noexcept { return (*cells)[cell]; }
-        iterator &operator++() noexcept { return ++cell, *this; }
-        bool operator!=(const iterator &other) const noexcept { return cell != other.cell; }
-    };
-    iterator begin() const noexcept { return {this, 0}; }
-    iterator end() const noexcept { return {this, size()}; }
-
-private:
-    Row row(const std::uint32_t *rows, std::size_t cell) const noexcept {
-        return {rows + cell * corners_per_cell(), corners_per_cell()};
-    }
-    deldrift_cells_view view_;
-};
 
 // The circle or sphere of a bi-cell; see deldrift_standard_delimiter.
 struct Delimiter {
@@ -140,15 +79,29 @@ inline deldrift_options default_options() noexcept {
     return options;
 }
 
+// The sign of the orientation of dimension + 1 points, exactly; see deldrift_orientation.
+inline int orientation(std::uint32_t dimension, span<const double> points) {
+    const std::size_t n_numbers = std::size_t{dimension} * (std::size_t{dimension} + 1);
+    if ((dimension == 2 || dimension == 3) && points.size() != n_numbers) {
+        throw Error(DELDRIFT_WRONG_COUNT, "points has " + std::to_string(points.size()) + " numbers, but must have " +
+                                              std::to_string(n_numbers));
+    }
+    std::int32_t sign = 0;
+    const deldrift_status status = deldrift_orientation(dimension, points.data(), &sign);
+    if (status != DELDRIFT_OK) throw Error(status);
+    return sign;
+}
+
 // A triangulation of moving points: can be moved, not copied.
 class Triangulation {
 public:
     // positions: dimension numbers for each point.
-    Triangulation(std::uint32_t dimension, span<const double> positions,
+    Triangulation(std::uint32_t dimension, const Positions &positions,
                   const deldrift_options &options = default_options())
         : dimension_(dimension) {
         deldrift_triangulation *t = nullptr;
-        check(deldrift_create(dimension, positions.data(), count_of("positions", positions), &options, &t));
+        const span<const double> numbers = gathered(positions);
+        check(deldrift_create(dimension, numbers.data(), count_of("positions", numbers), &options, &t));
         t_.reset(t);
     }
     // Takes over what deldrift_create has made.
@@ -201,12 +154,14 @@ public:
         check(deldrift_move_vertex(native(), vertex, point(position)));
     }
     // positions: those of the first ids, as many as there are, or of the ids in vertices.
-    void move_vertices(span<const double> positions) {
-        check(deldrift_move_vertices(native(), nullptr, positions.data(), count_of("positions", positions)));
+    void move_vertices(const Positions &positions) {
+        const span<const double> numbers = gathered(positions);
+        check(deldrift_move_vertices(native(), nullptr, numbers.data(), count_of("positions", numbers)));
     }
-    void move_vertices(span<const std::uint32_t> vertices, span<const double> positions) {
-        expect("positions", positions.size(), vertices.size() * dimension_);
-        check(deldrift_move_vertices(native(), vertices.data(), positions.data(), vertices.size()));
+    void move_vertices(span<const std::uint32_t> vertices, const Positions &positions) {
+        const span<const double> numbers = gathered(positions);
+        expect("positions", numbers.size(), vertices.size() * dimension_);
+        check(deldrift_move_vertices(native(), vertices.data(), numbers.data(), vertices.size()));
     }
     void discard_moves() { check(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
@@ -216,15 +171,17 @@ public:
     }
 
     // positions: those of all ids, without moves staged before.
-    deldrift_commit_report commit_positions(span<const double> positions) {
+    deldrift_commit_report commit_positions(const Positions &positions) {
+        const span<const double> numbers = gathered(positions);
         deldrift_commit_report report;
-        check(deldrift_commit_positions(native(), positions.data(), count_of("positions", positions), &report));
+        check(deldrift_commit_positions(native(), numbers.data(), count_of("positions", numbers), &report));
         return report;
     }
     // For the next commit; returns the id of the first one, which those of the others follow.
-    std::uint32_t stage_insertions(span<const double> positions) {
+    std::uint32_t stage_insertions(const Positions &positions) {
+        const span<const double> numbers = gathered(positions);
         std::uint32_t first;
-        check(deldrift_stage_insertions(native(), positions.data(), count_of("positions", positions), &first));
+        check(deldrift_stage_insertions(native(), numbers.data(), count_of("positions", numbers), &first));
         return first;
     }
     void stage_removals(span<const std::uint32_t> vertices) {
@@ -262,12 +219,32 @@ public:
         check(deldrift_position(native(), vertex, position.data()));
         return position;
     }
+    // As an array: t.position<3>(vertex).
+    template <std::size_t D>
+    std::array<double, D> position(std::uint32_t vertex) const {
+        expect_dimension(D);
+        std::array<double, D> position;
+        check(deldrift_position(native(), vertex, position.data()));
+        return position;
+    }
     std::vector<double> positions() const {
         std::size_t count = id_count();
         std::vector<double> positions(count * dimension_);
         check(deldrift_copy_positions(native(), positions.data(), count, &count));
         return positions;
     }
+    template <std::size_t D>
+    std::vector<std::array<double, D>> positions() const {
+        static_assert(sizeof(std::array<double, D>) == D * sizeof(double));
+        expect_dimension(D);
+        std::size_t count = id_count();
+        std::vector<std::array<double, D>> positions(count);
+        double *const numbers = count == 0 ? nullptr : positions.front().data();
+        check(deldrift_copy_positions(native(), numbers, count, &count));
+        return positions;
+    }
+    // The ids of the vertices that are present, in ascending order.
+    Vertices vertices() const { return Vertices(native(), id_count(), vertex_count()); }
     Cells cells() const { return Cells(ask<deldrift_cells_view>(deldrift_cells)); }
     // Since the last call; all lists end with the next change.
     deldrift_changes take_changes() {
@@ -289,6 +266,10 @@ public:
         }
         check(status);
         return star;
+    }
+    // The cells of the star, with their vertices and neighbours.
+    Star cells_of(std::uint32_t vertex) const {
+        return {star(vertex), coincident_representative(vertex), ask<deldrift_cells_view>(deldrift_cells)};
     }
     double tolerance(std::uint32_t vertex) const { return ask<double>(deldrift_tolerance, vertex); }
     // A number for each corner of each cell, NaN for facets of the hull.
@@ -402,10 +383,13 @@ public:
         return ask<deldrift_location>(deldrift_locate, point(position));
     }
     // Faster if each point is near the one before it, and the first one near a location that is known.
-    std::vector<deldrift_location> locate_points(span<const double> positions,
+    std::vector<deldrift_location> locate_points(const Positions &positions,
                                                  const deldrift_location *near = nullptr) const {
-        std::vector<deldrift_location> locations(count_of("positions", positions));
-        check(deldrift_locate_points(native(), positions.data(), locations.size(), near, locations.data()));
+        // Not gathered(): several threads may be here.
+        std::vector<double> room;
+        const span<const double> numbers = positions.numbers("positions", dimension_, room);
+        std::vector<deldrift_location> locations(count_of("positions", numbers));
+        check(deldrift_locate_points(native(), numbers.data(), locations.size(), near, locations.data()));
         return locations;
     }
     // DELDRIFT_NONE if there are no vertices.
@@ -439,6 +423,11 @@ private:
         }
         return read;
     }
+    void expect_dimension(std::size_t given) const {
+        if (given == dimension_) return;
+        throw Error(DELDRIFT_WRONG_COUNT, "positions of " + std::to_string(given) +
+                                              " coordinates, but the dimension is " + std::to_string(dimension_));
+    }
     // What a query writes to its last argument.
     template <class T, class Query, class... Arguments>
     T ask(Query query, Arguments... arguments) const {
@@ -471,6 +460,10 @@ private:
         expect(argument, position.size(), dimension_);
         return position.data();
     }
+    // In the arrangement of deldrift.h, until the next call.
+    span<const double> gathered(const Positions &positions) {
+        return positions.numbers("positions", dimension_, room_);
+    }
     const double *point(span<const double> position) const {
         expect("position", position.size(), dimension_);
         return position.data();
@@ -483,6 +476,8 @@ private:
 
     std::unique_ptr<deldrift_triangulation, Destroy> t_;
     std::uint32_t dimension_ = 0;
+    // For positions that have to be copied; kept, as they usually come once per timestamp.
+    std::vector<double> room_;
 };
 
 }  // namespace deldrift

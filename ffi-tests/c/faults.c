@@ -203,6 +203,9 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     OK(deldrift_copy_positions(s.t, numbers_out, ROOM / 3, &count));
     OK(deldrift_coincident_representative(s.t, 30, &number));
     OK(deldrift_validate(s.t, 3));
+    int32_t sign;
+    static const double flat[12] = {0, 0, 0, 1, 1e-300, 0, 0, 1, 0, 1, 1, 1e-300};
+    OK(deldrift_orientation(dimension, flat, &sign));
     OK(deldrift_set_algorithm(s.t, DELDRIFT_TOLERANCE));
     OK(deldrift_discard_moves(s.t));
     deldrift_destroy(s.t);

@@ -129,6 +129,7 @@ static void outputs(void) {
     static const double position[2] = {1, 1};
     static const uint8_t mask[4] = {1, 1, 1, 1};
     double numbers[3];
+    int32_t orientation;
 
     REFUSES("out", deldrift_triangulation *, deldrift_create(2, SQUARE, SQUARE_COUNT, NULL, pointer));
     REFUSES("dimension", uint32_t, deldrift_dimension(t, pointer));
@@ -160,6 +161,8 @@ static void outputs(void) {
     REFUSES("locations", deldrift_location, deldrift_locate_points(t, position, 1, NULL, pointer));
     REFUSES("vertex", uint32_t, deldrift_nearest_vertex(t, position, pointer));
     REFUSES("representative", uint32_t, deldrift_coincident_representative(t, 0, pointer));
+    REFUSES("points", double, deldrift_orientation(2, pointer, &orientation));
+    REFUSES("sign", int32_t, deldrift_orientation(3, storage.numbers, pointer));
 
     REFUSES("count", size_t, deldrift_circumcentres(t, NULL, NULL, 0, pointer));
     REFUSES("count", size_t, deldrift_volumes(t, NULL, 0, pointer));

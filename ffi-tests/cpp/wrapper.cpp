@@ -1,41 +1,18 @@
 // The C++ wrapper: every member, exceptions, ownership.
+#include "check.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <deldrift.hpp>
-#include <iostream>
 #include <map>
 #include <random>
 #include <type_traits>
-
-#define CHECK(condition)                                                                   \
-    do {                                                                                   \
-        if (!(condition)) {                                                                \
-            std::cerr << __FILE__ << ":" << __LINE__ << ": not so: " << #condition << "\n"; \
-            std::exit(1);                                                                  \
-        }                                                                                  \
-    } while (false)
-
-#define CHECK_THROWS(statement, expected_status, part)                     \
-    do {                                                                   \
-        bool thrown = false;                                               \
-        try {                                                              \
-            statement;                                                     \
-        } catch (const deldrift::Error &error) {                           \
-            thrown = true;                                                 \
-            CHECK(error.status() == (expected_status));                    \
-            CHECK(std::strstr(error.what(), (part)) != nullptr);           \
-        }                                                                  \
-        CHECK(thrown);                                                     \
-    } while (false)
 
 using deldrift::Triangulation;
 
 static_assert(!std::is_copy_constructible_v<Triangulation> && !std::is_copy_assignable_v<Triangulation>);
 static_assert(std::is_nothrow_move_constructible_v<Triangulation> && std::is_nothrow_move_assignable_v<Triangulation>);
-static_assert(sizeof(Triangulation) <= 2 * sizeof(void *));
+static_assert(sizeof(Triangulation) <= 2 * sizeof(void *) + sizeof(std::vector<double>));
 
 static const std::vector<double> square{0, 0, 4, 0, 5, 5, 0, 4, 1, 2};
 

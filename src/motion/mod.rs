@@ -86,5 +86,6 @@ pub use query::Location;
 pub(crate) use query::cells_at;
 pub use report::CommitReport;
 pub use saving::Saved;
+pub(crate) use staging::check_position;
 pub use triangulation::{MAX_VERTICES, MovingTriangulation};
 pub use views::CellsView;

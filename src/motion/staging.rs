@@ -339,7 +339,7 @@ impl<G: Dimension> Staging<G> {
 
 /// A position with the sign of zeros made positive, so that equal places are equal bits.
 #[inline(always)]
-pub(super) fn check_position<G: Dimension>(
+pub(crate) fn check_position<G: Dimension>(
     argument: &'static str,
     index: usize,
     p: &G::Point,

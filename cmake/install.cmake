@@ -1,0 +1,54 @@
+# What is installed, and what `cpack` puts into packages: headers, stripped libraries, files for CMake and pkg-config.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(DELDRIFT_FILE "libdeldrift.so.${PROJECT_VERSION}")
+set(compatibility SameMajorVersion)
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(compatibility SameMinorVersion)
+endif()
+
+# Without debug information, and with no other symbols than those of the header.
+set(stripped "${PROJECT_BINARY_DIR}/stripped")
+add_custom_command(OUTPUT "${stripped}/libdeldrift.so" "${stripped}/libdeldrift.a"
+  COMMAND "${CMAKE_COMMAND}" "-DFROM=${libraries}" "-DTO=${stripped}"
+          "-DHEADER=${PROJECT_SOURCE_DIR}/include/deldrift.h"
+          "-DSTRIP=${CMAKE_STRIP}" "-DLINKER=${CMAKE_LINKER}" "-DOBJCOPY=${CMAKE_OBJCOPY}" "-DAR=${CMAKE_AR}"
+          -P "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
+  DEPENDS "${libraries}/libdeldrift.so" "${libraries}/libdeldrift.a" "${PROJECT_SOURCE_DIR}/include/deldrift.h"
+          "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
+  COMMENT "Stripping the libraries" VERBATIM)
+add_custom_target(deldrift_stripped ALL DEPENDS "${stripped}/libdeldrift.so" "${stripped}/libdeldrift.a")
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/deldrift")
+configure_package_config_file(cmake/deldriftConfig.cmake.in deldriftConfig.cmake
+  INSTALL_DESTINATION "${package_dir}" PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
+write_basic_package_version_file(deldriftConfigVersion.cmake COMPATIBILITY ${compatibility})
+
+# Paths are given from the folder of the .pc file, so that an installation may be moved as a whole.
+set(pkgconfig_dir "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig")
+file(RELATIVE_PATH prefix "${pkgconfig_dir}" "${CMAKE_INSTALL_PREFIX}")
+file(RELATIVE_PATH DELDRIFT_PC_INCLUDEDIR "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
+file(RELATIVE_PATH DELDRIFT_PC_LIBDIR "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+string(REGEX REPLACE "/$" "" DELDRIFT_PC_PREFIX "\${pcfiledir}/${prefix}")
+list(TRANSFORM DELDRIFT_SYSTEM_LIBRARIES PREPEND "-l" OUTPUT_VARIABLE DELDRIFT_LINK_FLAGS)
+string(JOIN " " DELDRIFT_LINK_FLAGS ${DELDRIFT_LINK_FLAGS})
+configure_file(deldrift.pc.in deldrift.pc @ONLY)
+
+install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+install(FILES "${stripped}/libdeldrift.a" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+# Debian's libraries are not executable; elsewhere they are by custom.
+set(kind_of_file PROGRAMS)
+if(CMAKE_INSTALL_SO_NO_EXE)
+  set(kind_of_file FILES)
+endif()
+install(${kind_of_file} "${stripped}/libdeldrift.so" DESTINATION "${CMAKE_INSTALL_LIBDIR}" RENAME "${DELDRIFT_FILE}")
+file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/links")
+foreach(link IN ITEMS "${DELDRIFT_SONAME}" libdeldrift.so)
+  file(CREATE_LINK "${DELDRIFT_FILE}" "${PROJECT_BINARY_DIR}/links/${link}" SYMBOLIC)
+  install(FILES "${PROJECT_BINARY_DIR}/links/${link}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+endforeach()
+install(FILES "${PROJECT_BINARY_DIR}/deldriftConfig.cmake" "${PROJECT_BINARY_DIR}/deldriftConfigVersion.cmake"
+  DESTINATION "${package_dir}")
+install(FILES LICENSE-MIT LICENSE-APACHE cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES "${PROJECT_BINARY_DIR}/deldrift.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

@@ -1,0 +1,31 @@
+# The libraries in FROM, without debug information, to TO. The static one becomes a single object in which only what
+# HEADER declares is global: the rest is of no use to programs, and could clash with another library written in Rust.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
+  if(result)
+    message(FATAL_ERROR "${ARGV}: ${result}")
+  endif()
+endfunction()
+
+# The functions that HEADER declares at the beginning of a line; those that it defines are static.
+file(READ "${HEADER}" header)
+string(REGEX MATCHALL "\n(const )?[a-z0-9_]+ [*]?deldrift_[a-z0-9_]+[(]" functions "${header}")
+list(TRANSFORM functions REPLACE ".*(deldrift_[a-z0-9_]+)[(]" "\\1")
+list(LENGTH functions n_functions)
+if(n_functions EQUAL 0)
+  message(FATAL_ERROR "No functions in ${HEADER}")
+endif()
+
+file(MAKE_DIRECTORY "${TO}")
+run("${STRIP}" --strip-unneeded -o "${TO}/libdeldrift.so" "${FROM}/libdeldrift.so")
+
+list(TRANSFORM functions PREPEND "--undefined=" OUTPUT_VARIABLE wanted)
+string(REPLACE ";" "\n" names "${functions}")
+file(WRITE "${TO}/functions.txt" "${names}\n")
+run("${LINKER}" -r --gc-sections ${wanted} -o "${TO}/deldrift.o" "${FROM}/libdeldrift.a")
+# The bitcode that the objects of Rust's standard library carry is not one any more when it is linked.
+run("${OBJCOPY}" --strip-debug --remove-section=.llvmbc --remove-section=.llvmcmd
+  "--keep-global-symbols=${TO}/functions.txt" "${TO}/deldrift.o")
+run("${STRIP}" --strip-unneeded "${TO}/deldrift.o")
+file(REMOVE "${TO}/libdeldrift.a")
+run("${AR}" crs "${TO}/libdeldrift.a" "${TO}/deldrift.o")

@@ -1,0 +1,71 @@
+// CGAL's names for deldrift: Delaunay_triangulation_2 and Delaunay_triangulation_3, so far as common programs use them.
+//
+//     using K = deldrift::cgal::Kernel;  // or any kernel of CGAL's with coordinates in double
+//     using Dt = deldrift::cgal::Delaunay_triangulation_2<K, unsigned>;  // unsigned: the info of vertices
+//     Dt t(points.begin(), points.end());                                // points, or pairs of point and info
+//     for (Dt::Face_handle f : t.finite_face_handles()) std::cout << f->vertex(0)->point() << '\n';
+//
+// It needs no CGAL. Points, handles, iterators, circulators and members are called as there, and mean the same; cells
+// are oriented alike, and neighbor(i) is opposite vertex(i). docs/FROM_CGAL.md has the calls side by side. What
+// differs:
+//
+// - Where points are cocircular or cospherical, and cells not unique, other cells may be chosen than CGAL chooses.
+// - Handles are small values, not pointers. Those of vertices are valid until the vertex is removed; those of cells
+//   until the triangulation changes. Cells have no info: what has changed is told by take_changes().
+// - Where the vertices are on a line (in space: in a plane), there are no faces or cells, and no edges or facets.
+// - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57.
+//
+// Besides the functions of CGAL there are stage_move() and commit_timestamp(), by which many vertices move at the
+// cost of what changes, and triangulation(), the arrays and queries of deldrift.hpp.
+#ifndef DELDRIFT_CGAL_HPP
+#define DELDRIFT_CGAL_HPP
+
+#include <array>
+#include <cstddef>
+#include <ostream>
+
+#include "cgal/plane.hpp"
+#include "cgal/space.hpp"
+
+namespace deldrift::cgal {
+
+// A point, of which the names of CGAL's are those that read and write coordinates.
+template <std::size_t D>
+class Point {
+public:
+    Point() = default;
+    Point(double x, double y) noexcept : x_{x, y} { static_assert(D == 2); }
+    Point(double x, double y, double z) noexcept : x_{x, y, z} { static_assert(D == 3); }
+    double x() const noexcept { return x_[0]; }
+    double y() const noexcept { return x_[1]; }
+    double z() const noexcept {
+        static_assert(D == 3);
+        return x_[2];
+    }
+    double operator[](int i) const noexcept { return x_[static_cast<std::size_t>(i)]; }
+    static constexpr int dimension() noexcept { return static_cast<int>(D); }
+
+    friend bool operator==(const Point &a, const Point &b) noexcept { return a.x_ == b.x_; }
+    friend bool operator!=(const Point &a, const Point &b) noexcept { return a.x_ != b.x_; }
+    friend bool operator<(const Point &a, const Point &b) noexcept { return a.x_ < b.x_; }
+    friend std::ostream &operator<<(std::ostream &out, const Point &p) {
+        for (std::size_t k = 0; k < D; k++) out << (k == 0 ? "" : " ") << p.x_[k];
+        return out;
+    }
+
+private:
+    std::array<double, D> x_{};
+};
+
+using Point_2 = Point<2>;
+using Point_3 = Point<3>;
+
+struct Kernel {
+    using FT = double;
+    using Point_2 = cgal::Point_2;
+    using Point_3 = cgal::Point_3;
+};
+
+}  // namespace deldrift::cgal
+
+#endif  // DELDRIFT_CGAL_HPP

@@ -1,0 +1,276 @@
+// The triangulation behind cgal.hpp, with the points and infos of its vertices: see there.
+#ifndef DELDRIFT_CGAL_MESH_HPP
+#define DELDRIFT_CGAL_MESH_HPP
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <new>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "../../deldrift.hpp"
+
+namespace deldrift::cgal::detail {
+
+template <std::uint32_t D, class Point>
+std::array<double, D> numbers_of(const Point &p) {
+    static_assert(std::is_convertible_v<decltype(p.x()), double>, "coordinates must be doubles");
+    if constexpr (D == 2) {
+        return {static_cast<double>(p.x()), static_cast<double>(p.y())};
+    } else {
+        return {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())};
+    }
+}
+
+template <std::uint32_t D, class Point>
+Point point_of(const std::array<double, D> &x) {
+    if constexpr (D == 2) {
+        return Point(x[0], x[1]);
+    } else {
+        return Point(x[0], x[1], x[2]);
+    }
+}
+
+struct No_info {};
+
+// What a vertex handle points to. It stays where it is until the vertex is removed.
+template <std::uint32_t D, class P, class Info>
+class Mesh;
+template <std::uint32_t D, class P, class Info>
+struct Record {
+    P point;
+    std::conditional_t<std::is_void_v<Info>, No_info, Info> info;
+    // Null for one that is not in use, and for the infinite vertex its mesh.
+    const Mesh<D, P, Info> *mesh;
+    std::uint32_t id;
+};
+
+// Points at the same place are one vertex, as in CGAL. Calls that fail have no effect.
+template <std::uint32_t D, class P, class Info>
+class Mesh {
+public:
+    using Point = P;
+    using Record = detail::Record<D, P, Info>;
+    using Given_info = decltype(Record::info);
+    using Vertices = std::vector<std::pair<Point, Given_info>>;
+
+    Mesh() : t_(D, Positions(), options()), infinite_{point_of<D, P>({}), {}, this, DELDRIFT_NONE} {}
+    Mesh(const Mesh &) = delete;
+    Mesh &operator=(const Mesh &) = delete;
+
+    const Triangulation &triangulation() const noexcept { return t_; }
+    Triangulation &triangulation() noexcept { return t_; }
+    Record *infinite() const noexcept { return &infinite_; }
+    const std::vector<Record *> &by_id() const noexcept { return by_id_; }
+
+    // The arrays of the cells, from any number of threads.
+    const deldrift_cells_view &cells() const {
+        if (!is_fresh_.load(std::memory_order_acquire)) {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            check(deldrift_cells(t_.native(), &cells_));
+            is_fresh_.store(true, std::memory_order_release);
+        }
+        return cells_;
+    }
+    void star(std::uint32_t vertex, std::vector<std::uint32_t> &cells) const {
+        std::size_t count = 0;
+        cells.resize(64);
+        if (deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count) == DELDRIFT_BUFFER_TOO_SMALL) {
+            cells.resize(count);
+        }
+        check(deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count));
+        cells.resize(count);
+    }
+
+    // The vertex at a place; null where there is none.
+    Record *nearest(const Point &p) const {
+        const std::uint32_t id = t_.nearest_vertex(numbers_of<D>(p));
+        return id == DELDRIFT_NONE ? nullptr : by_id_[id];
+    }
+
+    Record *insert(const Point &p, const Given_info &info) {
+        Record *record = add(p, info);
+        std::uint32_t id = 0;
+        const deldrift_status status = deldrift_insert_vertex(t_.native(), numbers_of<D>(p).data(), &id);
+        if (status != DELDRIFT_OK) drop_last();
+        if (status == DELDRIFT_COINCIDENT) return nearest(p);
+        check(status);
+        is_fresh_ = false;
+        return record;
+    }
+
+    // All at once; one vertex for each place. Where there are moves to be committed, one after the other.
+    void insert(const Vertices &vertices) {
+        if (t_.staged_count() > 0) {
+            for (const auto &[p, info] : vertices) insert(p, info);
+        } else if (!insert_at_once(vertices, {})) {
+            const std::vector<std::size_t> different = different_places(vertices);
+            if (!different.empty()) insert_at_once(vertices, different);
+        }
+    }
+
+    void remove(Record *record) {
+        t_.remove_vertex(record->id);
+        is_fresh_ = false;
+        forget(record);
+        // Ids of removed vertices take memory; where there is none to compact them, the next removal tries again.
+        try {
+            if (by_id_.size() > 2 * t_.vertex_count() + 1024) compact();
+        } catch (const Error &) {
+        } catch (const std::bad_alloc &) {
+        }
+    }
+
+    // The vertex at the place: this one, or one that is there already; then nothing has changed.
+    Record *move_if_free(Record *record, const Point &p) {
+        const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, numbers_of<D>(p).data());
+        if (status == DELDRIFT_COINCIDENT) return nearest(p);
+        check(status);
+        is_fresh_ = false;
+        record->point = p;
+        return record;
+    }
+
+    void stage_move(Record *record, const Point &p) {
+        staged_.emplace_back(record, p);
+        const deldrift_status status = deldrift_move_vertex(t_.native(), record->id, numbers_of<D>(p).data());
+        if (status != DELDRIFT_OK) staged_.pop_back();
+        check(status);
+    }
+    void discard_moves() {
+        t_.discard_moves();
+        staged_.clear();
+    }
+    deldrift_commit_report commit_timestamp() {
+        const deldrift_commit_report report = t_.commit_timestamp();
+        is_fresh_ = false;
+        for (auto &[record, p] : staged_) record->point = p;
+        staged_.clear();
+        return report;
+    }
+
+private:
+    static deldrift_options options() noexcept {
+        deldrift_options options = default_options();
+        options.coincidence = DELDRIFT_COINCIDENCE_REJECT;
+        return options;
+    }
+    static void check(deldrift_status status) {
+        if (status != DELDRIFT_OK) throw Error(status);
+    }
+
+    // A record for the next id.
+    Record *add(const Point &p, const Given_info &info) {
+        const auto id = static_cast<std::uint32_t>(by_id_.size());
+        if (unused_.empty()) {
+            // Room for all, so that none is lost when it is forgotten.
+            if (unused_.capacity() <= records_.size()) unused_.reserve(2 * records_.size() + 16);
+            records_.push_back(Record{p, info, nullptr, id});
+            unused_.push_back(&records_.back());
+        }
+        Record *record = unused_.back();
+        by_id_.push_back(record);
+        *record = Record{p, info, this, id};
+        unused_.pop_back();
+        return record;
+    }
+    void forget(Record *record) noexcept {
+        by_id_[record->id] = nullptr;
+        record->mesh = nullptr;
+        staged_.erase(std::remove_if(staged_.begin(), staged_.end(), [&](const auto &s) { return s.first == record; }),
+                      staged_.end());
+        unused_.push_back(record);
+    }
+    void drop_last() noexcept {
+        Record *record = by_id_.back();
+        by_id_.pop_back();
+        record->mesh = nullptr;
+        unused_.push_back(record);
+    }
+
+    // Whether that could be done: not if two are at the same place. Those of the given indices; none for all.
+    bool insert_at_once(const Vertices &vertices, const std::vector<std::size_t> &which) {
+        const std::size_t n = which.empty() ? vertices.size() : which.size(), n_before = by_id_.size();
+        std::vector<std::array<double, D>> places;
+        places.reserve(n);
+        try {
+            for (std::size_t i = 0; i < n; i++) {
+                const auto &[p, info] = vertices[which.empty() ? i : which[i]];
+                add(p, info);
+                places.push_back(numbers_of<D>(p));
+            }
+            if (t_.id_count() == 0) {
+                t_ = Triangulation(D, places, options());
+            } else {
+                t_.stage_insertions(places);
+                t_.commit_timestamp();
+            }
+        } catch (const Error &error) {
+            undo_insertions(n_before);
+            if (error.status() == DELDRIFT_COINCIDENT) return false;
+            throw;
+        } catch (...) {
+            undo_insertions(n_before);
+            throw;
+        }
+        is_fresh_ = false;
+        return true;
+    }
+    void undo_insertions(std::size_t n_before) {
+        t_.discard_moves();
+        while (by_id_.size() > n_before) drop_last();
+    }
+
+    // One index for each place at which there is no vertex yet.
+    std::vector<std::size_t> different_places(const Vertices &vertices) const {
+        const auto place = [&](std::size_t i) { return numbers_of<D>(vertices[i].first); };
+        std::vector<std::size_t> order(vertices.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+            const auto p = place(i), q = place(j);
+            return p == q ? i < j : p < q;
+        });
+        order.erase(std::unique(order.begin(), order.end(), [&](auto i, auto j) { return place(i) == place(j); }),
+                    order.end());
+        const auto is_taken = [&](std::size_t i) {
+            const Record *record = nearest(vertices[i].first);
+            return record != nullptr && numbers_of<D>(record->point) == place(i);
+        };
+        order.erase(std::remove_if(order.begin(), order.end(), is_taken), order.end());
+        std::sort(order.begin(), order.end());
+        return order;
+    }
+
+    void compact() {
+        std::vector<Record *> by_id(t_.vertex_count());
+        const std::vector<std::uint32_t> ids = t_.compact();
+        for (std::size_t old = 0; old < ids.size(); old++) {
+            if (ids[old] == DELDRIFT_NONE) continue;
+            by_id[ids[old]] = by_id_[old];
+            by_id_[old]->id = ids[old];
+        }
+        by_id_ = std::move(by_id);
+        is_fresh_ = false;
+    }
+
+    Triangulation t_;
+    std::deque<Record> records_;
+    // Null for removed vertices.
+    std::vector<Record *> by_id_, unused_;
+    std::vector<std::pair<Record *, Point>> staged_;
+    mutable Record infinite_;
+    mutable std::mutex mutex_;
+    mutable std::atomic<bool> is_fresh_{false};
+    mutable deldrift_cells_view cells_{};
+};
+
+}  // namespace deldrift::cgal::detail
+
+#endif  // DELDRIFT_CGAL_MESH_HPP
