@@ -29,7 +29,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test bench report memory large targets calibrate table lint header picture install examples library benchmark clean
+.PHONY: help test bench report memory large targets calibrate table lint header doc picture install examples library benchmark clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -76,8 +76,15 @@ lint: ## format, clippy, documentation, freshness of the header
 	RUSTDOCFLAGS=-Dwarnings cargo doc --no-deps
 	cargo test --test ffi header
 
-header: ## include/deldrift.h, from the sources in src/capi
+header: ## include/deldrift.h, from the sources in src/capi, and docs/FUNCTIONS.md
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header_is_what_the_sources_say
+	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi table_of_functions
+
+doc: ## documentation as web pages: build/doc/html/index.html (C, C++) and, for Rust, doc/deldrift in cargo's folder
+	@.ci/packages doxygen
+	mkdir -p build/doc
+	doxygen docs/Doxyfile
+	cargo doc --no-deps
 
 picture: ## docs/moving.svg and docs/lloyd.svg, from runs of the library
 	cargo run --release --example moving_picture > docs/moving.svg.new

@@ -48,7 +48,7 @@ bool draw(const char *path) {
     Picture picture({-1, -1}, {1, 1}, 250, n_panels);
     for (int panel = 0; panel < n_panels; panel++) {
         for (int step = 0; panel > 0 && step < n_steps; step++) heat.step(1.0 / (3 * n_steps), u);
-        picture.panel(panel == 0 ? "heat on one side" : "after " + std::to_string(panel) + " turns");
+        picture.panel(panel == 0 ? "heat on one side" : "after " + std::to_string(panel) + (panel == 1 ? " turn" : " turns"));
         const auto place = [&](std::uint32_t v) { return heat.positions().col(v).data(); };
         for (const auto cell : heat.cells())
             picture.triangle((u[cell[0]] + u[cell[1]] + u[cell[2]]) / 3, place(cell[0]), place(cell[1]), place(cell[2]));

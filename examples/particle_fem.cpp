@@ -45,8 +45,7 @@ int main(int n_arguments, char **arguments) {
     std::printf("%d steps, %zu particles came, %zu left; front at %.3f, area %.3f of the first, energy %.3f; "
                 "mesh %.0f ns of %.0f ns per vertex and step\n",
                 n_steps, dam.n_came, dam.n_left, front, area_now / area, energy_now / energy,
-                1e9 * dam.mesh_seconds / n_steps / static_cast<double>(dam.f.x.cols()),
-                1e9 * dam.seconds / n_steps / static_cast<double>(dam.f.x.cols()));
-    if (n_arguments > 3 && !picture.save(arguments[3])) return std::fprintf(stderr, "no picture\n"), 1;
-    return 0;
+                1e9 * dam.mesh_seconds / static_cast<double>(dam.n_visits),
+                1e9 * dam.seconds / static_cast<double>(dam.n_visits));
+    return n_arguments <= 3 || picture.save(arguments[3]) ? 0 : 1;
 }

@@ -2,7 +2,9 @@
 // triangulation. Cells with a small circumradius are fluid, and the boundary of these is the free surface. In each step
 // the particles move with the fluid, some are removed or inserted, and data of cells pass to the cells of the new mesh.
 //
-// The mesh is a parameter: particle_fem.cpp has it from deldrift.
+// The ids of particles that have left are not used again. A long run calls deldrift_compact now and then.
+//
+// The mesh is a parameter; particle_fem_mesh.hpp has that from deldrift.
 #pragma once
 
 #include "particle_fem_flow.hpp"
@@ -34,6 +36,7 @@ public:
         const auto meshed = Clock::now();
         classify();
         time += dt;
+        n_visits += static_cast<std::size_t>(f.x.cols()) - n_left;
         mesh_seconds += std::chrono::duration<double>(meshed - moved).count();
         seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
@@ -54,7 +57,7 @@ public:
 
     const double h, dt;
     double time = 0, mesh_seconds = 0, seconds = 0;
-    std::size_t n_came = 0, n_left = 0;
+    std::size_t n_came = 0, n_left = 0, n_visits = 0;  // visits: vertices, summed over the steps
     Fluid f;
     Mesh mesh;
     Ids surface;  // the facets of the free surface, as pairs of vertices

@@ -30,7 +30,7 @@ void draw(Picture &picture, const Smoothing<2> &smoothing, const std::string &ca
     const auto place = [&](std::uint32_t v) { return smoothing.positions().col(v).data(); };
     std::size_t c = 0;
     for (const auto cell : smoothing.cells())
-        picture.triangle(qualities[c++], place(cell[0]), place(cell[1]), place(cell[2]));
+        picture.triangle(1 - qualities[c++], place(cell[0]), place(cell[1]), place(cell[2]));
 }
 
 // Whether both schemes have made the cells better.

@@ -42,7 +42,7 @@ public:
         std::ofstream file(path);
         file << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << size << " role=\"img\">\n<style>"
              << "text{font:14px system-ui,'DejaVu Sans',sans-serif;fill:#24292f;text-anchor:middle}"
-             << "path{stroke-linejoin:round;stroke-linecap:round;fill:none;stroke:#fff;stroke-width:3}"
+             << "path{stroke-linejoin:round;stroke-linecap:round;fill:none;stroke:#fff;stroke-width:2}"
              << ".strokes{stroke:#b3470a;stroke-width:12}</style>\n<rect width=\"" << size << " rx=\"10\" fill=\"#fff\"/>\n"
              << panels_ << "</svg>\n";
         file.close();

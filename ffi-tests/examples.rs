@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::support::{Linkage, build, command, fresh_folder, repository, succeed};
+use crate::support::{Linkage, build, command, fresh_folder, repository, succeed, text_of};
 
 #[test]
 #[ignore = "needs Eigen and pkg-config"]
@@ -43,11 +43,28 @@ fn smoothing_makes_cells_better() {
     assert!(lloyd_3d.min(odt_3d) > random_3d + 0.1, "{said}");
 }
 
+/// The program of docs/FIVE_MINUTES.md, as it stands there.
+#[test]
+fn the_program_of_the_first_page_runs() {
+    let page = text_of("docs/FIVE_MINUTES.md");
+    let (_, program) = page.split_once("```c\n").expect("there is a program");
+    let (program, _) = program.split_once("```").expect("a program ends");
+    let folder = fresh_folder("five_minutes");
+    let source = folder.join("program.c");
+    std::fs::write(&source, program).expect("a source can be written");
+    let said = succeed(&mut command(build(&source, &folder, Linkage::Shared, &[])));
+    let (new, all) = (number_after("", &said), number_after(" of ", &said));
+    assert!(said.ends_with(" triangles were new\n") && 0.0 < new && new < all / 10.0, "{said}");
+}
+
 /// Builds an example and runs it; what it says. One that draws is asked to, and its picture must be of a size to commit.
 fn run(name: &str, source: &str, arguments: &[&str], draws: bool) -> String {
     let folder = fresh_folder(name);
-    let flags = eigen();
-    let flags: Vec<&str> = flags.iter().map(String::as_str).collect();
+    let eigen = eigen();
+    let mut flags: Vec<&str> = eigen.iter().map(String::as_str).collect();
+    if !draws {
+        flags.extend(["-DNDEBUG", "-lgmp", "-lmpfr"]);
+    }
     let program = build(&repository(source), &folder, Linkage::Static, &flags);
     let picture = folder.join("picture.svg");
     let mut command = command(program);
