@@ -1,6 +1,6 @@
-// Densities of particles: mass by the volume of the Voronoi cell. Particles that fill a square evenly flow together by a
-// motion whose density is known, x = q + s sin(2 pi q) / (2 pi) along each axis. The volumes add up to the square's, so
-// that no mass is lost, however unevenly the particles lie.
+// Densities of particles: mass by the volume of the Voronoi cell. Particles that fill a square evenly flow together by
+// a motion whose density is known, x = q + s sin(2 pi q) / (2 pi) along each axis. The volumes add up to the square's,
+// so that no mass is lost, however unevenly the particles lie.
 //
 //   densities [particles [picture.svg]]
 #include "svg.hpp"
@@ -23,7 +23,8 @@ std::vector<double> even_points(int side) {
     std::vector<double> points;
     std::mt19937 random(1);
     for (int k = 0; k < side * side; k++) {
-        for (const int field : {k % side, k / side}) points.push_back((field + 0.2 + 0.6 * random() / 4294967296.0) / side);
+        for (const int field : {k % side, k / side})
+            points.push_back((field + 0.2 + 0.6 * random() / 4294967296.0) / side);
     }
     return points;
 }
@@ -77,9 +78,10 @@ int main(int n_arguments, char **arguments) {
             error += std::fabs(densities[v] / state.densities[v] - 1) / static_cast<double>(n);
         }
         worst_sum = std::max(worst_sum, std::fabs(sum - 1));
-        if (step % (n_steps / (n_panels - 1)) == 0) draw(picture, t, state, densities, "s = " + std::to_string(greatest * step / n_steps).substr(0, 4));
+        if (step % (n_steps / (n_panels - 1)) != 0) continue;
+        draw(picture, t, state, densities, "s = " + std::to_string(greatest * step / n_steps).substr(0, 4));
     }
-    std::printf("%zu particles, %d steps; volumes add up to the square's within %.1e, densities within %.1f %% on average\n",
+    std::printf("%zu particles, %d steps; sum of volumes within %.1e, densities within %.1f %% on average\n",
                 n, n_steps, worst_sum, 100 * error);
     if (n_arguments > 2 && !picture.save(arguments[2])) return 1;
     return worst_sum < 1e-12 && error < 0.2 ? 0 : 1;

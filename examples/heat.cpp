@@ -33,8 +33,8 @@ bool check(int n, int n_steps) {
         are_right &= heat.rows_are_right();
     }
     const double error = (u - wanted).cwiseAbs().maxCoeff(), drift = std::fabs(heat.mass().dot(u) / before - 1);
-    std::printf("%d steps, %zu of %d rows updated; heat drift %.1e, error %.1e, maximum principle %s, rows %s\n", n_steps,
-                heat.n_rows_changed, n * n_steps, drift, error, is_bounded ? "kept" : "broken",
+    std::printf("%d steps, %zu of %d rows updated; heat drift %.1e, error %.1e, maximum principle %s, rows %s\n",
+                n_steps, heat.n_rows_changed, n * n_steps, drift, error, is_bounded ? "kept" : "broken",
                 are_right ? "right" : "wrong");
     std::printf("rows updated in %.2f ms a step, made of all cells in %.2f ms\n", 1e3 * heat.follow_seconds / n_steps,
                 1e3 * heat.fresh_seconds / n_steps);
@@ -48,10 +48,12 @@ bool draw(const char *path) {
     Picture picture({-1, -1}, {1, 1}, 250, n_panels);
     for (int panel = 0; panel < n_panels; panel++) {
         for (int step = 0; panel > 0 && step < n_steps; step++) heat.step(1.0 / (3 * n_steps), u);
-        picture.panel(panel == 0 ? "heat on one side" : "after " + std::to_string(panel) + (panel == 1 ? " turn" : " turns"));
+        picture.panel("turns: " + std::to_string(panel));
         const auto place = [&](std::uint32_t v) { return heat.positions().col(v).data(); };
-        for (const auto cell : heat.cells())
-            picture.triangle((u[cell[0]] + u[cell[1]] + u[cell[2]]) / 3, place(cell[0]), place(cell[1]), place(cell[2]));
+        for (const auto cell : heat.cells()) {
+            const double mean = (u[cell[0]] + u[cell[1]] + u[cell[2]]) / 3;
+            picture.triangle(mean, place(cell[0]), place(cell[1]), place(cell[2]));
+        }
     }
     return picture.save(path);
 }

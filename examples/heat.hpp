@@ -6,7 +6,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <Eigen/Sparse>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
 #include <deldrift.hpp>
 
 #include <algorithm>

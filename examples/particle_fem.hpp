@@ -41,20 +41,6 @@ public:
         seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
 
-    // Area of the fluid, and its energy per density.
-    std::array<double, 2> area_and_energy() const {
-        std::array<double, 2> sums{0, 0};
-        for (std::size_t c = 0; c < f.is_fluid.size(); c++) {
-            if (!f.is_fluid[c]) continue;
-            const std::uint32_t *v = mesh.cells().vertices + 3 * c;
-            const double area = Element(f.x, v).area;
-            sums[0] += area;
-            for (int i = 0; i < 3; i++)
-                sums[1] += area / 3 * (f.u.col(v[i]).squaredNorm() / 2 + Flow::gravity * f.x(1, v[i]));
-        }
-        return sums;
-    }
-
     const double h, dt;
     double time = 0, mesh_seconds = 0, seconds = 0;
     std::size_t n_came = 0, n_left = 0, n_visits = 0;  // visits: vertices, summed over the steps

@@ -1,9 +1,10 @@
 // One time step of a slightly compressible fluid, with linear finite elements for velocity and pressure on the fluid
-// cells of a mesh whose vertices move with the fluid. Gravity and viscosity are explicit. Pressure is implicit: the time
-// step is limited by the motion, not by the speed of sound. It is zero on the free surface.
+// cells of a mesh whose vertices move with the fluid. Gravity and viscosity are explicit. Pressure is implicit: the
+// motion limits the time step, not the speed of sound. It is zero on the free surface.
 #pragma once
 
-#include <Eigen/Sparse>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>

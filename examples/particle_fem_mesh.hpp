@@ -1,5 +1,5 @@
-// The mesh of particle_fem.hpp, from deldrift: one commit moves, inserts and removes particles, and the change list says
-// which data of cells to pass on.
+// The mesh of particle_fem.hpp, from deldrift: one commit moves, inserts and removes particles, and the change list
+// says which data of cells to pass on.
 #pragma once
 
 #include "particle_fem.hpp"
@@ -49,7 +49,9 @@ public:
         for (std::size_t k = 0; k < changes_.star_count; k++) sums_[changes_.stars[k]] = counts_[changes_.stars[k]] = 0;
     }
 
-    void mask(double radius, std::vector<std::uint8_t> &mask) const { mask_of(t_.positions().data(), cells(), radius, mask); }
+    void mask(double radius, std::vector<std::uint8_t> &mask) const {
+        mask_of(t_.positions().data(), cells(), radius, mask);
+    }
 
     // Pairs of vertices.
     void boundary(const std::vector<std::uint8_t> &mask, Ids &facets) const { boundary_of(cells(), mask, facets); }

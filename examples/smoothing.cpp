@@ -39,8 +39,8 @@ bool smooth(int n_inside, int n_iterations, Picture *picture) {
     const Smoothing<d> random(n_inside);
     if constexpr (d == 2) draw(*picture, random, "random points");
     const Quality before = quality_of(random);
-    std::printf("%dD, %td vertices    mean quality %.3f, a hundredth below %.3f\n", d, random.positions().cols(), before.mean,
-                before.low);
+    std::printf("%dD, %td vertices    mean quality %.3f, a hundredth below %.3f\n", d, random.positions().cols(),
+                before.mean, before.low);
     bool are_better = true;
     for (const Scheme scheme : {Scheme::lloyd, Scheme::odt}) {
         const char *name = scheme == Scheme::lloyd ? "Lloyd" : "ODT";

@@ -4,7 +4,7 @@
 // - by ODT, to the mean circumcentre of their star, weighted by volume.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <deldrift.hpp>
 
 #include <algorithm>
@@ -29,14 +29,12 @@ public:
         Points sums = Points::Zero(d, x_.cols());
         Eigen::VectorXd weights = Eigen::VectorXd::Zero(x_.cols());
         for (const auto cell : t_.cells()) {
-            std::array<int, d + 1> corners;
-            for (int i = 0; i <= d; i++) corners[i] = i;
             if (scheme == Scheme::odt) {
                 const double volume = simplex(cell).determinant();
-                const Point centre = circumcentre(cell, corners.data(), d);
+                const Point centre = circumcentre<d>(cell, all_corners());
                 for (const std::uint32_t v : cell) sums.col(v) += volume * centre, weights[v] += volume;
             } else {
-                add_voronoi_parts(cell, corners, sums, weights);
+                add_voronoi_parts(cell, sums, weights);
             }
         }
         for (Eigen::Index v = n_fixed_; v < x_.cols(); v++) {
@@ -55,9 +53,8 @@ public:
             const Eigen::Matrix<double, d, d> gradients = simplex(cell).inverse();  // of the shape functions, as rows
             double surface = gradients.colwise().sum().norm();
             for (int i = 0; i < d; i++) surface += gradients.row(i).norm();
-            int corners[d + 1];
-            for (int i = 0; i <= d; i++) corners[i] = i;
-            qualities.push_back(d / surface / (circumcentre(cell, corners, d) - x_.col(cell[0])).norm());
+            const double radius = (circumcentre<d>(cell, all_corners()) - x_.col(cell[0])).norm();
+            qualities.push_back(d / surface / radius);
         }
         return qualities;
     }
@@ -67,6 +64,13 @@ public:
 
 private:
     using Row = deldrift::Cells::Row;
+    using Corners = std::array<int, d + 1>;
+
+    static Corners all_corners() {
+        Corners corners;
+        for (int i = 0; i <= d; i++) corners[i] = i;
+        return corners;
+    }
 
     Points places(int n_inside) {
         h_ = d == 2 ? std::sqrt(2 * pi / std::sqrt(3) / n_inside) : std::cbrt(4 * pi / 3 * std::sqrt(2) / n_inside);
@@ -94,20 +98,24 @@ private:
         return edges;
     }
 
-    // Of a face with k + 1 corners.
-    Point circumcentre(Row cell, const int *corners, int k) const {
-        Eigen::Matrix<double, d, Eigen::Dynamic, 0, d, d> edges(d, k);
+    // Of the face of the first k + 1 corners.
+    template <int k>
+    Point circumcentre(Row cell, const Corners &corners) const {
+        Eigen::Matrix<double, d, k> edges;
         for (int i = 0; i < k; i++) edges.col(i) = x_.col(cell[corners[i + 1]]) - x_.col(cell[corners[0]]);
-        const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, d, d> squares = edges.transpose() * edges;
-        return x_.col(cell[corners[0]]) + edges * squares.partialPivLu().solve(squares.diagonal() / 2);
+        const Eigen::Matrix<double, k, k> squares = edges.transpose() * edges;
+        return x_.col(cell[corners[0]]) + edges * (squares.inverse() * squares.diagonal() / 2);
     }
 
     // A cell falls into signed simplices: of a vertex, and the circumcentres of an edge at it, ..., of the cell.
-    void add_voronoi_parts(Row cell, std::array<int, d + 1> corners, Points &sums, Eigen::VectorXd &weights) const {
+    void add_voronoi_parts(Row cell, Points &sums, Eigen::VectorXd &weights) const {
+        Corners corners = all_corners();
         do {
             const Point vertex = x_.col(cell[corners[0]]);
             Eigen::Matrix<double, d, d> edges;
-            for (int k = 1; k <= d; k++) edges.col(k - 1) = circumcentre(cell, corners.data(), k) - vertex;
+            edges.col(0) = circumcentre<1>(cell, corners) - vertex;
+            edges.col(1) = circumcentre<2>(cell, corners) - vertex;
+            if constexpr (d == 3) edges.col(2) = circumcentre<3>(cell, corners) - vertex;
             int n_inversions = 0;
             for (int i = 0; i <= d; i++)
                 for (int j = 0; j < i; j++) n_inversions += corners[j] > corners[i];

@@ -43,8 +43,8 @@ public:
         file << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << size << " role=\"img\">\n<style>"
              << "text{font:14px system-ui,'DejaVu Sans',sans-serif;fill:#24292f;text-anchor:middle}"
              << "path{stroke-linejoin:round;stroke-linecap:round;fill:none;stroke:#fff;stroke-width:2}"
-             << ".strokes{stroke:#b3470a;stroke-width:12}</style>\n<rect width=\"" << size << " rx=\"10\" fill=\"#fff\"/>\n"
-             << panels_ << "</svg>\n";
+             << ".strokes{stroke:#b3470a;stroke-width:12}</style>\n"
+             << "<rect width=\"" << size << " rx=\"10\" fill=\"#fff\"/>\n" << panels_ << "</svg>\n";
         file.close();
         return file.good();
     }
@@ -78,7 +78,8 @@ private:
         if (n_panels_ == 0) return;
         const int at = n_panels_ - 1;
         const double x = gap + width_ * (at % n_columns_), bottom = height_ * (at / n_columns_ + 1) - caption_height;
-        panels_ += "<g transform=\"translate(" + number(x) + " " + number(bottom + gap) + ")\"><g transform=\"scale(.1)\">\n";
+        panels_ += "<g transform=\"translate(" + number(x) + " " + number(bottom + gap) + ")\">" +
+                   "<g transform=\"scale(.1)\">\n";
         for (std::size_t shade = 0; shade < n_shades; shade++) {
             if (!fills_[shade].empty())
                 panels_ += std::string("<path style=\"fill:") + shades[shade] + "\" d=\"" + fills_[shade] + "\"/>\n";

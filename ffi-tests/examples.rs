@@ -1,5 +1,5 @@
-//! The examples in C++, with few steps. They check themselves; what they print is checked here. They need Eigen, and one
-//! of them CGAL, so they run only where they are asked for (`cargo test --test ffi -- --include-ignored`).
+//! The examples in C++, with few steps. They check themselves; what they print is checked here. They need Eigen, and
+//! one of them CGAL, so they run only where they are asked for (`cargo test --test ffi -- --include-ignored`).
 
 use std::path::Path;
 
@@ -57,13 +57,13 @@ fn the_program_of_the_first_page_runs() {
     assert!(said.ends_with(" triangles were new\n") && 0.0 < new && new < all / 10.0, "{said}");
 }
 
-/// Builds an example and runs it; what it says. One that draws is asked to, and its picture must be of a size to commit.
+/// Builds an example and runs it; what it says. One that draws is asked to, and its picture must be small.
 fn run(name: &str, source: &str, arguments: &[&str], draws: bool) -> String {
     let folder = fresh_folder(name);
     let eigen = eigen();
     let mut flags: Vec<&str> = eigen.iter().map(String::as_str).collect();
     if !draws {
-        flags.extend(["-DNDEBUG", "-lgmp", "-lmpfr"]);
+        flags.extend(["-DNDEBUG", "-Wl,--no-as-needed", "-lgmp", "-lmpfr"]);
     }
     let program = build(&repository(source), &folder, Linkage::Static, &flags);
     let picture = folder.join("picture.svg");
