@@ -10,7 +10,19 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 7] = ["status", "options", "triangulation", "motion", "changes", "state", "query"];
+const SOURCES: [&str; 11] = [
+    "status",
+    "options",
+    "triangulation",
+    "motion",
+    "changes",
+    "state",
+    "query",
+    "geometry",
+    "incidence",
+    "voronoi",
+    "interpolation",
+];
 
 /// With `DELDRIFT_UPDATE_HEADER=1` the files are written instead.
 #[test]

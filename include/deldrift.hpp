@@ -103,6 +103,29 @@ struct Delimiter {
     double tolerance;
 };
 
+// For each cell; see deldrift_circumcentres.
+struct Circumspheres {
+    std::vector<double> centres;
+    std::vector<double> squared_radii;
+};
+
+// Facets with the cell and the corner that each belongs to; see deldrift_mask_boundary.
+struct Facets {
+    std::vector<std::uint32_t> vertices;  // rows of as many as the dimension says
+    std::vector<std::uint32_t> cells;
+    std::vector<std::uint8_t> corners;
+    std::size_t size() const noexcept { return cells.size(); }
+};
+
+// A list for each vertex; see deldrift_vertex_neighbours and deldrift_vertex_cells.
+struct Lists {
+    std::vector<std::uint32_t> offsets;
+    std::vector<std::uint32_t> entries;
+    span<const std::uint32_t> of_vertex(std::uint32_t vertex) const noexcept {
+        return {entries.data() + offsets[vertex], std::size_t{offsets[vertex + 1]} - offsets[vertex]};
+    }
+};
+
 // The default options, to be changed and passed on.
 inline deldrift_options default_options() noexcept {
     deldrift_options options;
@@ -242,6 +265,97 @@ public:
         check(status);
         return delimiter;
     }
+
+    // Of the cells, in the order of cells().
+    Circumspheres circumcentres() const {
+        std::size_t count = cell_count();
+        Circumspheres spheres{std::vector<double>(count * dimension_), std::vector<double>(count)};
+        check(deldrift_circumcentres(native(), spheres.centres.data(), spheres.squared_radii.data(), count, &count));
+        return spheres;
+    }
+    std::vector<double> volumes() const {
+        std::size_t count = cell_count();
+        std::vector<double> volumes(count);
+        check(deldrift_volumes(native(), volumes.data(), count, &count));
+        return volumes;
+    }
+    std::vector<std::uint8_t> mask_by_circumradius(double squared_radius) const {
+        std::size_t count = cell_count();
+        std::vector<std::uint8_t> mask(count);
+        check(deldrift_mask_by_circumradius(native(), squared_radius, mask.data(), count, &count));
+        return mask;
+    }
+    // Seen from outside. mask: a byte for each cell, 0 if it is not in the mask.
+    Facets mask_boundary(span<const std::uint8_t> mask) const {
+        return facets([&](std::uint32_t *vertices, std::uint32_t *cells, std::uint8_t *corners, std::size_t capacity,
+                          std::size_t *count) {
+            return deldrift_mask_boundary(native(), mask.data(), mask.size(), vertices, cells, corners, capacity, count);
+        });
+    }
+    Facets hull_facets() const {
+        return facets([&](std::uint32_t *vertices, std::uint32_t *cells, std::uint8_t *corners, std::size_t capacity,
+                          std::size_t *count) {
+            return deldrift_hull_facets(native(), vertices, cells, corners, capacity, count);
+        });
+    }
+
+    // Rows of two ids, the lower one first, in lexicographic order.
+    std::vector<std::uint32_t> edges() const {
+        std::size_t count = 0;
+        check(deldrift_edges(native(), nullptr, 0, &count));
+        std::vector<std::uint32_t> edges(2 * count);
+        check(deldrift_edges(native(), edges.data(), count, &count));
+        return edges;
+    }
+    Lists vertex_neighbours() const { return lists(deldrift_vertex_neighbours); }
+    Lists vertex_cells() const { return lists(deldrift_vertex_cells); }
+    // For each corner of each cell, 255 for facets of the hull.
+    std::vector<std::uint8_t> mirror_indices() const {
+        std::size_t count = cell_count();
+        std::vector<std::uint8_t> mirrors(count * (dimension_ + std::size_t{1}));
+        check(deldrift_mirror_indices(native(), mirrors.data(), count, &count));
+        return mirrors;
+    }
+    // DELDRIFT_NONE for a facet of the hull.
+    std::uint32_t mirror_index(std::uint32_t cell, std::uint32_t corner) const {
+        return ask<std::uint32_t>(deldrift_mirror_index, cell, corner);
+    }
+    // Counter-clockwise; in 2D.
+    std::vector<std::uint32_t> ordered_star(std::uint32_t vertex) const {
+        std::size_t count = 0;
+        check(deldrift_ordered_star(native(), vertex, nullptr, 0, &count));
+        std::vector<std::uint32_t> star(count);
+        check(deldrift_ordered_star(native(), vertex, star.data(), count, &count));
+        return star;
+    }
+    // Of all ids, within the box from low to high; without a box, infinite on the hull.
+    std::vector<double> voronoi_volumes(span<const double> low = {}, span<const double> high = {}) const {
+        std::size_t count = id_count();
+        std::vector<double> volumes(count);
+        check(deldrift_voronoi_volumes(native(), corner("low", low), corner("high", high), volumes.data(), count, &count));
+        return volumes;
+    }
+    // Of all edges, in their order.
+    std::vector<double> voronoi_facets(span<const double> low = {}, span<const double> high = {}) const {
+        std::size_t count = 0;
+        check(deldrift_edges(native(), nullptr, 0, &count));
+        std::vector<double> measures(count);
+        check(deldrift_voronoi_facets(native(), corner("low", low), corner("high", high), measures.data(), count, &count));
+        return measures;
+    }
+    // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.
+    std::vector<double> interpolate(deldrift_interpolation method, span<const double> values, std::size_t n_values,
+                                    span<const double> positions, span<const double> outside = {},
+                                    const deldrift_location *near = nullptr) const {
+        const std::size_t ids = id_count(), count = count_of("positions", positions);
+        expect("values", values.size(), ids * n_values);
+        if (!outside.empty()) expect("outside", outside.size(), n_values);
+        std::vector<double> results(count * n_values);
+        check(deldrift_interpolate(native(), method, values.data(), ids, n_values, positions.data(), count, near,
+                                   outside.empty() ? nullptr : outside.data(), results.data()));
+        return results;
+    }
+
     deldrift_location locate(span<const double> position) const {
         return ask<deldrift_location>(deldrift_locate, point(position));
     }
@@ -280,6 +394,31 @@ private:
         T answer{};
         check(query(native(), arguments..., &answer));
         return answer;
+    }
+    // The facets that a function lists, of which it first tells the number.
+    template <class List>
+    Facets facets(List list) const {
+        std::size_t count = 0;
+        check(list(nullptr, nullptr, nullptr, 0, &count));
+        Facets facets{std::vector<std::uint32_t>(count * dimension_), std::vector<std::uint32_t>(count),
+                      std::vector<std::uint8_t>(count)};
+        check(list(facets.vertices.data(), facets.cells.data(), facets.corners.data(), count, &count));
+        return facets;
+    }
+    // Likewise lists by vertex.
+    template <class List>
+    Lists lists(List list) const {
+        std::size_t count = 0;
+        check(list(native(), nullptr, 0, nullptr, 0, &count));
+        Lists lists{std::vector<std::uint32_t>(id_count() + 1), std::vector<std::uint32_t>(count)};
+        check(list(native(), lists.offsets.data(), lists.offsets.size(), lists.entries.data(), count, &count));
+        return lists;
+    }
+    // A corner of a box, or nothing.
+    const double *corner(const char *argument, span<const double> position) const {
+        if (position.empty()) return nullptr;
+        expect(argument, position.size(), dimension_);
+        return position.data();
     }
     const double *point(span<const double> position) const {
         expect("position", position.size(), dimension_);

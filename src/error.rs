@@ -74,6 +74,17 @@ pub enum Error {
         /// Length wanted.
         wanted: usize,
     },
+    /// A number that has no meaning for its argument.
+    InvalidValue {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What was given.
+        value: f64,
+        /// What is wanted.
+        wanted: &'static str,
+    },
     /// Two vertices would be at the same place while
     /// [`CoincidencePolicy::Reject`](crate::motion::CoincidencePolicy::Reject) is in force.
     Coincident {
@@ -126,6 +137,9 @@ impl fmt::Display for Error {
             }
             Error::WrongCount { argument, given, wanted } => {
                 write!(f, "{argument} is {given}, but must be {wanted}")
+            }
+            Error::InvalidValue { argument, index, value, wanted } => {
+                write!(f, "{argument}[{index}] is {value}, but must be {wanted}")
             }
             Error::Coincident { vertex, other } => {
                 write!(f, "vertices {vertex} and {other} are at the same place, which the options reject")

@@ -270,6 +270,7 @@ int main(void) {
                 bool is_of_one = k == RELOCATE || k == INSERT || k == REMOVE || k == LOCATE || k == LOCATE_POINTS || k == NEAREST;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
+                if (dimension == 3 && k == ORDERED_STAR) continue;
                 if (is_commit(k)) {
                     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
                         faults_of(dimension, (call){k, all[i], 0}, which, factor, turn++);

@@ -73,6 +73,17 @@ static void handles(void) {
     REFUSES("t", deldrift_triangulation, deldrift_coincident_representative(pointer, 0, &number));
     REFUSES("t", deldrift_triangulation, deldrift_changed_cells(pointer, &indices));
     REFUSES("t", deldrift_triangulation, deldrift_validate(pointer, 1));
+    REFUSES("t", deldrift_triangulation, deldrift_circumcentres(pointer, NULL, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_volumes(pointer, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_mask_by_circumradius(pointer, 1, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_mask_boundary(pointer, NULL, 0, NULL, NULL, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_hull_facets(pointer, NULL, NULL, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_edges(pointer, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_vertex_neighbours(pointer, NULL, 0, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_vertex_cells(pointer, NULL, 0, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_mirror_indices(pointer, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_mirror_index(pointer, 0, 0, &number));
+    REFUSES("t", deldrift_triangulation, deldrift_ordered_star(pointer, 0, NULL, 0, &count));
 }
 
 static void inputs(void) {
@@ -112,6 +123,7 @@ static void inputs(void) {
 
 static void outputs(void) {
     static const double position[2] = {1, 1};
+    static const uint8_t mask[4] = {1, 1, 1, 1};
     double numbers[3];
 
     REFUSES("out", deldrift_triangulation *, deldrift_create(2, SQUARE, SQUARE_COUNT, NULL, pointer));
@@ -144,6 +156,35 @@ static void outputs(void) {
     REFUSES("locations", deldrift_location, deldrift_locate_points(t, position, 1, NULL, pointer));
     REFUSES("vertex", uint32_t, deldrift_nearest_vertex(t, position, pointer));
     REFUSES("representative", uint32_t, deldrift_coincident_representative(t, 0, pointer));
+
+    REFUSES("count", size_t, deldrift_circumcentres(t, NULL, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_volumes(t, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_mask_by_circumradius(t, 1, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_mask_boundary(t, mask, 4, NULL, NULL, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_hull_facets(t, NULL, NULL, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_edges(t, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_vertex_neighbours(t, NULL, 0, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_vertex_cells(t, NULL, 0, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_mirror_indices(t, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_ordered_star(t, 0, NULL, 0, pointer));
+    REFUSES("centres", double, deldrift_circumcentres(t, pointer, NULL, 64, &count));
+    REFUSES("volumes", double, deldrift_volumes(t, pointer, 64, &count));
+    REFUSES("facets", uint32_t, deldrift_hull_facets(t, pointer, NULL, NULL, 64, &count));
+    REFUSES("facets", uint32_t, deldrift_mask_boundary(t, mask, 4, pointer, NULL, NULL, 64, &count));
+    REFUSES("edges", uint32_t, deldrift_edges(t, pointer, 64, &count));
+    REFUSES("neighbours", uint32_t, deldrift_vertex_neighbours(t, NULL, 0, pointer, 64, &count));
+    REFUSES("cells", uint32_t, deldrift_vertex_cells(t, NULL, 0, pointer, 64, &count));
+    REFUSES("mirror", uint32_t, deldrift_mirror_index(t, 0, 0, pointer));
+    REFUSES("cells", uint32_t, deldrift_ordered_star(t, 0, pointer, 64, &count));
+    // Where NULL is legal, misaligned pointers still are not.
+    double *odd_numbers = (double *)(void *)((char *)&storage + 1);
+    uint32_t *odd_ids = (uint32_t *)(void *)((char *)&storage + 1);
+    CHECK_STATUS(deldrift_circumcentres(t, numbers, odd_numbers, 64, &count), DELDRIFT_MISALIGNED_ARGUMENT);
+    CHECK_MESSAGE("squared_radii is 0x");
+    CHECK_STATUS(deldrift_hull_facets(t, NULL, odd_ids, NULL, 64, &count), DELDRIFT_MISALIGNED_ARGUMENT);
+    CHECK_MESSAGE("cells is 0x");
+    CHECK_STATUS(deldrift_vertex_neighbours(t, odd_ids, 6, NULL, 0, &count), DELDRIFT_MISALIGNED_ARGUMENT);
+    CHECK_MESSAGE("offsets is 0x");
 
     CHECK_STATUS(deldrift_is_present(t, 0, NULL), DELDRIFT_NULL_ARGUMENT);
     CHECK_MESSAGE("present is NULL");

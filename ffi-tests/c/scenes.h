@@ -40,7 +40,9 @@ enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS, COMMIT,
     COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
-    DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, N_KINDS } kind;
+    DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
+    MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
+    N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -48,7 +50,10 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_stage_removals", "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
     "deldrift_commit_positions", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_annulus_widths", "deldrift_standard_delimiter", "deldrift_locate",
-    "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells",
+    "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells", "deldrift_circumcentres",
+    "deldrift_volumes", "deldrift_mask_by_circumradius", "deldrift_mask_boundary", "deldrift_hull_facets",
+    "deldrift_edges", "deldrift_vertex_neighbours", "deldrift_vertex_cells", "deldrift_mirror_indices",
+    "deldrift_mirror_index", "deldrift_ordered_star",
 };
 
 // A call: `goal` is for those of one vertex, which goes near, far, or to a place that is taken.
@@ -77,6 +82,12 @@ typedef struct {
 enum { ROOM = 1 << 16 };
 static uint32_t ids_out[ROOM], more_out[ROOM];
 static double numbers_out[ROOM];
+static uint8_t bytes_out[ROOM];
+static const uint8_t *all_cells(void) {
+    static uint8_t mask[ROOM];
+    memset(mask, 1, sizeof mask);
+    return mask;
+}
 
 static bool never(void *user_data) {
     (void)user_data;
@@ -227,7 +238,11 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     size_t count = 0;
     deldrift_status status = DELDRIFT_OK;
     ids_out[0] = more_out[0] = 77;
+    bytes_out[0] = 77;
     numbers_out[0] = 77;
+    const uint8_t *mask = all_cells();
+    size_t n_cells = cell_count(s->t), id_count = 0;
+    OK(deldrift_id_count(s->t, &id_count));
     count_requests(first, too);
     switch (s->call.kind) {
         case CREATE: status = deldrift_create(d, s->points, s->n, &options, &made); break;
@@ -254,6 +269,21 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case LOCATE_POINTS: status = deldrift_locate_points(s->t, to, 1, NULL, &location); break;
         case NEAREST: status = deldrift_nearest_vertex(s->t, to, &out); break;
         case CHANGED_CELLS: status = deldrift_changed_cells(s->t, &indices); break;
+        case CIRCUMCENTRES: status = deldrift_circumcentres(s->t, numbers_out, NULL, ROOM / 3, &count); break;
+        case VOLUMES: status = deldrift_volumes(s->t, numbers_out, ROOM, &count); break;
+        case MASK_BY_CIRCUMRADIUS: status = deldrift_mask_by_circumradius(s->t, 0.01, bytes_out, ROOM, &count); break;
+        case MASK_BOUNDARY:
+            status = deldrift_mask_boundary(s->t, mask, n_cells, ids_out, more_out, bytes_out, ROOM / 3, &count);
+            break;
+        case HULL_FACETS: status = deldrift_hull_facets(s->t, ids_out, more_out, bytes_out, ROOM / 3, &count); break;
+        case EDGES: status = deldrift_edges(s->t, ids_out, ROOM / 2, &count); break;
+        case VERTEX_NEIGHBOURS:
+            status = deldrift_vertex_neighbours(s->t, more_out, id_count + 1, ids_out, ROOM, &count);
+            break;
+        case VERTEX_CELLS: status = deldrift_vertex_cells(s->t, more_out, id_count + 1, ids_out, ROOM, &count); break;
+        case MIRROR_INDICES: status = deldrift_mirror_indices(s->t, bytes_out, ROOM / 4, &count); break;
+        case MIRROR_INDEX: status = deldrift_mirror_index(s->t, 11, 1, &out); break;
+        case ORDERED_STAR: status = deldrift_ordered_star(s->t, 12, ids_out, ROOM, &count); break;
         case N_KINDS: break;
     }
     stop_counting();
@@ -261,7 +291,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     *given = status;
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
-        if (!untouched || numbers_out[0] != 77 || count != 0) *wrong = "an output is written";
+        if (!untouched || bytes_out[0] != 77 || numbers_out[0] != 77 || count != 0) *wrong = "an output is written";
         return status;
     }
     switch (s->call.kind) {
@@ -290,11 +320,29 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             if (count > 0 && memcmp(more_out, view.neighbours, bytes) != 0) *wrong = "not a copy";
             break;
         }
+        case ORDERED_STAR:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
+        case CIRCUMCENTRES:
+        case VOLUMES:
         case ANNULUS_WIDTHS:
+            if (s->call.kind == CIRCUMCENTRES) count *= d;
             for (size_t i = 0; i < count; i++) *given += digest_of(&numbers_out[i], sizeof *numbers_out);
             break;
+        case MASK_BY_CIRCUMRADIUS:
+            for (size_t i = 0; i < count; i++) *given += bytes_out[i];
+            break;
+        case MIRROR_INDICES:
+            for (size_t i = 0; i < count * (d + 1); i++) *given += bytes_out[i] == UINT8_MAX;
+            break;
+        case MASK_BOUNDARY:
+        case HULL_FACETS:
+            for (size_t i = 0; i < count; i++) *given += digest_of_row(ids_out + i * d, d);
+            break;
+        case EDGES: *given = digest_of(ids_out, 2 * count * sizeof *ids_out); break;
+        case VERTEX_NEIGHBOURS: *given = digest_of(ids_out, count * sizeof *ids_out) + more_out[id_count]; break;
+        case VERTEX_CELLS: *given = digest_of_cells(s->t, ids_out, count) + more_out[id_count]; break;
+        case MIRROR_INDEX: *given = 0; break;
         case TOLERANCE: *given = digest_of(&tolerance, sizeof tolerance); break;
         case LOCATE:
         case LOCATE_POINTS: {

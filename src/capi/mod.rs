@@ -37,6 +37,9 @@
 
 mod changes;
 mod fence;
+mod geometry;
+mod incidence;
+mod interpolation;
 mod motion;
 mod options;
 mod pointers;
@@ -44,11 +47,16 @@ mod query;
 mod state;
 mod status;
 mod triangulation;
+mod voronoi;
 
 pub use changes::*;
+pub use geometry::*;
+pub use incidence::*;
+pub use interpolation::*;
 pub use motion::*;
 pub use options::*;
 pub use query::*;
 pub use state::*;
 pub use status::*;
 pub use triangulation::*;
+pub use voronoi::*;

@@ -55,6 +55,16 @@ pub(super) unsafe fn buffer<'a, T>(
     Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), count) })
 }
 
+/// As [`buffer`], but no entries if the pointer is NULL.
+pub(super) unsafe fn buffer_if_any<'a, T>(
+    argument: &'static str,
+    pointer: *mut T,
+    count: usize,
+) -> Result<&'a mut [MaybeUninit<T>], Failure> {
+    // SAFETY: the caller's promise.
+    unsafe { buffer(argument, pointer, if pointer.is_null() { 0 } else { count }) }
+}
+
 /// Writes `values` to a buffer that has room for them.
 pub(super) unsafe fn fill<T: Copy>(
     argument: &'static str,
@@ -62,8 +72,19 @@ pub(super) unsafe fn fill<T: Copy>(
     values: &[T],
 ) -> Result<(), Failure> {
     // SAFETY: the caller vouches for the room.
+    unsafe { fill_from(argument, pointer, values.iter().copied()) }
+}
+
+/// As [`fill`], of values that are made one by one.
+#[inline(always)]
+pub(super) unsafe fn fill_from<T>(
+    argument: &'static str,
+    pointer: *mut T,
+    values: impl ExactSizeIterator<Item = T>,
+) -> Result<(), Failure> {
+    // SAFETY: the caller vouches for the room.
     let places = unsafe { buffer(argument, pointer, values.len()) }?;
-    for (place, &value) in places.iter_mut().zip(values) {
+    for (place, value) in places.iter_mut().zip(values) {
         place.write(value);
     }
     Ok(())

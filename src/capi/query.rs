@@ -82,7 +82,20 @@ impl From<Location> for deldrift_location {
 
 const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
 
-/// A location that a program gives to begin a search at, if its kind has a meaning.
+/// The location that a program gives to begin a search at, if it gives one that has a meaning.
+///
+/// # Safety
+/// As for [`pointers::reference`], but NULL is none.
+pub(super) unsafe fn hint_at(near: *const deldrift_location) -> Result<Option<Location>, Failure> {
+    if near.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the caller's promise. Its kind may be any number.
+    let &[kind, index] = unsafe { pointers::reference("near", near.cast::<[u32; 2]>()) }?;
+    Ok(hint(kind, index))
+}
+
+/// A location, if its kind has a meaning.
 fn hint(kind: u32, index: u32) -> Option<Location> {
     use deldrift_location_kind::*;
     let (vertex, cell) = (VertexId::new(index), CellId::new(index));
@@ -322,10 +335,7 @@ pub unsafe extern "C" fn deldrift_locate_points(
                     return Ok(());
                 }
                 let positions = points_for(t, "positions", positions, count)?;
-                // Its kind may be any number.
-                let near = near.cast::<[u32; 2]>();
-                let near = (!near.is_null()).then(|| pointers::reference("near", near)).transpose()?;
-                let near = near.and_then(|&[kind, index]| hint(kind, index));
+                let near = hint_at(near)?;
                 let mut locations = pointers::buffer("locations", locations, count)?.iter_mut();
                 t.locate_points(positions, near, |location| {
                     locations.next().expect("as many as positions").write(location.into());

@@ -22,7 +22,7 @@ pub enum deldrift_status {
     DELDRIFT_MISALIGNED_ARGUMENT = 2,
     /// An array with the given count would not fit in the address space.
     DELDRIFT_SIZE_OVERFLOW = 3,
-    /// The dimension is neither 2 nor 3.
+    /// The dimension is neither 2 nor 3, or not one for which there is the function.
     DELDRIFT_INVALID_DIMENSION = 4,
     /// An option has a value that this version does not know; the message names the field.
     DELDRIFT_INVALID_OPTIONS = 5,
@@ -67,6 +67,8 @@ pub enum deldrift_status {
     DELDRIFT_NO_SUCH_FACET = 24,
     /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
     DELDRIFT_NO_DELIMITER = 25,
+    /// A number has no meaning for its argument, as a negative squared radius.
+    DELDRIFT_INVALID_VALUE = 26,
 }
 
 use deldrift_status::*;
@@ -76,7 +78,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 26] = [
+    const ALL: [deldrift_status; 27] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -103,6 +105,7 @@ impl deldrift_status {
         DELDRIFT_INTERNAL_ERROR,
         DELDRIFT_NO_SUCH_FACET,
         DELDRIFT_NO_DELIMITER,
+        DELDRIFT_INVALID_VALUE,
     ];
 
     fn text(self) -> &'static CStr {
@@ -111,7 +114,7 @@ impl deldrift_status {
             DELDRIFT_NULL_ARGUMENT => c"a pointer is NULL",
             DELDRIFT_MISALIGNED_ARGUMENT => c"a pointer is misaligned",
             DELDRIFT_SIZE_OVERFLOW => c"a count is too large for the address space",
-            DELDRIFT_INVALID_DIMENSION => c"the dimension is neither 2 nor 3",
+            DELDRIFT_INVALID_DIMENSION => c"the dimension is neither 2 nor 3, or not one for this function",
             DELDRIFT_INVALID_OPTIONS => c"an option is invalid",
             DELDRIFT_INVALID_LEVEL => c"the level of validation is not 1, 2 or 3",
             DELDRIFT_BUFFER_TOO_SMALL => c"a buffer is too small",
@@ -133,6 +136,7 @@ impl deldrift_status {
             DELDRIFT_INTERNAL_ERROR => c"internal error",
             DELDRIFT_NO_SUCH_FACET => c"no cell has this facet",
             DELDRIFT_NO_DELIMITER => c"a facet of the hull has no delimiter",
+            DELDRIFT_INVALID_VALUE => c"a number has no meaning for its argument",
         }
     }
 }
@@ -144,6 +148,7 @@ pub(super) enum Failure {
     Misaligned { argument: &'static str, address: usize, alignment: usize },
     SizeOverflow { argument: &'static str, count: usize, size: usize },
     Dimension { given: u32 },
+    NotOfThePlane,
     Option { field: &'static str, value: u64, wanted: &'static str },
     Share { field: &'static str, value: f64 },
     Level { given: u32 },
@@ -168,7 +173,7 @@ impl Failure {
             Failure::Null { .. } => DELDRIFT_NULL_ARGUMENT,
             Failure::Misaligned { .. } => DELDRIFT_MISALIGNED_ARGUMENT,
             Failure::SizeOverflow { .. } => DELDRIFT_SIZE_OVERFLOW,
-            Failure::Dimension { .. } => DELDRIFT_INVALID_DIMENSION,
+            Failure::Dimension { .. } | Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
             Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
             Failure::BufferTooSmall { .. } => DELDRIFT_BUFFER_TOO_SMALL,
@@ -184,6 +189,7 @@ impl Failure {
                 Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
+                Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,
                 Error::Coincident { .. } => DELDRIFT_COINCIDENT,
                 Error::TooManyVertices { .. } => DELDRIFT_TOO_MANY_VERTICES,
                 Error::TooManyCells { .. } => DELDRIFT_TOO_MANY_CELLS,
@@ -206,6 +212,7 @@ impl fmt::Display for Failure {
                 write!(f, "{argument} cannot have {count} entries of {size} bytes each")
             }
             Failure::Dimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
+            Failure::NotOfThePlane => write!(f, "the dimension of t is 3, but must be 2"),
             Failure::Option { field, value, wanted } => write!(f, "{field} is {value}, but must be {wanted}"),
             Failure::Share { field, value } => {
                 write!(f, "{field} is {value:?}, but must be 0, or above 0 and at most 1")

@@ -201,6 +201,12 @@ impl<G: Dimension> Delaunay<G> {
         self.view().point(s)
     }
 
+    /// The places of the corners of a finite cell; in the plane the last one is there twice.
+    #[inline(always)]
+    pub(crate) fn places(&self, cell: Slot) -> [&G::Point; 4] {
+        self.view().points(&self.complex.cell(cell).corners)
+    }
+
     /// The site of an index.
     #[inline(always)]
     pub fn site(&self, s: SiteId) -> &Site<G> {
@@ -353,7 +359,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
     #[inline(always)]
-    fn is_in_conflict(&self, cell: Slot, q: &G::Point, id: VertexId) -> bool {
+    pub(crate) fn is_in_conflict(&self, cell: Slot, q: &G::Point, id: VertexId) -> bool {
         let c = self.complex.cell(cell);
         if c.is_ghost() {
             return self.is_in_conflict_with_ghost(cell, q, id);

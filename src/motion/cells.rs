@@ -29,6 +29,9 @@ use crate::machine::memory;
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: CellId = CellId::NONE;
 
+/// Mirror index of a facet of the convex hull.
+pub const NO_CORNER: u8 = u8::MAX;
+
 /// Whether `n_changed` changed slots are too many of `n_slots` to be compared one by one.
 pub(super) fn are_most(n_changed: usize, n_slots: usize) -> bool {
     n_changed as f64 > reading().max_share_listed * n_slots as f64
@@ -159,6 +162,28 @@ impl<G: Dimension> Cells<G> {
     /// The slot of the cell of an index, if there is such a cell.
     pub(super) fn slot(&self, index: CellId) -> Option<Slot> {
         self.slots.get(index.index()).copied()
+    }
+
+    /// The slot of each cell.
+    #[inline(always)]
+    pub(super) fn slots(&self) -> &[Slot] {
+        &self.slots
+    }
+
+    /// For each corner of a cell the place, in the row of the neighbour opposite it, of the corner that is opposite the
+    /// same facet; [`NO_CORNER`] on the hull, and after the last corner.
+    #[inline(always)]
+    pub(super) fn mirrors(&self, kernel: &Delaunay<G>, index: CellId) -> [u8; 4] {
+        let cell = kernel.complex().cell(self.slots[index]);
+        let mut mirrors = [NO_CORNER; 4];
+        for i in 0..G::Corners::N {
+            let place = self.orderings[index].place(i);
+            let across = self.neighbours[index][place];
+            if across != NO_CELL {
+                mirrors[place] = self.orderings[across].place(cell.neighbour(i).index()) as u8;
+            }
+        }
+        mirrors
     }
 
     /// Tracks what changes from now on, which is when a commit begins.

@@ -19,7 +19,7 @@
 //! Each of `tolerance`, `safe_region`, `watching` and `slack` has a store and a commit; `regions` keeps one of the
 //! stores, and lets it follow changes. `immediate` relocates, inserts and removes one vertex at a time; `moving` has
 //! the loops that move all vertices; `transaction` what undoes a change; `cells` and `changes` what callers read of
-//! it; `compaction` forgets removed vertices.
+//! it; `geometry` what they compute from that; `compaction` forgets removed vertices.
 //!
 //! Invariants between calls:
 //! - the cells are those of a fresh build of (positions, ids), whatever happened before;
@@ -42,6 +42,7 @@ mod compaction;
 pub(crate) mod constants;
 mod editing;
 mod edits;
+mod geometry;
 mod hidden;
 mod immediate;
 mod marks;
@@ -71,8 +72,9 @@ mod watching;
 
 pub use crate::delaunay::{Level, Violation};
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
-pub use cells::NO_CELL;
+pub use cells::{NO_CELL, NO_CORNER};
 pub use changes::{Changes, NO_VERTEX};
+pub use geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues};
 pub use options::{CoincidencePolicy, Monitor, Options, SwitchingRule};
 pub use query::Location;
 pub(crate) use query::cells_at;

@@ -130,17 +130,28 @@ impl<G: Dimension> MovingTriangulation<G> {
             check_position::<G>("positions", index, position)?;
         }
         let cells = self.cell_arrays()?;
-        let mut near = near.map_or(Slot::NONE, |near| self.slot_of(cells, near));
+        let mut near = self.start_near(near)?;
         for position in positions {
             let place = self.kernel.locate(position, near);
-            near = match place {
-                Place::Site(s) => self.kernel.site(s).cell,
-                Place::Cell(c) | Place::Outside(c) => c,
-                Place::NoCells => Slot::NONE,
-            };
+            near = self.slot_at(place);
             found(self.location(cells, place));
         }
         Ok(())
+    }
+
+    /// The slot of a cell near a location, [`Slot::NONE`] if none is known.
+    pub(super) fn start_near(&self, near: Option<Location>) -> Result<Slot> {
+        let cells = self.cell_arrays()?;
+        Ok(near.map_or(Slot::NONE, |near| self.slot_of(cells, near)))
+    }
+
+    /// The slot of a cell at a place, to begin a search at.
+    pub(super) fn slot_at(&self, place: Place) -> Slot {
+        match place {
+            Place::Site(s) => self.kernel.site(s).cell,
+            Place::Cell(c) | Place::Outside(c) => c,
+            Place::NoCells => Slot::NONE,
+        }
     }
 
     /// The name of a place.

@@ -94,18 +94,29 @@ fn differences<'r, const D: usize, const N: usize>(
     origin: &[f64; D],
     points: [&[f64; D]; N],
 ) -> [[Integer<'r>; D]; N] {
+    differences_in_units(room, origin, points, i32::MAX).1
+}
+
+/// The same with the exponent of the unit, which is the greatest one possible that is not above `most`, unless all
+/// coordinates are zero.
+pub(super) fn differences_in_units<'r, const D: usize, const N: usize>(
+    room: &'r Room,
+    origin: &[f64; D],
+    points: [&[f64; D]; N],
+    most: i32,
+) -> (i32, [[Integer<'r>; D]; N]) {
     let coordinates = || points.into_iter().flatten().chain(origin).filter(|&&x| x != 0.0);
-    let unit = coordinates().map(|&x| decode(x).1).min().unwrap_or(0);
+    let unit = coordinates().map(|&x| decode(x).1).min().unwrap_or(0).min(most);
     let integer = |x: f64| {
         let (mantissa, exponent) = decode(x);
         Integer::shifted(room, mantissa, if mantissa == 0 { 0 } else { (exponent - unit) as u32 })
     };
     let origin: [Integer; D] = std::array::from_fn(|axis| integer(origin[axis]));
-    points.map(|p| std::array::from_fn(|axis| integer(p[axis]) - origin[axis]))
+    (unit, points.map(|p| std::array::from_fn(|axis| integer(p[axis]) - origin[axis])))
 }
 
 /// `x` as mantissa · 2^exponent.
-fn decode(x: f64) -> (i64, i32) {
+pub(super) fn decode(x: f64) -> (i64, i32) {
     const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
     let magnitude = x.abs().to_bits();
     let fraction = (magnitude & ((1 << MANTISSA_BITS) - 1)) as i64;
@@ -119,30 +130,34 @@ fn decode(x: f64) -> (i64, i32) {
     (if x < 0.0 { -mantissa } else { mantissa }, exponent)
 }
 
-fn square<'r, const D: usize>(p: &[Integer<'r>; D]) -> Integer<'r> {
+pub(super) fn square<'r, const D: usize>(p: &[Integer<'r>; D]) -> Integer<'r> {
     p[1..].iter().fold(p[0] * p[0], |sum, &x| sum + x * x)
 }
 
 /// Minor of the first two columns.
-fn minor<'r, const D: usize>(p: &[Integer<'r>; D], q: &[Integer<'r>; D]) -> Integer<'r> {
+pub(super) fn minor<'r, const D: usize>(p: &[Integer<'r>; D], q: &[Integer<'r>; D]) -> Integer<'r> {
     p[0] * q[1] - p[1] * q[0]
 }
 
 /// Determinant of three differences.
-fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Integer<'r>; 3]) -> Integer<'r> {
+pub(super) fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Integer<'r>; 3]) -> Integer<'r> {
     minor(v, w) * u[2] - minor(u, w) * v[2] + minor(u, v) * w[2]
 }
 
 /// Limbs of all integers that a determinant takes.
 ///
-/// Those of `insphere` are the most. A difference has 20 limbs, and a product as many as both factors; a sum takes one
-/// more than the longer term, which stays zero (see the module's documentation), and so do numbers to be shifted. 15
-/// coordinates and 12 differences are 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of
-/// these and 3 · 60 + 2 · 61. Four squares, four volumes, four products of 100 and three sums of 101 make 4,738 in all.
-const LIMBS: usize = 4738;
+/// A difference has 20 limbs, and a product as many as both factors; a sum takes one more than the longer term, which
+/// stays zero (see the module's documentation), and so do numbers to be shifted. 15 coordinates and 12 differences are
+/// 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of these and 3 · 60 + 2 · 61. `insphere`
+/// has four squares, four volumes, four products of 100 and three sums of 101: 4,738 in all.
+///
+/// The most are those of comparing the radius of a sphere (`measures.rs`). 12 coordinates and 9 differences are 21 · 21;
+/// three squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its square,
+/// 3 · 160 + 2 · 161; that of the volume, 120; the given radius and its product with that, 53 + 173. These are 4,792.
+const LIMBS: usize = 4800;
 
 /// Room for integers, which are given up together.
-struct Room {
+pub(super) struct Room {
     limbs: UnsafeCell<[MaybeUninit<u64>; LIMBS]>,
     /// How many are in use: the first ones.
     n: Cell<usize>,
@@ -150,7 +165,7 @@ struct Room {
 
 impl Room {
     #[inline(always)]
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Room { limbs: UnsafeCell::new([MaybeUninit::uninit(); LIMBS]), n: Cell::new(0) }
     }
 
@@ -172,7 +187,7 @@ impl Room {
 
 /// An integer: sign and magnitude.
 #[derive(Clone, Copy)]
-struct Integer<'r> {
+pub(super) struct Integer<'r> {
     room: &'r Room,
     /// False for zero.
     is_negative: bool,
@@ -187,7 +202,7 @@ impl<'r> Integer<'r> {
     }
 
     /// `x` · 2^`shift`.
-    fn shifted(room: &'r Room, x: i64, shift: u32) -> Self {
+    pub(super) fn shifted(room: &'r Room, x: i64, shift: u32) -> Self {
         let at = (shift / 64) as usize;
         let limbs = room.zeros(at + 2);
         let magnitude = u128::from(x.unsigned_abs()) << (shift % 64);
@@ -200,9 +215,19 @@ impl<'r> Integer<'r> {
         if self.is_negative { Ordering::Less } else { self.magnitude.len().cmp(&0) }
     }
 
-    fn compare_magnitude(&self, other: &Self) -> Ordering {
+    pub(super) fn compare_magnitude(&self, other: &Self) -> Ordering {
         let lengths = self.magnitude.len().cmp(&other.magnitude.len());
         lengths.then_with(|| self.magnitude.iter().rev().cmp(other.magnitude.iter().rev()))
+    }
+
+    /// A number m of 64 bits, rounded, and an exponent e: m 2ᵉ is within 2⁻⁵² of it, relatively.
+    pub(super) fn rounded(&self) -> (f64, i32) {
+        let Some((&high, lower)) = self.magnitude.split_last() else { return (0.0, 0) };
+        let next = lower.last().copied().unwrap_or(0);
+        let shift = high.leading_zeros();
+        let leading = (u128::from(high) << 64 | u128::from(next)) << shift >> 64;
+        let m = leading as u64 as f64;
+        (if self.is_negative { -m } else { m }, 64 * lower.len() as i32 - shift as i32)
     }
 
     /// Sum of magnitudes, the other one not longer, with the sign of this one.

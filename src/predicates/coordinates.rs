@@ -4,6 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
 use super::bicells::Tolerances;
+use super::measures::Measures;
 use crate::simd::{Avx2, LANES, Lanes};
 
 /// Coordinates of one point: `[f64; D]`.
@@ -17,6 +18,7 @@ pub trait Coordinates:
     + AsRef<[f64]>
     + Array
     + Tolerances
+    + Measures
     + Send
     + Sync
 {

@@ -139,6 +139,18 @@ const PREPARED_3D: f64 = {
     term.plus(term).plus(term).last_plus(lift.times(volume))
 };
 
+/// Error of the vector of a circle / largest extent³, see `sphere.rs`.
+pub(super) const CIRCLE_VECTOR: f64 = {
+    let part = SQUARE.plus(SQUARE).times(DIFFERENCE);
+    part.plus(part).error * ROUND_UP
+};
+
+/// Error of the vector of a sphere / (largest extent³ · second largest extent), see `sphere.rs`.
+pub(super) const SPHERE_VECTOR: f64 = {
+    let part = SQUARE.plus(SQUARE).plus(SQUARE).times(MINOR);
+    part.plus(part).plus(part).error * ROUND_UP
+};
+
 /// Planes in place of spheres keep the bound of those, see `sphere.rs`. The rounded square of the largest
 /// extent is their exact scale: [`SQUARE`] grants it an error that it has not.
 const _: () = {

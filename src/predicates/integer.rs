@@ -33,7 +33,8 @@ const N_LONG_BITS: i32 = 110;
 const MIN_EXTENT: f64 = power_of_two(-190);
 const _: () = assert!(UNDERFLOW <= power_of_two(-1022), "twice of it is 2⁻¹⁰²¹");
 
-const fn power_of_two(exponent: i32) -> f64 {
+/// Of an exponent that a normal number can have.
+pub(super) const fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((f64::MAX_EXP - 1 + exponent) as u64) << (f64::MANTISSA_DIGITS - 1))
 }
 

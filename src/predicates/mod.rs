@@ -84,6 +84,7 @@ mod integer;
 mod lanes;
 mod lattice;
 mod lifted;
+mod measures;
 #[cfg(test)]
 mod near_ties;
 mod path;
@@ -108,6 +109,7 @@ pub use filter::StaticFilter;
 pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, side_of_seen_circle};
+pub use measures::Measures;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical};
 pub use plane::{incircle, orient2d};

@@ -1,0 +1,230 @@
+// Geometry of the cells: values, masks, facets and lists by vertex, and every buffer that is too small or wrong.
+#include "check.h"
+
+// A row of numbers in each of which a call must not write when it fails.
+static bool is_untouched(const void *buffer, size_t bytes) {
+    const unsigned char *from = buffer;
+    for (size_t i = 0; i < bytes; i++) {
+        if (from[i] != 0x77) return false;
+    }
+    return true;
+}
+
+// Counts alone, a buffer that is one short, and one that is long enough; `CALL` uses `buffer`, `capacity` and `count`.
+#define CHECK_BUFFER(type, wanted, per_entry, CALL)                                  \
+    do {                                                                             \
+        type room[256], *buffer = NULL;                                              \
+        size_t capacity = 0, count = 777;                                            \
+        OK(CALL);                                                                    \
+        CHECK(count == (wanted));                                                    \
+        capacity = 1;                                                                \
+        CHECK_STATUS(CALL, DELDRIFT_NULL_ARGUMENT);                                  \
+        buffer = (type *)memset(room, 0x77, sizeof room);                            \
+        capacity = (wanted) - 1;                                                     \
+        count = 777;                                                                 \
+        CHECK_STATUS(CALL, DELDRIFT_BUFFER_TOO_SMALL);                               \
+        CHECK(count == (wanted) && is_untouched(room, sizeof room));                 \
+        capacity = (wanted);                                                         \
+        OK(CALL);                                                                    \
+        size_t n_written = (wanted) * (per_entry);                                   \
+        CHECK(is_untouched(room + n_written, sizeof room - n_written * sizeof *room)); \
+        CHECK(!is_untouched(room, sizeof *room));                                    \
+    } while (0)
+
+static void buffers_are_as_large_as_they_say(uint32_t d) {
+    deldrift_triangulation *t = d == 2 ? create(2, SQUARE, SQUARE_COUNT, NULL)
+                                       : create(3, TETRAHEDRON, TETRAHEDRON_COUNT, NULL);
+    const size_t n = cell_count(t), hull = 4, n_edges = d == 2 ? 8 : 10;
+    const uint8_t mask[4] = {1, 255, 2, 1};
+    uint32_t offsets[6];
+    CHECK_BUFFER(double, n, d, deldrift_circumcentres(t, buffer, NULL, capacity, &count));
+    CHECK_BUFFER(double, n, 1, deldrift_circumcentres(t, NULL, buffer, capacity, &count));
+    CHECK_BUFFER(double, n, 1, deldrift_volumes(t, buffer, capacity, &count));
+    CHECK_BUFFER(uint8_t, n, 1, deldrift_mask_by_circumradius(t, 4, buffer, capacity, &count));
+    CHECK_BUFFER(uint32_t, hull, d, deldrift_mask_boundary(t, mask, n, buffer, NULL, NULL, capacity, &count));
+    CHECK_BUFFER(uint32_t, hull, 1, deldrift_mask_boundary(t, mask, n, NULL, buffer, NULL, capacity, &count));
+    CHECK_BUFFER(uint8_t, hull, 1, deldrift_mask_boundary(t, mask, n, NULL, NULL, buffer, capacity, &count));
+    CHECK_BUFFER(uint32_t, hull, d, deldrift_hull_facets(t, buffer, NULL, NULL, capacity, &count));
+    CHECK_BUFFER(uint32_t, hull, 1, deldrift_hull_facets(t, NULL, buffer, NULL, capacity, &count));
+    CHECK_BUFFER(uint8_t, hull, 1, deldrift_hull_facets(t, NULL, NULL, buffer, capacity, &count));
+    CHECK_BUFFER(uint32_t, n_edges, 2, deldrift_edges(t, buffer, capacity, &count));
+    CHECK_BUFFER(uint32_t, 2 * n_edges, 1, deldrift_vertex_neighbours(t, NULL, 0, buffer, capacity, &count));
+    CHECK_BUFFER(uint32_t, n * (d + 1), 1, deldrift_vertex_cells(t, offsets, 6, buffer, capacity, &count));
+    CHECK_BUFFER(uint8_t, n, d + 1, deldrift_mirror_indices(t, buffer, capacity, &count));
+    if (d == 2) CHECK_BUFFER(uint32_t, 4u, 1, deldrift_ordered_star(t, 4, buffer, capacity, &count));
+    deldrift_destroy(t);
+}
+
+static void values_are_those_of_the_cells(void) {
+    static const double right[] = {0, 0, 4, 0, 0, 2};
+    deldrift_triangulation *t = create(2, right, 3, NULL);
+    double centre[2], squared, volume;
+    uint8_t mask = 77;
+    size_t count;
+    OK(deldrift_circumcentres(t, centre, &squared, 1, &count));
+    OK(deldrift_volumes(t, &volume, 1, &count));
+    CHECK(centre[0] == 2 && centre[1] == 1 && squared == 5 && volume == 4);
+    OK(deldrift_mask_by_circumradius(t, 5, &mask, 1, &count));
+    CHECK(mask == 1);
+    OK(deldrift_mask_by_circumradius(t, nextafter(5, 0), &mask, 1, &count));
+    CHECK(mask == 0);
+    OK(deldrift_mask_by_circumradius(t, INFINITY, &mask, 1, &count));
+    CHECK(mask == 1);
+    const double without_meaning[] = {-1, NAN, -INFINITY};
+    for (int k = 0; k < 3; k++) {
+        CHECK_STATUS(deldrift_mask_by_circumradius(t, without_meaning[k], &mask, 1, &count), DELDRIFT_INVALID_VALUE);
+        CHECK_MESSAGE("squared_radius[0] is");
+        CHECK(mask == 1);
+    }
+    deldrift_destroy(t);
+
+    t = create(3, TETRAHEDRON, 4, NULL);
+    double centre3[3];
+    OK(deldrift_circumcentres(t, centre3, &squared, 1, &count));
+    OK(deldrift_volumes(t, &volume, 1, &count));
+    CHECK(fabs(volume - 64.0 / 6) < 1e-14 && squared == 12 && centre3[0] == 2 && centre3[1] == 2 && centre3[2] == 2);
+    deldrift_destroy(t);
+}
+
+static void boundaries_go_around(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    const deldrift_cells_view view = cells_of(t);
+    // One cell alone: its own edges, each with the cell on its left.
+    for (uint32_t alone = 0; alone < view.count; alone++) {
+        uint8_t mask[4] = {0}, corners[3];
+        uint32_t facets[6], cells[3];
+        size_t count;
+        mask[alone] = 3;
+        OK(deldrift_mask_boundary(t, mask, 4, facets, cells, corners, 3, &count));
+        CHECK(count == 3);
+        const uint32_t *row = view.vertices + 3 * alone;
+        for (uint32_t i = 0; i < 3; i++) {
+            CHECK(cells[i] == alone && corners[i] == i);
+            CHECK(facets[2 * i] == row[(i + 1) % 3] && facets[2 * i + 1] == row[(i + 2) % 3]);
+        }
+    }
+    const uint8_t none[5] = {0};
+    size_t count = 777;
+    OK(deldrift_mask_boundary(t, none, 4, NULL, NULL, NULL, 0, &count));
+    CHECK(count == 0);
+    CHECK_STATUS(deldrift_mask_boundary(t, none, 3, NULL, NULL, NULL, 0, &count), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("mask_count is 3, but must be 4");
+    CHECK_STATUS(deldrift_mask_boundary(t, none, SIZE_MAX, NULL, NULL, NULL, 0, &count), DELDRIFT_WRONG_COUNT);
+    CHECK_STATUS(deldrift_mask_boundary(t, NULL, 4, NULL, NULL, NULL, 0, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("mask is NULL");
+    deldrift_destroy(t);
+
+    // In 3D, all facets of the hull see the origin behind them.
+    static const double octahedron[] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+    t = create(3, octahedron, 6, NULL);
+    uint32_t facets[24];
+    OK(deldrift_hull_facets(t, facets, NULL, NULL, 8, &count));
+    CHECK(count == 8);
+    for (int k = 0; k < 8; k++) {
+        const double *a = octahedron + 3 * facets[3 * k], *b = octahedron + 3 * facets[3 * k + 1];
+        const double *c = octahedron + 3 * facets[3 * k + 2];
+        double det = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+                     a[2] * (b[0] * c[1] - b[1] * c[0]);
+        CHECK(det == 1);
+    }
+    deldrift_destroy(t);
+}
+
+static void lists_are_by_vertex(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    uint32_t edges[16], offsets[6], neighbours[16], cells[12];
+    size_t count;
+    OK(deldrift_edges(t, edges, 8, &count));
+    static const uint32_t wanted[16] = {0, 1, 0, 3, 0, 4, 1, 2, 1, 4, 2, 3, 2, 4, 3, 4};
+    CHECK(memcmp(edges, wanted, sizeof edges) == 0);
+    OK(deldrift_vertex_neighbours(t, offsets, 6, neighbours, 16, &count));
+    static const uint32_t starts[6] = {0, 3, 6, 9, 12, 16};
+    static const uint32_t others[16] = {1, 3, 4, 0, 2, 4, 1, 3, 4, 0, 2, 4, 0, 1, 2, 3};
+    CHECK(memcmp(offsets, starts, sizeof offsets) == 0 && memcmp(neighbours, others, sizeof neighbours) == 0);
+    memset(offsets, 0x77, sizeof offsets);
+    OK(deldrift_vertex_neighbours(t, offsets, 6, NULL, 0, &count));
+    CHECK(memcmp(offsets, starts, sizeof offsets) == 0 && count == 16);
+    OK(deldrift_vertex_cells(t, offsets, 6, cells, 12, &count));
+    const deldrift_cells_view view = cells_of(t);
+    for (uint32_t v = 0; v < 5; v++) {
+        CHECK(offsets[v + 1] - offsets[v] == (v == 4 ? 4 : 2));
+        for (uint32_t k = offsets[v]; k < offsets[v + 1]; k++) CHECK(has_corner(view.vertices + 3 * cells[k], 3, v));
+    }
+    CHECK_STATUS(deldrift_vertex_neighbours(t, offsets, 5, neighbours, 16, &count), DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("offset_count is 5, but must be 6");
+    CHECK_STATUS(deldrift_vertex_cells(t, offsets, 7, NULL, 0, &count), DELDRIFT_WRONG_COUNT);
+
+    uint8_t mirrors[12];
+    uint32_t mirror = 77;
+    OK(deldrift_mirror_indices(t, mirrors, 4, &count));
+    for (uint32_t cell = 0; cell < 4; cell++) {
+        for (uint32_t i = 0; i < 3; i++) {
+            const uint32_t across = view.neighbours[3 * cell + i];
+            OK(deldrift_mirror_index(t, cell, i, &mirror));
+            if (across == DELDRIFT_NONE) {
+                CHECK(mirror == DELDRIFT_NONE && mirrors[3 * cell + i] == 255);
+            } else {
+                CHECK(mirror == mirrors[3 * cell + i] && view.neighbours[3 * across + mirror] == cell);
+            }
+        }
+    }
+    CHECK_STATUS(deldrift_mirror_index(t, 4, 0, &mirror), DELDRIFT_NO_SUCH_FACET);
+    CHECK_STATUS(deldrift_mirror_index(t, 0, 3, &mirror), DELDRIFT_NO_SUCH_FACET);
+    deldrift_destroy(t);
+}
+
+static void stars_go_around(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    const deldrift_cells_view view = cells_of(t);
+    uint32_t star[4];
+    size_t count;
+    OK(deldrift_ordered_star(t, 4, star, 4, &count));
+    CHECK(count == 4 && star[0] == 0);
+    OK(deldrift_ordered_star(t, 0, star, 4, &count));
+    // From the edge 0 1 to the edge 3 0.
+    CHECK(count == 2 && has_corner(view.vertices + 3 * star[0], 3, 1) && has_corner(view.vertices + 3 * star[1], 3, 3));
+    CHECK_STATUS(deldrift_ordered_star(t, 5, star, 4, &count), DELDRIFT_NO_SUCH_VERTEX);
+    OK(deldrift_remove_vertex(t, 4));
+    CHECK_STATUS(deldrift_ordered_star(t, 4, star, 4, &count), DELDRIFT_REMOVED_VERTEX);
+    deldrift_destroy(t);
+    t = create(3, TETRAHEDRON, TETRAHEDRON_COUNT, NULL);
+    CHECK_STATUS(deldrift_ordered_star(t, 4, star, 4, &count), DELDRIFT_INVALID_DIMENSION);
+    CHECK_MESSAGE("dimension of t is 3");
+    deldrift_destroy(t);
+}
+
+// Nothing is an answer, too.
+static void without_cells_all_is_empty(void) {
+    static const double line[] = {0, 0, 1, 1, 2, 2};
+    for (size_t n = 0; n <= 3; n += 3) {
+        deldrift_triangulation *t = create(2, line, n, NULL);
+        uint32_t offsets[4] = {7, 7, 7, 7}, id;
+        double number;
+        uint8_t byte;
+        size_t count = 777;
+        OK(deldrift_circumcentres(t, &number, &number, 0, &count));
+        OK(deldrift_volumes(t, &number, 0, &count));
+        OK(deldrift_mask_by_circumradius(t, 1, &byte, 0, &count));
+        OK(deldrift_mask_boundary(t, NULL, 0, &id, &id, &byte, 0, &count));
+        OK(deldrift_hull_facets(t, &id, &id, &byte, 0, &count));
+        OK(deldrift_edges(t, &id, 0, &count));
+        OK(deldrift_vertex_cells(t, offsets, n + 1, &id, 0, &count));
+        OK(deldrift_vertex_neighbours(t, offsets, n + 1, NULL, 0, &count));
+        OK(deldrift_mirror_indices(t, &byte, 0, &count));
+        CHECK(count == 0 && offsets[0] == 0 && offsets[n] == 0);
+        if (n > 0) OK(deldrift_ordered_star(t, 1, &id, 0, &count));
+        CHECK(count == 0);
+        deldrift_destroy(t);
+    }
+}
+
+int main(void) {
+    buffers_are_as_large_as_they_say(2);
+    buffers_are_as_large_as_they_say(3);
+    values_are_those_of_the_cells();
+    boundaries_go_around();
+    lists_are_by_vertex();
+    stars_go_around();
+    without_cells_all_is_empty();
+    return 0;
+}

@@ -1,0 +1,75 @@
+// Geometry in C++: the members give what the functions of deldrift.h do.
+#include <cmath>
+#include <cstdlib>
+#include <deldrift.hpp>
+#include <iostream>
+#include <numeric>
+
+#define CHECK(condition)                                                                   \
+    do {                                                                                   \
+        if (!(condition)) {                                                                \
+            std::cerr << __FILE__ << ":" << __LINE__ << ": not so: " << #condition << "\n"; \
+            std::exit(1);                                                                  \
+        }                                                                                  \
+    } while (false)
+
+using deldrift::Triangulation;
+using Ids = std::vector<std::uint32_t>;
+
+// A quadrilateral with a vertex inside.
+static const std::vector<double> square{0, 0, 4, 0, 5, 5, 0, 4, 1, 2};
+
+static void cells_have_measures() {
+    const Triangulation t(2, square);
+    const std::vector<double> volumes = t.volumes();
+    CHECK(volumes.size() == 4 && std::fabs(std::accumulate(volumes.begin(), volumes.end(), 0.0) - 20.5) < 1e-14);
+    const deldrift::Circumspheres spheres = t.circumcentres();
+    CHECK(spheres.centres.size() == 8 && spheres.squared_radii.size() == 4);
+    for (std::size_t cell = 0; cell < 4; cell++) {
+        for (std::uint32_t vertex : t.cells()[cell]) {
+            const double x = square[2 * vertex] - spheres.centres[2 * cell];
+            const double y = square[2 * vertex + 1] - spheres.centres[2 * cell + 1];
+            CHECK(std::fabs(x * x + y * y - spheres.squared_radii[cell]) < 1e-13);
+        }
+        const auto mask = t.mask_by_circumradius(spheres.squared_radii[cell] + 1e-9);
+        CHECK(mask.size() == 4 && mask[cell] == 1);
+    }
+    CHECK(t.mask_by_circumradius(0) == std::vector<std::uint8_t>(4, 0));
+    bool thrown = false;
+    try {
+        t.mask_by_circumradius(-1);
+    } catch (const deldrift::Error &error) {
+        thrown = error.status() == DELDRIFT_INVALID_VALUE;
+    }
+    CHECK(thrown);
+}
+
+static void masks_have_boundaries() {
+    const Triangulation t(2, square);
+    const deldrift::Facets hull = t.hull_facets(), all = t.mask_boundary(std::vector<std::uint8_t>(4, 1));
+    CHECK(hull.size() == 4 && hull.vertices == all.vertices && hull.cells == all.cells && hull.corners == all.corners);
+    for (std::size_t k = 0; k < hull.size(); k++) {
+        CHECK(t.cells().neighbours_of(hull.cells[k])[hull.corners[k]] == DELDRIFT_NONE);
+        CHECK(t.mirror_index(hull.cells[k], hull.corners[k]) == DELDRIFT_NONE);
+        CHECK(t.mirror_indices()[3 * hull.cells[k] + hull.corners[k]] == 255);
+        CHECK((hull.vertices[2 * k] + 1) % 4 == hull.vertices[2 * k + 1]);
+    }
+    CHECK(t.mask_boundary({1, 0, 0, 0}).size() == 3 && Triangulation(3, {}).mask_boundary({}).size() == 0);
+}
+
+static void vertices_have_lists() {
+    const Triangulation t(2, square);
+    CHECK((t.edges() == Ids{0, 1, 0, 3, 0, 4, 1, 2, 1, 4, 2, 3, 2, 4, 3, 4}));
+    const deldrift::Lists neighbours = t.vertex_neighbours(), cells = t.vertex_cells();
+    const auto middle = neighbours.of_vertex(4);
+    CHECK((Ids(middle.begin(), middle.end()) == Ids{0, 1, 2, 3}) && neighbours.offsets.size() == 6);
+    CHECK(cells.entries.size() == 12 && cells.of_vertex(4).size() == 4 && cells.of_vertex(0).size() == 2);
+    CHECK(t.ordered_star(4).size() == 4 && t.ordered_star(4)[0] == 0);
+    CHECK(Triangulation(3, {}).vertex_cells().offsets == Ids{0} && Triangulation(2, {}).edges().empty());
+}
+
+int main() {
+    cells_have_measures();
+    masks_have_boundaries();
+    vertices_have_lists();
+}

@@ -1,0 +1,260 @@
+//! What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
+
+use super::fence;
+use super::pointers::{self, Room, copy_out};
+use super::query::DELDRIFT_NONE;
+use super::status::{Failure, deldrift_status};
+use super::triangulation::{Kernel, deldrift_triangulation, dimension_of, in_its_dimension};
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::{CellId, VertexId};
+use crate::motion::{MovingTriangulation, Rows};
+
+/// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
+/// function of positions and ids alone.
+///
+/// edges: a buffer with room for capacity rows. count: receives the number of edges, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
+///
+/// Takes some passes over the cells, and memory for the cells of each vertex while it runs.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_edges(
+    t: *const deldrift_triangulation,
+    edges: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                copy_out(Room { capacity, count }, t.edge_count(), &[("edges", edges.cast())], || {
+                    let rows = t.edges()?;
+                    pointers::fill("edges", edges, VertexId::numbers_of(rows.as_flattened()))
+                })
+            })
+        })
+    }
+}
+
+/// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after
+/// the other. Removed and hidden vertices have none. They are a function of positions and ids alone.
+///
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
+/// neighbours[offsets[v]] to neighbours[offsets[v + 1] - 1]. neighbours: a buffer with room for capacity ids. One that
+/// is NULL is not filled, and its size not looked at, but capacity must be 0 then. count: receives the number of
+/// entries, twice that of the edges, which is also written when neighbours is too small. NULL for both asks for the
+/// count alone, in constant time.
+///
+/// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_vertex_neighbours(
+    t: *const deldrift_triangulation,
+    offsets: *mut u32,
+    offset_count: usize,
+    neighbours: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let lists = Lists { offsets, offset_count, argument: "neighbours", entries: neighbours };
+                let needed = 2 * t.edge_count();
+                lists.copy_out(t, Room { capacity, count }, needed, || t.vertex_neighbours(), VertexId::numbers_of)
+            })
+        })
+    }
+}
+
+/// The cells of all vertices: for each id the indices of the cells that have it as a corner, ascending, one list
+/// after the other. Removed and hidden vertices have none.
+///
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
+/// cells[offsets[v]] to cells[offsets[v + 1] - 1]. cells: a buffer with room for capacity indices. One that is NULL is
+/// not filled, and its size not looked at, but capacity must be 0 then. count: receives the number of entries, 3 (2D)
+/// or 4 (3D) times that of the cells, which is also written when cells is too small. NULL for both asks for the count
+/// alone, in constant time.
+///
+/// Takes two passes over the cells, and memory for the lists while it runs.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_vertex_cells(
+    t: *const deldrift_triangulation,
+    offsets: *mut u32,
+    offset_count: usize,
+    cells: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let lists = Lists { offsets, offset_count, argument: "cells", entries: cells };
+                let needed = t.cell_count() * (dimension_of(t) + 1);
+                lists.copy_out(t, Room { capacity, count }, needed, || t.vertex_cells(), CellId::numbers_of)
+            })
+        })
+    }
+}
+
+/// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
+/// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
+/// the hull.
+///
+/// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
+/// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does. One pass over
+/// the cells.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_mirror_indices(
+    t: *const deldrift_triangulation,
+    mirrors: *mut u8,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let (needed, n_corners) = (t.cell_count(), dimension_of(t) + 1);
+                copy_out(Room { capacity, count }, needed, &[("mirrors", mirrors)], || {
+                    let places = pointers::buffer("mirrors", mirrors, needed * n_corners)?;
+                    for (row, indices) in places.chunks_exact_mut(n_corners).zip(t.mirror_indices()?) {
+                        row.iter_mut().zip(indices).for_each(|(place, mirror)| _ = place.write(mirror));
+                    }
+                    Ok(())
+                })
+            })
+        })
+    }
+}
+
+/// The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is opposite the same facet;
+/// DELDRIFT_NONE for a facet of the hull.
+///
+/// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
+/// After a change the first call also does what the first deldrift_cells does; else constant time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_mirror_index(
+    t: *const deldrift_triangulation,
+    cell: u32,
+    corner: u32,
+    mirror: *mut u32,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::tell(t, "mirror", mirror, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let (cells, corners) = (t.cell_count(), dimension_of(t) + 1);
+                if cell as usize >= cells || corner as usize >= corners {
+                    return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
+                }
+                let index = t.mirror_index(CellId::new(cell), corner as usize)?;
+                Ok(index.map_or(DELDRIFT_NONE, |index| index as u32))
+            })
+        })
+    }
+}
+
+/// The star of a vertex of the plane in the order in which one goes around it: the indices of the cells that have it
+/// as a corner, counter-clockwise. Each shares an edge with the next one, and the last one with the first one, unless
+/// the vertex is on the convex hull. There the first cell is the one at the hull's edge that leaves the vertex when
+/// the hull is passed counter-clockwise; elsewhere it is the one of lowest index. For a hidden vertex the star of its
+/// representative.
+///
+/// cells: a buffer with room for capacity indices. count: receives their number, which is also written when the buffer
+/// is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
+/// change the first call also does what the first deldrift_cells does; else the cost is that of the star.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_ordered_star(
+    t: *const deldrift_triangulation,
+    vertex: u32,
+    cells: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            let Kernel::Plane(t) = kernel else { return Err(Failure::NotOfThePlane) };
+            let star = t.ordered_star(VertexId::new(vertex))?;
+            let needed = star.clone().count();
+            copy_out(Room { capacity, count }, needed, &[("cells", cells.cast())], || {
+                let places = pointers::buffer("cells", cells, needed)?;
+                places.iter_mut().zip(star).for_each(|(place, cell)| _ = place.write(cell.get()));
+                Ok(())
+            })
+        })
+    }
+}
+
+/// The buffers for lists by vertex.
+struct Lists {
+    offsets: *mut u32,
+    offset_count: usize,
+    argument: &'static str,
+    entries: *mut u32,
+}
+
+impl Lists {
+    /// Copies the lists of `t` with `needed` entries, if the buffers are large enough, and tells that number.
+    ///
+    /// # Safety
+    /// The header's conditions on pointers.
+    unsafe fn copy_out<G: Dimension, T>(
+        self,
+        t: &MovingTriangulation<G>,
+        room: Room,
+        needed: usize,
+        make: impl FnOnce() -> Result<Rows<T>>,
+        numbers_of: impl FnOnce(&[T]) -> &[u32],
+    ) -> Result<(), Failure> {
+        let Lists { offsets, offset_count, argument, entries } = self;
+        let wanted = t.id_count() + 1;
+        // SAFETY: the caller's promise.
+        unsafe {
+            let count = pointers::output("count", room.count)?;
+            if !offsets.is_null() && offset_count != wanted {
+                let argument = "offset_count";
+                return Err(Error::WrongCount { argument, given: offset_count, wanted }.into());
+            }
+            if entries.is_null() && room.capacity > 0 {
+                return Err(Failure::Null { argument });
+            }
+            if !entries.is_null() && room.capacity < needed {
+                count.write(needed);
+                let capacity = room.capacity;
+                return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed });
+            }
+            if !offsets.is_null() || !entries.is_null() {
+                let offsets = pointers::buffer_if_any("offsets", offsets, wanted)?;
+                let places = pointers::buffer_if_any(argument, entries, needed)?;
+                let rows = make()?;
+                offsets.iter_mut().zip(&rows.offsets).for_each(|(place, &offset)| _ = place.write(offset));
+                places.iter_mut().zip(numbers_of(&rows.entries)).for_each(|(place, &id)| _ = place.write(id));
+            }
+            count.write(needed);
+            Ok(())
+        }
+    }
+}

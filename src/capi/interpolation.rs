@@ -1,0 +1,112 @@
+//! Values between vertices.
+
+use super::fence;
+use super::motion::points_for;
+use super::pointers;
+use super::query::{deldrift_location, hint_at};
+use super::status::{Failure, deldrift_status};
+use super::triangulation::{deldrift_triangulation, in_its_dimension};
+use crate::error::Error;
+use crate::machine::memory;
+use crate::motion::{Interpolation, VertexValues};
+
+/// How values between vertices follow from those at vertices.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum deldrift_interpolation {
+    /// Linear in each cell.
+    DELDRIFT_INTERPOLATION_LINEAR = 0,
+    /// By the natural neighbours of a position, the vertices that would share an edge with it: each with the length or
+    /// area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian interpolation). Smooth
+    /// but at vertices and on the circles or spheres of cells.
+    DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR = 1,
+}
+
+/// A method as it arrives from C, where any number may be passed.
+pub type InterpolationCode = u32;
+
+/// Interpolates values of the vertices at count positions.
+///
+/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of removed
+/// and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers each. All
+/// are read during the call only. near: where to begin to look for the first position, as for deldrift_locate_points;
+/// NULL if nothing is known. It is fastest if each position is near the one before it. outside: what positions outside
+/// the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions but those of vertices
+/// are outside. results: receives count rows of n_values numbers. values may be NULL if value_count or n_values is 0,
+/// positions and results if count is 0.
+///
+/// At the place of a vertex the result is that of the vertex. Elsewhere it is rounded, and linear functions are
+/// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
+/// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
+/// method that this version does not have, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of
+/// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also does what the first
+/// deldrift_cells does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_interpolate(
+    t: *const deldrift_triangulation,
+    method: InterpolationCode,
+    values: *const f64,
+    value_count: usize,
+    n_values: usize,
+    positions: *const f64,
+    count: usize,
+    near: *const deldrift_location,
+    outside: *const f64,
+    results: *mut f64,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let method = method_of(method)?;
+                let wanted = t.id_count();
+                if value_count != wanted {
+                    let argument = "value_count";
+                    return Err(Error::WrongCount { argument, given: value_count, wanted }.into());
+                }
+                let values = pointers::array("values", values, numbers("values", value_count, n_values)?)?;
+                let positions = points_for(t, "positions", positions, count)?;
+                let n_results = numbers("results", count, n_values)?;
+                let near = hint_at(near)?;
+                let outside = match outside.is_null() {
+                    true => None,
+                    false => Some(pointers::array("outside", outside, n_values)?),
+                };
+                pointers::buffer("results", results, n_results)?;
+                let mut made = Vec::new();
+                memory::reserve_exact(&mut made, n_results)?;
+                t.interpolate(method, VertexValues { values, n_values }, positions, near, |row| {
+                    match row.or(outside) {
+                        Some(row) => made.extend_from_slice(row),
+                        None => made.extend(std::iter::repeat_n(f64::NAN, n_values)),
+                    }
+                })?;
+                pointers::fill("results", results, &made)
+            })
+        })
+    }
+}
+
+/// The method of a number.
+fn method_of(code: InterpolationCode) -> Result<Interpolation, Failure> {
+    use deldrift_interpolation::*;
+    [
+        (DELDRIFT_INTERPOLATION_LINEAR, Interpolation::Linear),
+        (DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, Interpolation::NaturalNeighbour),
+    ]
+    .into_iter()
+    .find(|&(known, _)| known as u32 == code)
+    .map(|(_, method)| method)
+    .ok_or_else(|| {
+        let (argument, wanted) = ("method", "0 or 1");
+        Error::InvalidValue { argument, index: 0, value: f64::from(code), wanted }.into()
+    })
+}
+
+/// How many numbers so many rows have.
+fn numbers(argument: &'static str, count: usize, n_values: usize) -> Result<usize, Failure> {
+    let size = n_values.saturating_mul(size_of::<f64>());
+    count.checked_mul(n_values).ok_or(Failure::SizeOverflow { argument, count, size })
+}

@@ -1,0 +1,29 @@
+//! Geometry that programs compute from the cells: read from the arrays of [`cells`](super::MovingTriangulation::cells)
+//! and the positions, without any change to the triangulation.
+//!
+//! | file | what |
+//! |---|---|
+//! | `measures` | circumspheres and volumes of cells, masks by circumradius |
+//! | `boundary` | facets around a mask of cells, the convex hull |
+//! | `incidence` | edges, neighbours and cells of vertices, mirror indices |
+//! | `star` | stars in circulation order |
+//! | `clipping` | a convex polygon or a segment in a box, cut by half-spaces |
+//! | `voronoi` | Voronoi cells and facets, clipped by a box |
+//! | `interpolation`, `natural` | values between vertices: linear, or of natural neighbours |
+//!
+//! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much. They
+//! are computed the same way on every processor.
+
+mod boundary;
+mod clipping;
+mod incidence;
+mod interpolation;
+mod measures;
+mod natural;
+mod star;
+mod voronoi;
+
+pub use boundary::BoundaryFacet;
+pub use incidence::Rows;
+pub use interpolation::{Interpolation, VertexValues};
+pub use star::OrderedStar;
