@@ -4,8 +4,6 @@
 
 #include "particle_fem.hpp"
 
-#include "../cpp-bench/particle_fem_cells.hpp"
-
 #include <deldrift.hpp>
 
 class DeldriftMesh {
@@ -50,11 +48,13 @@ public:
     }
 
     void mask(double radius, std::vector<std::uint8_t> &mask) const {
-        mask_of(t_.positions().data(), cells(), radius, mask);
+        mask = t_.mask_by_circumradius(radius * radius);
     }
 
     // Pairs of vertices.
-    void boundary(const std::vector<std::uint8_t> &mask, Ids &facets) const { boundary_of(cells(), mask, facets); }
+    void boundary(const std::vector<std::uint8_t> &mask, Ids &facets) const {
+        facets = t_.mask_boundary(mask).vertices;
+    }
 
 private:
     static deldrift_options one_thread() {
