@@ -24,7 +24,7 @@ std::vector<double> even_points(int side) {
     std::mt19937 random(1);
     for (int k = 0; k < side * side; k++) {
         for (const int field : {k % side, k / side})
-            points.push_back((field + 0.2 + 0.6 * random() / 4294967296.0) / side);
+            points.push_back((field + 0.35 + 0.3 * random() / 4294967296.0) / side);
     }
     return points;
 }
@@ -49,7 +49,7 @@ void draw(Picture &picture, const deldrift::Triangulation &t, const State &state
     for (const auto cell : t.cells()) {
         double sum = 0;
         for (const std::uint32_t v : cell) sum += std::log2(densities[v]) / 3;
-        picture.triangle((sum + 2) / 6, &state.positions[2 * cell[0]], &state.positions[2 * cell[1]],
+        picture.triangle((sum + 2) / 5, &state.positions[2 * cell[0]], &state.positions[2 * cell[1]],
                          &state.positions[2 * cell[2]]);
     }
 }
@@ -57,7 +57,7 @@ void draw(Picture &picture, const deldrift::Triangulation &t, const State &state
 }  // namespace
 
 int main(int n_arguments, char **arguments) {
-    const int side = static_cast<int>(std::sqrt(n_arguments > 1 ? std::atoi(arguments[1]) : 1600));
+    const int side = static_cast<int>(std::sqrt(n_arguments > 1 ? std::atoi(arguments[1]) : 1225));
     const std::vector<double> start = even_points(side);
     const std::size_t n = start.size() / 2;
     const double mass = 1 / static_cast<double>(n), greatest = 0.7;
@@ -84,5 +84,5 @@ int main(int n_arguments, char **arguments) {
     std::printf("%zu particles, %d steps; sum of volumes within %.1e, densities within %.1f %% on average\n",
                 n, n_steps, worst_sum, 100 * error);
     if (n_arguments > 2 && !picture.save(arguments[2])) return 1;
-    return worst_sum < 1e-12 && error < 0.2 ? 0 : 1;
+    return worst_sum < 1e-12 && error < 0.1 ? 0 : 1;
 }

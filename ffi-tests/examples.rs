@@ -43,6 +43,15 @@ fn smoothing_makes_cells_better() {
     assert!(lloyd_3d.min(odt_3d) > random_3d + 0.1, "{said}");
 }
 
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn voronoi_volumes_add_up_and_give_densities() {
+    let said = run("densities", "examples/densities.cpp", &["1225"], true);
+    let (sum, error) =
+        (number_after("sum of volumes within ", &said), number_after("densities within ", &said));
+    assert!(sum < 1e-12 && error < 10.0, "{said}");
+}
+
 /// The program of docs/FIVE_MINUTES.md, as it stands there.
 #[test]
 fn the_program_of_the_first_page_runs() {
@@ -88,7 +97,10 @@ fn is_a_picture(path: &Path) {
 /// Where Eigen's headers are, as flags that keep the compiler from warning of what is in them.
 fn eigen() -> Vec<String> {
     let folders = succeed(command("pkg-config").args(["--cflags-only-I", "eigen3"]));
-    folders.split_whitespace().flat_map(|flag| ["-isystem".into(), flag.trim_start_matches("-I").into()]).collect()
+    folders
+        .split_whitespace()
+        .flat_map(|flag| ["-isystem".into(), flag.trim_start_matches("-I").into()])
+        .collect()
 }
 
 /// The number that follows these words.

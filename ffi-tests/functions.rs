@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::coverage::{declarations, function_name};
 use crate::support::{repository, text_of};
@@ -24,7 +24,8 @@ fn table_of_functions_is_what_the_header_says() {
         fs::write(repository(TABLE), table(&functions)).expect("a file can be written");
     }
     let text = text_of(TABLE);
-    let rows: Vec<Vec<&str>> = text.lines().filter(|line| line.starts_with("| `deldrift_")).map(cells).collect();
+    let rows: Vec<Vec<&str>> =
+        text.lines().filter(|line| line.starts_with("| `deldrift_")).map(cells).collect();
     assert_eq!(rows.len(), functions.len(), "{TABLE} is stale: run make header and commit it");
     for (function, row) in functions.iter().zip(rows) {
         let [name, summary, test, example] = row[..] else { panic!("{row:?}") };
@@ -58,7 +59,7 @@ fn functions() -> Vec<Function> {
             documentation += text;
         } else if let Some(name) = declarations(line).find_map(function_name) {
             let end = documentation.find(". ").map_or(documentation.len(), |at| at + 1);
-            let summary = documentation[..end].trim().replace('|', "\\|");
+            let summary = documentation[..end].trim().replace('*', "\\*").replace('|', "\\|");
             functions.push(Function { name: name.to_string(), summary });
         }
         if line.is_empty() {
@@ -75,7 +76,8 @@ fn table(functions: &[Function]) -> String {
          compare this\ntable with the header and with the programs; `make header` writes it.\n\n\
          | function | what it does | test | example |\n|---|---|---|---|\n",
     );
-    let (tests, examples) = (paths(&["ffi-tests/c"]), paths(&["examples", "ffi-tests/consumers", "cpp-bench"]));
+    let (tests, examples) =
+        (paths(&["ffi-tests/c"]), paths(&["examples", "ffi-tests/consumers", "cpp-bench"]));
     for function in functions {
         let test = most_calls(&tests, function).map_or("-".into(), |path| link(&path));
         let example = most_calls(&examples, function).map_or("-".into(), |path| link(&path));
@@ -88,9 +90,12 @@ fn table(functions: &[Function]) -> String {
 fn paths(folders: &[&str]) -> Vec<String> {
     let programs = |folder: &&str| {
         let files = fs::read_dir(repository(folder)).expect("the folder is there");
-        let paths = files.map(|file| file.expect("a folder can be listed").path());
-        let paths = paths.filter(|path| ["c", "cpp", "hpp"].iter().any(|kind| path.extension() == Some(kind.as_ref())));
-        paths.map(|path| format!("{folder}/{}", path.file_name().expect("a name").display())).collect::<Vec<_>>()
+        let is_program =
+            |path: &PathBuf| ["c", "cpp", "hpp"].iter().any(|kind| path.extension() == Some(kind.as_ref()));
+        let paths = files.map(|file| file.expect("a folder can be listed").path()).filter(is_program);
+        paths
+            .map(|path| format!("{folder}/{}", path.file_name().expect("a name").display()))
+            .collect::<Vec<_>>()
     };
     let mut paths: Vec<String> = folders.iter().flat_map(programs).collect();
     paths.sort();
