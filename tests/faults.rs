@@ -12,7 +12,8 @@ mod common;
 use common::carried::{Carried, List};
 use common::history::Snapshot;
 use common::{Rng, ids, point, seeds, sorted, vertex};
-use deldrift::motion::{Algorithm, CommitReport, Level, Location, Monitor, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, CommitReport, Interpolation, Level, Location, Monitor};
+use deldrift::motion::{MovingTriangulation, Options, Rows, VertexValues};
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 use deldrift::{Error, Result};
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -245,6 +246,15 @@ enum Call {
     ChangedCells,
     TakeChanges,
     Tolerance,
+    Circumspheres,
+    MaskBoundary,
+    Edges,
+    VertexNeighbours,
+    VertexCells,
+    MirrorIndices,
+    VoronoiVolumes,
+    VoronoiFacets,
+    Interpolate(Interpolation),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -267,6 +277,9 @@ impl Call {
         calls.extend([Call::MoveVertices, Call::MoveAll, Call::Cells, Call::Star, Call::Locate]);
         calls.extend([Call::Nearest, Call::Validate, Call::AnnulusWidths, Call::StandardDelimiter]);
         calls.extend([Call::ChangedCells, Call::TakeChanges, Call::Tolerance]);
+        calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
+        calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
+        calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls
     }
 
@@ -308,6 +321,8 @@ enum Given {
     Report(u64, u64, u64),
     Where(Option<VertexId>),
     Numbers(Vec<u64>),
+    Pairs(Vec<[VertexId; 2]>),
+    Lists(Rows<VertexId>),
     Nearest(Option<VertexId>),
 }
 
@@ -499,6 +514,40 @@ impl<G: Dimension> Scene<G> {
                 let carried = self.carried.get_or_insert_default();
                 carried.follow(t, &list, &|| "taken".to_string());
                 Given::Nothing
+            }
+            Call::Circumspheres => {
+                let n = given(t.circumspheres().map(Iterator::count))?;
+                Given::Numbers(vec![n as u64, t.volumes()?.len() as u64])
+            }
+            Call::MaskBoundary => {
+                let mask = vec![1; t.cell_count()];
+                let mut n = 0;
+                given(t.mask_boundary(&mask, |_| n += 1))?;
+                Given::Numbers(vec![n])
+            }
+            Call::Edges => Given::Pairs(given(t.edges())?),
+            Call::VertexNeighbours => Given::Lists(given(t.vertex_neighbours())?),
+            Call::VertexCells => Given::Numbers(vec![given(t.vertex_cells())?.entries.len() as u64]),
+            Call::MirrorIndices => {
+                Given::Numbers(vec![given(t.mirror_indices().map(Iterator::count))? as u64])
+            }
+            Call::VoronoiVolumes => {
+                let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
+                Given::Numbers(vec![given(t.voronoi_volumes(Some(clip)))?.len() as u64])
+            }
+            Call::VoronoiFacets => {
+                let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
+                Given::Numbers(vec![given(t.voronoi_facets(Some(clip)))?.len() as u64])
+            }
+            Call::Interpolate(method) => {
+                let values: Vec<f64> = (0..t.id_count()).map(|v| v as f64).collect();
+                let places = [point::<G>(|_| 0.5), point::<G>(|axis| 0.4 + 0.1 * axis as f64)];
+                let values = VertexValues { values: &values, n_values: 1 };
+                let mut n = 0;
+                given(
+                    t.interpolate(method, values, &places, None, |result| n += u64::from(result.is_some())),
+                )?;
+                Given::Numbers(vec![n])
             }
             Call::Tolerance => {
                 let tolerance = given(t.tolerance(vertex(12)))?;

@@ -36,6 +36,7 @@ static void buffers_are_as_large_as_they_say(uint32_t d) {
                                        : create(3, TETRAHEDRON, TETRAHEDRON_COUNT, NULL);
     const size_t n = cell_count(t), hull = 4, n_edges = d == 2 ? 8 : 10;
     const uint8_t mask[4] = {1, 255, 2, 1};
+    const double low[] = {0, 0, 0}, high[] = {1, 1, 1};
     uint32_t offsets[6];
     CHECK_BUFFER(double, n, d, deldrift_circumcentres(t, buffer, NULL, capacity, &count));
     CHECK_BUFFER(double, n, 1, deldrift_circumcentres(t, NULL, buffer, capacity, &count));
@@ -51,6 +52,8 @@ static void buffers_are_as_large_as_they_say(uint32_t d) {
     CHECK_BUFFER(uint32_t, 2 * n_edges, 1, deldrift_vertex_neighbours(t, NULL, 0, buffer, capacity, &count));
     CHECK_BUFFER(uint32_t, n * (d + 1), 1, deldrift_vertex_cells(t, offsets, 6, buffer, capacity, &count));
     CHECK_BUFFER(uint8_t, n, d + 1, deldrift_mirror_indices(t, buffer, capacity, &count));
+    CHECK_BUFFER(double, (size_t)5, 1, deldrift_voronoi_volumes(t, low, high, buffer, capacity, &count));
+    CHECK_BUFFER(double, n_edges, 1, deldrift_voronoi_facets(t, NULL, NULL, buffer, capacity, &count));
     if (d == 2) CHECK_BUFFER(uint32_t, 4u, 1, deldrift_ordered_star(t, 4, buffer, capacity, &count));
     deldrift_destroy(t);
 }
@@ -211,6 +214,7 @@ static void without_cells_all_is_empty(void) {
         OK(deldrift_vertex_cells(t, offsets, n + 1, &id, 0, &count));
         OK(deldrift_vertex_neighbours(t, offsets, n + 1, NULL, 0, &count));
         OK(deldrift_mirror_indices(t, &byte, 0, &count));
+        OK(deldrift_voronoi_facets(t, NULL, NULL, &number, 0, &count));
         CHECK(count == 0 && offsets[0] == 0 && offsets[n] == 0);
         if (n > 0) OK(deldrift_ordered_star(t, 1, &id, 0, &count));
         CHECK(count == 0);
@@ -218,7 +222,73 @@ static void without_cells_all_is_empty(void) {
     }
 }
 
+static void voronoi_cells_fill_the_box(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    static const double low[] = {-1, -2}, high[] = {7, 3}, nowhere[] = {NAN, 0}, far[] = {1e58, 9};
+    double volumes[5], facets[8], sum = 0;
+    size_t count;
+    OK(deldrift_voronoi_volumes(t, low, high, volumes, 5, &count));
+    for (int v = 0; v < 5; v++) {
+        CHECK(volumes[v] > 0);
+        sum += volumes[v];
+    }
+    CHECK(fabs(sum - 40) < 1e-12);
+    OK(deldrift_voronoi_volumes(t, NULL, NULL, volumes, 5, &count));
+    CHECK(isinf(volumes[0]) && isinf(volumes[3]) && isfinite(volumes[4]));
+    OK(deldrift_voronoi_facets(t, NULL, NULL, facets, 8, &count));
+    // The edges of the hull, and those to the vertex inside.
+    CHECK(isinf(facets[0]) && isinf(facets[1]) && isfinite(facets[2]) && facets[2] > 0 && isfinite(facets[7]));
+    volumes[0] = 77;
+    CHECK_STATUS(deldrift_voronoi_volumes(t, high, low, volumes, 5, &count), DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("high[0] is -1");
+    CHECK_STATUS(deldrift_voronoi_volumes(t, low, low, volumes, 5, &count), DELDRIFT_INVALID_VALUE);
+    CHECK_STATUS(deldrift_voronoi_volumes(t, nowhere, high, volumes, 5, &count), DELDRIFT_NOT_FINITE);
+    CHECK_MESSAGE("low[0]");
+    CHECK_STATUS(deldrift_voronoi_facets(t, low, far, NULL, 0, &count), DELDRIFT_OUT_OF_RANGE);
+    CHECK(volumes[0] == 77);
+    deldrift_destroy(t);
+}
+
+static void values_are_interpolated(void) {
+    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
+    // Linear functions of the position, inside, at a vertex and outside.
+    static const double positions[] = {2, 1, 1, 2, -1, 0}, outside[] = {8, 9};
+    double values[10], results[6];
+    for (int v = 0; v < 5; v++) {
+        values[2 * v] = 3 - SQUARE[2 * v] + 2 * SQUARE[2 * v + 1];
+        values[2 * v + 1] = SQUARE[2 * v];
+    }
+    static const deldrift_interpolation methods[] = {DELDRIFT_INTERPOLATION_LINEAR,
+                                                     DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR};
+    const deldrift_location near = {DELDRIFT_LOCATION_CELL, 1};
+    for (int k = 0; k < 2; k++) {
+        OK(deldrift_interpolate(t, methods[k], values, 5, 2, positions, 3, NULL, outside, results));
+        CHECK(fabs(results[0] - 3) < 1e-14 && fabs(results[1] - 2) < 1e-14);
+        CHECK(results[2] == values[8] && results[3] == values[9] && results[4] == 8 && results[5] == 9);
+        OK(deldrift_interpolate(t, methods[k], values, 5, 2, positions, 3, &near, NULL, results));
+        CHECK(results[2] == values[8] && isnan(results[4]) && isnan(results[5]));
+        OK(deldrift_interpolate(t, methods[k], NULL, 5, 0, positions, 3, NULL, NULL, NULL));
+        OK(deldrift_interpolate(t, methods[k], values, 5, 2, NULL, 0, NULL, NULL, NULL));
+    }
+    results[0] = 77;
+    CHECK_STATUS(deldrift_interpolate(t, (deldrift_interpolation)2, values, 5, 2, positions, 3, NULL, NULL, results),
+                 DELDRIFT_INVALID_VALUE);
+    CHECK_MESSAGE("method[0] is 2");
+    CHECK_STATUS(deldrift_interpolate(t, methods[0], values, 4, 2, positions, 3, NULL, NULL, results),
+                 DELDRIFT_WRONG_COUNT);
+    CHECK_MESSAGE("value_count is 4, but must be 5");
+    CHECK_STATUS(deldrift_interpolate(t, methods[0], values, 5, SIZE_MAX / 2, positions, 3, NULL, NULL, results),
+                 DELDRIFT_SIZE_OVERFLOW);
+    static const double bad[] = {2, 1, 1, INFINITY};
+    CHECK_STATUS(deldrift_interpolate(t, methods[0], values, 5, 2, bad, 2, NULL, NULL, results), DELDRIFT_NOT_FINITE);
+    CHECK_MESSAGE("positions[1]");
+    CHECK(results[0] == 77);
+    deldrift_destroy(t);
+}
+
 int main(void) {
+    voronoi_cells_fill_the_box();
+    values_are_interpolated();
     buffers_are_as_large_as_they_say(2);
     buffers_are_as_large_as_they_say(3);
     values_are_those_of_the_cells();

@@ -84,6 +84,10 @@ static void handles(void) {
     REFUSES("t", deldrift_triangulation, deldrift_mirror_indices(pointer, NULL, 0, &count));
     REFUSES("t", deldrift_triangulation, deldrift_mirror_index(pointer, 0, 0, &number));
     REFUSES("t", deldrift_triangulation, deldrift_ordered_star(pointer, 0, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_voronoi_volumes(pointer, NULL, NULL, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation, deldrift_voronoi_facets(pointer, NULL, NULL, NULL, 0, &count));
+    REFUSES("t", deldrift_triangulation,
+            deldrift_interpolate(pointer, 0, NULL, 0, 1, position, 1, NULL, NULL, coordinates));
 }
 
 static void inputs(void) {
@@ -176,6 +180,15 @@ static void outputs(void) {
     REFUSES("cells", uint32_t, deldrift_vertex_cells(t, NULL, 0, pointer, 64, &count));
     REFUSES("mirror", uint32_t, deldrift_mirror_index(t, 0, 0, pointer));
     REFUSES("cells", uint32_t, deldrift_ordered_star(t, 0, pointer, 64, &count));
+    REFUSES("low", double, deldrift_voronoi_volumes(t, pointer, SQUARE, NULL, 0, &count));
+    REFUSES("high", double, deldrift_voronoi_facets(t, SQUARE, pointer, NULL, 0, &count));
+    REFUSES("volumes", double, deldrift_voronoi_volumes(t, NULL, NULL, pointer, 64, &count));
+    REFUSES("measures", double, deldrift_voronoi_facets(t, NULL, NULL, pointer, 64, &count));
+    REFUSES("count", size_t, deldrift_voronoi_volumes(t, NULL, NULL, NULL, 0, pointer));
+    REFUSES("count", size_t, deldrift_voronoi_facets(t, NULL, NULL, NULL, 0, pointer));
+    REFUSES("values", double, deldrift_interpolate(t, 0, pointer, 5, 1, position, 1, NULL, NULL, numbers));
+    REFUSES("positions", double, deldrift_interpolate(t, 0, SQUARE, 5, 1, pointer, 1, NULL, NULL, numbers));
+    REFUSES("results", double, deldrift_interpolate(t, 0, SQUARE, 5, 1, position, 1, NULL, NULL, pointer));
     // Where NULL is legal, misaligned pointers still are not.
     double *odd_numbers = (double *)(void *)((char *)&storage + 1);
     uint32_t *odd_ids = (uint32_t *)(void *)((char *)&storage + 1);

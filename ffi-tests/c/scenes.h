@@ -42,7 +42,7 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
-    N_KINDS } kind;
+    VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -53,7 +53,8 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells", "deldrift_circumcentres",
     "deldrift_volumes", "deldrift_mask_by_circumradius", "deldrift_mask_boundary", "deldrift_hull_facets",
     "deldrift_edges", "deldrift_vertex_neighbours", "deldrift_vertex_cells", "deldrift_mirror_indices",
-    "deldrift_mirror_index", "deldrift_ordered_star",
+    "deldrift_mirror_index", "deldrift_ordered_star", "deldrift_voronoi_volumes", "deldrift_voronoi_facets",
+    "deldrift_interpolate", "deldrift_interpolate, natural",
 };
 
 // A call: `goal` is for those of one vertex, which goes near, far, or to a place that is taken.
@@ -240,6 +241,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     ids_out[0] = more_out[0] = 77;
     bytes_out[0] = 77;
     numbers_out[0] = 77;
+    static const double low[] = {0.2, 0.3, 0.1}, high[] = {0.9, 0.7, 2}, at[] = {0.51, 0.5, 0.49};
     const uint8_t *mask = all_cells();
     size_t n_cells = cell_count(s->t), id_count = 0;
     OK(deldrift_id_count(s->t, &id_count));
@@ -284,6 +286,13 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case MIRROR_INDICES: status = deldrift_mirror_indices(s->t, bytes_out, ROOM / 4, &count); break;
         case MIRROR_INDEX: status = deldrift_mirror_index(s->t, 11, 1, &out); break;
         case ORDERED_STAR: status = deldrift_ordered_star(s->t, 12, ids_out, ROOM, &count); break;
+        case VORONOI_VOLUMES: status = deldrift_voronoi_volumes(s->t, low, high, numbers_out, ROOM, &count); break;
+        case VORONOI_FACETS: status = deldrift_voronoi_facets(s->t, low, high, numbers_out, ROOM, &count); break;
+        case INTERPOLATE:
+        case INTERPOLATE_NATURAL:
+            status = deldrift_interpolate(s->t, s->call.kind == INTERPOLATE_NATURAL, s->points, id_count, 1, at, 1, NULL,
+                                          NULL, numbers_out);
+            break;
         case N_KINDS: break;
     }
     stop_counting();
@@ -323,6 +332,14 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case ORDERED_STAR:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
+        case INTERPOLATE:
+        case INTERPOLATE_NATURAL:
+            // Its last bits depend on the order of cells.
+            *given = numbers_out[0] == numbers_out[0] ? (uint64_t)(1e6 * (numbers_out[0] + 4)) : 0;
+            break;
+        case VORONOI_VOLUMES:
+            for (size_t i = 0; i < count; i++) *given += (uint64_t)(1e6 * (numbers_out[i] > 0 ? numbers_out[i] : 0));
+            break;
         case CIRCUMCENTRES:
         case VOLUMES:
         case ANNULUS_WIDTHS:
@@ -342,6 +359,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case EDGES: *given = digest_of(ids_out, 2 * count * sizeof *ids_out); break;
         case VERTEX_NEIGHBOURS: *given = digest_of(ids_out, count * sizeof *ids_out) + more_out[id_count]; break;
         case VERTEX_CELLS: *given = digest_of_cells(s->t, ids_out, count) + more_out[id_count]; break;
+        case VORONOI_FACETS: *given = count; break;
         case MIRROR_INDEX: *given = 0; break;
         case TOLERANCE: *given = digest_of(&tolerance, sizeof tolerance); break;
         case LOCATE:

@@ -68,7 +68,33 @@ static void vertices_have_lists() {
     CHECK(Triangulation(3, {}).vertex_cells().offsets == Ids{0} && Triangulation(2, {}).edges().empty());
 }
 
+static void voronoi_cells_fill_a_box() {
+    const Triangulation t(2, square);
+    const std::vector<double> volumes = t.voronoi_volumes({-1.0, -2.0}, {7.0, 3.0});
+    CHECK(volumes.size() == 5 && std::fabs(std::accumulate(volumes.begin(), volumes.end(), 0.0) - 40) < 1e-12);
+    CHECK(std::isinf(t.voronoi_volumes()[0]) && t.voronoi_facets().size() == 8);
+    CHECK(t.voronoi_facets({0.0, 0.0}, {1.0, 1.0})[0] >= 0);
+    bool thrown = false;
+    try {
+        t.voronoi_volumes({0.0}, {1.0, 1.0});
+    } catch (const deldrift::Error &error) {
+        thrown = error.status() == DELDRIFT_WRONG_COUNT;
+    }
+    CHECK(thrown);
+}
+
+static void values_are_interpolated() {
+    const Triangulation t(2, square);
+    for (auto method : {DELDRIFT_INTERPOLATION_LINEAR, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR}) {
+        const auto at = t.interpolate(method, square, 2, std::vector<double>{2, 1, 9, 9}, {7.0, 8.0});
+        CHECK(at.size() == 4 && std::fabs(at[0] - 2) < 1e-14 && std::fabs(at[1] - 1) < 1e-14 && at[2] == 7 && at[3] == 8);
+        CHECK(std::isnan(t.interpolate(method, square, 2, std::vector<double>{9, 9})[0]));
+    }
+}
+
 int main() {
+    voronoi_cells_fill_a_box();
+    values_are_interpolated();
     cells_have_measures();
     masks_have_boundaries();
     vertices_have_lists();

@@ -1,4 +1,4 @@
-//! Plane sections of a box, cut by half-spaces.
+//! Plane sections of a box, cut by half-spaces; and what both need to know of boxes.
 //!
 //! In the plane, the box is one of unit height upon it, so that the area of an upright section is its length.
 
@@ -100,7 +100,7 @@ impl Section {
             [first, cross(&normal, &first)]
         };
         let reach = (0..G::D).map(|axis| clip.half_extent(axis)).sum::<f64>();
-        self.fill::<G>([reach, reach], 2 * G::D + n_cuts)?;
+        self.fill::<G>(reach, 2 * G::D + n_cuts)?;
         for axis in 0..G::D {
             let mut outward = [0.0; 3];
             outward[axis] = 1.0;
@@ -111,32 +111,13 @@ impl Section {
         Ok(())
     }
 
-    /// Makes it a face of a box: the one with the greatest coordinate along an axis, or with the least.
-    pub(super) fn start_at_face<G: Dimension>(
-        &mut self,
-        clip: &Clip<G>,
-        axis: usize,
-        is_high: bool,
-        n_cuts: usize,
-    ) -> Result<()> {
-        self.origin = clip.centre();
-        self.origin[axis] = if is_high { clip.high[axis] } else { clip.low[axis] };
-        let others = [(axis + 1) % 3, (axis + 2) % 3];
-        // In the plane, the one beside the last axis is upright.
-        let [first, second] = if others[0] < G::D { others } else { [others[1], others[0]] };
-        self.axes = [[0.0; 3]; 2];
-        (self.axes[0][first], self.axes[1][second]) = (1.0, 1.0);
-        let half = |axis| if axis < G::D { clip.half_extent(axis) } else { 0.0 };
-        self.fill::<G>([half(first), half(second)], n_cuts)
-    }
-
-    /// Makes it a rectangle around the origin; in the plane, one from height 0 to height 1.
-    fn fill<G: Dimension>(&mut self, [half, other_half]: [f64; 2], n_cuts: usize) -> Result<()> {
+    /// Makes it a square around the origin; in the plane, a rectangle from height 0 to height 1.
+    fn fill<G: Dimension>(&mut self, half: f64, n_cuts: usize) -> Result<()> {
         self.corners.clear();
         self.cut.clear();
         memory::reserve(&mut self.corners, 4 + n_cuts)?;
         memory::reserve(&mut self.cut, 4 + n_cuts)?;
-        let (least, most) = if G::D == 2 { (0.0, 1.0) } else { (-other_half, other_half) };
+        let (least, most) = if G::D == 2 { (0.0, 1.0) } else { (-half, half) };
         self.corners.extend([[-half, least], [half, least], [half, most], [-half, most]]);
         Ok(())
     }
@@ -162,10 +143,6 @@ impl Section {
             }
         }
         std::mem::swap(&mut self.corners, &mut self.cut);
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.corners.is_empty()
     }
 
     /// Its area.

@@ -7,7 +7,8 @@
 //! | `boundary` | facets around a mask of cells, the convex hull |
 //! | `incidence` | edges, neighbours and cells of vertices, mirror indices |
 //! | `star` | stars in circulation order |
-//! | `clipping` | a convex polygon or a segment in a box, cut by half-spaces |
+//! | `clipping` | plane sections of a box, cut by half-spaces |
+//! | `polyhedron` | a box, cut by half-spaces |
 //! | `voronoi` | Voronoi cells and facets, clipped by a box |
 //! | `interpolation`, `natural` | values between vertices: linear, or of natural neighbours |
 //!
@@ -20,6 +21,7 @@ mod incidence;
 mod interpolation;
 mod measures;
 mod natural;
+mod polyhedron;
 mod star;
 mod voronoi;
 

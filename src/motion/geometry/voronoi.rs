@@ -2,15 +2,15 @@
 //!
 //! The Voronoi facet of an edge is between the circumcentres of the cells around the edge. If all of them are in the box
 //! it is their polygon (in the plane a segment); otherwise it is the section of the box with the bisector of the edge,
-//! cut by the bisectors of one end of the edge and the vertices of its link. A Voronoi cell consists of the pyramids
-//! from its vertex to its facets and, if it meets the boundary of the box, to the faces of the box, cut by all bisectors
-//! of the vertex.
+//! cut by the bisectors of one end of the edge and the vertices of its link.
 //!
-//! Facets and faces are computed once, with both of their sides, so the volumes add up to that of the box but for
-//! rounding.
+//! A Voronoi cell in the box consists of the pyramids from its vertex to its facets. Any other is cut out of the box, by
+//! the bisectors of its vertex and the neighbours of that: a polyhedron that stays closed however planes coincide, so
+//! that its volume, like those of the others, is right but for rounding, and all add up to that of the box.
 
 use super::clipping::{Clip, Section, cross, dot, in_space, middle, minus};
 use super::incidence::Neighbours;
+use super::polyhedron::Polyhedron;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, VertexId};
@@ -35,6 +35,7 @@ struct Voronoi<'t, G: Dimension> {
     clip: Option<Clip<G>>,
     ring: Ring,
     section: Section,
+    polyhedron: Polyhedron,
 }
 
 /// A Voronoi facet.
@@ -59,6 +60,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
             clip,
             ring: Ring::default(),
             section: Section::default(),
+            polyhedron: Polyhedron::default(),
         })
     }
 
@@ -180,23 +182,15 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
         Ok(self.section.area())
     }
 
-    /// Area or volume of the pyramids from a vertex to the parts of the faces of the box in its Voronoi cell.
-    fn at_faces(&mut self, clip: &Clip<G>, v: VertexId, neighbours: &[VertexId]) -> Result<f64> {
+    /// Area or volume of the part of the Voronoi cell of a vertex that is in the box.
+    fn clipped_volume(&mut self, clip: &Clip<G>, v: VertexId, neighbours: &[VertexId]) -> Result<f64> {
         let at = self.place(v);
-        let mut volume = 0.0;
-        for (axis, is_high) in (0..G::D).flat_map(|axis| [(axis, false), (axis, true)]) {
-            self.section.start_at_face(clip, axis, is_high, neighbours.len())?;
-            for &w in neighbours {
-                let other = self.place(w);
-                self.section.keep_behind(&minus(&other, &at), &middle(&at, &other));
-                if self.section.is_empty() {
-                    break;
-                }
-            }
-            let height = if is_high { clip.high[axis] - at[axis] } else { at[axis] - clip.low[axis] };
-            volume += height * self.section.area() / G::D as f64;
+        self.polyhedron.start(clip)?;
+        for &w in neighbours {
+            let other = self.place(w);
+            self.polyhedron.keep_behind(&minus(&other, &at), &middle(&at, &other))?;
         }
-        Ok(volume)
+        Ok(self.polyhedron.volume())
     }
 }
 
@@ -234,7 +228,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut neighbours = neighbours;
         for v in VertexId::range(0..self.id_count()).filter(|v| is_cut[v.index()]) {
             neighbours.list(v, VertexId::new(0), &mut list, |w, _| w)?;
-            volumes[v.index()] += voronoi.at_faces(&clip, v, &list)?;
+            volumes[v.index()] = voronoi.clipped_volume(&clip, v, &list)?;
         }
         Ok(volumes)
     }
