@@ -11,6 +11,9 @@ ARGS ?=
 # Debian packages that the benchmark is built with.
 BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev
 
+# ... and the examples.
+EXAMPLE_NEEDS := cmake g++ libeigen3-dev
+
 # ... and the page of the report.
 PAGE_NEEDS := python3-jinja2 python3-matplotlib
 
@@ -26,14 +29,14 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test bench report memory large targets calibrate table lint header picture install deb dist
-.PHONY: library benchmark clean
+.PHONY: help test bench report memory large targets calibrate table lint header doc picture install examples
+.PHONY: deb dist library benchmark clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
 
 test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
-	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) pkg-config valgrind dpkg-dev
+	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) $(EXAMPLE_NEEDS) pkg-config valgrind dpkg-dev
 	-@.ci/packages chromium
 	cargo test
 	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
@@ -74,14 +77,32 @@ lint: ## format, clippy, documentation, freshness of the header
 	RUSTDOCFLAGS=-Dwarnings cargo doc --no-deps
 	cargo test --test ffi header
 
-header: ## include/deldrift.h, from the sources in src/capi
+header: ## include/deldrift.h, from the sources in src/capi, and docs/FUNCTIONS.md
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header_is_what_the_sources_say
+	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi table_of_functions
+
+doc: ## documentation as web pages: build/doc/html/index.html (C, C++) and, for Rust, doc/deldrift in cargo's folder
+	@.ci/packages doxygen
+	mkdir -p build/doc
+	doxygen docs/Doxyfile
+	cargo doc --no-deps
 
 picture: ## docs/moving.svg and docs/lloyd.svg, from runs of the library
 	cargo run --release --example moving_picture > docs/moving.svg.new
 	mv docs/moving.svg.new docs/moving.svg
 	cargo run --release --example lloyd_picture > docs/lloyd.svg.new
 	mv docs/lloyd.svg.new docs/lloyd.svg
+
+examples: library ## all examples, and their pictures in docs; particle finite elements also beside CGAL
+	@.ci/packages $(EXAMPLE_NEEDS) libcgal-dev
+	cmake -S examples -B build/examples -DDELDRIFT_LIBRARY="$(CARGO_TARGET_DIR)/release/libdeldrift.so"
+	cmake --build build/examples
+	build/examples/solver
+	build/examples/heat 4000 100 docs/heat.svg
+	build/examples/smoothing 60 docs/smoothing.svg
+	build/examples/densities 1225 docs/densities.svg
+	build/examples/particle_fem 3.6 0.05 docs/particle_fem.svg
+	build/examples/particle_fem_cgal
 
 install: ## library, headers, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
 	@.ci/packages cmake

@@ -94,12 +94,12 @@ pub fn exported_functions(header: &str) -> BTreeSet<&str> {
 }
 
 /// Lines that are no comments, without their indentation.
-fn declarations(text: &str) -> impl Iterator<Item = &str> {
+pub fn declarations(text: &str) -> impl Iterator<Item = &str> {
     text.lines().map(str::trim).filter(|line| !line.starts_with(['/', '*', '#']))
 }
 
 /// The function that a line declares.
-fn function_name(line: &str) -> Option<&str> {
+pub fn function_name(line: &str) -> Option<&str> {
     let start = line.match_indices("deldrift_").map(|(at, _)| at).find(|&at| {
         let name_end = line[at..].find(|c: char| !c.is_ascii_alphanumeric() && c != '_');
         name_end.is_some_and(|end| line[at + end..].starts_with('(')) && at > 0

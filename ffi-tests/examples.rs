@@ -1,0 +1,111 @@
+//! The examples in C++, with few steps. They check themselves; what they print is checked here. They need Eigen, and
+//! one of them CGAL, so they run only where they are asked for (`cargo test --test ffi -- --include-ignored`).
+
+use std::path::Path;
+
+use crate::support::{Linkage, build, command, fresh_folder, repository, succeed, text_of};
+
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn the_dam_break_keeps_area_and_loses_energy() {
+    let said = run("particle_fem", "examples/particle_fem.cpp", &["1", "0.1"], true);
+    assert_eq!(number_after("", &said), 300.0, "{said}");
+    // The fluid has come from rest to a speed of at most 2 sqrt(g H), beyond the column's side at 1.
+    assert!((1.3..3.8).contains(&number_after("front at ", &said)), "{said}");
+    assert!((0.97..1.03).contains(&number_after("area ", &said)), "{said}");
+    assert!((0.9..1.0).contains(&number_after("energy ", &said)), "{said}");
+}
+
+/// After each step; that particles have come and gone by then shows that the mesh was changed in all ways.
+#[test]
+#[ignore = "needs Eigen, CGAL and pkg-config"]
+fn the_dam_break_has_the_free_surface_that_it_has_with_cgal() {
+    let said = run("particle_fem_cgal", "cpp-bench/particle_fem.cpp", &["1.5", "0.1"], false);
+    assert!(said.contains("; same free surface after each step\n"), "{said}");
+    assert!(number_after(" steps, ", &said) > 20.0 && number_after(" came, ", &said) > 20.0, "{said}");
+}
+
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn stirred_heat_is_kept_and_decays_as_it_should() {
+    let said = run("heat", "examples/heat.cpp", &["1000", "25"], true);
+    assert!(said.contains("maximum principle kept, rows right\n"), "{said}");
+    assert!(number_after("heat drift ", &said) < 1e-9 && number_after("error ", &said) < 0.02, "{said}");
+}
+
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn smoothing_makes_cells_better() {
+    let said = run("smoothing", "examples/smoothing.cpp", &["20"], true);
+    let qualities: Vec<f64> = said.lines().map(|line| number_after("mean quality ", line)).collect();
+    let [random_2d, lloyd_2d, odt_2d, random_3d, lloyd_3d, odt_3d] = qualities[..] else { panic!("{said}") };
+    assert!(lloyd_2d.min(odt_2d) > 0.9 && random_2d < 0.8, "{said}");
+    assert!(lloyd_3d.min(odt_3d) > random_3d + 0.1, "{said}");
+}
+
+#[test]
+#[ignore = "needs Eigen and pkg-config"]
+fn voronoi_volumes_add_up_and_give_densities() {
+    let said = run("densities", "examples/densities.cpp", &["1225"], true);
+    let (sum, error) =
+        (number_after("sum of volumes within ", &said), number_after("densities within ", &said));
+    assert!(sum < 1e-12 && error < 10.0, "{said}");
+}
+
+/// The program of docs/FIVE_MINUTES.md, as it stands there.
+#[test]
+fn the_program_of_the_first_page_runs() {
+    let page = text_of("docs/FIVE_MINUTES.md");
+    let (_, program) = page.split_once("```c\n").expect("there is a program");
+    let (program, _) = program.split_once("```").expect("a program ends");
+    let folder = fresh_folder("five_minutes");
+    let source = folder.join("program.c");
+    std::fs::write(&source, program).expect("a source can be written");
+    let said = succeed(&mut command(build(&source, &folder, Linkage::Shared, &[])));
+    let (new, all) = (number_after("", &said), number_after(" of ", &said));
+    assert!(said.ends_with(" triangles were new\n") && 0.0 < new && new < all / 10.0, "{said}");
+}
+
+/// Builds an example and runs it; what it says. One that draws is asked to, and its picture must be small.
+fn run(name: &str, source: &str, arguments: &[&str], draws: bool) -> String {
+    let folder = fresh_folder(name);
+    let eigen = eigen();
+    let mut flags: Vec<&str> = eigen.iter().map(String::as_str).collect();
+    if !draws {
+        flags.extend(["-DNDEBUG", "-Wl,--no-as-needed", "-lgmp", "-lmpfr"]);
+    }
+    let program = build(&repository(source), &folder, Linkage::Static, &flags);
+    let picture = folder.join("picture.svg");
+    let mut command = command(program);
+    command.args(arguments);
+    if draws {
+        command.arg(&picture);
+    }
+    let said = succeed(&mut command);
+    if draws {
+        is_a_picture(&picture);
+    }
+    said
+}
+
+fn is_a_picture(path: &Path) {
+    let picture = std::fs::read_to_string(path).expect("the example has written it");
+    assert!(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"), "{}", path.display());
+    assert!(picture.contains("<path") && picture.len() < 200_000, "{} bytes", picture.len());
+}
+
+/// Where Eigen's headers are, as flags that keep the compiler from warning of what is in them.
+fn eigen() -> Vec<String> {
+    let folders = succeed(command("pkg-config").args(["--cflags-only-I", "eigen3"]));
+    folders
+        .split_whitespace()
+        .flat_map(|flag| ["-isystem".into(), flag.trim_start_matches("-I").into()])
+        .collect()
+}
+
+/// The number that follows these words.
+fn number_after(words: &str, text: &str) -> f64 {
+    let at = text.find(words).unwrap_or_else(|| panic!("no \"{words}\" in \"{text}\"")) + words.len();
+    let number = text[at..].split([' ', ',', ';', '\n']).next().expect("a split has a first part");
+    number.parse().unwrap_or_else(|_| panic!("{number} after \"{words}\" in \"{text}\""))
+}

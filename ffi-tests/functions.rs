@@ -1,0 +1,138 @@
+//! docs/FUNCTIONS.md and docs/ERRORS.md: they name everything that the header has, and what they say is so.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::coverage::{declarations, function_name};
+use crate::support::{repository, text_of};
+
+const TABLE: &str = "docs/FUNCTIONS.md";
+
+/// A function of the header, and the first sentence of its documentation.
+struct Function {
+    name: String,
+    summary: String,
+}
+
+/// With `DELDRIFT_UPDATE_HEADER=1` the table is written instead.
+#[test]
+fn table_of_functions_is_what_the_header_says() {
+    let functions = functions();
+    assert!(functions.len() > 40, "{}", functions.len());
+    if std::env::var_os("DELDRIFT_UPDATE_HEADER").is_some_and(|value| value == "1") {
+        fs::write(repository(TABLE), table(&functions)).expect("a file can be written");
+    }
+    let text = text_of(TABLE);
+    let rows: Vec<Vec<&str>> =
+        text.lines().filter(|line| line.starts_with("| `deldrift_")).map(cells).collect();
+    assert_eq!(rows.len(), functions.len(), "{TABLE} is stale: run make header and commit it");
+    for (function, row) in functions.iter().zip(rows) {
+        let [name, summary, test, example] = row[..] else { panic!("{row:?}") };
+        assert_eq!(name, format!("`{}`", function.name), "{TABLE} is stale: run make header and commit it");
+        assert_eq!(summary, function.summary, "{TABLE} is stale: run make header and commit it");
+        assert!(calls(linked(test), function) > 0, "{test} does not call {name}");
+        assert!(example == "-" || calls(linked(example), function) > 0, "{example} does not call {name}");
+    }
+}
+
+#[test]
+fn every_status_has_a_cause_and_a_remedy() {
+    let header = text_of("include/deldrift.h");
+    let (_, from) = header.split_once("enum deldrift_status").expect("there are statuses");
+    let (statuses, _) = from.split_once("};").expect("an enumeration ends");
+    let statuses: Vec<&str> =
+        declarations(statuses).filter_map(|line| line.split_once(" = ")).map(|(name, _)| name).collect();
+    let errors = text_of("docs/ERRORS.md");
+    let rows: Vec<Vec<&str>> = errors.lines().filter(|line| line.starts_with("| `")).map(cells).collect();
+    let named: Vec<String> = rows.iter().map(|row| row[0].trim_matches('`').to_string()).collect();
+    assert_eq!(named, statuses, "the rows of docs/ERRORS.md are not the statuses, in their order");
+    assert!(rows.iter().all(|row| row.len() == 3 && row.iter().all(|cell| !cell.is_empty())));
+}
+
+/// In the order of the header.
+fn functions() -> Vec<Function> {
+    let header = text_of("include/deldrift.h");
+    let (mut functions, mut documentation) = (Vec::new(), String::new());
+    for line in header.lines() {
+        if let Some(text) = line.strip_prefix("///") {
+            documentation += text;
+        } else if let Some(name) = declarations(line).find_map(function_name) {
+            let end = documentation.find(". ").map_or(documentation.len(), |at| at + 1);
+            let summary = documentation[..end].trim().replace('*', "\\*").replace('|', "\\|");
+            functions.push(Function { name: name.to_string(), summary });
+        }
+        if line.is_empty() {
+            documentation.clear();
+        }
+    }
+    functions
+}
+
+/// For each function the test and the example that call it most often.
+fn table(functions: &[Function]) -> String {
+    let mut text = String::from(
+        "# Functions\n\nEvery function of the [header](../include/deldrift.h), with a test and an example that call it. Tests \
+         compare this\ntable with the header and with the programs; `make header` writes it.\n\n\
+         | function | what it does | test | example |\n|---|---|---|---|\n",
+    );
+    let (tests, examples) =
+        (paths(&["ffi-tests/c"]), paths(&["examples", "ffi-tests/consumers", "cpp-bench"]));
+    for function in functions {
+        let test = most_calls(&tests, function).map_or("-".into(), |path| link(&path));
+        let example = most_calls(&examples, function).map_or("-".into(), |path| link(&path));
+        let _ = writeln!(text, "| `{}` | {} | {test} | {example} |", function.name, function.summary);
+    }
+    text
+}
+
+/// Programs in C and C++.
+fn paths(folders: &[&str]) -> Vec<String> {
+    let programs = |folder: &&str| {
+        let files = fs::read_dir(repository(folder)).expect("the folder is there");
+        let is_program =
+            |path: &PathBuf| ["c", "cpp", "hpp"].iter().any(|kind| path.extension() == Some(kind.as_ref()));
+        let paths = files.map(|file| file.expect("a folder can be listed").path()).filter(is_program);
+        paths
+            .map(|path| format!("{folder}/{}", path.file_name().expect("a name").display()))
+            .collect::<Vec<_>>()
+    };
+    let mut paths: Vec<String> = folders.iter().flat_map(programs).collect();
+    paths.sort();
+    paths
+}
+
+fn most_calls(paths: &[String], function: &Function) -> Option<String> {
+    let counted = paths.iter().map(|path| (calls(path, function), path));
+    // Of several with as many calls the first one.
+    let most = counted.rev().max_by_key(|&(n, _)| n).filter(|&(n, _)| n > 0);
+    most.map(|(_, path)| path.clone())
+}
+
+/// How often a program calls a function, or the member of the wrapper with its name.
+fn calls(path: &str, function: &Function) -> usize {
+    let program = text_of(path);
+    let by_name = program.matches(&format!("{}(", function.name)).count();
+    let member = function.name.trim_start_matches("deldrift_");
+    if !program.contains("#include <deldrift.hpp>") {
+        return by_name;
+    }
+    let is_created = member == "create" || member == "destroy";
+    let by_member = if is_created { "deldrift::Triangulation t" } else { &format!("t.{member}(") };
+    by_name + program.matches(by_member).count() + program.matches(&format!("t_.{member}(")).count()
+}
+
+fn link(path: &str) -> String {
+    let name = Path::new(path).file_name().expect("a path ends in a name").display();
+    format!("[{name}](../{path})")
+}
+
+/// The file that a link leads to.
+fn linked(cell: &str) -> &str {
+    let (_, path) = cell.split_once("](../").unwrap_or_else(|| panic!("{cell} is no link"));
+    path.trim_end_matches(')')
+}
+
+fn cells(row: &str) -> Vec<&str> {
+    row.trim_matches('|').split(" | ").map(str::trim).collect()
+}
