@@ -25,10 +25,9 @@ pub struct deldrift_triangulation {
 }
 
 /// The library's triangulation, in its dimension.
-#[allow(clippy::large_enum_variant)]
 pub(super) enum Kernel {
-    Plane(MovingTriangulation<Plane>),
-    Space(MovingTriangulation<Space>),
+    Plane(Box<MovingTriangulation<Plane>>),
+    Space(Box<MovingTriangulation<Space>>),
 }
 
 /// Evaluates an expression on a [`Kernel`]'s triangulation, once for each dimension.
@@ -189,12 +188,12 @@ impl Kernel {
         // SAFETY: the caller's promise.
         let kernel = unsafe {
             if is_plane {
-                Kernel::Plane(MovingTriangulation::new(
+                Kernel::Plane(MovingTriangulation::new_boxed(
                     points::<Plane>("positions", positions, count)?,
                     options,
                 )?)
             } else {
-                Kernel::Space(MovingTriangulation::new(
+                Kernel::Space(MovingTriangulation::new_boxed(
                     points::<Space>("positions", positions, count)?,
                     options,
                 )?)

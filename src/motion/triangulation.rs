@@ -57,21 +57,27 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`], [`Error::Cancelled`], [`Error::Coincident`] if the options reject that.
     pub fn new(positions: &[G::Point], options: Options) -> Result<Self> {
-        if positions.len() > MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
+        let mut t = Self::without_sites(positions.len(), options)?;
+        t.build_first(positions)?;
+        Ok(t)
+    }
+
+    /// The same in a box from the beginning: a triangulation has some kilobytes, and to move one takes longer than to
+    /// build one of a few points.
+    pub(crate) fn new_boxed(positions: &[G::Point], options: Options) -> Result<Box<Self>> {
+        let mut t = memory::boxed(Self::without_sites(positions.len(), options)?)?;
+        t.build_first(positions)?;
+        Ok(t)
+    }
+
+    /// A triangulation of which nothing is known but the number of vertices that it will have.
+    #[inline(always)]
+    fn without_sites(n_vertices: usize, options: Options) -> Result<Self> {
+        if n_vertices > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: n_vertices, limit: MAX_VERTICES });
         }
         let kernel = Delaunay::on(Threads::at_most(options.threads))?;
-        let mut t = Self::of_parts(kernel, Vec::new(), Hidden::default(), positions.len(), options);
-        // Without a branch for each, several at a time are looked at.
-        if !G::Point::flattened(positions).iter().fold(true, |are_good, &x| are_good & is_in_range(x)) {
-            return Err(first_bad::<G>(positions));
-        }
-        t.kernel.add_sites(positions)?;
-        memory::reserve_exact(&mut t.site_of, positions.len())?;
-        t.site_of.resize(positions.len(), SiteId::NONE);
-        t.build_first()?;
-        t.statistics.coincident = t.hidden.count() as u64;
-        Ok(t)
+        Ok(Self::of_parts(kernel, Vec::new(), Hidden::default(), n_vertices, options))
     }
 
     /// A triangulation of which nothing is known but the kernel, the site of each id, and which of the `n_present`
@@ -134,18 +140,23 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Builds the cells of sites in sorted storage for the first time.
-    fn build_first(&mut self) -> Result<()> {
-        let mut kernel = Delaunay::on(Threads::ONE)?;
-        std::mem::swap(&mut kernel, &mut self.kernel);
-        let stride = kernel.mean_stride();
+    /// Makes the sites and builds the cells for the first time.
+    fn build_first(&mut self, positions: &[G::Point]) -> Result<()> {
+        // Without a branch for each, several at a time are looked at.
+        if !G::Point::flattened(positions).iter().fold(true, |are_good, &x| are_good & is_in_range(x)) {
+            return Err(first_bad::<G>(positions));
+        }
+        self.kernel.add_sites(positions)?;
+        memory::reserve_exact(&mut self.site_of, positions.len())?;
+        self.site_of.resize(positions.len(), SiteId::NONE);
+        self.sorted_stride = self.kernel.mean_stride();
         let mut unmonitored = |_| true;
         let merges = match &mut self.options.monitor {
-            Some(monitor) => kernel.rebuild(monitor)?,
-            None => kernel.rebuild(&mut unmonitored)?,
+            Some(monitor) => self.kernel.rebuild(monitor)?,
+            None => self.kernel.rebuild(&mut unmonitored)?,
         };
-        let hidden = self.hide_merged(&kernel, merges)?;
-        self.adopt(kernel, hidden, stride);
+        self.hidden = self.hide_merged(&self.kernel, merges)?;
+        self.statistics.coincident = self.hidden.count() as u64;
         self.find_sites();
         Ok(())
     }

@@ -90,7 +90,7 @@ fn the_term<const D: usize, const N: usize>(
         return Some(Ordering::Equal);
     }
     let k = left.trailing_zeros() as usize;
-    let is_positive = (k % 2 == 0) == ((high > low) == is_p_high);
+    let is_positive = k.is_multiple_of(2) == ((high > low) == is_p_high);
     Some(if is_positive { term(k) } else { term(k).reverse() })
 }
 
