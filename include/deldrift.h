@@ -141,11 +141,11 @@ enum deldrift_status
     DELDRIFT_INVALID_VALUE = 26,
     /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
     /// later version; the message says what is wrong, and where.
-    DELDRIFT_INVALID_DATA = 26,
+    DELDRIFT_INVALID_DATA = 27,
     /// The system cannot read or write a file; the message has the path, and what the system says.
-    DELDRIFT_IO_ERROR = 27,
+    DELDRIFT_IO_ERROR = 28,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
-    DELDRIFT_INVALID_FIELD = 28,
+    DELDRIFT_INVALID_FIELD = 29,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -1168,6 +1168,7 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
                                      const deldrift_location *near,
                                      const double *outside,
                                      double *results);
+
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
 ///
@@ -1278,6 +1279,7 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
                                      const char *path);
+
 /// The orientation of points, exactly, to *sign: 1, -1 or 0.
 ///
 /// dimension: 2 or 3. points: dimension + 1 points, one after the other, 2 or 3 numbers each. Of 3 points in the

@@ -1,0 +1,53 @@
+// What members of deldrift::Triangulation return or take that is more than numbers. Included by deldrift.hpp.
+#ifndef DELDRIFT_RESULTS_HPP
+#define DELDRIFT_RESULTS_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "span.hpp"
+
+namespace deldrift {
+
+// The circle or sphere of a bi-cell; see deldrift_standard_delimiter.
+struct Delimiter {
+    std::vector<double> centre;
+    double radius;
+    double tolerance;
+};
+
+// For each cell; see deldrift_circumcentres.
+struct Circumspheres {
+    std::vector<double> centres;
+    std::vector<double> squared_radii;
+};
+
+// Facets with the cell and the corner that each belongs to; see deldrift_mask_boundary.
+struct Facets {
+    std::vector<std::uint32_t> vertices;  // rows of as many as the dimension says
+    std::vector<std::uint32_t> cells;
+    std::vector<std::uint8_t> corners;
+    std::size_t size() const noexcept { return cells.size(); }
+};
+
+// A list for each vertex; see deldrift_vertex_neighbours and deldrift_vertex_cells.
+struct Lists {
+    std::vector<std::uint32_t> offsets;
+    std::vector<std::uint32_t> entries;
+    span<const std::uint32_t> of_vertex(std::uint32_t vertex) const noexcept {
+        return {entries.data() + offsets[vertex], std::size_t{offsets[vertex + 1]} - offsets[vertex]};
+    }
+};
+
+// Numbers for each vertex id, or for each cell, that are written along with a mesh: components for each.
+struct Field {
+    std::string name;
+    span<const double> values;
+    std::size_t components = 1;
+};
+
+}  // namespace deldrift
+
+#endif  // DELDRIFT_RESULTS_HPP
