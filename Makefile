@@ -62,6 +62,7 @@ large: benchmark ## 50 million points in 2D, 20 million in 3D: cpp-bench/results
 
 targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/results/targets.csv
 	cpp-bench/run --targets $(ARGS)
+	cpp-bench/peclet_voro
 
 calibrate: ## the constants by which algorithms are chosen: cpp-bench/results/calibrate.csv (ARGS=NAME... for some)
 	MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=-1 cargo bench --bench calibrate -- $(or $(ARGS),--csv cpp-bench/results/calibrate.csv)
