@@ -86,11 +86,12 @@ fn again(mut call: impl FnMut() -> isize) -> Option<usize> {
 struct Descriptor(c_int);
 
 impl Descriptor {
-    fn open(path: &CStr, flags: c_int, action: &'static str) -> Result<Self, FileError> {
+    /// Opens a file; `named` is the path that the caller knows.
+    fn open(path: &CStr, flags: c_int, action: &'static str, named: &CStr) -> Result<Self, FileError> {
         const MODE: libc::c_uint = 0o666;
         // SAFETY: the path ends in a NUL.
         let opened = again(|| unsafe { libc::open(path.as_ptr(), flags | libc::O_CLOEXEC, MODE) as isize });
-        opened.map(|number| Descriptor(number as c_int)).ok_or_else(|| failure(action, path))
+        opened.map(|number| Descriptor(number as c_int)).ok_or_else(|| failure(action, named))
     }
 
     fn write(&self, mut bytes: &[u8], path: &CStr) -> Result<(), FileError> {
@@ -158,13 +159,13 @@ impl<'p> NewFile<'p> {
             return Err(refusal("write", path, libc::EISDIR));
         }
         if kind.is_some_and(|kind| kind != libc::S_IFREG) {
-            let file = Descriptor::open(path, libc::O_WRONLY | libc::O_NOCTTY, "open")?;
+            let file = Descriptor::open(path, libc::O_WRONLY | libc::O_NOCTTY, "open", path)?;
             return Ok(NewFile { path, file, temporary: None });
         }
         loop {
             let temporary = path_beside(path, NUMBER.fetch_add(1, Relaxed))?;
             let flags = libc::O_WRONLY | libc::O_CREAT | libc::O_EXCL;
-            match Descriptor::open(c_str(&temporary), flags, "create") {
+            match Descriptor::open(c_str(&temporary), flags, "create", path) {
                 Ok(file) => return Ok(NewFile { path, file, temporary: Some(temporary) }),
                 // Left behind by a process of the same number.
                 Err(FileError::System { code: libc::EEXIST, .. }) => {}
@@ -205,7 +206,7 @@ impl Drop for NewFile<'_> {
 
 /// All bytes of a file.
 pub(super) fn read(path: &CStr) -> Result<Vec<u8>, FileError> {
-    let file = Descriptor::open(path, libc::O_RDONLY | libc::O_NOCTTY, "open")?;
+    let file = Descriptor::open(path, libc::O_RDONLY | libc::O_NOCTTY, "open", path)?;
     let mut status = std::mem::MaybeUninit::<libc::stat>::uninit();
     // SAFETY: the file is open, and there is room for the answer.
     let is_known = unsafe { libc::fstat(file.0, status.as_mut_ptr()) } == 0;

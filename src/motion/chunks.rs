@@ -45,6 +45,19 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
         numbers.iter().try_for_each(|number| self.write(number.to_le_bytes()))
     }
 
+    fn append(&mut self, mut more: &[u8]) -> Result<(), E> {
+        while !more.is_empty() {
+            if self.n == CHUNK {
+                self.flush()?;
+            }
+            let (now, later) = more.split_at(more.len().min(CHUNK - self.n));
+            self.bytes[self.n..self.n + now.len()].copy_from_slice(now);
+            self.n += now.len();
+            more = later;
+        }
+        Ok(())
+    }
+
     /// Writes a text.
     pub(super) fn text(&mut self, text: fmt::Arguments<'_>) -> Result<(), E> {
         let mut writer = Text { chunks: self, failed: Ok(()) };
@@ -66,7 +79,7 @@ struct Text<'c, E, P> {
 
 impl<E, P: FnMut(&[u8]) -> Result<(), E>> Write for Text<'_, E, P> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.failed = text.bytes().try_for_each(|byte| self.chunks.write([byte]));
+        self.failed = self.chunks.append(text.as_bytes());
         if self.failed.is_ok() { Ok(()) } else { Err(fmt::Error) }
     }
 }
