@@ -23,7 +23,7 @@
 //! The error constants are not quoted but computed by the compiler, from the operation order of each
 //! determinant (`filter.rs`, which holds the analysis).
 //!
-//! [`exact_calls`] counts the signs that the last three stages decide.
+//! [`exact_calls`] counts the signs that stages after the second decide.
 //!
 //! A determinant that is exactly zero is a tie. Orientations report it as `0.0`; for in-sphere tests
 //! [`incircle_perturbed`] and [`insphere_perturbed`] decide it by vertex id, as if every vertex had been
@@ -115,9 +115,13 @@ pub use lifted::{Lifted, side_of_seen_circle};
 pub use measures::Measures;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical};
-pub use plane::{incircle, orient2d};
+#[cfg(feature = "internals")]
+pub use plane::incircle;
+pub use plane::orient2d;
 pub use separator::{delimiter3d, separator3d, tolerances3d};
-pub use space::{insphere, orient3d};
+#[cfg(feature = "internals")]
+pub use space::insphere;
+pub use space::orient3d;
 pub use sphere::{
     Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, is_side_certain,
     side_of_circle, side_of_sphere, sphere,

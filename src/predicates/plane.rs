@@ -28,15 +28,19 @@ pub fn incircle(f: &StaticFilter, a: &[f64; 2], b: &[f64; 2], c: &[f64; 2], d: &
     if det.abs() > f.in_sphere { det } else { incircle_uncertain(det, [a, b, c, d]) }
 }
 
-/// The sign of [`orient2d`], without a filter's box.
-pub(super) fn orient2d_sign(points: [&[f64; 2]; 3]) -> Ordering {
+/// The sign of [`orient2d`] without a filter's box, not to be counted.
+pub(super) fn sign_of_orient2d(points: [&[f64; 2]; 3]) -> Ordering {
     let [a, b, c] = points;
-    sign_of(orient2d_uncertain(minor(&minus(b, a), &minus(c, a)), points))
+    let (det, extents) = (minor(&minus(b, a), &minus(c, a)), extents(points));
+    let is_certain = is_certain(det, orient2d_bound(extents), extents);
+    sign_of(if is_certain { det } else { orient2d_exact(det, points) })
 }
 
-/// The sign of [`incircle`], without a filter's box.
-pub(super) fn incircle_sign_of(points: [&[f64; 2]; 4]) -> Ordering {
-    sign_of(incircle_uncertain(incircle_rounded(points), points))
+/// The sign of [`incircle`], likewise.
+pub(super) fn sign_of_incircle(points: [&[f64; 2]; 4]) -> Ordering {
+    let (det, extents) = (incircle_rounded(points), extents(points));
+    let is_certain = is_certain(det, incircle_bound(extents), extents);
+    sign_of(if is_certain { det } else { incircle_exact(det, points, largest(extents)) })
 }
 
 fn sign_of(det: f64) -> Ordering {
@@ -52,6 +56,10 @@ fn orient2d_uncertain(det: f64, points: [&[f64; 2]; 3]) -> f64 {
         return det;
     }
     tally::count();
+    orient2d_exact(det, points)
+}
+
+fn orient2d_exact(det: f64, points: [&[f64; 2]; 3]) -> f64 {
     if !has_room(points, 2) {
         return big::orient2d(det, points);
     }
@@ -66,11 +74,15 @@ fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
     if is_certain(det, incircle_bound(extents), extents) {
         return det;
     }
+    tally::count();
+    incircle_exact(det, points, largest(extents))
+}
+
+fn incircle_exact(det: f64, points: [&[f64; 2]; 4], extent: f64) -> f64 {
     if let Some(sign) = incircle_at_two_heights(points) {
         return with_sign(det, sign);
     }
-    tally::count();
-    if let Some(sign) = incircle_sign(points, largest(extents)) {
+    if let Some(sign) = incircle_sign(points, extent) {
         return with_sign(det, sign);
     }
     if !has_room(points, 4) {

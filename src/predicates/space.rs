@@ -50,10 +50,10 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
     if is_certain(det, orient3d_bound(extents), extents) {
         return det;
     }
+    tally::count();
     if let Some(sign) = orient3d_at_two_heights(points) {
         return with_sign(det, sign);
     }
-    tally::count();
     if let Some(sign) = orient3d_sign(points, largest(extents)) {
         return with_sign(det, sign);
     }
@@ -74,6 +74,7 @@ fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
         return det;
     }
     if let Some(sign) = insphere_at_two_heights(points) {
+        tally::count();
         return with_sign(det, sign);
     }
     let bound = bound.min(insphere_bound_of_terms(insphere_magnitudes(points), extents));

@@ -21,7 +21,7 @@
 //!
 //! Comparisons alone in the plane and for the corners of boxes; a sign of the plane otherwise.
 
-use super::plane::{incircle_sign_of, orient2d_sign};
+use super::plane::{sign_of_incircle, sign_of_orient2d};
 use std::array::from_fn;
 use std::cmp::Ordering;
 
@@ -39,7 +39,7 @@ pub(super) fn incircle_at_two_heights(points: [&[f64; 2]; 4]) -> Option<Ordering
 pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering> {
     (0..3).find_map(|axis| {
         let flat = points.map(|p| without(p, axis));
-        let term = |k| incircle_sign_of(all_but(k, &flat.each_ref()));
+        let term = |k| sign_of_incircle(all_but(k, &flat.each_ref()));
         // Tetrahedra are positive when they are negative for the determinant of the derivation.
         the_term(points, axis, |k, l| flat[k] == flat[l], term).map(Ordering::reverse)
     })
@@ -49,7 +49,7 @@ pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering
 pub(super) fn orient3d_at_two_heights(points: [&[f64; 3]; 4]) -> Option<Ordering> {
     (0..3).find_map(|axis| {
         let flat = points.map(|p| without(p, axis));
-        let term = |k| orient2d_sign(all_but(k, &flat.each_ref()));
+        let term = |k| sign_of_orient2d(all_but(k, &flat.each_ref()));
         the_term(points, axis, |k, l| flat[k] == flat[l], term).map(Ordering::reverse)
     })
 }
