@@ -1,5 +1,6 @@
-// A program in the manner of CGAL's examples. With WITH_CGAL it uses CGAL, without it deldrift/cgal.hpp; it has to
-// write the same. Positions are in general position, so that the cells are unique; what has no order is sorted.
+// A program in the manner of CGAL's examples. With WITH_CGAL it uses CGAL; without it deldrift/cgal.hpp, with
+// CGAL_KERNEL on CGAL's own points and data structures. It has to write the same. Positions are in general position, so
+// that the cells are unique; what has no order is sorted.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -13,25 +14,33 @@
 #ifdef WITH_CGAL
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
+namespace library = CGAL;
+#else
+#include <deldrift/cgal.hpp>
+namespace library = deldrift::cgal;
+#endif
+
+#if defined(WITH_CGAL) || defined(CGAL_KERNEL)
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_data_structure_2.h>
+#include <CGAL/Triangulation_data_structure_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
-
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vb2 = CGAL::Triangulation_vertex_base_with_info_2<unsigned, K>;
 using Vb3 = CGAL::Triangulation_vertex_base_with_info_3<unsigned, K>;
 using Cb3 = CGAL::Delaunay_triangulation_cell_base_3<K>;
-using Dt2 = CGAL::Delaunay_triangulation_2<K, CGAL::Triangulation_data_structure_2<Vb2>>;
-using Dt3 = CGAL::Delaunay_triangulation_3<K, CGAL::Triangulation_data_structure_3<Vb3, Cb3>>;
+using Info2 = CGAL::Triangulation_data_structure_2<Vb2>;
+using Info3 = CGAL::Triangulation_data_structure_3<Vb3, Cb3>;
 #else
-#include <deldrift/cgal.hpp>
-
-using K = deldrift::cgal::Kernel;
-using Dt2 = deldrift::cgal::Delaunay_triangulation_2<K, unsigned>;
-using Dt3 = deldrift::cgal::Delaunay_triangulation_3<K, unsigned>;
+using K = library::Kernel;
+using Info2 = unsigned;
+using Info3 = unsigned;
 #endif
 
+using Dt2 = library::Delaunay_triangulation_2<K, Info2>;
+using Dt3 = library::Delaunay_triangulation_3<K, Info3>;
 using Point_2 = K::Point_2;
 using Point_3 = K::Point_3;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deldrift/cgal.hpp>
 #include <random>
+#include <thread>
 #include <unordered_set>
 #include <vector>
 
@@ -239,6 +240,30 @@ static void circulators_and_sets() {
     CHECK(t.circumcenter(f) == t.dual(f) && *std::prev(t.finite_faces_end()) != f && t.points().size() == 40);
 }
 
+// The first to read after a change brings the arrays up to date, whoever that is.
+static void threads_read_at_once() {
+    auto points = random_points(500);
+    Dt2 t(points.begin(), points.end());
+    std::vector<std::size_t> sums(4);
+    std::vector<std::thread> threads;
+    for (std::size_t &sum : sums) {
+        threads.emplace_back([&t, &sum] {
+            for (Dt2::Face_handle f : t.all_face_handles()) {
+                for (int i = 0; i < 3; i++) sum += f->neighbor(i)->index(f) == t.mirror_index(f, i);
+            }
+        });
+    }
+    for (std::thread &thread : threads) thread.join();
+    for (std::size_t sum : sums) CHECK(sum == 3 * 2 * (500 - 1));
+}
+
+static void large_stars_are_whole() {
+    std::vector<Point_2> wheel{Point_2(0, 0)};
+    for (int i = 0; i < 100; i++) wheel.emplace_back(std::cos(0.0625 * i), std::sin(0.0625 * i));
+    const Dt2 t(wheel.begin(), wheel.end());
+    CHECK(t.degree(t.nearest_vertex(Point_2(0, 0))) == 100);
+}
+
 static void failures_have_no_effect() {
     auto points = random_points(20);
     Dt2 t(points.begin(), points.end());
@@ -269,5 +294,7 @@ int main() {
     flat_sets();
     neighbours_are_mutual();
     circulators_and_sets();
+    threads_read_at_once();
+    large_stars_are_whole();
     failures_have_no_effect();
 }

@@ -74,7 +74,8 @@ public:
     const deldrift_cells_view &cells() const {
         if (!is_fresh_.load(std::memory_order_acquire)) {
             const std::lock_guard<std::mutex> lock(mutex_);
-            check(deldrift_cells(t_.native(), &cells_));
+            // Unless another thread has been here; then it may be reading them.
+            if (!is_fresh_.load(std::memory_order_relaxed)) check(deldrift_cells(t_.native(), &cells_));
             is_fresh_.store(true, std::memory_order_release);
         }
         return cells_;
@@ -82,10 +83,12 @@ public:
     void star(std::uint32_t vertex, std::vector<std::uint32_t> &cells) const {
         std::size_t count = 0;
         cells.resize(64);
-        if (deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count) == DELDRIFT_BUFFER_TOO_SMALL) {
+        deldrift_status status = deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count);
+        if (status == DELDRIFT_BUFFER_TOO_SMALL) {
             cells.resize(count);
+            status = deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count);
         }
-        check(deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count));
+        check(status);
         cells.resize(count);
     }
 
