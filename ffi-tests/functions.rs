@@ -72,8 +72,8 @@ fn functions() -> Vec<Function> {
 /// For each function the test and the example that call it most often.
 fn table(functions: &[Function]) -> String {
     let mut text = String::from(
-        "# Functions\n\nEvery function of the [header](../include/deldrift.h), with a test and an example that call it. Tests \
-         compare this\ntable with the header and with the programs; `make header` writes it.\n\n\
+        "# Functions\n\nEvery function of the [header](../include/deldrift.h), with a test and an example that\ncall it. \
+         Tests compare this table with the header and with the programs; `make header` writes it.\n\n\
          | function | what it does | test | example |\n|---|---|---|---|\n",
     );
     let (tests, examples) =
