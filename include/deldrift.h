@@ -92,7 +92,7 @@ enum deldrift_status
     DELDRIFT_MISALIGNED_ARGUMENT = 2,
     /// An array with the given count would not fit in the address space.
     DELDRIFT_SIZE_OVERFLOW = 3,
-    /// The dimension is neither 2 nor 3.
+    /// The dimension is neither 2 nor 3, or not one for which there is the function.
     DELDRIFT_INVALID_DIMENSION = 4,
     /// An option has a value that this version does not know; the message names the field.
     DELDRIFT_INVALID_OPTIONS = 5,
@@ -137,6 +137,8 @@ enum deldrift_status
     DELDRIFT_NO_SUCH_FACET = 24,
     /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
     DELDRIFT_NO_DELIMITER = 25,
+    /// A number has no meaning for its argument, as a negative squared radius.
+    DELDRIFT_INVALID_VALUE = 26,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -247,6 +249,27 @@ enum deldrift_coincidence
 typedef enum deldrift_coincidence deldrift_coincidence;
 #else
 typedef uint32_t deldrift_coincidence;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// How values between vertices follow from those at vertices.
+enum deldrift_interpolation
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// Linear in each cell.
+    DELDRIFT_INTERPOLATION_LINEAR = 0,
+    /// By the natural neighbours of a position, the vertices that would share an edge with it: each with the length or
+    /// area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian interpolation). Smooth
+    /// but at vertices and on the circles or spheres of cells.
+    DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum deldrift_interpolation deldrift_interpolation;
+#else
+typedef uint32_t deldrift_interpolation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -859,6 +882,274 @@ deldrift_status deldrift_changed_cells(const deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
 /// deldrift_last_error then gives the first violation.
 deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t level);
+
+/// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
+///
+/// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. One
+/// that is NULL is not filled. count: receives the number of cells, which is also written when the buffers are
+/// too small. NULL for both with capacity 0 asks for the count alone.
+///
+/// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by
+/// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
+/// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+deldrift_status deldrift_circumcentres(const deldrift_triangulation *t,
+                                       double *centres,
+                                       double *squared_radii,
+                                       size_t capacity,
+                                       size_t *count);
+
+/// The areas (2D) or volumes (3D) of all cells, in the order of deldrift_cells.
+///
+/// volumes: a buffer with room for capacity numbers. count: receives the number of cells, which is also written
+/// when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Rounded, with a relative error of at most 1e-9, and of a few last bits unless the cell is nearly flat: always
+/// positive. (Below the least normal number, 2.2e-308, they are less accurate.) One pass over the cells; nearly flat
+/// ones take up to a microsecond each.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+deldrift_status deldrift_volumes(const deldrift_triangulation *t,
+                                 double *volumes,
+                                 size_t capacity,
+                                 size_t *count);
+
+/// Which cells have a circumradius of at most a given one, as for an alpha shape: 1 for those whose squared
+/// circumradius is at most squared_radius, 0 for the others, in the order of deldrift_cells.
+///
+/// squared_radius: 0 or more; infinity is all cells. mask: a buffer with room for capacity bytes. count: receives
+/// the number of cells, which is also written when the buffer is too small. NULL with capacity 0 asks for the count
+/// alone.
+///
+/// Exact: every entry is that of an exact comparison of squared_radius, as given, with the squared radius of the
+/// circle or sphere through the positions. One pass over the cells; where the two nearly agree, a cell takes a
+/// microsecond.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that
+/// is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// what the first deldrift_cells does.
+deldrift_status deldrift_mask_by_circumradius(const deldrift_triangulation *t,
+                                              double squared_radius,
+                                              uint8_t *mask,
+                                              size_t capacity,
+                                              size_t *count);
+
+/// The boundary of some of the cells: the facets between a cell in a mask and one that is not in it, or the outside.
+///
+/// mask: mask_count bytes, one for each cell in the order of deldrift_cells (mask_count must be deldrift_cell_count);
+/// a cell is in it if its byte is not 0. Read during the call only. facets: a buffer with room for capacity rows of 2
+/// (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the cell in the mask is on the left of the edge from
+/// the first vertex to the second; in 3D the vertices are in counter-clockwise order as seen from the side away from
+/// the cell. cells, corners: buffers with room for capacity numbers, which receive that cell and which of its corners
+/// (0, 1, ...) is opposite the facet. One of the three that is NULL is not filled. count: receives the number of
+/// facets, which is also written when the buffers are too small. NULL for all three with capacity 0 asks for the
+/// count alone.
+///
+/// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
+deldrift_status deldrift_mask_boundary(const deldrift_triangulation *t,
+                                       const uint8_t *mask,
+                                       size_t mask_count,
+                                       uint32_t *facets,
+                                       uint32_t *cells,
+                                       uint8_t *corners,
+                                       size_t capacity,
+                                       size_t *count);
+
+/// The facets of the convex hull, as deldrift_mask_boundary gives them if all cells are in the mask.
+///
+/// facets, cells, corners, capacity, count: as there. One pass over the cells; constant time for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
+                                     uint32_t *facets,
+                                     uint32_t *cells,
+                                     uint8_t *corners,
+                                     size_t capacity,
+                                     size_t *count);
+
+/// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
+/// function of positions and ids alone.
+///
+/// edges: a buffer with room for capacity rows. count: receives the number of edges, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
+///
+/// Takes some passes over the cells, and memory for the cells of each vertex while it runs.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+deldrift_status deldrift_edges(const deldrift_triangulation *t,
+                               uint32_t *edges,
+                               size_t capacity,
+                               size_t *count);
+
+/// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after
+/// the other. Removed and hidden vertices have none. They are a function of positions and ids alone.
+///
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
+/// neighbours[offsets[v]] to neighbours[offsets[v + 1] - 1]. neighbours: a buffer with room for capacity ids. One that
+/// is NULL is not filled, and its size not looked at, but capacity must be 0 then. count: receives the number of
+/// entries, twice that of the edges, which is also written when neighbours is too small. NULL for both asks for the
+/// count alone, in constant time.
+///
+/// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
+deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
+                                           uint32_t *offsets,
+                                           size_t offset_count,
+                                           uint32_t *neighbours,
+                                           size_t capacity,
+                                           size_t *count);
+
+/// The cells of all vertices: for each id the indices of the cells that have it as a corner, ascending, one list
+/// after the other. Removed and hidden vertices have none.
+///
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
+/// cells[offsets[v]] to cells[offsets[v + 1] - 1]. cells: a buffer with room for capacity indices. One that is NULL is
+/// not filled, and its size not looked at, but capacity must be 0 then. count: receives the number of entries, 3 (2D)
+/// or 4 (3D) times that of the cells, which is also written when cells is too small. NULL for both asks for the count
+/// alone, in constant time.
+///
+/// Takes two passes over the cells, and memory for the lists while it runs.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
+deldrift_status deldrift_vertex_cells(const deldrift_triangulation *t,
+                                      uint32_t *offsets,
+                                      size_t offset_count,
+                                      uint32_t *cells,
+                                      size_t capacity,
+                                      size_t *count);
+
+/// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
+/// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
+/// the hull.
+///
+/// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
+/// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does. One pass over
+/// the cells.
+deldrift_status deldrift_mirror_indices(const deldrift_triangulation *t,
+                                        uint8_t *mirrors,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is opposite the same facet;
+/// DELDRIFT_NONE for a facet of the hull.
+///
+/// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
+/// After a change the first call also does what the first deldrift_cells does; else constant time.
+deldrift_status deldrift_mirror_index(const deldrift_triangulation *t,
+                                      uint32_t cell,
+                                      uint32_t corner,
+                                      uint32_t *mirror);
+
+/// The star of a vertex of the plane in the order in which one goes around it: the indices of the cells that have it
+/// as a corner, counter-clockwise. Each shares an edge with the next one, and the last one with the first one, unless
+/// the vertex is on the convex hull. There the first cell is the one at the hull's edge that leaves the vertex when
+/// the hull is passed counter-clockwise; elsewhere it is the one of lowest index. For a hidden vertex the star of its
+/// representative.
+///
+/// cells: a buffer with room for capacity indices. count: receives their number, which is also written when the buffer
+/// is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
+/// change the first call also does what the first deldrift_cells does; else the cost is that of the star.
+deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
+                                      uint32_t vertex,
+                                      uint32_t *cells,
+                                      size_t capacity,
+                                      size_t *count);
+
+/// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
+///
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
+/// call only; vertices may be outside of it. NULL for both is no box: then the Voronoi cells of the vertices on the
+/// convex hull are infinite. volumes: a buffer with room for capacity numbers. A removed vertex has NaN, a hidden one
+/// 0; while there are no cells, all have NaN. count: receives the number of ids, which is also written when the buffer
+/// is too small. NULL for volumes with capacity 0 asks for the count alone.
+///
+/// Rounded: as accurate as the circumcentres of the cells around a vertex (see deldrift_circumcentres) allow, and
+/// never negative by more than that. The volumes of all ids add up to that of the box but for rounding.
+///
+/// Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it runs; the
+/// Voronoi cells at the boundary of the box take a microsecond (2D) or some (3D) each.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does.
+deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
+                                         const double *low,
+                                         const double *high,
+                                         double *volumes,
+                                         size_t capacity,
+                                         size_t *count);
+
+/// The lengths (2D) or areas (3D) of the Voronoi facets of all edges, in the order of deldrift_edges, within a box.
+/// The Voronoi facet of an edge is what the Voronoi cells of its two vertices share.
+///
+/// low, high: as for deldrift_voronoi_volumes. Without a box, the Voronoi facets of the edges on the convex hull are
+/// infinite. measures: a buffer with room for capacity numbers. count: receives the number of edges, which is also
+/// written when the buffer is too small. NULL for measures with capacity 0 asks for the count alone.
+///
+/// Rounded, and never negative; 0 for facets outside the box, and between the vertices of cocircular or cospherical
+/// cells. Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it
+/// runs.
+///
+/// Errors: as deldrift_voronoi_volumes: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
+                                        const double *low,
+                                        const double *high,
+                                        double *measures,
+                                        size_t capacity,
+                                        size_t *count);
+
+/// Interpolates values of the vertices at count positions.
+///
+/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of removed
+/// and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers each. All
+/// are read during the call only. near: where to begin to look for the first position, as for deldrift_locate_points;
+/// NULL if nothing is known. It is fastest if each position is near the one before it. outside: what positions outside
+/// the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions but those of vertices
+/// are outside. results: receives count rows of n_values numbers. values may be NULL if value_count or n_values is 0,
+/// positions and results if count is 0.
+///
+/// At the place of a vertex the result is that of the vertex. Elsewhere it is rounded, and linear functions are
+/// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
+/// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
+/// method that this version does not have, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of
+/// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also does what the first
+/// deldrift_cells does.
+deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
+                                     deldrift_interpolation method,
+                                     const double *values,
+                                     size_t value_count,
+                                     size_t n_values,
+                                     const double *positions,
+                                     size_t count,
+                                     const deldrift_location *near,
+                                     const double *outside,
+                                     double *results);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -310,6 +310,9 @@ struct Scene<G: Dimension> {
     carried: Option<Carried>,
     call: Call,
     options: Option<Options>,
+    /// An entry for each cell, and a value for each id.
+    mask: Vec<u8>,
+    values: Vec<f64>,
 }
 
 /// What a call gave, as far as that does not depend on the order of cells.
@@ -408,12 +411,13 @@ impl<G: Dimension> Scene<G> {
             t.stage_removals(&leaving).expect("removals");
         }
         let options = Some(options());
-        Scene { t, points, carried, call, options }
+        let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
+        Scene { t, points, carried, call, options, mask, values }
     }
 
     /// Makes the call, and disarms as soon as it is back.
     fn call(&mut self) -> Result<Given> {
-        let Scene { t, points, call, options, .. } = self;
+        let Scene { t, points, call, options, mask, values, .. } = self;
         let goal = |goal: Goal| match goal {
             Goal::Near => point::<G>(|k| points[12][k] + 1e-3),
             Goal::Far => point::<G>(|k| 1.5 + k as f64),
@@ -520,29 +524,33 @@ impl<G: Dimension> Scene<G> {
                 Given::Numbers(vec![n as u64, t.volumes()?.len() as u64])
             }
             Call::MaskBoundary => {
-                let mask = vec![1; t.cell_count()];
                 let mut n = 0;
-                given(t.mask_boundary(&mask, |_| n += 1))?;
+                given(t.mask_boundary(mask, |_| n += 1))?;
                 Given::Numbers(vec![n])
             }
             Call::Edges => Given::Pairs(given(t.edges())?),
             Call::VertexNeighbours => Given::Lists(given(t.vertex_neighbours())?),
-            Call::VertexCells => Given::Numbers(vec![given(t.vertex_cells())?.entries.len() as u64]),
+            Call::VertexCells => {
+                let lists = given(t.vertex_cells())?;
+                Given::Numbers(vec![lists.entries.len() as u64])
+            }
             Call::MirrorIndices => {
-                Given::Numbers(vec![given(t.mirror_indices().map(Iterator::count))? as u64])
+                let n = given(t.mirror_indices().map(Iterator::count))?;
+                Given::Numbers(vec![n as u64])
             }
             Call::VoronoiVolumes => {
                 let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
-                Given::Numbers(vec![given(t.voronoi_volumes(Some(clip)))?.len() as u64])
+                let volumes = given(t.voronoi_volumes(Some(clip)))?;
+                Given::Numbers(vec![volumes.len() as u64])
             }
             Call::VoronoiFacets => {
                 let clip = [&point::<G>(|_| 0.2), &point::<G>(|_| 0.7)];
-                Given::Numbers(vec![given(t.voronoi_facets(Some(clip)))?.len() as u64])
+                let measures = given(t.voronoi_facets(Some(clip)))?;
+                Given::Numbers(vec![measures.len() as u64])
             }
             Call::Interpolate(method) => {
-                let values: Vec<f64> = (0..t.id_count()).map(|v| v as f64).collect();
                 let places = [point::<G>(|_| 0.5), point::<G>(|axis| 0.4 + 0.1 * axis as f64)];
-                let values = VertexValues { values: &values, n_values: 1 };
+                let values = VertexValues { values, n_values: 1 };
                 let mut n = 0;
                 given(
                     t.interpolate(method, values, &places, None, |result| n += u64::from(result.is_some())),
