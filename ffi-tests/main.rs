@@ -8,7 +8,7 @@
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `c/faults.c`, `c/limits.c`, `c/memory_bytes.c` | calls for which there is no memory, and how much is held |
 //! | `coverage.rs` | every function and every status of the header is used by some program |
-//! | `examples.rs` | the examples in C++, with few steps (`--include-ignored`) |
+//! | `examples.rs` | the examples, with few steps (`--include-ignored`) |
 //! | `functions.rs` | docs/FUNCTIONS.md and docs/ERRORS.md name everything in the header |
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
 //! | `installation.rs` | programs that find the library by CMake or pkg-config (`--include-ignored`) |
