@@ -289,7 +289,8 @@ public:
     Facets mask_boundary(span<const std::uint8_t> mask) const {
         return facets([&](std::uint32_t *vertices, std::uint32_t *cells, std::uint8_t *corners, std::size_t capacity,
                           std::size_t *count) {
-            return deldrift_mask_boundary(native(), mask.data(), mask.size(), vertices, cells, corners, capacity, count);
+            return deldrift_mask_boundary(native(), mask.data(), mask.size(), vertices, cells, corners, capacity,
+                                          count);
         });
     }
     Facets hull_facets() const {
@@ -332,7 +333,8 @@ public:
     std::vector<double> voronoi_volumes(span<const double> low = {}, span<const double> high = {}) const {
         std::size_t count = id_count();
         std::vector<double> volumes(count);
-        check(deldrift_voronoi_volumes(native(), corner("low", low), corner("high", high), volumes.data(), count, &count));
+        check(deldrift_voronoi_volumes(native(), corner("low", low), corner("high", high), volumes.data(), count,
+                                  &count));
         return volumes;
     }
     // Of all edges, in their order.
@@ -340,7 +342,8 @@ public:
         std::size_t count = 0;
         check(deldrift_edges(native(), nullptr, 0, &count));
         std::vector<double> measures(count);
-        check(deldrift_voronoi_facets(native(), corner("low", low), corner("high", high), measures.data(), count, &count));
+        check(deldrift_voronoi_facets(native(), corner("low", low), corner("high", high), measures.data(), count,
+                                  &count));
         return measures;
     }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.

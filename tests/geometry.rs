@@ -1,6 +1,8 @@
 //! Geometry computed from the cells, against exact integers and against brute force over all cells.
 
 mod common;
+#[path = "geometry/voronoi.rs"]
+mod voronoi;
 
 use common::exact::{Grid, orientation, representatives};
 use common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};

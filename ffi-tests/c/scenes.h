@@ -290,8 +290,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case VORONOI_FACETS: status = deldrift_voronoi_facets(s->t, low, high, numbers_out, ROOM, &count); break;
         case INTERPOLATE:
         case INTERPOLATE_NATURAL:
-            status = deldrift_interpolate(s->t, s->call.kind == INTERPOLATE_NATURAL, s->points, id_count, 1, at, 1, NULL,
-                                          NULL, numbers_out);
+            status = deldrift_interpolate(s->t, s->call.kind == INTERPOLATE_NATURAL, s->points, id_count, 1, at, 1,
+                                          NULL, NULL, numbers_out);
             break;
         case N_KINDS: break;
     }

@@ -151,9 +151,10 @@ pub(super) fn volume<'r>(u: &[Integer<'r>; 3], v: &[Integer<'r>; 3], w: &[Intege
 /// 27 · 21. A square is 3 · 40 + 2 · 41, a minor 2 · 40 + 41, a volume three of these and 3 · 60 + 2 · 61. `insphere`
 /// has four squares, four volumes, four products of 100 and three sums of 101: 4,738 in all.
 ///
-/// The most are those of comparing the radius of a sphere (`measures.rs`). 12 coordinates and 9 differences are 21 · 21;
-/// three squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its square,
-/// 3 · 160 + 2 · 161; that of the volume, 120; the given radius and its product with that, 53 + 173. These are 4,792.
+/// The most are those of comparing the radius of a sphere (`measures.rs`). 12 coordinates and 9 differences are 21 ·
+/// 21; three squares; nine minors; a volume of them, 3 · 60 + 2 · 61; a vector, three times 3 · 80 + 2 · 81; its
+/// square, 3 · 160 + 2 · 161; that of the volume, 120; the given radius and its product with that, 53 + 173. These are
+/// 4,792.
 const LIMBS: usize = 4800;
 
 /// Room for integers, which are given up together.

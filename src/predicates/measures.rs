@@ -71,21 +71,18 @@ impl<const D: usize> Rounded<D> {
         Rounded { offset: n.map(|x| x / (2.0 * volume)), is_sharp, extent }
     }
 
-    /// Whether the squared radius is at most `squared`, if that is certain.
+    /// Whether the squared radius is at most `squared`, from `exactly` where that is not certain.
     #[inline(always)]
-    fn is_within(&self, squared: f64) -> Option<bool> {
-        if !self.is_sharp {
-            // At least half the extent, with room for the rounding of the extent and of this.
-            return (squared < 0.2499 * (self.extent * self.extent)).then_some(false);
-        }
+    fn is_within(&self, squared: f64, exactly: impl FnOnce() -> bool) -> bool {
         let own = dot(&self.offset, &self.offset);
-        if own < squared * (1.0 - MARGIN) {
-            Some(true)
-        } else if own > squared * (1.0 + MARGIN) {
-            Some(false)
-        } else {
-            None
+        // One branch, as the answer cannot be predicted.
+        let is_apart = (own < squared * (1.0 - MARGIN)) | (own > squared * (1.0 + MARGIN));
+        if self.is_sharp & is_apart {
+            return own < squared;
         }
+        // The radius is at least half the extent, with room for the rounding of the extent and of this.
+        let is_flat_and_large = !self.is_sharp && squared < 0.2499 * (self.extent * self.extent);
+        !is_flat_and_large && exactly()
     }
 }
 
@@ -108,9 +105,8 @@ impl Measures for [f64; 2] {
     #[inline(always)]
     fn is_circumradius_within(cell: &[&Self], squared: f64) -> bool {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
-        rounded2d([a, b, c])
-            .is_within(squared)
-            .unwrap_or_else(|| is_exactly_within([a, b, c], squared, exact_circle))
+        let rounded = rounded2d([a, b, c]);
+        rounded.is_within(squared, || is_exactly_within([a, b, c], squared, exact_circle))
     }
 }
 
@@ -138,9 +134,8 @@ impl Measures for [f64; 3] {
     #[inline(always)]
     fn is_circumradius_within(cell: &[&Self], squared: f64) -> bool {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
-        rounded3d([a, b, c, d])
-            .is_within(squared)
-            .unwrap_or_else(|| is_exactly_within([a, b, c, d], squared, exact_sphere))
+        let rounded = rounded3d([a, b, c, d]);
+        rounded.is_within(squared, || is_exactly_within([a, b, c, d], squared, exact_sphere))
     }
 }
 

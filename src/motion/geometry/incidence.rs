@@ -3,8 +3,8 @@
 //! Lists by vertex are ordered by id or index, so that neighbours and edges are a function of positions and ids alone.
 //!
 //! Cost: a pass over the cells to list those of each vertex; for neighbours a second one over these lists, in which a
-//! vertex is recognised by the round in which it has been seen last. By Euler's formula the number of edges follows from those of vertices,
-//! cells and hull facets.
+//! vertex is recognised by the round in which it has been seen last. By Euler's formula the number of edges follows
+//! from those of vertices, cells and hull facets.
 
 use std::ops::Range;
 
@@ -13,8 +13,12 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 use crate::motion::cells::Cells;
 use crate::motion::{MovingTriangulation, NO_CORNER};
+
+/// How many vertices in advance to ask for the cells of one.
+const STARS_AHEAD: usize = 2;
 
 /// A list for each vertex, one after the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,6 +86,16 @@ impl<'t, G: Dimension> Neighbours<'t, G> {
         list[first..].sort_unstable();
     }
 
+    /// Asks for what the lists of a vertex will be made from, if there is such a vertex.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, vertex: usize) {
+        if vertex + 1 < self.stars.offsets.len() {
+            self.stars.entries[self.stars.range(vertex)]
+                .iter()
+                .for_each(|cell| prefetch(self.corners, cell.index()));
+        }
+    }
+
     /// As [`append`](Self::append), to a list that is cleared first.
     #[inline(always)]
     pub(super) fn list<T: Ord>(
@@ -147,6 +161,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (mut edges, mut list) = (Vec::new(), Vec::new());
         memory::reserve_exact(&mut edges, self.edge_count())?;
         for vertex in VertexId::range(0..n_ids) {
+            neighbours.prefetch(vertex.index() + STARS_AHEAD);
             neighbours.list(vertex, vertex, &mut list, |other, _| other)?;
             edges.extend(list.iter().map(|&other| [vertex, other]));
         }
@@ -166,6 +181,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut entries, 2 * self.edge_count())?;
         offsets.push(0);
         for vertex in VertexId::range(0..n_ids) {
+            neighbours.prefetch(vertex.index() + STARS_AHEAD);
             neighbours.append(vertex, VertexId::new(0), &mut entries, |other, _| other);
             offsets.push(entries.len() as u32);
         }

@@ -1,7 +1,7 @@
 //! Values between vertices.
 //!
-//! *Linear*: the barycentric coordinates of the cell that holds the place. They come from elimination with pivots, whose
-//! result leaves a small residual however flat the cell, so linear functions are reproduced; where that makes one
+//! *Linear*: the barycentric coordinates of the cell that holds the place. They come from elimination with pivots,
+//! whose result leaves a small residual however flat the cell, so linear functions are reproduced; where that makes one
 //! clearly negative they are quotients of volumes, which are exact but for their last bits.
 //!
 //! *Natural neighbours*: see `natural.rs`.

@@ -12,8 +12,8 @@
 //! | `voronoi` | Voronoi cells and facets, clipped by a box |
 //! | `interpolation`, `natural` | values between vertices: linear, or of natural neighbours |
 //!
-//! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much. They
-//! are computed the same way on every processor.
+//! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much.
+//! They are computed the same way on every processor.
 
 mod boundary;
 mod clipping;

@@ -8,8 +8,8 @@
 //!
 //! The cells whose sphere holds the place are found from the one that holds it, by exact signs. A new cell would join
 //! the place and each facet around them; the Voronoi facet to a natural neighbour is between the circumcentres of those
-//! at it. In space these are never put in a row: their area is a sum over ridges, each of which two facets share, once in
-//! each direction.
+//! at it. In space these are never put in a row: their area is a sum over ridges, each of which two facets share, once
+//! in each direction.
 //!
 //! Circumcentres that are far away, as for places near the hull, make the weights inaccurate. By what they do not
 //! reproduce the place, the linear interpolation of the cell that holds it is added. Where a circumcentre is out of

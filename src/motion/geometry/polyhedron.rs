@@ -1,9 +1,9 @@
 //! A box, cut by half-spaces: a polyhedron whose surface is always closed.
 //!
 //! Whether a corner is cut off is decided once, for all faces that have it; an edge of which one end is cut off has one
-//! new corner, for both of its faces. Each of these has a new edge where the cut passes; the other way around these make
-//! up the new faces. So every edge is passed once in each direction, whatever rounding says, and the volume of what the
-//! faces enclose depends continuously on the corners.
+//! new corner, for both of its faces. Each of these has a new edge where the cut passes; the other way around these
+//! make up the new faces. So every edge is passed once in each direction, whatever rounding says, and the volume of
+//! what the faces enclose depends continuously on the corners.
 
 use super::clipping::{Clip, Vector, cross, dot, in_space, minus};
 use crate::delaunay::Dimension;

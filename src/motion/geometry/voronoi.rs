@@ -1,12 +1,12 @@
 //! Voronoi cells and facets, clipped by a box.
 //!
-//! The Voronoi facet of an edge is between the circumcentres of the cells around the edge. If all of them are in the box
-//! it is their polygon (in the plane a segment); otherwise it is the section of the box with the bisector of the edge,
-//! cut by the bisectors of one end of the edge and the vertices of its link.
+//! The Voronoi facet of an edge is between the circumcentres of the cells around the edge. If all of them are in the
+//! box it is their polygon (in the plane a segment); otherwise it is the section of the box with the bisector of the
+//! edge, cut by the bisectors of one end of the edge and the vertices of its link.
 //!
-//! A Voronoi cell in the box consists of the pyramids from its vertex to its facets. Any other is cut out of the box, by
-//! the bisectors of its vertex and the neighbours of that: a polyhedron that stays closed however planes coincide, so
-//! that its volume, like those of the others, is right but for rounding, and all add up to that of the box.
+//! A Voronoi cell in the box consists of the pyramids from its vertex to its facets. Any other is cut out of the box,
+//! by the bisectors of its vertex and the neighbours of that: a polyhedron that stays closed however planes coincide,
+//! so that its volume, like those of the others, is right but for rounding, and all add up to that of the box.
 
 use super::clipping::{Clip, Section, cross, dot, in_space, middle, minus};
 use super::incidence::Neighbours;
@@ -195,9 +195,9 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Areas or volumes of the Voronoi cells of all ids, within the box from `low` to `high` if these are given. Without
-    /// a box that of a vertex of the convex hull is infinite. NaN for removed vertices, 0 for hidden ones; NaN for all
-    /// while there are no cells.
+    /// Areas or volumes of the Voronoi cells of all ids, within the box from `low` to `high` if these are given.
+    /// Without a box that of a vertex of the convex hull is infinite. NaN for removed vertices, 0 for hidden ones; NaN
+    /// for all while there are no cells.
     ///
     /// Rounded: relatively to the box, or without one to the square or cube of the distance to the farthest
     /// circumcentre around the vertex, the error is a small multiple of that of [`circumspheres`](Self::circumspheres).
@@ -215,7 +215,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut is_cut = Vec::new();
         memory::reserve_exact(&mut is_cut, self.id_count())?;
         is_cut.resize(self.id_count(), false);
-        let neighbours = self.for_voronoi_facets(&mut voronoi, |voronoi, edge, facet| {
+        // In the order of storage, as their sums have none.
+        let vertices = self.kernel.live_sites().map(|s| self.kernel.site(s).id);
+        let neighbours = self.for_voronoi_facets(vertices, &mut voronoi, |voronoi, edge, facet| {
             let along = minus(&voronoi.place(edge[1]), &voronoi.place(edge[0]));
             let pyramid = 0.5 * dot(&along, &along).sqrt() * facet.measure / G::D as f64;
             for v in edge {
@@ -244,7 +246,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut measures = Vec::new();
         memory::reserve_exact(&mut measures, self.edge_count())?;
         let mut voronoi = Voronoi::new(self, clip)?;
-        self.for_voronoi_facets(&mut voronoi, |_, _, facet| measures.push(facet.measure))?;
+        let vertices = VertexId::range(0..self.id_count());
+        self.for_voronoi_facets(vertices, &mut voronoi, |_, _, facet| measures.push(facet.measure))?;
         Ok(measures)
     }
 
@@ -253,15 +256,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         checked::<G>(clip).map(drop)
     }
 
-    /// Visits the Voronoi facets of all edges in order.
+    /// Visits the Voronoi facets of all edges, in the order of their lower ids in `vertices`.
     fn for_voronoi_facets<'t>(
         &'t self,
+        vertices: impl Iterator<Item = VertexId>,
         voronoi: &mut Voronoi<'t, G>,
         mut visit: impl FnMut(&Voronoi<'t, G>, [VertexId; 2], VoronoiFacet),
     ) -> Result<Neighbours<'t, G>> {
         let mut neighbours = Neighbours::new(self.cell_arrays()?, self.id_count())?;
         let mut list = Vec::new();
-        for v in VertexId::range(0..self.id_count()) {
+        for v in vertices {
             neighbours.list(v, v, &mut list, |w, cell| (w, cell))?;
             for &(w, cell) in &list {
                 let facet = voronoi.facet([v, w], cell)?;

@@ -1,10 +1,8 @@
 //! Voronoi cells against half-spaces cut one after the other, by all vertices; and interpolation against exact
 //! coordinates and against triangulations that have the place for a vertex.
 
-mod common;
-
-use common::exact::{Grid, orientation, to_point};
-use common::{Rng, point, seeds};
+use crate::common::exact::{Grid, orientation, to_point};
+use crate::common::{Rng, point, seeds};
 use deldrift::motion::{Interpolation, Location, MovingTriangulation, Options, VertexValues};
 use deldrift::{Dimension, Error, Plane, Space, VertexId};
 
