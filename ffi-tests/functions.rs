@@ -59,7 +59,10 @@ fn functions() -> Vec<Function> {
         if let Some(text) = line.strip_prefix("///") {
             documentation += text;
         } else if let Some(name) = declarations(line).find_map(function_name) {
-            let end = documentation.find(". ").map_or(documentation.len(), |at| at + 1);
+            let mut stops = documentation.match_indices(". ").map(|(at, _)| at);
+            let end = stops
+                .find(|&at| !documentation[..at].ends_with('.'))
+                .map_or(documentation.len(), |at| at + 1);
             let summary = documentation[..end].trim().replace('*', "\\*").replace('|', "\\|");
             functions.push(Function { name: name.to_string(), summary });
         }
