@@ -261,8 +261,8 @@ enum deldrift_interpolation
     /// Linear in each cell.
     DELDRIFT_INTERPOLATION_LINEAR = 0,
     /// By the natural neighbours of a position, the vertices that would share an edge with it: each with the length or
-    /// area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian interpolation). Smooth
-    /// but at vertices and on the circles or spheres of cells.
+    /// area of the Voronoi facet between the two over their distance (Laplace's, or non-Sibsonian interpolation).
+    /// Smooth but at vertices and on the circles or spheres of cells.
     DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR = 1,
 };
 #ifndef __cplusplus
@@ -1124,13 +1124,13 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 
 /// Interpolates values of the vertices at count positions.
 ///
-/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of removed
-/// and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers each. All
-/// are read during the call only. near: where to begin to look for the first position, as for deldrift_locate_points;
-/// NULL if nothing is known. It is fastest if each position is near the one before it. outside: what positions outside
-/// the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions but those of vertices
-/// are outside. results: receives count rows of n_values numbers. values may be NULL if value_count or n_values is 0,
-/// positions and results if count is 0.
+/// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of
+/// removed and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers
+/// each. All are read during the call only. near: where to begin to look for the first position, as for
+/// deldrift_locate_points; NULL if nothing is known. It is fastest if each position is near the one before it. outside:
+/// what positions outside the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions
+/// but those of vertices are outside. results: receives count rows of n_values numbers. values may be NULL if
+/// value_count or n_values is 0, positions and results if count is 0.
 ///
 /// At the place of a vertex the result is that of the vertex. Elsewhere it is rounded, and linear functions are
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
