@@ -1,4 +1,4 @@
-//! The examples in C++, with few steps. They check themselves; what they print is checked here. They need Eigen, and
+//! The examples, with few steps. They check themselves; what they print is checked here. Those in C++ need Eigen, and
 //! one of them CGAL, so they run only where they are asked for (`cargo test --test ffi -- --include-ignored`).
 
 use std::path::Path;
@@ -50,6 +50,14 @@ fn voronoi_volumes_add_up_and_give_densities() {
     let (sum, error) =
         (number_after("sum of volumes within ", &said), number_after("densities within ", &said));
     assert!(sum < 1e-12 && error < 10.0, "{said}");
+}
+
+#[test]
+fn the_tour_sees_what_it_expects() {
+    let folder = fresh_folder("tour");
+    let said = succeed(&mut command(build(&repository("examples/tour.c"), &folder, Linkage::Static, &[])));
+    let (found, expected) = (number_after("bytes: ", &said), number_after(" of ", &said));
+    assert!(found == expected && expected > 15.0 && said.lines().count() == 1, "{said}");
 }
 
 /// The program of docs/FIVE_MINUTES.md, as it stands there.

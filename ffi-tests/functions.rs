@@ -1,5 +1,6 @@
 //! docs/FUNCTIONS.md and docs/ERRORS.md: they name everything that the header has, and what they say is so.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -41,12 +42,12 @@ fn every_status_has_a_cause_and_a_remedy() {
     let header = text_of("include/deldrift.h");
     let (_, from) = header.split_once("enum deldrift_status").expect("there are statuses");
     let (statuses, _) = from.split_once("};").expect("an enumeration ends");
-    let statuses: Vec<&str> =
+    let statuses: BTreeSet<&str> =
         declarations(statuses).filter_map(|line| line.split_once(" = ")).map(|(name, _)| name).collect();
     let errors = text_of("docs/ERRORS.md");
     let rows: Vec<Vec<&str>> = errors.lines().filter(|line| line.starts_with("| `")).map(cells).collect();
-    let named: Vec<String> = rows.iter().map(|row| row[0].trim_matches('`').to_string()).collect();
-    assert_eq!(named, statuses, "the rows of docs/ERRORS.md are not the statuses, in their order");
+    let named: BTreeSet<&str> = rows.iter().map(|row| row[0].trim_matches('`')).collect();
+    assert_eq!(named, statuses, "the rows of docs/ERRORS.md are not the statuses");
     assert!(rows.iter().all(|row| row.len() == 3 && row.iter().all(|cell| !cell.is_empty())));
 }
 
@@ -58,7 +59,10 @@ fn functions() -> Vec<Function> {
         if let Some(text) = line.strip_prefix("///") {
             documentation += text;
         } else if let Some(name) = declarations(line).find_map(function_name) {
-            let end = documentation.find(". ").map_or(documentation.len(), |at| at + 1);
+            let mut stops = documentation.match_indices(". ").map(|(at, _)| at);
+            let end = stops
+                .find(|&at| !documentation[..at].ends_with('.'))
+                .map_or(documentation.len(), |at| at + 1);
             let summary = documentation[..end].trim().replace('*', "\\*").replace('|', "\\|");
             functions.push(Function { name: name.to_string(), summary });
         }
@@ -72,8 +76,8 @@ fn functions() -> Vec<Function> {
 /// For each function the test and the example that call it most often.
 fn table(functions: &[Function]) -> String {
     let mut text = String::from(
-        "# Functions\n\nEvery function of the [header](../include/deldrift.h), with a test and an example that call it. Tests \
-         compare this\ntable with the header and with the programs; `make header` writes it.\n\n\
+        "# Functions\n\nEvery function of the [header](../include/deldrift.h), with a test and an example that\ncall it. \
+         Tests compare this table with the header and with the programs; `make header` writes it.\n\n\
          | function | what it does | test | example |\n|---|---|---|---|\n",
     );
     let (tests, examples) =

@@ -9,7 +9,7 @@
 //! | `cgal/both.cpp` | a program for CGAL, which writes the same with deldrift in its place (`--include-ignored`) |
 //! | `c/faults.c`, `c/limits.c`, `c/memory_bytes.c` | calls for which there is no memory, and how much is held |
 //! | `coverage.rs` | every function and every status of the header is used by some program |
-//! | `examples.rs` | the examples in C++, with few steps (`--include-ignored`) |
+//! | `examples.rs` | the examples, with few steps (`--include-ignored`) |
 //! | `functions.rs` | docs/FUNCTIONS.md and docs/ERRORS.md name everything in the header |
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
 //! | `installation.rs` | programs that find the library or have it as a part; packages (`--include-ignored`) |

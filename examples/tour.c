@@ -1,0 +1,149 @@
+// A tour of what the other examples do not use: changing one vertex at a time, and all that can be asked of a
+// triangulation. Each stop says what is expected, and is compared with it.
+#include <deldrift.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { SIDE = 20, VERTICES = SIDE * SIDE, MOST = 4 * VERTICES };  // MOST: more than there are of anything
+
+static void check(deldrift_status status) {
+    if (status == DELDRIFT_OK) return;
+    fprintf(stderr, "%s: %s\n", deldrift_status_string(status), deldrift_last_error());
+    exit(1);
+}
+
+static int n_expected, n_found;
+
+static void expect(bool is_so, const char *what) {
+    n_expected++, n_found += is_so;
+    if (!is_so) printf("not so: %s\n", what);
+}
+
+static bool is_near(double a, double b) { return fabs(a - b) < 1e-12; }
+
+static void change_one_at_a_time(deldrift_triangulation *t) {
+    uint32_t vertex, kept;
+    size_t vertices, ids, staged, count;
+    double position[2];
+    bool is_present;
+    check(deldrift_insert_vertex(t, (double[]){0.5, 0.5}, &vertex));
+    check(deldrift_relocate_vertex(t, vertex, (double[]){0.51, 0.5}));
+    check(deldrift_move_vertex(t, vertex, (double[]){0.52, 0.5}));  // for the next commit, which does not come
+    check(deldrift_staged_count(t, &staged));
+    check(deldrift_discard_moves(t));
+    check(deldrift_position(t, vertex, position));
+    expect(staged == 1 && position[0] == 0.51, "a discarded move leaves the vertex where it was");
+    check(deldrift_insert_vertex(t, position, &kept));  // at the same place
+    check(deldrift_coincident_representative(t, kept, &vertex));
+    expect(vertex == kept - 1, "of vertices at the same place the lowest id represents them");
+    check(deldrift_remove_vertex(t, vertex));
+    check(deldrift_remove_vertex(t, kept));
+    check(deldrift_is_present(t, kept, &is_present));
+    check(deldrift_vertex_count(t, &vertices));
+    check(deldrift_id_count(t, &ids));
+    expect(!is_present && vertices == VERTICES && ids == VERTICES + 2, "ids of removed vertices remain");
+    check(deldrift_compact(t, NULL, 0, &count));
+    check(deldrift_id_count(t, &ids));
+    expect(count == VERTICES + 2 && ids == VERTICES, "until the triangulation is compacted");
+    uint64_t timestamp;
+    deldrift_algorithm algorithm;
+    deldrift_commit_report all;
+    deldrift_indices_view changed;
+    check(deldrift_set_algorithm(t, DELDRIFT_REBUILDING));
+    check(deldrift_get_algorithm(t, &algorithm));
+    check(deldrift_move_vertex(t, 0, (double[]){-0.01, -0.01}));
+    check(deldrift_commit_timestamp(t, NULL));
+    check(deldrift_timestamp(t, &timestamp));
+    check(deldrift_statistics(t, &all));
+    check(deldrift_changed_cells(t, &changed));
+    expect(algorithm == DELDRIFT_REBUILDING && timestamp == 1 && all.rebuilds == 1, "a commit that rebuilds");
+    expect(changed.count < 10, "changes few cells if one vertex moves");
+}
+
+static void ask_for_places(const deldrift_triangulation *t) {
+    static double positions[2 * VERTICES], values[VERTICES];
+    size_t count;
+    check(deldrift_copy_positions(t, positions, VERTICES, &count));
+    for (size_t v = 0; v < count; v++) values[v] = 3 * positions[2 * v] - positions[2 * v + 1];
+    const double places[] = {0.3, 0.7, 2, 2}, outside = -1;
+    deldrift_location at, locations[2];
+    uint32_t nearest;
+    check(deldrift_locate(t, places, &at));
+    check(deldrift_locate_points(t, places, 2, &at, locations));
+    expect(locations[0].index == at.index && locations[1].kind == DELDRIFT_LOCATION_OUTSIDE, "places are located");
+    check(deldrift_nearest_vertex(t, places, &nearest));
+    expect(hypot(positions[2 * nearest] - 0.3, positions[2 * nearest + 1] - 0.7) < 1.0 / SIDE, "a vertex is near");
+    double results[2];
+    check(deldrift_interpolate(t, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, values, VERTICES, 1, places, 2, NULL,
+                               &outside, results));
+    expect(is_near(results[0], 3 * 0.3 - 0.7) && results[1] == -1, "linear functions are reproduced");
+    static double widths[3 * MOST], tolerance, centre[2], radius, of_bi_cell;
+    check(deldrift_tolerance(t, nearest, &tolerance));
+    check(deldrift_annulus_widths(t, widths, 3 * MOST, &count));
+    uint32_t corner = isnan(widths[3 * at.index]) ? 1 : 0;
+    check(deldrift_standard_delimiter(t, at.index, corner, centre, &radius, &of_bi_cell));
+    expect(tolerance > 0 && of_bi_cell <= widths[3 * at.index + corner] / 2, "tolerances are at most half a width");
+}
+
+static void ask_for_geometry(const deldrift_triangulation *t) {
+    static uint32_t vertices[3 * MOST], neighbours[3 * MOST], edges[2 * MOST], facets[2 * MOST], entries[2 * MOST];
+    static uint32_t offsets[VERTICES + 1], star[MOST], mirror;
+    static double centres[2 * MOST], squared_radii[MOST], areas[MOST], lengths[MOST], positions[2 * VERTICES];
+    static uint8_t mirrors[3 * MOST];
+    size_t n_cells, n_edges, n_facets, count;
+    check(deldrift_copy_positions(t, positions, VERTICES, &count));
+    check(deldrift_copy_cells(t, vertices, neighbours, MOST, &n_cells));
+    check(deldrift_edges(t, edges, MOST, &n_edges));
+    expect(VERTICES - n_edges + n_cells == 1, "vertices - edges + triangles is 1");
+    check(deldrift_hull_facets(t, facets, NULL, NULL, MOST, &n_facets));
+    expect(3 * n_cells == 2 * n_edges - n_facets, "edges have two triangles, and one on the hull");
+    check(deldrift_volumes(t, areas, MOST, &count));
+    double area = 0, hull = 0;
+    for (size_t c = 0; c < n_cells; c++) area += areas[c];
+    for (size_t k = 0; k < n_facets; k++)
+        hull += (positions[2 * facets[2 * k]] * positions[2 * facets[2 * k + 1] + 1] -
+                 positions[2 * facets[2 * k] + 1] * positions[2 * facets[2 * k + 1]]) / 2;
+    expect(is_near(area, hull), "the triangles fill the hull");
+    check(deldrift_circumcentres(t, centres, squared_radii, MOST, &count));
+    const double *a = positions + 2 * vertices[0];
+    expect(is_near(hypot(centres[0] - a[0], centres[1] - a[1]), sqrt(squared_radii[0])), "a centre has its radius");
+    check(deldrift_vertex_neighbours(t, offsets, VERTICES + 1, entries, 2 * MOST, &count));
+    expect(count == 2 * n_edges, "each edge makes two vertices neighbours");
+    check(deldrift_vertex_cells(t, offsets, VERTICES + 1, entries, 2 * MOST, &count));
+    expect(count == 3 * n_cells, "each triangle has three vertices");
+    check(deldrift_ordered_star(t, VERTICES / 2, star, MOST, &count));
+    expect(count == offsets[VERTICES / 2 + 1] - offsets[VERTICES / 2], "those of one are its star");
+    check(deldrift_mirror_indices(t, mirrors, MOST, &count));
+    const uint32_t beyond = neighbours[3 * star[0]];
+    check(deldrift_mirror_index(t, star[0], 0, &mirror));
+    expect(beyond == DELDRIFT_NONE || (mirror == mirrors[3 * star[0]] && neighbours[3 * beyond + mirror] == star[0]),
+           "the neighbour's neighbour is the triangle itself");
+    check(deldrift_voronoi_facets(t, (double[]){0, 0}, (double[]){1, 1}, lengths, MOST, &count));
+    expect(count == n_edges && lengths[0] >= 0, "each edge has a Voronoi edge, where the box does not cut it off");
+}
+
+int main(void) {
+    static double positions[2 * VERTICES];
+    for (int i = 0; i < VERTICES; i++) {
+        positions[2 * i] = (i % SIDE + 0.2 * sin(12.9898 * i)) / (SIDE - 1);
+        positions[2 * i + 1] = (i / SIDE + 0.2 * sin(78.233 * i)) / (SIDE - 1);
+    }
+    uint32_t dimension;
+    size_t bytes;
+    deldrift_triangulation *t;
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.track_changes = 1;
+    check(deldrift_create(2, positions, VERTICES, &options, &t));
+    change_one_at_a_time(t);
+    ask_for_places(t);
+    ask_for_geometry(t);
+    check(deldrift_validate(t, 3));
+    check(deldrift_dimension(t, &dimension));
+    check(deldrift_memory_bytes(t, &bytes));
+    printf("deldrift %s, %uD, %zu bytes: %d of %d as expected\n", deldrift_version(), (unsigned)dimension, bytes,
+           n_found, n_expected);
+    deldrift_destroy(t);
+    return n_found == n_expected ? 0 : 1;
+}
