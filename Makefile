@@ -30,7 +30,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help test bench report memory large targets calibrate table lint header doc picture install examples
-.PHONY: deb dist library benchmark clean
+.PHONY: compat demo deb dist library benchmark clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -38,11 +38,14 @@ help: ## this list
 test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
 	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) $(EXAMPLE_NEEDS) pkg-config valgrind dpkg-dev
 	-@.ci/packages chromium
+	-@.ci/packages libtet1.5-dev
 	cargo test
 	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
 	cargo test --test ffi -- --include-ignored
 	$(MAKE) benchmark
 	ctest --test-dir cpp-bench/build --output-on-failure
+	$(MAKE) compat
+	ctest --test-dir build/compat --output-on-failure
 	cpp-bench/report_page/test_page.py
 
 bench: benchmark ## deldrift beside CGAL: tables, cpp-bench/results/bench.csv and structured.csv (PRESET=quick or full)
@@ -122,6 +125,17 @@ deb: ## a package for Debian, libdeldrift-dev, in build/packages
 dist: ## archives in build/packages: sources that build without a network, and what is installed
 	@.ci/packages cmake
 	cmake/make_dist
+
+compat: library ## Triangle's and TetGen's calling conventions: libdeldrift_triangle_tetgen, in build/compat
+	@.ci/packages cmake g++
+	cmake -S compat -B build/compat -DDELDRIFT_LIBRARY_DIR="$(CARGO_TARGET_DIR)/release"
+	cmake --build build/compat
+
+demo: ## finite-element programs of others run with deldrift in place of Triangle, TetGen, qhull; needs a network
+	-@.ci/packages libgetfem-dev python3-getfem
+	-@.ci/packages python3-matplotlib
+	$(MAKE) compat
+	compat/demo/run build/compat $(ARGS)
 
 library: ## the library alone: libdeldrift.so and libdeldrift.a in target/release
 	cargo build --release --lib

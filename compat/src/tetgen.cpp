@@ -1,0 +1,181 @@
+// TetGen's entry point: decides who serves a call, and serves.
+#include <deldrift_tetgen.h>
+
+#include <climits>
+#include <cstddef>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cells.hpp"
+#include "kept.hpp"
+#include "original.hpp"
+#include "representatives.hpp"
+#include "settings.hpp"
+#include "tetgen_layout.hpp"
+#include "tetgen_switches.hpp"
+#include "tetgen_writer.hpp"
+
+namespace compat {
+
+namespace {
+
+constexpr char name[] = "tetrahedralize";
+constexpr char mangled[] = "_Z14tetrahedralizePcP8tetgenioS1_S1_S1_";
+using Function = void (*)(char *, tetgenio *, tetgenio *, tetgenio *, tetgenio *);
+Tally tally(name);
+
+// What TetGen throws.
+enum Failure { out_of_memory = 1, defect = 2, bad_input = 10 };
+
+[[noreturn]] void fail(Failure failure, const char *why) {
+    complain(name, "%s", why);
+    throw static_cast<int>(failure);
+}
+
+struct Call {
+    char *switches;
+    tetgenio *in, *out, *addin, *bgmin;
+};
+
+void check(const tetgenio &in) {
+    if (in.numberofpoints < 4) fail(bad_input, "in has fewer than four points");
+    if (in.pointlist == nullptr) fail(bad_input, "in->pointlist is NULL");
+    if (in.firstnumber != 0 && in.firstnumber != 1) fail(bad_input, "in->firstnumber is neither 0 nor 1");
+    if (in.numberofpointattributes < 0) fail(bad_input, "in->numberofpointattributes is negative");
+    if (in.numberofpointattributes > 0 && in.pointattributelist == nullptr)
+        fail(bad_input, "in->pointattributelist is NULL");
+}
+
+// The cells of the original, with an output of its own.
+class Original {
+public:
+    Original(Function function, const TetgenSwitches &switches, tetgenio &in) {
+        std::string plain = switches.for_cells();
+        const double start = processor_time();
+        function(plain.data(), &in, &out_, nullptr, nullptr);
+        seconds_ = processor_time() - start;
+    }
+    double seconds() const { return seconds_; }
+    Cells cells() const {
+        return {4, static_cast<std::size_t>(out_.numberoftetrahedra),
+                reinterpret_cast<const std::uint32_t *>(out_.tetrahedronlist),
+                reinterpret_cast<const std::uint32_t *>(out_.neighborlist)};
+    }
+
+private:
+    tetgenio out_;
+    double seconds_ = 0;
+};
+
+// Writes the cells, sorted if that was asked for. The seconds that writing took.
+double write(const TetgenSwitches &switches, const Cells &cells, const tetgenio &in, tetgenio &out,
+             const std::vector<std::uint32_t> &representative) {
+    std::optional<OwnedCells> in_order;
+    if (sorted()) in_order = sorted_cells(cells);
+    const double start = processor_time();
+    write_tetrahedra(switches, in_order ? in_order->view() : cells, in, out, representative);
+    return processor_time() - start;
+}
+
+void report_difference(const Difference &difference, std::size_t n_cells) {
+    complain(name, "%zu of %zu tetrahedra differ from the original's; the first is %u %u %u %u, which %s has",
+             difference.count, n_cells, difference.first[0], difference.first[1], difference.first[2],
+             difference.first[3], difference.first_is_own ? "deldrift" : "the original");
+}
+
+void check_status(deldrift_status status) {
+    if (status == DELDRIFT_OK) return;
+    const bool of_input = status == DELDRIFT_NOT_FINITE || status == DELDRIFT_OUT_OF_RANGE ||
+                          status == DELDRIFT_MISALIGNED_ARGUMENT || status == DELDRIFT_TOO_MANY_CELLS;
+    fail(status == DELDRIFT_OUT_OF_MEMORY ? out_of_memory : of_input ? bad_input : defect, deldrift_last_error());
+}
+
+// Serves a call by deldrift, or compares with the original, whose cells are returned then.
+void serve(const TetgenSwitches &switches, tetgenio &in, tetgenio &out, Function compared) {
+    check(in);
+    const std::size_t n_points = static_cast<std::size_t>(in.numberofpoints);
+    const double start = processor_time();
+    const Borrowed triangulation(3, in.pointlist, n_points);
+    check_status(triangulation.status());
+    deldrift_cells_view view{};
+    check_status(deldrift_cells(triangulation.get(), &view));
+    if (view.count == 0) fail(bad_input, "all points are in one plane");
+    if (view.count > INT_MAX / 2) fail(bad_input, "there are more faces than an int can count");
+    const Cells cells{4, view.count, view.vertices, view.neighbours};
+    const std::vector<std::uint32_t> representative = representatives(triangulation.get(), n_points);
+    double seconds = processor_time() - start;
+    if (compared == nullptr) {
+        seconds += write(switches, cells, in, out, representative);
+    } else {
+        const Original original(compared, switches, in);
+        const Difference found = difference(cells, original.cells(), representative);
+        if (tally.compared(cells.count, found.count)) report_difference(found, cells.count);
+        tally.original_served(original.seconds(), n_points, original.cells().count);
+        seconds += write(switches, original.cells(), in, out, representative);
+    }
+    tally.served(triangulation.how(), seconds, n_points, view.count);
+}
+
+// By the original, with its own output, or in sorted order.
+void serve_by_original(const Call &call, const TetgenSwitches &switches, Function function) {
+    tetgenio &in = *call.in, &out = *call.out;
+    double seconds = 0;
+    if (sorted()) {
+        check(in);
+        const Original original(function, switches, in);
+        seconds = original.seconds();
+        write(switches, original.cells(), in, out, {});
+    } else {
+        const double start = processor_time();
+        function(call.switches, call.in, call.out, call.addin, call.bgmin);
+        seconds = processor_time() - start;
+    }
+    tally.original_served(seconds, static_cast<std::size_t>(in.numberofpoints),
+                          static_cast<std::size_t>(out.numberoftetrahedra));
+}
+
+void pass_on(const Call &call, const char *why, Function original) {
+    if (original == nullptr) fail(bad_input, why);
+    tally.passed_on();
+    original(call.switches, call.in, call.out, call.addin, call.bgmin);
+}
+
+void dispatch(const Call &call, const void *caller) {
+    if (call.switches == nullptr) fail(bad_input, "switches is NULL");
+    if (call.in == nullptr) fail(bad_input, "in is NULL");
+    if (call.out == nullptr) fail(bad_input, "out is NULL");
+    const TetgenSwitches switches(call.switches);
+    const bool is_known = has_layout_of_1_5(call.out);
+    Function original = nullptr;
+    if (switches.unserved != '\0' || !is_known || mode() != Mode::deldrift)
+        original = reinterpret_cast<Function>(original_of(mangled, caller));
+    if (switches.unserved != '\0') {
+        char why[] = "switch ? is not served by deldrift, and there is no TetGen to pass the call to";
+        why[7] = switches.unserved;
+        return pass_on(call, why, original);
+    }
+    if (!is_known) return pass_on(call, "out is not a tetgenio of TetGen 1.5 that has been initialised", original);
+    if (mode() != Mode::deldrift && original == nullptr) {
+        static std::once_flag once;
+        std::call_once(once, complain, name, "DELDRIFT_COMPAT asks for TetGen, and there is none; deldrift serves");
+    }
+    if (mode() == Mode::original && original != nullptr) return serve_by_original(call, switches, original);
+    serve(switches, *call.in, *call.out, original);
+}
+
+} // namespace
+
+} // namespace compat
+
+[[gnu::visibility("default")]] void tetrahedralize(char *switches, tetgenio *in, tetgenio *out, tetgenio *addin,
+                                                   tetgenio *bgmin) {
+    try {
+        compat::dispatch({switches, in, out, addin, bgmin}, __builtin_return_address(0));
+    } catch (const std::bad_alloc &) {
+        compat::complain(compat::name, "not enough memory");
+        throw static_cast<int>(compat::out_of_memory);
+    }
+}

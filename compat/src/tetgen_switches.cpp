@@ -1,0 +1,47 @@
+#include "tetgen_switches.hpp"
+
+#include <cctype>
+#include <cstring>
+
+namespace compat {
+
+// Messages (Q, V), names of files (I), and exact arithmetic (X).
+static constexpr char without_effect[] = "QVIX";
+
+// Dashes, braces and spaces are passed over by the original as well.
+static bool is_without_effect(char which) {
+    return std::strchr(without_effect, which) != nullptr || std::isalnum(static_cast<unsigned char>(which)) == 0;
+}
+
+TetgenSwitches::TetgenSwitches(const char *switches) {
+    const auto leave = [this](char which) {
+        if (unserved == '\0') unserved = which;
+    };
+    for (const char *each = switches; *each != '\0'; each++) {
+        switch (*each) {
+        case 'z': zero_based = true; break;
+        case 'n':
+            // Twice, it asks for the tetrahedra at each face as well.
+            if (neighbours) leave('n');
+            neighbours = true;
+            break;
+        case 'f': faces = true; break;
+        case 'e': edges = true; break;
+        case 'v': voronoi = true; break;
+        case 'J': jettison = false; break;
+        case 'B': markers = false; break;
+        case 'N': points = false; break;
+        case 'E': tetrahedra = false; break;
+        case 'F': any_faces = false; break;
+        default:
+            if (!is_without_effect(*each)) leave(*each);
+        }
+    }
+}
+
+std::string TetgenSwitches::for_cells() const {
+    return std::string("QznJ") + (any_faces ? "" : "F") + (faces ? "f" : "") + (edges ? "e" : "") +
+           (voronoi ? "v" : "");
+}
+
+} // namespace compat

@@ -1,0 +1,28 @@
+// TetGen's switches.
+#pragma once
+
+#include <string>
+
+namespace compat {
+
+struct TetgenSwitches {
+    bool zero_based = false; // z
+    bool neighbours = false; // n
+    bool faces = false;      // f: all of them, otherwise those of the hull
+    bool edges = false;      // e
+    bool voronoi = false;    // v
+    bool jettison = true;    // not J: points that share the place of another are left out
+    bool markers = true;     // not B
+    bool points = true;      // not N
+    bool tetrahedra = true;  // not E
+    bool any_faces = true;   // not F, which also takes edges away
+    char unserved = '\0';    // the first switch that deldrift does not serve, if there is any
+
+    explicit TetgenSwitches(const char *switches);
+
+    // For the original, to give cells that can be compared: from zero, with neighbours and all points, quiet, and what
+    // else is computed.
+    std::string for_cells() const;
+};
+
+} // namespace compat

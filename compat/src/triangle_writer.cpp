@@ -1,0 +1,201 @@
+#include "triangle_writer.hpp"
+
+#include <cstring>
+
+#include "array.hpp"
+#include "circumcentre.hpp"
+
+namespace compat {
+
+namespace {
+
+class Writer {
+public:
+    Writer(const TriangleSwitches &switches, const Cells &cells, const triangulateio &in)
+        : switches_(switches), cells_(cells), in_(in), first_(switches.zero_based ? 0 : 1),
+          n_points_(static_cast<std::size_t>(in.numberofpoints)),
+          n_attributes_(static_cast<std::size_t>(in.numberofpointattributes)) {
+        for (std::size_t i = 0; i < 3 * cells.count; i++) n_hull_ += cells.neighbours[i] == no_cell;
+        n_edges_ = (3 * cells.count + n_hull_) / 2;
+    }
+
+    void allocate(const triangulateio &out, const triangulateio *vorout) {
+        if (switches_.points) {
+            points_.allocate(out.pointlist, 2 * n_points_);
+            if (n_attributes_ > 0) attributes_.allocate(out.pointattributelist, n_points_ * n_attributes_);
+            if (switches_.markers) markers_.allocate(out.pointmarkerlist, n_points_);
+        }
+        if (switches_.triangles) triangles_.allocate(out.trianglelist, 3 * cells_.count);
+        if (switches_.neighbours) neighbours_.allocate(out.neighborlist, 3 * cells_.count);
+        if (switches_.edges) {
+            edges_.allocate(out.edgelist, 2 * n_edges_);
+            if (switches_.markers) edge_markers_.allocate(out.edgemarkerlist, n_edges_);
+        }
+        if (switches_.voronoi) {
+            centres_.allocate(vorout->pointlist, 2 * cells_.count);
+            centre_attributes_.allocate(vorout->pointattributelist, cells_.count * n_attributes_);
+            voronoi_edges_.allocate(vorout->edgelist, 2 * n_edges_);
+            norms_.allocate(vorout->normlist, 2 * n_edges_);
+        }
+    }
+
+    void fill() {
+        if (points_) fill_points();
+        if (triangles_) number(cells_.vertices, triangles_.data());
+        if (neighbours_) number(cells_.neighbours, neighbours_.data());
+        if (edges_) fill_edges();
+        if (switches_.voronoi) {
+            fill_centres();
+            fill_voronoi_edges();
+        }
+    }
+
+    void hand_over(triangulateio &out, triangulateio *vorout) {
+        points_.hand_over(out.pointlist);
+        attributes_.hand_over(out.pointattributelist);
+        markers_.hand_over(out.pointmarkerlist);
+        triangles_.hand_over(out.trianglelist);
+        neighbours_.hand_over(out.neighborlist);
+        edges_.hand_over(out.edgelist);
+        edge_markers_.hand_over(out.edgemarkerlist);
+        out.numberofpoints = in_.numberofpoints;
+        out.numberofpointattributes = in_.numberofpointattributes;
+        out.numberoftriangles = static_cast<int>(cells_.count);
+        out.numberofcorners = 3;
+        out.numberoftriangleattributes = 0;
+        out.numberofedges = static_cast<int>(n_edges_);
+        out.numberofsegments = static_cast<int>(n_hull_);
+        if (vorout == nullptr) return;
+        vorout->numberofpoints = static_cast<int>(cells_.count);
+        vorout->numberofpointattributes = in_.numberofpointattributes;
+        vorout->numberofedges = static_cast<int>(n_edges_);
+        if (!switches_.voronoi) return;
+        centres_.hand_over(vorout->pointlist);
+        centre_attributes_.hand_over(vorout->pointattributelist);
+        voronoi_edges_.hand_over(vorout->edgelist);
+        norms_.hand_over(vorout->normlist);
+        vorout->pointmarkerlist = nullptr;
+        vorout->edgemarkerlist = nullptr;
+    }
+
+private:
+    // Indices from zero to Triangle's numbers, in which no cell is -1 whatever the first number is.
+    void number(const std::uint32_t *indices, int *numbers) const {
+        static_assert(sizeof(int) == sizeof *indices && no_cell == UINT32_MAX);
+        if (cells_.count == 0) return;
+        std::memcpy(numbers, indices, 3 * cells_.count * sizeof(int));
+        for (std::size_t i = 0; first_ != 0 && i < 3 * cells_.count; i++)
+            if (numbers[i] >= 0) numbers[i] += first_;
+    }
+
+    const double *position(std::uint32_t vertex) const { return in_.pointlist + std::size_t{2} * vertex; }
+    int numbered(std::uint32_t index) const { return static_cast<int>(index + static_cast<std::uint32_t>(first_)); }
+
+    // For each edge: its number, its first cell, and the corner opposite. The edge goes from the next corner to the one
+    // after. Every place is visited, with the number of the next edge, and what is written there stays only if the
+    // place is the edge's first: a branch could not be predicted.
+    template <class Visit>
+    void for_each_edge(Visit visit) const {
+        std::size_t n = 0;
+        for (std::size_t c = 0; n < n_edges_; c++) {
+            // An edge goes first where Triangle's comes first: opposite the last corner.
+            for (unsigned corner : {2u, 0u, 1u}) {
+                const std::uint32_t neighbour = cells_.neighbours[3 * c + corner];
+                visit(n, static_cast<std::uint32_t>(c), corner, neighbour);
+                n += c < neighbour;
+                if (n == n_edges_) break;
+            }
+        }
+    }
+
+    std::uint32_t edge_start(std::uint32_t cell, unsigned corner) const {
+        return cells_.vertices[std::size_t{3} * cell + (corner + 1) % 3];
+    }
+    std::uint32_t edge_end(std::uint32_t cell, unsigned corner) const {
+        return cells_.vertices[std::size_t{3} * cell + (corner + 2) % 3];
+    }
+
+    // Vertices of the hull are marked 1, unless the caller has marked them.
+    void fill_points() {
+        std::memcpy(points_.data(), in_.pointlist, 2 * n_points_ * sizeof(double));
+        if (attributes_)
+            std::memcpy(attributes_.data(), in_.pointattributelist, n_points_ * n_attributes_ * sizeof(double));
+        if (!markers_) return;
+        for (std::size_t i = 0; i < n_points_; i++)
+            markers_[i] = in_.pointmarkerlist != nullptr ? in_.pointmarkerlist[i] : 0;
+        for (std::size_t c = 0; c < cells_.count; c++) {
+            for (unsigned corner = 0; corner < 3; corner++) {
+                if (cells_.neighbours[3 * c + corner] != no_cell) continue;
+                int &marker = markers_[edge_start(static_cast<std::uint32_t>(c), corner)];
+                if (marker == 0) marker = 1;
+            }
+        }
+    }
+
+    void fill_edges() {
+        for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
+            edges_[2 * n] = numbered(edge_start(cell, corner));
+            edges_[2 * n + 1] = numbered(edge_end(cell, corner));
+            if (edge_markers_) edge_markers_[n] = neighbour == no_cell;
+        });
+    }
+
+    void fill_centres() {
+        for (std::size_t c = 0; c < cells_.count; c++) {
+            const std::uint32_t *v = cells_.vertices + 3 * c;
+            const double *p = position(v[0]), *q = position(v[1]), *r = position(v[2]);
+            double *centre = centres_.data() + 2 * c;
+            const double determinant = circumcentre_2d(p, q, r, centre);
+            if (n_attributes_ == 0) continue;
+            // Attributes are interpolated from the corners.
+            const double x = centre[0] - p[0], y = centre[1] - p[1];
+            const double of_q = ((r[1] - p[1]) * x - (r[0] - p[0]) * y) / determinant;
+            const double of_r = ((q[0] - p[0]) * y - (q[1] - p[1]) * x) / determinant;
+            for (std::size_t k = 0; k < n_attributes_; k++) {
+                const double at_p = attribute(v[0], k);
+                centre_attributes_[c * n_attributes_ + k] =
+                    at_p + of_q * (attribute(v[1], k) - at_p) + of_r * (attribute(v[2], k) - at_p);
+            }
+        }
+    }
+
+    double attribute(std::uint32_t vertex, std::size_t k) const {
+        return in_.pointattributelist[vertex * n_attributes_ + k];
+    }
+
+    // Rays go outwards, at a right angle to the edge of the hull.
+    void fill_voronoi_edges() {
+        for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
+            voronoi_edges_[2 * n] = numbered(cell);
+            voronoi_edges_[2 * n + 1] = numbered(neighbour);
+            norms_[2 * n] = norms_[2 * n + 1] = 0;
+            if (neighbour != no_cell) return;
+            const double *start = position(edge_start(cell, corner)), *end = position(edge_end(cell, corner));
+            voronoi_edges_[2 * n + 1] = -1;
+            norms_[2 * n] = end[1] - start[1];
+            norms_[2 * n + 1] = start[0] - end[0];
+        });
+    }
+
+    const TriangleSwitches &switches_;
+    const Cells &cells_;
+    const triangulateio &in_;
+    int first_;
+    std::size_t n_points_, n_attributes_, n_hull_ = 0, n_edges_ = 0;
+    MallocArray<double> points_, attributes_, centres_, centre_attributes_, norms_;
+    MallocArray<int> markers_, triangles_, neighbours_, edges_, edge_markers_, voronoi_edges_;
+};
+
+} // namespace
+
+void write_triangulation(const TriangleSwitches &switches, const Cells &cells, const triangulateio &in,
+                         triangulateio &out, triangulateio *vorout) {
+    // The caller may pass one structure as in and out.
+    const triangulateio given = in;
+    Writer writer(switches, cells, given);
+    writer.allocate(out, vorout);
+    writer.fill();
+    writer.hand_over(out, vorout);
+}
+
+} // namespace compat

@@ -1,0 +1,66 @@
+// A stand-in for programs that bring Triangle and TetGen along: functions of these names, and calls of them. Its
+// triangulations are deldrift's, but for one flipped edge where that is asked for.
+#include <deldrift_tetgen.h>
+#include <deldrift_triangle.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+#include <deldrift.h>
+
+extern "C" {
+int original_calls = 0;
+int original_is_wrong = 0;
+}
+
+static int *copy_of(const std::uint32_t *numbers, std::size_t count) {
+    int *copy = static_cast<int *>(std::malloc(count * sizeof(int)));
+    std::memcpy(copy, numbers, count * sizeof(int));
+    return copy;
+}
+
+// The diagonal of triangle 0 and a neighbour, exchanged.
+static void flip_an_edge(int *triangles, const int *neighbours) {
+    int side = 0;
+    while (neighbours[side] == -1) side++;
+    int *first = triangles, *second = triangles + 3 * neighbours[side];
+    const int a = first[side], b = first[(side + 1) % 3], c = first[(side + 2) % 3];
+    int d = second[0];
+    for (int i = 0; i < 3; i++)
+        if (second[i] != b && second[i] != c) d = second[i];
+    const int flipped[2][3] = {{a, b, d}, {a, d, c}};
+    std::memcpy(first, flipped[0], sizeof flipped[0]);
+    std::memcpy(second, flipped[1], sizeof flipped[1]);
+}
+
+extern "C" void triangulate(char *, triangulateio *in, triangulateio *out, triangulateio *) {
+    original_calls++;
+    deldrift_triangulation *t = nullptr;
+    deldrift_cells_view view{};
+    deldrift_create(2, in->pointlist, static_cast<std::size_t>(in->numberofpoints), nullptr, &t);
+    deldrift_cells(t, &view);
+    out->trianglelist = copy_of(view.vertices, 3 * view.count);
+    out->neighborlist = copy_of(view.neighbours, 3 * view.count);
+    out->numberoftriangles = static_cast<int>(view.count);
+    deldrift_destroy(t);
+    if (original_is_wrong != 0) flip_an_edge(out->trianglelist, out->neighborlist);
+}
+
+void tetrahedralize(char *, tetgenio *, tetgenio *out, tetgenio *, tetgenio *) {
+    original_calls++;
+    out->numberoftetrahedra = 0;
+}
+
+// The call returns here, so that its origin can be told; the next one need not.
+extern "C" void call_triangulate(char *switches, triangulateio *in, triangulateio *out, triangulateio *vorout) {
+    volatile int done = 0;
+    triangulate(switches, in, out, vorout);
+    done = 1;
+    (void)done;
+}
+
+extern "C" void call_tetrahedralize(char *switches, tetgenio *in, tetgenio *out) {
+    tetrahedralize(switches, in, out, nullptr, nullptr);
+}
