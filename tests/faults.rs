@@ -12,9 +12,11 @@ mod common;
 use common::carried::{Carried, List};
 use common::history::Snapshot;
 use common::{Rng, ids, point, seeds, sorted, vertex};
-use deldrift::motion::{Algorithm, CommitReport, Level, Location, Monitor, MovingTriangulation, Options};
+use deldrift::motion::{
+    Algorithm, CommitReport, Level, Location, Monitor, MovingTriangulation, Options, Saved,
+};
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
-use deldrift::{Error, Result};
+use deldrift::{Error, LoadError, Result};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
 use std::cell::Cell;
@@ -235,6 +237,9 @@ enum Call {
     StageRemovals,
     /// Of all vertices, or of some.
     Commit(Algorithm, bool),
+    Clone,
+    Save,
+    Load,
     Cells,
     Star,
     Locate,
@@ -267,6 +272,7 @@ impl Call {
         calls.extend([Call::MoveVertices, Call::MoveAll, Call::Cells, Call::Star, Call::Locate]);
         calls.extend([Call::Nearest, Call::Validate, Call::AnnulusWidths, Call::StandardDelimiter]);
         calls.extend([Call::ChangedCells, Call::TakeChanges, Call::Tolerance]);
+        calls.extend([Call::Clone, Call::Save, Call::Load]);
         calls
     }
 
@@ -297,6 +303,8 @@ struct Scene<G: Dimension> {
     carried: Option<Carried>,
     call: Call,
     options: Option<Options>,
+    /// What is to be loaded.
+    saved: Vec<u8>,
 }
 
 /// What a call gave, as far as that does not depend on the order of cells.
@@ -393,12 +401,13 @@ impl<G: Dimension> Scene<G> {
             t.stage_removals(&leaving).expect("removals");
         }
         let options = Some(options());
-        Scene { t, points, carried, call, options }
+        let saved = if call == Call::Load { t.saved().expect("room") } else { Vec::new() };
+        Scene { t, points, carried, call, options, saved }
     }
 
     /// Makes the call, and disarms as soon as it is back.
     fn call(&mut self) -> Result<Given> {
-        let Scene { t, points, call, options, .. } = self;
+        let Scene { t, points, call, options, saved, .. } = self;
         let goal = |goal: Goal| match goal {
             Goal::Near => point::<G>(|k| points[12][k] + 1e-3),
             Goal::Far => point::<G>(|k| 1.5 + k as f64),
@@ -419,6 +428,18 @@ impl<G: Dimension> Scene<G> {
                 let options = options.take().unwrap_or_default();
                 let made = given(MovingTriangulation::<G>::new(points, options))?;
                 Given::Cells(common::cell_set(&made))
+            }
+            Call::Clone => Given::Cells(common::cell_set(&given(t.try_clone(None))?)),
+            Call::Save => Given::Numbers(vec![given(t.saved())?.len() as u64]),
+            Call::Load => {
+                let options = options.take().unwrap_or_default();
+                let saved = Saved::of(saved).expect("saved");
+                let loaded =
+                    given(MovingTriangulation::<G>::load(&saved, options).map_err(|error| match error {
+                        LoadError::Call(error) => error,
+                        other => panic!("{other}"),
+                    }))?;
+                Given::Cells(common::cell_set(&loaded))
             }
             Call::Relocate(to) => {
                 given(t.relocate_vertex(VertexId::new(chosen(to)), &goal(to)))?;
