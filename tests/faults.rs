@@ -13,9 +13,9 @@ use common::carried::{Carried, List};
 use common::history::Snapshot;
 use common::{Rng, ids, point, seeds, sorted, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Interpolation, Level, Location, Monitor};
-use deldrift::motion::{MovingTriangulation, Options, Rows, VertexValues};
+use deldrift::motion::{MovingTriangulation, Options, Rows, Saved, VertexValues};
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
-use deldrift::{Error, Result};
+use deldrift::{Error, LoadError, Result};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::backtrace::Backtrace;
 use std::cell::Cell;
@@ -236,6 +236,9 @@ enum Call {
     StageRemovals,
     /// Of all vertices, or of some.
     Commit(Algorithm, bool),
+    Clone,
+    Save,
+    Load,
     Cells,
     Star,
     Locate,
@@ -280,6 +283,7 @@ impl Call {
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
+        calls.extend([Call::Clone, Call::Save, Call::Load]);
         calls
     }
 
@@ -313,6 +317,8 @@ struct Scene<G: Dimension> {
     /// An entry for each cell, and a value for each id.
     mask: Vec<u8>,
     values: Vec<f64>,
+    /// What is to be loaded.
+    saved: Vec<u8>,
 }
 
 /// What a call gave, as far as that does not depend on the order of cells.
@@ -412,12 +418,13 @@ impl<G: Dimension> Scene<G> {
         }
         let options = Some(options());
         let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
-        Scene { t, points, carried, call, options, mask, values }
+        let saved = if call == Call::Load { t.saved().expect("room") } else { Vec::new() };
+        Scene { t, points, carried, call, options, mask, values, saved }
     }
 
     /// Makes the call, and disarms as soon as it is back.
     fn call(&mut self) -> Result<Given> {
-        let Scene { t, points, call, options, mask, values, .. } = self;
+        let Scene { t, points, call, options, mask, values, saved, .. } = self;
         let goal = |goal: Goal| match goal {
             Goal::Near => point::<G>(|k| points[12][k] + 1e-3),
             Goal::Far => point::<G>(|k| 1.5 + k as f64),
@@ -438,6 +445,18 @@ impl<G: Dimension> Scene<G> {
                 let options = options.take().unwrap_or_default();
                 let made = given(MovingTriangulation::<G>::new(points, options))?;
                 Given::Cells(common::cell_set(&made))
+            }
+            Call::Clone => Given::Cells(common::cell_set(&given(t.try_clone(None))?)),
+            Call::Save => Given::Numbers(vec![given(t.saved())?.len() as u64]),
+            Call::Load => {
+                let options = options.take().unwrap_or_default();
+                let saved = Saved::of(saved).expect("saved");
+                let loaded =
+                    given(MovingTriangulation::<G>::load(&saved, options).map_err(|error| match error {
+                        LoadError::Call(error) => error,
+                        other => panic!("{other}"),
+                    }))?;
+                Given::Cells(common::cell_set(&loaded))
             }
             Call::Relocate(to) => {
                 given(t.relocate_vertex(VertexId::new(chosen(to)), &goal(to)))?;
