@@ -67,11 +67,12 @@ fn program_for_cgal_writes_the_same() {
         let flags = [flags, &["-O0", "-g0"]].concat();
         succeed(&mut command(build(&source, &fresh_folder(name), Linkage::Shared, &flags)))
     };
-    // CGAL's headers have warnings of their own, and need the libraries of big numbers.
-    let with_cgal = run("with_cgal", &["-DWITH_CGAL", "-w", "-lgmp", "-lmpfr"]);
+    // CGAL's headers have warnings of their own, and need libraries of big numbers, here before the program does.
+    let cgal = ["-w", "-Wl,--no-as-needed", "-lgmp", "-lmpfr"];
+    let with_cgal = run("with_cgal", &[&["-DWITH_CGAL"], &cgal[..]].concat());
     assert!(with_cgal.lines().count() > 4000, "{with_cgal}");
     assert_eq!(run("with_deldrift", &[]), with_cgal);
-    assert_eq!(run("with_points_of_cgal", &["-DCGAL_KERNEL", "-w", "-lgmp", "-lmpfr"]), with_cgal);
+    assert_eq!(run("with_points_of_cgal", &[&["-DCGAL_KERNEL"], &cgal[..]].concat()), with_cgal);
 }
 
 /// The example of a solver carries its data to the end, and checks them.

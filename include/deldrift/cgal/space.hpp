@@ -285,14 +285,24 @@ private:
         return cells;
     }
     std::vector<Vertex_handle> link(Vertex_handle v, bool with_infinite) const {
-        std::vector<Vertex_handle> vertices;
-        for (Cell_handle c : star(v, with_infinite)) {
-            for (int i = 0; i < 4; i++) {
-                if (c.vertex(i) != v) vertices.push_back(c.vertex(i));
+        std::vector<std::uint32_t> star, ids;
+        this->mesh()->star(v.id(), star);
+        ids.reserve(3 * star.size());
+        bool is_on_hull = false;
+        for (std::uint32_t cell : star) {
+            const std::size_t first = std::size_t{cell} * 4;
+            for (std::size_t k = first; k < first + 4; k++) {
+                if (this->mesh()->cells().vertices[k] == v.id()) continue;
+                ids.push_back(this->mesh()->cells().vertices[k]);
+                is_on_hull |= this->mesh()->cells().neighbours[k] == DELDRIFT_NONE;
             }
         }
-        std::sort(vertices.begin(), vertices.end());
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        std::sort(ids.begin(), ids.end());
+        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+        std::vector<Vertex_handle> vertices;
+        vertices.reserve(ids.size() + 1);
+        for (std::uint32_t id : ids) vertices.emplace_back(this->mesh()->by_id()[id]);
+        if (with_infinite && is_on_hull) vertices.push_back(this->infinite_vertex());
         return vertices;
     }
     // Each one once, from the lower of its two cells; if only finite ones are wanted, infinite cells have none.
