@@ -15,11 +15,12 @@ public:
         return {cells.size(), cells.vertices().data(), cells.neighbours().data()};
     }
 
-    // Columns that are new are inserted: ids count up, and so do columns.
+    // New columns are inserted: ids count up, as columns do.
     void advance(const Eigen::Matrix2Xd &x, const Ids &leaving) {
         const std::size_t n = t_.id_count();
         t_.stage_removals(leaving);
-        t_.stage_insertions({x.data() + 2 * n, static_cast<std::size_t>(x.size()) - 2 * n});
+        const deldrift::span<const double> coming(x.data() + 2 * n, static_cast<std::size_t>(x.size()) - 2 * n);
+        t_.stage_insertions(coming);
         t_.commit_positions(x);
         changes_ = t_.take_changes();
     }
