@@ -447,7 +447,10 @@ impl<G: Dimension> Scene<G> {
                 Given::Cells(common::cell_set(&made))
             }
             Call::Clone => Given::Cells(common::cell_set(&given(t.try_clone(None))?)),
-            Call::Save => Given::Numbers(vec![given(t.saved())?.len() as u64]),
+            Call::Save => {
+                let n_bytes = given(t.saved())?.len();
+                Given::Numbers(vec![n_bytes as u64])
+            }
             Call::Load => {
                 let options = options.take().unwrap_or_default();
                 let saved = Saved::of(saved).expect("saved");
