@@ -43,11 +43,11 @@ pub unsafe extern "C" fn deldrift_edges(
 /// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after
 /// the other. Removed and hidden vertices have none. They are a function of positions and ids alone.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v begins in
-/// neighbours where entry v says, and ends before where entry v + 1 says. neighbours: a buffer with room for capacity ids. One that
-/// is NULL is not filled, and its size not looked at, but capacity must be 0 then. count: receives the number of
-/// entries, twice that of the edges, which is also written when neighbours is too small. NULL for both asks for the
-/// count alone, in constant time.
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in
+/// neighbours from the index that is entry v of offsets on, and ends before entry v + 1. neighbours: a buffer with room
+/// for capacity ids. One that is NULL is not filled, and its size not looked at, but capacity must be 0 then. count:
+/// receives the number of entries, twice that of the edges, which is also written when neighbours is too small. NULL
+/// for both asks for the count alone, in constant time.
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
@@ -78,11 +78,11 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 /// The cells of all vertices: for each id the indices of the cells that have it as a corner, ascending, one list
 /// after the other. Removed and hidden vertices have none.
 ///
-/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v begins in
-/// cells where entry v says, and ends before where entry v + 1 says. cells: a buffer with room for capacity indices. One that is NULL is
-/// not filled, and its size not looked at, but capacity must be 0 then. count: receives the number of entries, 3 (2D)
-/// or 4 (3D) times that of the cells, which is also written when cells is too small. NULL for both asks for the count
-/// alone, in constant time.
+/// offsets: a buffer for offset_count numbers, which must be deldrift_id_count + 1: the list of vertex v is in cells
+/// from the index that is entry v of offsets on, and ends before entry v + 1. cells: a buffer with room for capacity
+/// indices. One that is NULL is not filled, and its size not looked at, but capacity must be 0 then. count: receives
+/// the number of entries, 3 (2D) or 4 (3D) times that of the cells, which is also written when cells is too small. NULL
+/// for both asks for the count alone, in constant time.
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
