@@ -41,7 +41,7 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 	-@.ci/packages libtet1.5-dev
 	cargo test
 	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
-	cargo test --test ffi -- --include-ignored
+	cargo test --test ffi -- --ignored
 	$(MAKE) benchmark
 	ctest --test-dir cpp-bench/build --output-on-failure
 	$(MAKE) compat
