@@ -22,7 +22,7 @@ public:
     using Points = Eigen::Matrix<double, d, Eigen::Dynamic>;
     static constexpr double pi = 3.14159265358979323846;
 
-    // Of so many points inside, at random places.
+    // Of n_inside points inside, at random places.
     explicit Smoothing(int n_inside) : x_(places(n_inside)), t_(d, x_) {}
 
     void step(Scheme scheme) {

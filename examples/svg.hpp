@@ -13,7 +13,7 @@ class Picture {
 public:
     using Point = std::array<double, 2>;
 
-    // Every panel shows the same box, so many pixels wide.
+    // Every panel shows the same box, panel_width pixels wide.
     Picture(Point low, Point high, double panel_width, int n_columns)
         : low_(low), scale_(panel_width / (high[0] - low[0])), width_(panel_width + gap), n_columns_(n_columns),
           height_((high[1] - low[1]) * scale_ + caption_height) {}

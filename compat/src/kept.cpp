@@ -13,8 +13,8 @@ namespace {
 
 // Building fewer points than this takes as long as finding them among those kept.
 constexpr std::size_t worth_keeping = 64;
-// At most so many are kept, with so many bytes in all, though always the one used last. Those not used for longest go
-// first.
+// The greatest number of those kept, and of their bytes in all; the one used last is always kept. Those not used for
+// longest go first.
 constexpr std::size_t most_kept = 8;
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 

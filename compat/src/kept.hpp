@@ -1,5 +1,5 @@
 // Triangulations that are kept from call to call. The calling conventions served here have no handle: each call gives
-// the points anew. A program that moves its points between calls gives almost the same ones, and a triangulation of
+// the points again. A program that moves its points between calls gives almost the same ones, and a triangulation of
 // those takes a fraction of the time to bring to the new positions.
 //
 // Which kept triangulation is taken never changes the cells. They are always those of a new triangulation of the

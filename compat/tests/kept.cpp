@@ -106,7 +106,7 @@ void ties_do_not_depend_on_the_history() {
 }
 
 // A point in the middle would need an id between two others.
-void an_insertion_in_the_middle_builds_anew() {
+void an_insertion_in_the_middle_builds_again() {
     Points points = random_points(2, 700, 400);
     CHECK(take(2, points) == How::built);
     const Points more = random_points(2, 1, 401);
@@ -114,7 +114,7 @@ void an_insertion_in_the_middle_builds_anew() {
     CHECK(take(2, points) == How::built);
 }
 
-void other_points_build_anew() {
+void other_points_build_again() {
     CHECK(take(2, random_points(2, 600, 500)) == How::built);
     CHECK(take(2, random_points(2, 600, 501)) == How::built);
     CHECK(take(2, random_points(2, 610, 502)) == How::built);
@@ -158,8 +158,8 @@ int main() {
     points_that_come_and_go_are_matched();
     point_sets_that_alternate_are_matched();
     ties_do_not_depend_on_the_history();
-    an_insertion_in_the_middle_builds_anew();
-    other_points_build_anew();
+    an_insertion_in_the_middle_builds_again();
+    other_points_build_again();
     what_was_not_used_for_longest_is_dropped();
     bad_points_leave_a_message();
     threads_have_triangulations_of_their_own();

@@ -103,7 +103,7 @@ fn method_of(code: InterpolationCode) -> Result<Interpolation, Failure> {
     })
 }
 
-/// How many numbers so many rows have.
+/// The length of `count` rows of `n_values` numbers.
 fn numbers(argument: &'static str, count: usize, n_values: usize) -> Result<usize, Failure> {
     let size = n_values.saturating_mul(size_of::<f64>());
     count.checked_mul(n_values).ok_or(Failure::SizeOverflow { argument, count, size })

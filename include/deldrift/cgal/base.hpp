@@ -50,7 +50,7 @@ public:
     using Point_iterator = handle_iterator<detail::Points<Mesh, D>>;
 
     Base() : mesh_(std::make_unique<Mesh>()) {}
-    // Vertices of a copy have ids of their own, in the same order. It is triangulated anew.
+    // Vertices of a copy have ids of their own, in the same order. It is triangulated again.
     Base(const Base &other) : Base() {
         typename Mesh::Vertices vertices;
         vertices.reserve(other.number_of_vertices());

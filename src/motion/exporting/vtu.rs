@@ -45,7 +45,7 @@ struct Directory<'c, P> {
 }
 
 impl<E, P: FnMut(&[u8]) -> Result<(), E>> Directory<'_, P> {
-    /// An array of `n` rows of `components` entries of so many bytes.
+    /// An array of `n` rows of `components` entries of `bytes` bytes.
     fn array(&mut self, kind: &str, name: &str, components: usize, bytes: usize) -> Result<(), E> {
         let (name, offset) = (Attribute(name), self.offset);
         self.offset += size_of::<u64>() + bytes;
