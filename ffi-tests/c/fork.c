@@ -9,7 +9,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { COUNT = 2000, THREADS = 3, FORKS = 5 };
+// How often to fork while another thread is in calls. Not at all under the address sanitizer: its allocator does not
+// release its locks in the new process, which then waits for ever where the other thread was about to allocate.
+#ifdef __SANITIZE_ADDRESS__
+enum { FORKS = 0 };
+#else
+enum { FORKS = 5 };
+#endif
+
+enum { COUNT = 2000, THREADS = 3 };
 
 static deldrift_triangulation *created(uint32_t dimension, const double *positions) {
     deldrift_options options;
@@ -78,7 +86,7 @@ int main(void) {
         pthread_t other;
         is_done = false;
         CHECK(pthread_create(&other, NULL, commit_until_done, NULL) == 0);
-        for (size_t k = 0; k < FORKS; k++) {
+        for (int k = 0; k < FORKS; k++) {
             in_new_process(t, dimension, positions, true);
             work(t, dimension, positions);
         }
