@@ -11,7 +11,7 @@ use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::predicates::{StaticFilter, distance_above};
+use crate::predicates::{StaticFilter, distance_above, squared_distance};
 
 /// A vertex that is hidden by one of a lower id at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,12 @@ const MONITORED: usize = 1024;
 
 /// Number of distances in a sample.
 const STRIDES: usize = 1024;
+
+/// Pairs of sites in another sample.
+const SAMPLED_PAIRS: usize = 64;
+
+/// The static bound decides little where it exceeds this share of the determinant of a cell as large as the spacing.
+const WEAK_SHARE: f64 = 1.0 / 256.0;
 
 /// Up to this number of sites a build in space prepares nothing for later insertions: there are not enough of them.
 const MAX_UNPREPARED: usize = 16;
@@ -175,10 +181,26 @@ impl<G: Dimension> Delaunay<G> {
         if G::D == 3 && order.len() <= MAX_UNPREPARED {
             return self.insert_each::<false>(order, monitor);
         }
-        self.cavity.scratch.begin_build(self.complex.n_cells_reserved())?;
+        let is_weak = self.is_filter_weak(order);
+        self.cavity.scratch.begin_build(self.complex.n_cells_reserved(), is_weak)?;
         let inserted = self.insert_each::<true>(order, monitor);
         self.cavity.scratch.end_build();
         inserted
+    }
+
+    /// Whether the static bound is of the order of in-sphere determinants, and so decides little: that of clusters, of
+    /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells.
+    fn is_filter_weak(&self, order: &[SiteId]) -> bool {
+        let step = (order.len() / SAMPLED_PAIRS).max(1);
+        let pairs = order.windows(2).step_by(step);
+        let (mut n_weak, mut n_pairs) = (0, 0);
+        for pair in pairs {
+            let [p, q] = [pair[0], pair[1]].map(|s| &self.site(s).point);
+            let spacing = squared_distance(p, q).sqrt();
+            n_weak += usize::from(WEAK_SHARE * spacing.powi(G::D as i32 + 2) < self.filter.prepared);
+            n_pairs += 1;
+        }
+        2 * n_weak > n_pairs
     }
 
     fn insert_each<const BUILD: bool>(

@@ -30,8 +30,9 @@ pub enum Insertion {
 /// How a dimension inserts, and the scratch memory for that.
 pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
     /// Gets ready to insert very many sites, which will have `n_cells` cells: after that, and until
-    /// [`end_build`](Self::end_build), `BUILD` is true. The complex keeps no record meanwhile.
-    fn begin_build(&mut self, _n_cells: usize) -> Result<()> {
+    /// [`end_build`](Self::end_build), `BUILD` is true. The complex keeps no record meanwhile. `is_weak` if the static
+    /// filter is.
+    fn begin_build(&mut self, _n_cells: usize, _is_weak: bool) -> Result<()> {
         Ok(())
     }
 

@@ -53,8 +53,8 @@ pub struct Scratch {
 }
 
 impl Insert<Space> for Scratch {
-    fn begin_build(&mut self, n_cells: usize) -> Result<()> {
-        self.spheres.begin(n_cells)
+    fn begin_build(&mut self, n_cells: usize, is_weak: bool) -> Result<()> {
+        self.spheres.begin(n_cells, is_weak)
     }
 
     fn end_build(&mut self) {
@@ -252,10 +252,21 @@ fn glue<const BUILD: bool>(
         }
     }
     if BUILD {
+        if spheres.has_extents {
+            return prepare_with_extents(t, rim, cells, spheres);
+        }
         let mut spheres = spheres.table();
         for (facet, &cell) in rim.iter().zip(cells) {
             spheres.put(t, cell, &facet.corners);
         }
+    }
+}
+
+#[inline(never)]
+fn prepare_with_extents(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
+    let mut spheres = spheres.table();
+    for (facet, &cell) in rim.iter().zip(cells) {
+        spheres.put_with_extent(t, cell, &facet.corners);
     }
 }
 

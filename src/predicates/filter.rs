@@ -314,7 +314,16 @@ pub(super) fn prepared_bound_2d(extent: f64, reach: f64) -> f64 {
     PREPARED_2D * (extent * extent * reach) * largest + UNDERFLOW * (amplified * amplified)
 }
 
-/// The same for a prepared sphere.
+/// Bound of a prepared sphere where all differences are at most this.
+#[inline(always)]
+pub(super) fn prepared_bound_within_3d(extent: f64) -> f64 {
+    let square = extent * extent;
+    let cube = square * extent;
+    // The cube of what is larger, 1 or the extent, is less than the sum.
+    PREPARED_3D * (cube * square) + UNDERFLOW * (1.0 + cube)
+}
+
+/// As [`prepared_bound_2d`], for a prepared sphere.
 pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
     let largest = extent.max(reach);
     let amplified = largest.max(1.0);

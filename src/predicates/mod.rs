@@ -124,7 +124,7 @@ pub use space::insphere;
 pub use space::orient3d;
 pub use sphere::{
     Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, is_side_certain,
-    side_of_circle, side_of_sphere, sphere,
+    is_side_certain_within, reach, side_of_circle, side_of_sphere, sphere,
 };
 pub(crate) use tolerance::are_within;
 pub use tolerance::{

@@ -9,7 +9,7 @@ use super::integer::{LongScaled, Scaled};
 use super::plane::{incircle_rounded, incircle_sign};
 use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
-use super::{MAX_MAGNITUDE, big, is_side_certain, side_of_sphere, sphere};
+use super::{MAX_MAGNITUDE, big, is_side_certain, is_side_certain_within, reach, side_of_sphere, sphere};
 use crate::random::Rng;
 
 /// Numbers of up to 53 bits with exponents up to `spread` apart, at any place of the range.
@@ -135,7 +135,7 @@ fn noisy_lattice(rng: &mut Rng) -> [[f64; 3]; 5] {
 #[test]
 fn stages_after_the_static_bound_of_spheres_are_exact() {
     let rng = &mut Rng::new(4);
-    let (mut n_sides, mut n_by_terms, mut n_open) = (0, 0, 0);
+    let (mut n_sides, mut n_within, mut n_by_terms, mut n_open) = (0, 0, 0, 0);
     let mut n_long = [0; 4];
     for k in 0..1_200_000 {
         let points = if k % 3 == 0 { near_tie::<3, 5>(rng) } else { noisy_lattice(rng) };
@@ -146,6 +146,11 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
         if is_side_certain(side, refs) {
             assert_eq!(sign(side), expected, "{points:?}");
             n_sides += 1;
+        }
+        let extent = [b, c, d].map(|p| reach(a, p)).into_iter().fold(0.0, f64::max);
+        if is_side_certain_within(side, extent, a, q) {
+            assert_eq!(sign(side), expected, "{points:?}");
+            n_within += 1;
         }
         let bound = insphere_bound(extents);
         if is_certain(det, bound, extents) {
@@ -165,8 +170,8 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
             }
         }
     }
-    println!("{n_sides} sides, {n_by_terms} by terms, {n_open} open, {n_long:?} long");
-    assert!(n_sides > 100_000 && n_by_terms > 50_000 && n_open > 100_000);
+    println!("{n_sides} sides, {n_within} within, {n_by_terms} by terms, {n_open} open, {n_long:?} long");
+    assert!(n_sides > 100_000 && n_within > 50_000 && n_by_terms > 50_000 && n_open > 100_000);
     assert!(n_long.iter().all(|&n| n > 1_000));
 }
 

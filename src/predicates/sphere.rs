@@ -26,7 +26,9 @@
 //! exceed infinity.
 
 use super::StaticFilter;
-use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d, semi_static_bounds_3d};
+use super::filter::{
+    extents, largest, prepared_bound_2d, prepared_bound_3d, prepared_bound_within_3d, semi_static_bounds_3d,
+};
 use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
 use crate::simd::Real;
 
@@ -90,6 +92,20 @@ pub fn is_side_certain(side: f64, [a, b, c, d, q]: [&[f64; 3]; 5]) -> bool {
     };
     let [_, bound] = semi_static_bounds_3d([greatest(0), greatest(1), greatest(2)]);
     side.abs() > bound
+}
+
+/// As [`is_side_certain`], where the corners of the sphere's cell differ from the first one, `a`, by at most `extent`
+/// along each axis.
+#[inline(always)]
+pub fn is_side_certain_within(side: f64, extent: f64, a: &[f64; 3], q: &[f64; 3]) -> bool {
+    side.abs() > prepared_bound_within_3d(Real::max(extent, reach(a, q)))
+}
+
+/// The greatest difference of two points along an axis.
+#[inline(always)]
+pub fn reach(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+    let [x, y, z] = minus(p, q).map(f64::abs);
+    Real::max(Real::max(x, y), z)
 }
 
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
