@@ -74,6 +74,14 @@ pub trait Kernel<G: Dimension> {
     /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each.
     fn cells_hold(avx2: Avx2, t: &Delaunay<G>, cells: &[Slot; LANES], apexes: [&[SiteId; LANES]; 4]) -> u32;
 
+    /// As [`cells_hold`](Self::cells_hold), by bounds of their own; and what the static ones would say.
+    fn cells_hold_by_own_bounds(
+        avx2: Avx2,
+        t: &Delaunay<G>,
+        cells: &[Slot; LANES],
+        apexes: [&[SiteId; LANES]; 4],
+    ) -> [u32; 2];
+
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
     /// test.
     fn bicell_holds(t: &Delaunay<G>, facet: Facet) -> bool;

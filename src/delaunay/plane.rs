@@ -8,7 +8,7 @@ use super::uncertain::{apexes_beyond, corners_at};
 use super::{Delaunay, cavity_plane};
 use crate::complex::{Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::predicates::{self, StaticFilter};
+use crate::predicates::{self, OwnBounds2d, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 impl Kernel<Plane> for Plane {
@@ -102,6 +102,31 @@ impl Kernel<Plane> for Plane {
                     | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
         }
         hold.bits()
+    }
+
+    #[inline(always)]
+    fn cells_hold_by_own_bounds(
+        avx2: Avx2,
+        t: &Delaunay<Plane>,
+        cells: &[Slot; LANES],
+        apexes: [&[SiteId; LANES]; 4],
+    ) -> [u32; 2] {
+        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
+        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
+        let circle = predicates::circle(&a, &b, &c);
+        let own = OwnBounds2d::new(&a, &b, &c);
+        let mut hold = own.area().is_less(circle[2]);
+        let mut hold_for_all = avx2.splat(t.filter.orient).is_less(circle[2]);
+        for apexes in &apexes[..3] {
+            let q = places(avx2, t, **apexes);
+            let side = predicates::side_of_circle(&circle, &a, &q);
+            let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
+            hold = hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none);
+            hold_for_all = hold_for_all & (side.is_less(avx2.splat(-t.filter.prepared)) | is_none);
+        }
+        [hold.bits(), hold_for_all.bits()]
     }
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use super::uncertain::{apexes_beyond, corners_at};
 use super::{Delaunay, cavity_space};
 use crate::complex::{Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::predicates::{self, StaticFilter};
+use crate::predicates::{self, OwnBounds3d, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 impl Kernel<Space> for Space {
@@ -104,6 +104,32 @@ impl Kernel<Space> for Space {
                     | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
         }
         hold.bits()
+    }
+
+    #[inline(always)]
+    fn cells_hold_by_own_bounds(
+        avx2: Avx2,
+        t: &Delaunay<Space>,
+        cells: &[Slot; LANES],
+        apexes: [&[SiteId; LANES]; 4],
+    ) -> [u32; 2] {
+        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
+        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
+        let d = places(avx2, t, [k[3], l[3], m[3], n[3]]);
+        let sphere = predicates::sphere(&a, &b, &c, &d);
+        let own = OwnBounds3d::new(&a, &b, &c, &d);
+        let mut hold = own.volume().is_less(sphere[3]);
+        let mut hold_for_all = avx2.splat(t.filter.orient).is_less(sphere[3]);
+        for apexes in apexes {
+            let q = places(avx2, t, *apexes);
+            let side = predicates::side_of_sphere(&sphere, &a, &q);
+            let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
+            hold = hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none);
+            hold_for_all = hold_for_all & (side.is_less(avx2.splat(-t.filter.prepared)) | is_none);
+        }
+        [hold.bits(), hold_for_all.bits()]
     }
 
     #[inline(always)]

@@ -123,8 +123,8 @@ pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::insphere;
 pub use space::orient3d;
 pub use sphere::{
-    Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere, is_side_certain,
-    is_side_certain_within, reach, side_of_circle, side_of_sphere, sphere,
+    OwnBounds2d, OwnBounds3d, Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere,
+    is_side_certain, is_side_certain_within, reach, side_of_circle, side_of_sphere, sphere,
 };
 pub(crate) use tolerance::are_within;
 pub use tolerance::{

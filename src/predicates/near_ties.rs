@@ -9,7 +9,10 @@ use super::integer::{LongScaled, Scaled};
 use super::plane::{incircle_rounded, incircle_sign};
 use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
-use super::{MAX_MAGNITUDE, big, is_side_certain, is_side_certain_within, reach, side_of_sphere, sphere};
+use super::{
+    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, big, circle, is_side_certain, is_side_certain_within, reach,
+    side_of_circle, side_of_sphere, sphere,
+};
 use crate::random::Rng;
 
 /// Numbers of up to 53 bits with exponents up to `spread` apart, at any place of the range.
@@ -135,7 +138,8 @@ fn noisy_lattice(rng: &mut Rng) -> [[f64; 3]; 5] {
 #[test]
 fn stages_after_the_static_bound_of_spheres_are_exact() {
     let rng = &mut Rng::new(4);
-    let (mut n_sides, mut n_within, mut n_by_terms, mut n_open) = (0, 0, 0, 0);
+    let (mut n_sides, mut n_within, mut n_volumes) = (0, 0, 0);
+    let (mut n_by_terms, mut n_open) = (0, 0);
     let mut n_long = [0; 4];
     for k in 0..1_200_000 {
         let points = if k % 3 == 0 { near_tie::<3, 5>(rng) } else { noisy_lattice(rng) };
@@ -146,6 +150,13 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
         if is_side_certain(side, refs) {
             assert_eq!(sign(side), expected, "{points:?}");
             n_sides += 1;
+        }
+        let own = OwnBounds3d::new(a, b, c, d);
+        assert_eq!(side.abs() > own.side(a, q), is_side_certain(side, refs));
+        let volume = sphere(a, b, c, d)[3];
+        if volume.abs() > own.volume() {
+            assert_eq!(sign(volume), sign(big::orient3d(1.0, [a, b, c, d])), "{points:?}");
+            n_volumes += 1;
         }
         let extent = [b, c, d].map(|p| reach(a, p)).into_iter().fold(0.0, f64::max);
         if is_side_certain_within(side, extent, a, q) {
@@ -170,7 +181,10 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
             }
         }
     }
-    println!("{n_sides} sides, {n_within} within, {n_by_terms} by terms, {n_open} open, {n_long:?} long");
+    println!(
+        "{n_sides} sides, {n_within} within, {n_volumes} volumes, {n_by_terms} by terms, {n_open} open, {n_long:?} long"
+    );
+    assert!(n_volumes > 100_000);
     assert!(n_sides > 100_000 && n_within > 50_000 && n_by_terms > 50_000 && n_open > 100_000);
     assert!(n_long.iter().all(|&n| n > 1_000));
 }
@@ -179,11 +193,23 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
 fn near_ties_of_circles_are_those_of_long_integers() {
     let rng = &mut Rng::new(2);
     let mut counts = [0; 6];
+    let (mut n_sides, mut n_areas) = (0, 0);
     for _ in 0..CASES {
         let points = near_tie::<2, 4>(rng);
         let [a, others @ ..] = points.each_ref();
         let extents = extents(points.each_ref());
         let det = incircle_rounded(points.each_ref());
+        let [b, c, q] = others;
+        let (prepared, own) = (circle(a, b, c), OwnBounds2d::new(a, b, c));
+        let side = side_of_circle(&prepared, a, q);
+        if side.abs() > own.side(a, q) {
+            assert_eq!(sign(side), sign(big::incircle(1.0, points.each_ref())), "{points:?}");
+            n_sides += 1;
+        }
+        if prepared[2].abs() > own.area() {
+            assert_eq!(sign(prepared[2]), sign(big::orient2d(1.0, [a, b, c])), "{points:?}");
+            n_areas += 1;
+        }
         if is_certain(det, incircle_bound(extents), extents) {
             continue;
         }
@@ -192,6 +218,8 @@ fn near_ties_of_circles_are_those_of_long_integers() {
             assert_eq!(found, sign(big::incircle(1.0, points.each_ref())), "{points:?}");
         }
     }
+    println!("{n_sides} sides, {n_areas} areas");
+    assert!(n_sides > CASES / 20 && n_areas > CASES / 20);
     assert_all_taken(&counts);
 }
 

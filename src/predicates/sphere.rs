@@ -27,7 +27,8 @@
 
 use super::StaticFilter;
 use super::filter::{
-    extents, largest, prepared_bound_2d, prepared_bound_3d, prepared_bound_within_3d, semi_static_bounds_3d,
+    extents, largest, prepared_bound_2d, prepared_bound_3d, prepared_bound_within_3d, semi_static_bounds_2d,
+    semi_static_bounds_3d,
 };
 use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
 use crate::simd::Real;
@@ -99,6 +100,68 @@ pub fn is_side_certain(side: f64, [a, b, c, d, q]: [&[f64; 3]; 5]) -> bool {
 #[inline(always)]
 pub fn is_side_certain_within(side: f64, extent: f64, a: &[f64; 3], q: &[f64; 3]) -> bool {
     side.abs() > prepared_bound_within_3d(Real::max(extent, reach(a, q)))
+}
+
+/// The bounds of a cell of the plane and of points next to it, by their own differences from its first corner.
+#[derive(Clone, Copy)]
+pub struct OwnBounds2d<T> {
+    extents: [T; 2],
+}
+
+impl<T: Real> OwnBounds2d<T> {
+    /// Of a triangle.
+    #[inline(always)]
+    pub fn new(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Self {
+        OwnBounds2d { extents: extended(minus(b, a).map(T::abs), a, c) }
+    }
+
+    /// What the area exceeds if it is certainly positive.
+    #[inline(always)]
+    pub fn area(&self) -> T {
+        semi_static_bounds_2d(self.extents)[0]
+    }
+
+    /// What the magnitude of [`side_of_circle`] exceeds if it is certain.
+    #[inline(always)]
+    pub fn side(&self, a: &[T; 2], q: &[T; 2]) -> T {
+        semi_static_bounds_2d(extended(self.extents, a, q))[1]
+    }
+}
+
+/// As [`OwnBounds2d`], in space.
+#[derive(Clone, Copy)]
+pub struct OwnBounds3d<T> {
+    extents: [T; 3],
+}
+
+impl<T: Real> OwnBounds3d<T> {
+    /// Of a tetrahedron.
+    #[inline(always)]
+    pub fn new(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Self {
+        OwnBounds3d { extents: extended(extended(minus(b, a).map(T::abs), a, c), a, d) }
+    }
+
+    /// What the volume exceeds if it is certainly positive.
+    #[inline(always)]
+    pub fn volume(&self) -> T {
+        semi_static_bounds_3d(self.extents)[0]
+    }
+
+    /// What the magnitude of [`side_of_sphere`] exceeds if it is certain.
+    #[inline(always)]
+    pub fn side(&self, a: &[T; 3], q: &[T; 3]) -> T {
+        semi_static_bounds_3d(extended(self.extents, a, q))[1]
+    }
+}
+
+/// Extents that cover the differences from `a` to `q` as well.
+#[inline(always)]
+fn extended<T: Real, const D: usize>(mut extents: [T; D], a: &[T; D], q: &[T; D]) -> [T; D] {
+    let s = minus(q, a);
+    for axis in 0..D {
+        extents[axis] = s[axis].abs().max(extents[axis]);
+    }
+    extents
 }
 
 /// The greatest difference of two points along an axis.
