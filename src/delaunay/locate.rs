@@ -105,7 +105,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether sites and cells are too many to stay in a cache near the processor.
     #[inline(always)]
-    pub(super) fn is_far(&self) -> bool {
+    pub(crate) fn is_far(&self) -> bool {
         size_of_val(&*self.sites) > CACHE_BYTES
     }
 
@@ -121,6 +121,27 @@ impl<G: Dimension> Delaunay<G> {
             self.complex.prefetch(cell.neighbour(cell.index_of(s)).cell());
             for &corner in cell.corners.as_ref() {
                 prefetch(&self.sites, corner.index());
+            }
+        }
+    }
+
+    /// Asks for what the relocation of a site will read first, in as many calls as there are steps in turn: the site, a
+    /// cell of it, and the cells next to that with their corners.
+    #[inline(always)]
+    pub(crate) fn prefetch_star(&self, s: SiteId, step: usize) {
+        match step {
+            0 => prefetch(&self.sites, s.index()),
+            1 => self.complex.prefetch(self.site(s).cell),
+            2 => self.complex.prefetch_neighbours(self.site(s).cell),
+            _ => {
+                let first = self.complex.cell(self.site(s).cell);
+                for i in 0..G::Corners::N {
+                    let next = self.complex.cell(first.neighbour(i).cell());
+                    for &corner in next.corners.as_ref() {
+                        prefetch(&self.sites, corner.index());
+                    }
+                    self.complex.prefetch_neighbours(first.neighbour(i).cell());
+                }
             }
         }
     }

@@ -155,7 +155,8 @@ fn is_in_uncertain_conflict(
     id: VertexId,
     side: f64,
 ) -> bool {
-    let is_certain = predicates::is_side_certain_within(side, entry.extent.into(), &entry.first, q);
+    let is_certain =
+        !t.filter.is_exact && predicates::is_side_certain_within(side, entry.extent.into(), &entry.first, q);
     if is_certain { side > 0.0 } else { is_in_near_conflict(entry, t, q, id, side) }
 }
 

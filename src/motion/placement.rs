@@ -10,6 +10,7 @@ use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
+use crate::machine::prefetch::prefetch;
 
 /// Where a vertex has been placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +44,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         mut relocate: impl FnMut(&mut Self, VertexId, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
         let (first, n) = (self.staging.applied(), self.staging.vertices().len());
+        let is_far = self.kernel.is_far();
         for k in first..n {
             if !self.kernel.has_cells() {
                 // Nothing to walk in: what is left is placed at once.
@@ -51,6 +53,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             let is_call_due = (k - first).is_multiple_of(constants::<G>().relocations_per_call);
             if is_call_due && !self.monitor(k as f64 / n as f64) {
                 return Err(Error::Cancelled);
+            }
+            if is_far {
+                self.prefetch_staged(k);
             }
             self.staging.set_applied(k + 1);
             let v = self.staging.vertices()[k];
@@ -71,6 +76,22 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         Ok(())
+    }
+
+    /// Asks for what the relocations after the `k`-th one will read: vertices that are staged are far from each other
+    /// where they are few.
+    #[inline(always)]
+    fn prefetch_staged(&self, k: usize) {
+        let staged = self.staging.vertices();
+        for step in 0..4 {
+            if let Some(&v) = staged.get(k + 2 * (4 - step)) {
+                self.kernel.prefetch_star(self.site_of[v], step);
+            }
+        }
+        if let Some(&v) = staged.get(k + 10) {
+            prefetch(&self.site_of, v.index());
+            prefetch(self.staging.positions(), v.index());
+        }
     }
 
     /// Relocates a vertex; the maps of sites and hidden vertices follow.
