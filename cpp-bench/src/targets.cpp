@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <numeric>
 
 namespace bench {
@@ -39,6 +40,11 @@ constexpr std::size_t n_warm = 2;
 constexpr std::size_t rounds_at_a_turn = 4;
 
 constexpr double wanted_of_two_threads = 1.8;
+
+/// Steps by which many cells change, in spacings, as recorded proteins and liquids have them.
+constexpr double drifts[] = {0.03, 0.1, 0.3};
+/// Mending is to be so much faster than rebuilding.
+constexpr double wanted_of_drifts[] = {1.5, 1.5, 1 / 1.1};
 
 /// From where points go to a random place close by.
 enum class From { where_they_began, where_they_were };
@@ -164,11 +170,14 @@ public:
             if (sizes_.has("swept") || sizes_.has("threads_swept")) sweep(dimension, dimension == 2 ? 12 : 22);
             for (const unsigned displacement : leaps)
                 if (sizes_.has(leap_name(displacement))) leap(dimension, displacement);
+            for (std::size_t i = 0; i < std::size(drifts); ++i)
+                if (sizes_.has(drift_name(drifts[i]))) drift(dimension, drifts[i], wanted_of_drifts[i]);
             if (sizes_.has("threads_build")) build_anew(dimension);
             append(step_targets(dimension, sizes_, seed_, checks_, progress_));
             if (sizes_.has("loop")) append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
             append(growth_targets(dimension, sizes_, seed_, progress_));
             append(location_targets(dimension, sizes_, seed_, progress_));
+            append(staged_targets(dimension, sizes_, seed_, progress_));
         }
         return targets_;
     }
@@ -247,6 +256,18 @@ private:
         add(name.c_str(), series, done[1], done[2], wanted_of_rebuilding);
     }
 
+    void drift(unsigned dimension, double displacement, double wanted) {
+        const std::size_t last = n_warm + sizes_.n_rounds;
+        const std::string name = drift_name(displacement);
+        const Series series = moving_points(name, dimension, sizes_.n_relocated, From::where_they_were,
+                                            displacement, last, seed_);
+        auto done = replay(series, {entrant("deldrift/rebuilding", 1, last), entrant("deldrift/auto", 1, last)}, 1,
+                           checks_of(series), progress_);
+        // Auto tries to mend now and then.
+        for (Outcome &outcome : done) outcome.ns = outcome.mean_ns;
+        add(name.c_str(), series, done[0], done[1], wanted);
+    }
+
     void build_anew(unsigned dimension) {
         const Series series = uniform_points(dimension, sizes_.n_committed, seed_);
         const EngineKind &kind = engine_kind("deldrift/rebuilding");
@@ -256,6 +277,7 @@ private:
     }
 
     static std::string leap_name(unsigned displacement) { return fmt::format("leap_{}", displacement); }
+    static std::string drift_name(double displacement) { return fmt::format("drift_{:g}", displacement); }
 
     void append(const std::vector<Target> &targets) {
         targets_.insert(targets_.end(), targets.begin(), targets.end());
