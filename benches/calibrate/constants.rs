@@ -103,11 +103,12 @@ fn costs_of(dimension: usize, &measured: &Costs) -> Vec<Constant> {
     };
     let mut costs = constants!("costs." Costs, within, [
         watched: Real, beyond: Real, sweep: Real, used_up: Real, computed: Real, rebuilt: Real, placed: Real,
-        exact: Real,
+        certified: Real, exact: Real,
     ] besides slack);
-    let Costs { watched, beyond, sweep, slack, used_up, computed, rebuilt, placed, exact } = measured;
+    let Costs { watched, beyond, sweep, slack, used_up, computed, rebuilt, placed, certified, exact } =
+        measured;
     for (cost, measured) in
-        costs.iter_mut().zip([watched, beyond, sweep, used_up, computed, rebuilt, placed, exact])
+        costs.iter_mut().zip([watched, beyond, sweep, used_up, computed, rebuilt, placed, certified, exact])
     {
         cost.measured = Some(measured);
     }

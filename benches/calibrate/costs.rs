@@ -97,6 +97,7 @@ pub fn measure<G: Dimension>(size: &Size) -> Costs {
         computed: computed / n,
         rebuilt: rebuilt / n,
         placed: placed::<G>(&here, sweep, repeats),
+        certified: certified::<G>(&here, sweep, repeats),
         exact: exact::<G>(size.n_for_costs, repeats),
     };
     println!("  {}D, nanoseconds: {costs:.1?}", G::D);
@@ -141,6 +142,19 @@ fn placed<G: Dimension>(here: &[G::Point], sweep: f64, repeats: usize) -> f64 {
     least_of(repeats, || {
         let (time, report) = swing.commit();
         (time - sweep) / report.placements.max(1) as f64
+    })
+}
+
+/// A certificate of those that flips and placements evaluate: all vertices go to and fro by a twentieth of a spacing.
+fn certified<G: Dimension>(here: &[G::Point], sweep: f64, repeats: usize) -> f64 {
+    let random = &mut Rng::new(15);
+    let there: Vec<_> = here.iter().map(|p| beside::<G>(p, 0.05, random)).collect();
+    let mut swing = Swing::<G>::new(Algorithm::Repair, here, &there);
+    let mut swept = Swing::<G>::still(Algorithm::Repair, here);
+    let n_swept = swept.commit().1.certificates;
+    least_of(repeats.min(31), || {
+        let (time, report) = swing.commit();
+        (time - sweep) / report.certificates.saturating_sub(n_swept).max(1) as f64
     })
 }
 

@@ -67,8 +67,13 @@ impl<G: Dimension> Delaunay<G> {
         }
         memory::append(&mut failures.open_ghosts, &failures.ghosts)?;
         failures.may_wind_twice = true;
-        self.certificates += (self.complex.n_finite() * (G::D + 3) / 2) as u64;
+        self.certificates += self.n_certificates();
         Ok(true)
+    }
+
+    /// How many certificates the finite cells have: an orientation each, and half an empty sphere for each facet.
+    pub(crate) fn n_certificates(&self) -> u64 {
+        (self.complex.n_finite() * (G::D + 3) / 2) as u64
     }
 
     /// Sweeps the cells of a range; stops when more than `most` cells of all ranges have failed.

@@ -26,6 +26,8 @@ pub struct Costs {
     pub rebuilt: f64,
     /// A vertex placed.
     pub placed: f64,
+    /// A certificate that is evaluated by itself, as flips and placements do, with its share of these.
+    pub certified: f64,
     /// An exact evaluation.
     pub exact: f64,
 }
@@ -187,6 +189,7 @@ const PLANE: Constants = Constants {
         computed: 90.0,
         rebuilt: 150.0,
         placed: 1050.0,
+        certified: 20.0,
         exact: 80.0,
     },
     min_wait_commits: 16,
@@ -202,7 +205,7 @@ const PLANE: Constants = Constants {
     max_share_beyond: 0.125,
     sampled_vertices: 64,
     min_share_within: 0.8,
-    swept_per_placement: 10,
+    swept_per_placement: 20,
     max_rebuilds: 15,
     rebuilds_growth: 2,
     min_share_of_round: 0.85,
@@ -239,6 +242,7 @@ const SPACE: Constants = Constants {
         computed: 500.0,
         rebuilt: 1200.0,
         placed: 9500.0,
+        certified: 30.0,
         exact: 135.0,
     },
     vertices_per_change: 250.0,

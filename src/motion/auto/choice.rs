@@ -200,30 +200,34 @@ impl Auto {
         self.exact_of_rebuild = Some(after.exact - before.exact);
     }
 
-    /// Whether a repair of `n` vertices has cost more than rebuilding would have.
+    /// Whether a repair of `n` vertices has cost more than rebuilding would have. Placements count by their number, or
+    /// together with flips by what they have evaluated, whichever is more.
     fn is_too_expensive<G: Dimension>(
         &self,
         n: usize,
+        n_swept: u64,
         report: &CommitReport,
         [before, after]: [Evaluations; 2],
     ) -> bool {
         let (costs, done) = (&constants::<G>().costs, after.since(before));
-        let spent = n as f64 * costs.sweep + costs.of(report.placements, done);
+        let certified = done.certificates.saturating_sub(n_swept) as f64 * costs.certified;
+        let spent = n as f64 * costs.sweep + costs.of(report.placements, done).max(certified);
         // While it is not known it counts as equal.
         let exact_of_rebuild = self.exact_of_rebuild.unwrap_or(done.exact);
         spent > n as f64 * costs.rebuilt + exact_of_rebuild as f64 * costs.exact
     }
 
-    /// Draws conclusions from a repair, for `n` vertices.
+    /// Draws conclusions from a repair, for `n` vertices, of which the sweep has checked `n_swept` certificates.
     pub(super) fn learn<G: Dimension>(
         &mut self,
         n: usize,
+        n_swept: u64,
         report: &CommitReport,
         evaluations: [Evaluations; 2],
     ) {
         let constants = constants::<G>();
         self.follow_changes::<G>(report);
-        if report.rebuilds > 0 || self.is_too_expensive::<G>(n, report, evaluations) {
+        if report.rebuilds > 0 || self.is_too_expensive::<G>(n, n_swept, report, evaluations) {
             let more = constants.rebuilds_growth * self.last_rebuilds + 1;
             self.last_rebuilds = more.min(constants.max_rebuilds);
             self.rebuilds = self.last_rebuilds;

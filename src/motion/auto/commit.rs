@@ -42,7 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.commit_by_repair(given, report)?;
         let after = self.evaluations();
-        self.auto.learn::<G>(self.n_present, report, [before, after]);
+        self.auto.learn::<G>(self.n_present, self.kernel.n_certificates(), report, [before, after]);
         Ok(())
     }
 
