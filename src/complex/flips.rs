@@ -17,6 +17,7 @@ use super::{Cell, Complex, Corners, Facet, Row};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 use crate::machine::threads;
 use std::sync::Mutex;
 
@@ -112,6 +113,12 @@ impl<C: Corners> CellRange<'_, C> {
     #[inline(always)]
     pub(crate) fn cell(&self, cell: Slot) -> Result<&Cell<C>, Obstacle> {
         self.cells.get(self.position(cell)).ok_or(Obstacle::OtherRange)
+    }
+
+    /// Asks for a cell, which may be none of the range.
+    #[inline(always)]
+    pub(crate) fn prefetch(&self, cell: Slot) {
+        prefetch(self.cells, self.position(cell));
     }
 
     /// The corner opposite a facet of a cell of the range.

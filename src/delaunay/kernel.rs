@@ -82,6 +82,15 @@ pub trait Kernel<G: Dimension> {
         apexes: [&[SiteId; LANES]; 4],
     ) -> [u32; 2];
 
+    /// Of several cells, each with a site: whether that surely is outside the cell's sphere, one bit each.
+    fn are_outside(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<G>,
+        cells: &[G::Corners; LANES],
+        others: &[SiteId; LANES],
+    ) -> u32;
+
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere
     /// test.
     fn bicell_holds(t: &Delaunay<G>, facet: Facet) -> bool;

@@ -90,13 +90,13 @@ impl Kernel<Plane> for Plane {
         apexes: [&[SiteId; LANES]; 4],
     ) -> u32 {
         let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
+        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
         let circle = predicates::circle(&a, &b, &c);
         let mut hold = avx2.splat(t.filter.orient).is_less(circle[2]);
         for apexes in &apexes[..3] {
-            let side = predicates::side_of_circle(&circle, &a, &places(avx2, t, **apexes));
+            let side = predicates::side_of_circle(&circle, &a, &places(avx2, t.view(), **apexes));
             hold = hold
                 & (side.is_less(avx2.splat(-t.filter.prepared))
                     | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
@@ -112,21 +112,37 @@ impl Kernel<Plane> for Plane {
         apexes: [&[SiteId; LANES]; 4],
     ) -> [u32; 2] {
         let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
+        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
         let circle = predicates::circle(&a, &b, &c);
         let own = OwnBounds2d::new(&a, &b, &c);
         let mut hold = own.area().is_less(circle[2]);
         let mut hold_for_all = avx2.splat(t.filter.orient).is_less(circle[2]);
         for apexes in &apexes[..3] {
-            let q = places(avx2, t, **apexes);
+            let q = places(avx2, t.view(), **apexes);
             let side = predicates::side_of_circle(&circle, &a, &q);
             let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
             hold = hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none);
             hold_for_all = hold_for_all & (side.is_less(avx2.splat(-t.filter.prepared)) | is_none);
         }
         [hold.bits(), hold_for_all.bits()]
+    }
+
+    #[inline(always)]
+    fn are_outside(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Plane>,
+        [k, l, m, n]: &[[SiteId; 3]; LANES],
+        others: &[SiteId; LANES],
+    ) -> u32 {
+        let a = places(avx2, sites, [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, sites, [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, sites, [k[2], l[2], m[2], n[2]]);
+        let circle = predicates::circle(&a, &b, &c);
+        let side = predicates::side_of_circle(&circle, &a, &places(avx2, sites, *others));
+        side.is_less(avx2.splat(-f.prepared)).bits()
     }
 
     #[inline(always)]
@@ -151,10 +167,10 @@ impl Kernel<Plane> for Plane {
             corners_at(t, edges[3]),
         ];
         let bicells = [
-            places(avx2, t, [k[0], l[0], m[0], n[0]]),
-            places(avx2, t, [k[1], l[1], m[1], n[1]]),
-            places(avx2, t, [k[2], l[2], m[2], n[2]]),
-            places(avx2, t, apexes_beyond(t, edges)),
+            places(avx2, t.view(), [k[0], l[0], m[0], n[0]]),
+            places(avx2, t.view(), [k[1], l[1], m[1], n[1]]),
+            places(avx2, t.view(), [k[2], l[2], m[2], n[2]]),
+            places(avx2, t.view(), apexes_beyond(t, edges)),
         ];
         let hold = predicates::bicells_surely_hold2d(&t.filter, &bicells).bits();
         if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d(&bicells).bits() }
@@ -199,8 +215,8 @@ impl Kernel<Plane> for Plane {
 }
 
 #[inline(always)]
-fn places(avx2: Avx2, t: &Delaunay<Plane>, sites: [SiteId; LANES]) -> [Lanes; 2] {
-    avx2.pairs(sites.map(|s| t.view().point(s)))
+fn places(avx2: Avx2, all: Sites<Plane>, sites: [SiteId; LANES]) -> [Lanes; 2] {
+    avx2.pairs(sites.map(|s| all.point(s)))
 }
 
 #[inline(always)]

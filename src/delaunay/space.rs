@@ -91,14 +91,14 @@ impl Kernel<Space> for Space {
         apexes: [&[SiteId; LANES]; 4],
     ) -> u32 {
         let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
-        let d = places(avx2, t, [k[3], l[3], m[3], n[3]]);
+        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
+        let d = places(avx2, t.view(), [k[3], l[3], m[3], n[3]]);
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let mut hold = avx2.splat(t.filter.orient).is_less(sphere[3]);
         for apexes in apexes {
-            let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t, *apexes));
+            let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t.view(), *apexes));
             hold = hold
                 & (side.is_less(avx2.splat(-t.filter.prepared))
                     | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
@@ -114,22 +114,39 @@ impl Kernel<Space> for Space {
         apexes: [&[SiteId; LANES]; 4],
     ) -> [u32; 2] {
         let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t, [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t, [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t, [k[2], l[2], m[2], n[2]]);
-        let d = places(avx2, t, [k[3], l[3], m[3], n[3]]);
+        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
+        let d = places(avx2, t.view(), [k[3], l[3], m[3], n[3]]);
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let own = OwnBounds3d::new(&a, &b, &c, &d);
         let mut hold = own.volume().is_less(sphere[3]);
         let mut hold_for_all = avx2.splat(t.filter.orient).is_less(sphere[3]);
         for apexes in apexes {
-            let q = places(avx2, t, *apexes);
+            let q = places(avx2, t.view(), *apexes);
             let side = predicates::side_of_sphere(&sphere, &a, &q);
             let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
             hold = hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none);
             hold_for_all = hold_for_all & (side.is_less(avx2.splat(-t.filter.prepared)) | is_none);
         }
         [hold.bits(), hold_for_all.bits()]
+    }
+
+    #[inline(always)]
+    fn are_outside(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Space>,
+        [k, l, m, n]: &[[SiteId; 4]; LANES],
+        others: &[SiteId; LANES],
+    ) -> u32 {
+        let a = places(avx2, sites, [k[0], l[0], m[0], n[0]]);
+        let b = places(avx2, sites, [k[1], l[1], m[1], n[1]]);
+        let c = places(avx2, sites, [k[2], l[2], m[2], n[2]]);
+        let d = places(avx2, sites, [k[3], l[3], m[3], n[3]]);
+        let sphere = predicates::sphere(&a, &b, &c, &d);
+        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, sites, *others));
+        side.is_less(avx2.splat(-f.prepared)).bits()
     }
 
     #[inline(always)]
@@ -154,11 +171,11 @@ impl Kernel<Space> for Space {
             corners_at(t, faces[3]),
         ];
         let bicells = [
-            places(avx2, t, [k[0], l[0], m[0], n[0]]),
-            places(avx2, t, [k[1], l[1], m[1], n[1]]),
-            places(avx2, t, [k[2], l[2], m[2], n[2]]),
-            places(avx2, t, [k[3], l[3], m[3], n[3]]),
-            places(avx2, t, apexes_beyond(t, faces)),
+            places(avx2, t.view(), [k[0], l[0], m[0], n[0]]),
+            places(avx2, t.view(), [k[1], l[1], m[1], n[1]]),
+            places(avx2, t.view(), [k[2], l[2], m[2], n[2]]),
+            places(avx2, t.view(), [k[3], l[3], m[3], n[3]]),
+            places(avx2, t.view(), apexes_beyond(t, faces)),
         ];
         let hold = predicates::bicells_surely_hold3d(&t.filter, &bicells).bits();
         if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d(&bicells).bits() }
@@ -249,8 +266,8 @@ impl Kernel<Space> for Space {
 }
 
 #[inline(always)]
-fn places(avx2: Avx2, t: &Delaunay<Space>, sites: [SiteId; LANES]) -> [Lanes; 3] {
-    let [x, y, z, _] = avx2.fours(sites.map(|s| t.view().padded_point(s)));
+fn places(avx2: Avx2, all: Sites<Space>, sites: [SiteId; LANES]) -> [Lanes; 3] {
+    let [x, y, z, _] = avx2.fours(sites.map(|s| all.padded_point(s)));
     [x, y, z]
 }
 
@@ -273,7 +290,7 @@ fn drop_outside_sphere(
         }
         // The last one fills the last lanes.
         let four = std::array::from_fn(|lane| sites[(k + lane).min(sites.len() - 1)]);
-        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t, four));
+        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t.view(), four));
         set &= !(u64::from(side.is_less(avx2.splat(-t.filter.prepared)).bits()) << k);
     }
     set
