@@ -55,6 +55,7 @@ report: benchmark ## the experiments of RR-6750, beside CGAL: cpp-bench/results/
 	@.ci/packages $(PAGE_NEEDS)
 	-@cpp-bench/fetch_man
 	cpp-bench/run --report --preset $(PRESET) $(ARGS)
+	cpp-bench/regret
 	cpp-bench/report_page/page.py
 
 memory: benchmark ## bytes per vertex, beside CGAL's: cpp-bench/results/memory.csv

@@ -165,7 +165,7 @@ private:
                  "built and moved, to structured.csv; the last part of a run without --scenario or --series.\n"
                  "With --preset full all sets at three sizes");
         add_task("--targets", Task::targets,
-                 "special cases beside the speed-up wanted, to targets.csv: within eight minutes");
+                 "special cases beside the speed-up wanted, to targets.csv: within nine minutes");
         add_task("--self-test", Task::self_test, "test the benchmark's own checks");
     }
 
