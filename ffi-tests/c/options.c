@@ -187,7 +187,7 @@ static void rebuilding_ends_at_a_sample_within_tolerance(uint32_t dimension, uin
     for (uint32_t step = 1; step < (period == 0 ? 4 : period); step++) CHECK(rebuilds(&s, 0));
     CHECK(!rebuilds(&s, 0));
 
-    // Once and for all, unless the algorithm is chosen anew.
+    // Once and for all, unless the algorithm is chosen again.
     for (int step = 0; step < 6; step++) CHECK(!rebuilds(&s, 1));
     OK(deldrift_set_algorithm(s.t, DELDRIFT_COMPARE_REBUILDING_TOLERANCE));
     CHECK(!rebuilds(&s, 1));
