@@ -15,17 +15,15 @@
 //! Invariant: a facet whose cells have changed since it was found to hold is a suspect, or listed as stuck or as one
 //! for later. Sites keep their old cells until no flip will be taken back.
 
-use std::ops::ControlFlow;
+pub use flipper::Flipper;
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
-use crate::complex::{CellRange, Corners, Facet, INFINITE, Obstacle, Row};
+use crate::complex::{Corners, Facet, Obstacle, Row};
 use crate::error::{Error, Result};
 use crate::ids::Slot;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::predicates::StaticFilter;
-use crate::simd::{Avx2, LANES};
 
 /// Failing facets for each thread that take longer to flip than the thread to wake up; and as many if all threads are
 /// to be used.
@@ -176,118 +174,6 @@ impl<G: Dimension> AllFlips<G> {
         flips.map(Flips::memory_bytes).sum::<usize>()
             + memory::bytes_of(&self.parts)
             + memory::bytes_of(&self.free)
-    }
-}
-
-/// Flips cells of a range.
-pub struct Flipper<'t, 's, G: Dimension> {
-    pub(super) filter: &'t StaticFilter,
-    pub(super) sites: Sites<'t, G>,
-    pub(super) cells: &'t mut CellRange<'s, G::Corners>,
-}
-
-impl<G: Dimension> Flipper<'_, '_, G> {
-    /// Flips until no suspect is left, or none but those that are stuck or for later.
-    fn flip_all(&mut self, flips: &mut Flips<G>) {
-        let mut before = flips.n_flips;
-        loop {
-            // Most suspects hold. If one of those taken together changes cells of the others, what has become of these
-            // is a suspect again.
-            while let Some((rest, &four)) = flips.suspects.split_last_chunk::<LANES>()
-                && let Some(avx2) = Avx2::new()
-            {
-                self.prefetch(rest);
-                flips.suspects.truncate(rest.len());
-                let hold = self.surely_hold(avx2, &four);
-                flips.certificates += u64::from(hold.count_ones());
-                for k in (0..LANES).rev().filter(|k| hold >> k & 1 == 0) {
-                    if self.flip_suspect(four[k], flips).is_break() {
-                        return;
-                    }
-                }
-            }
-            while let Some(facet) = flips.suspects.pop() {
-                if self.flip_suspect(facet, flips).is_break() {
-                    return;
-                }
-            }
-            if flips.stuck.is_empty() || flips.n_flips == before {
-                return;
-            }
-            // What was stuck may not be any more.
-            std::mem::swap(&mut flips.suspects, &mut flips.stuck);
-            before = flips.n_flips;
-        }
-    }
-
-    /// Asks for the cells of the suspects that will be taken after the next ones, which are the last.
-    #[inline(always)]
-    fn prefetch(&self, suspects: &[Facet]) {
-        let Some(&next) = suspects.last_chunk::<{ 3 * LANES }>() else { return };
-        next[..LANES].iter().for_each(|facet| self.cells.prefetch(facet.cell()));
-        for facet in &next[LANES..2 * LANES] {
-            if let Ok(cell) = self.cells.cell(facet.cell()) {
-                self.cells.prefetch(cell.neighbour(facet.index()).cell());
-            }
-        }
-    }
-
-    /// Which of these facets surely hold, one bit each.
-    #[inline(always)]
-    fn surely_hold(&self, avx2: Avx2, facets: &[Facet; LANES]) -> u32 {
-        let (mut cells, mut apexes, mut known) =
-            ([G::Corners::filled(INFINITE); LANES], [INFINITE; LANES], 0);
-        for (k, facet) in facets.iter().enumerate() {
-            let Ok(cell) = self.cells.cell(facet.cell()) else { continue };
-            let Ok(apex) = self.cells.apex(cell.neighbour(facet.index())) else { continue };
-            if !cell.is_free() && !cell.is_ghost() && apex != INFINITE {
-                (cells[k], apexes[k]) = (cell.corners, apex);
-                known |= 1 << k;
-            }
-        }
-        known
-            & avx2.run(
-                #[inline(always)]
-                || G::are_outside(avx2, self.filter, self.sites, &cells, &apexes),
-            )
-    }
-
-    /// Flips a facet if it fails, or puts it off; ends where there is no memory, or too much has been evaluated.
-    #[inline(always)]
-    fn flip_suspect(&mut self, facet: Facet, flips: &mut Flips<G>) -> ControlFlow<()> {
-        if flips.certificates >= flips.most {
-            flips.is_exhausted = true;
-            return ControlFlow::Break(());
-        }
-        if let Err(obstacle) = self.flip_if_it_fails(facet, flips) {
-            flips.put_off(facet, obstacle);
-            if flips.has_failed {
-                return ControlFlow::Break(());
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    #[inline(always)]
-    fn flip_if_it_fails(&mut self, facet: Facet, flips: &mut Flips<G>) -> Result<(), Obstacle> {
-        let cell = self.cells.cell(facet.cell())?;
-        // The cell of a facet may have gone; then those around it are suspects, too.
-        if cell.is_free() || cell.is_ghost() {
-            return Ok(());
-        }
-        let apex = self.cells.apex(cell.neighbour(facet.index()))?;
-        if apex == INFINITE {
-            return Ok(());
-        }
-        flips.certificates += 1;
-        let (place, id) = (self.sites.point(apex), self.sites.id(apex));
-        if !G::is_in_sphere(self.filter, self.sites, &cell.corners, place, id) {
-            return Ok(());
-        }
-        flips.reserve()?;
-        G::flip(self, facet, flips)?;
-        flips.n_flips += 1;
-        Ok(())
     }
 }
 
@@ -496,5 +382,6 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
+mod flipper;
 #[cfg(test)]
 mod tests;
