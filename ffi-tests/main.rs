@@ -4,6 +4,7 @@
 //! | file | what |
 //! |---|---|
 //! | `header.rs` | the committed header is what the sources say, and compiles as C11 and C++17 |
+//! | `abuse.rs` | every function with wrong arguments, from callbacks and other threads, poisoned: docs/ABUSE.md |
 //! | `algorithms.rs` | what is said of algorithms elsewhere is what their rows say |
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `cgal/both.cpp` | a program for CGAL, which writes the same with deldrift in its place (`--include-ignored`) |
@@ -14,6 +15,7 @@
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
 //! | `installation.rs` | programs that find the library or have it as a part; packages (`--include-ignored`) |
 
+mod abuse;
 mod algorithms;
 mod coverage;
 mod examples;
