@@ -30,7 +30,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help test bench report memory large targets calibrate table lint header doc picture install examples
-.PHONY: compat demo deb dist library benchmark clean
+.PHONY: compat demo deb dist library benchmark clean faults tsan miri
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -69,6 +69,15 @@ targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/result
 
 calibrate: ## the constants by which algorithms are chosen: cpp-bench/results/calibrate.csv (ARGS=NAME... for some)
 	MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=-1 cargo bench --bench calibrate -- $(or $(ARGS),--csv cpp-bench/results/calibrate.csv)
+
+faults: ## calls that fail midway, at every point: tests/results/faults.csv (some ten minutes)
+	tests/faults_table
+
+tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly toolchain
+	.ci/nightly tsan
+
+miri: ## tests of what needs no system under Miri, with a nightly toolchain that has it
+	.ci/nightly miri
 
 table: ## fill in the tables of README.md, from cpp-bench/results
 	cpp-bench/readme_table
