@@ -517,8 +517,8 @@ impl Cases<'_> {
         without.extend(nowhere.iter().cloned());
         self.add("zero", "0, and NULL", "OK", "", &without, "");
         // All of them are NULL, and there is a capacity.
-        let named = nowhere.iter().map(|&(k, _)| self.function.parameters[k].name.clone());
-        let named = named.filter(|name| name != "offsets").next().expect("a buffer");
+        let mut named = nowhere.iter().map(|&(k, _)| self.function.parameters[k].name.clone());
+        let named = named.find(|name| name != "offsets").expect("a buffer");
         let message = format!("\"{named} is NULL\"");
         self.add("null", "NULL for all buffers", "NULL_ARGUMENT", &message, &nowhere, "");
     }

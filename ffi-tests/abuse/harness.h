@@ -41,7 +41,8 @@ static size_t n_ids, n_cells, n_edges;
 static uint32_t inner_cell, inner_corner;
 
 // Arguments, which are made again before each call.
-static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], outside[ROOM], low[ROOM], high[ROOM];
+static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3];
+static double outside[ROOM], low[ROOM], high[ROOM];
 static uint32_t ids[3];
 static uint8_t mask[ROOM], saved[BYTES];
 static size_t saved_size;
@@ -332,7 +333,9 @@ static void calls_during_a_commit(void) {
     static state expected;
     look(control, &expected);
     look(t, &now);
-    if (memcmp(&now, &expected, sizeof now) != 0) wrong("deldrift_commit_timestamp", "t", "used meanwhile", "another state");
+    if (memcmp(&now, &expected, sizeof now) != 0) {
+        wrong("deldrift_commit_timestamp", "t", "used meanwhile", "another state");
+    }
     deldrift_destroy(control);
 }
 

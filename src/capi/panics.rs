@@ -1,5 +1,5 @@
-//! A panic at every point at which a commit calls its monitor, by every algorithm: the call gives an internal error, the
-//! triangulation can then only be destroyed, and others go on, on the same threads.
+//! A panic at every point at which a commit calls its monitor, by every algorithm: the call gives an internal error,
+//! the triangulation can then only be destroyed, and others go on, on the same threads.
 
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
