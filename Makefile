@@ -70,7 +70,7 @@ targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/result
 calibrate: ## the constants by which algorithms are chosen: cpp-bench/results/calibrate.csv (ARGS=NAME... for some)
 	MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=-1 cargo bench --bench calibrate -- $(or $(ARGS),--csv cpp-bench/results/calibrate.csv)
 
-faults: ## calls that fail midway, at every point: tests/results/faults.csv (some ten minutes)
+faults: ## calls that fail midway, at every point: tests/results/faults.csv (some five minutes)
 	tests/faults_table
 
 tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly toolchain

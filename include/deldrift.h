@@ -38,8 +38,7 @@
  * point to as many elements as the count says. NULL is accepted where the documentation says so, and if the
  * count is 0; otherwise it is an error. What a pointer leads to cannot be checked: that arrays are as long as the
  * count says, that strings end in a NUL, and that what is handed over has not been freed or destroyed are duties of
- * the program. Arrays that a call writes should overlap with no other of its arrays: what they hold then is
- * unspecified.
+ * the program. Arrays that a call writes must overlap with no other of its arrays.
  *
  * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: the
  * triangulation is as it was, and outputs are not written (except the count of a buffer that is too

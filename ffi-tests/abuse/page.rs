@@ -23,7 +23,11 @@ const COLUMNS: [(&str, &str, &str); 15] = [
         "value",
         "another value without a meaning: an option, a count that is not the right one, a path, data",
     ),
-    ("overlap", "overlap", "an array that is written is at the place of another one"),
+    (
+        "overlap",
+        "overlap",
+        "an array that is written is at the place of another one, which is a duty of the program",
+    ),
     (
         "callback",
         "callback",
@@ -46,9 +50,8 @@ The last column has the pointers that are trusted. One that is neither NULL nor 
 - Calls that take a triangulation as non-const run alone on it. A call during another one is refused where the library
   sees it, which is always so from a callback, and from another thread only if the first call has begun for certain.
 - Callbacks return: no exception, no `longjmp`.
-
-Arrays that are written should not overlap with others of the same call. What they hold then is unspecified; the
-triangulation stays as it is.
+- Arrays that are written do not overlap with others of the same call. (The calls that try this leave the triangulation
+  as it was, but nothing is said of what the arrays hold then.)
 ";
 
 pub fn page(functions: &[Declaration], trials: &[Trial]) -> String {
