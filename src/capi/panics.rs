@@ -1,7 +1,9 @@
 //! A panic at every point at which a commit calls its monitor, by every algorithm: the call gives an internal error,
 //! the triangulation can then only be destroyed, and others go on, on the same threads.
 
+use std::env;
 use std::mem::MaybeUninit;
+use std::process::Command;
 use std::ptr::{null, null_mut};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -10,7 +12,6 @@ use super::options::deldrift_options;
 use super::triangulation::{Kernel, hand_out};
 use super::*;
 use crate::delaunay::{Dimension, Plane, Space};
-use crate::machine::threads::use_all_threads;
 use crate::motion::{Algorithm, Monitor, MovingTriangulation, Options};
 
 /// Numbers from 0 to 1, the same in every run.
@@ -90,7 +91,6 @@ fn panics_of<G: Dimension>(
     algorithm: Algorithm,
     threads: u32,
 ) -> usize {
-    use_all_threads();
     let options = || Options { algorithm, threads, ..Options::default() };
     for k in 0.. {
         let scene = Scene::new(kernel, options());
@@ -113,8 +113,20 @@ fn panics_of<G: Dimension>(
     unreachable!("a commit calls its monitor a few times")
 }
 
+/// In a process of its own, where all threads are used that are asked for: other tests depend on how many are.
 #[test]
 fn panics_in_commits_poison_one_triangulation_and_no_other() {
+    const ALL_THREADS: &str = "DELDRIFT_ALL_THREADS";
+    if env::var_os(ALL_THREADS).is_none() {
+        let name = "capi::panics::panics_in_commits_poison_one_triangulation_and_no_other";
+        let mut test = Command::new(env::current_exe().expect("a test knows its own path"));
+        let outcome = test.args([name, "--exact", "--nocapture"]).env(ALL_THREADS, "1").output();
+        let outcome = outcome.expect("a test can be run");
+        let [said, errors] = [&outcome.stdout, &outcome.stderr].map(|text| String::from_utf8_lossy(text));
+        println!("{said}");
+        assert!(outcome.status.success() && said.contains("panics in all commits: "), "{errors}");
+        return;
+    }
     let mut sum = 0;
     for algorithm in Algorithm::ALL {
         let mut n_panics = 0;
