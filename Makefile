@@ -30,7 +30,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help test bench report memory large targets calibrate table lint header doc picture install examples
-.PHONY: compat demo deb dist library benchmark clean
+.PHONY: compat demo deb dist library benchmark clean faults tsan miri
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -71,6 +71,15 @@ targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/result
 calibrate: ## the constants by which algorithms are chosen: cpp-bench/results/calibrate.csv (ARGS=NAME... for some)
 	MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=-1 cargo bench --bench calibrate -- $(or $(ARGS),--csv cpp-bench/results/calibrate.csv)
 
+faults: ## calls that fail midway, at every point: tests/results/faults.csv (some five minutes)
+	tests/faults_table
+
+tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly toolchain
+	.ci/nightly tsan
+
+miri: ## tests of what needs no system under Miri, with a nightly toolchain that has it
+	.ci/nightly miri
+
 table: ## fill in the tables of README.md, from cpp-bench/results
 	cpp-bench/readme_table
 
@@ -82,9 +91,10 @@ lint: ## format, clippy, documentation, freshness of the header
 	RUSTDOCFLAGS=-Dwarnings cargo doc --no-deps
 	cargo test --test ffi header
 
-header: ## include/deldrift.h, from the sources in src/capi, and docs/FUNCTIONS.md
+header: ## include/deldrift.h, from the sources in src/capi, docs/FUNCTIONS.md and docs/ABUSE.md
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header_is_what_the_sources_say
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi table_of_functions
+	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi abuse
 
 doc: ## documentation as web pages: build/doc/html/index.html (C, C++) and, for Rust, doc/deldrift in cargo's folder
 	@.ci/packages doxygen

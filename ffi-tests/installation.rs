@@ -163,17 +163,20 @@ fn only_the_header_is_exported(libraries: &Path) {
     assert!(declared.len() > 40, "{declared:?}");
     for (library, dynamic) in [("libdeldrift.so", Some("-D")), ("libdeldrift.a", None)] {
         let library = libraries.join(library);
-        let mut nm = command("nm");
-        nm.args(dynamic).args(["--extern-only", "--defined-only", "--format=posix"]).arg(&library);
-        let symbols = succeed(&mut nm);
-        // Besides the symbols there are lines with the name of a member of the archive.
-        let exported: BTreeSet<&str> = symbols
-            .lines()
-            .filter(|line| !line.ends_with(':'))
-            .filter_map(|line| line.split_whitespace().next())
-            .collect();
+        let exported = exported_symbols(&library, dynamic);
+        let exported: BTreeSet<&str> = exported.iter().map(String::as_str).collect();
         assert_eq!(exported, declared, "{}", library.display());
         let sections = succeed(command("readelf").args(["--sections", "--wide"]).arg(&library));
         assert!(sections.contains(".text") && !sections.contains(".debug_"), "{}", library.display());
     }
+}
+
+/// The symbols that a library defines for others.
+pub fn exported_symbols(library: &Path, dynamic: Option<&str>) -> BTreeSet<String> {
+    let mut nm = command("nm");
+    nm.args(dynamic).args(["--extern-only", "--defined-only", "--format=posix"]).arg(library);
+    let symbols = succeed(&mut nm);
+    // Besides the symbols there are lines with the name of a member of the archive.
+    let symbols = symbols.lines().filter(|line| !line.ends_with(':'));
+    symbols.filter_map(|line| line.split_whitespace().next()).map(str::to_string).collect()
 }

@@ -4,17 +4,21 @@
 //! | file | what |
 //! |---|---|
 //! | `header.rs` | the committed header is what the sources say, and compiles as C11 and C++17 |
+//! | `abuse.rs` | every function with wrong arguments, from callbacks and other threads, poisoned: docs/ABUSE.md |
 //! | `algorithms.rs` | what is said of algorithms elsewhere is what their rows say |
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `cgal/both.cpp` | a program for CGAL, which writes the same with deldrift in its place (`--include-ignored`) |
 //! | `c/faults.c`, `c/limits.c`, `c/memory_bytes.c` | calls for which there is no memory, and how much is held |
+//! | `checkers.rs` | each checker finds the faults that are planted for it |
 //! | `coverage.rs` | every function and every status of the header is used by some program |
 //! | `examples.rs` | the examples, with few steps (`--include-ignored`) |
 //! | `functions.rs` | docs/FUNCTIONS.md and docs/ERRORS.md name everything in the header |
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
 //! | `installation.rs` | programs that find the library or have it as a part; packages (`--include-ignored`) |
 
+mod abuse;
 mod algorithms;
+mod checkers;
 mod coverage;
 mod examples;
 mod functions;

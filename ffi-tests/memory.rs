@@ -1,38 +1,64 @@
 //! The programs under checkers of memory and of threads: slow, and the checkers are no part of Rust, so these tests run
 //! only where they are asked for (`cargo test --test ffi -- --include-ignored`).
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::abuse;
 use crate::support::{Linkage, build, command, fresh_folder, repository, sees_requests, sources, succeed};
+
+/// What a program is compiled with for the sanitizers.
+pub const SANITIZERS: [&str; 3] =
+    ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"];
+
+/// A program under the checker of memory, which ends with exit code 99 where it finds a fault.
+pub fn under_memcheck(program: impl AsRef<OsStr>) -> Command {
+    let suppressed = format!("--suppressions={}", repository("ffi-tests/valgrind.supp").display());
+    let checks =
+        ["--quiet", "--error-exitcode=99", "--leak-check=full", "--errors-for-leak-kinds=definite,possible"];
+    let mut valgrind = command("valgrind");
+    valgrind.args(checks).arg(&suppressed).arg(program);
+    valgrind
+}
+
+/// A program under the checker of threads, which ends likewise.
+pub fn under_drd(program: impl AsRef<OsStr>) -> Command {
+    let mut valgrind = command("valgrind");
+    valgrind.args(["--quiet", "--tool=drd", "--error-exitcode=99"]).arg(program);
+    valgrind
+}
+
+/// A program compiled with the sanitizers.
+pub fn under_sanitizers(program: impl AsRef<OsStr>) -> Command {
+    let mut program = command(program);
+    program.env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1");
+    program
+}
+
+/// Programs in which the library uses several threads. Not threads.c: its own threads read one triangulation, through
+/// the standard library's locks, of which drd knows nothing.
+const WITH_THREADS: [&str; 3] = ["changes.c", "options.c", "parallel.c"];
 
 #[test]
 #[ignore = "needs valgrind"]
 fn programs_are_clean_under_valgrind() {
     let folder = fresh_folder("valgrind");
-    let suppressed = format!("--suppressions={}", repository("ffi-tests/valgrind.supp").display());
     for source in programs() {
         let linkage = if sees_requests(&source) { Linkage::Static } else { Linkage::Shared };
         let program = build(&source, &folder, linkage, &[]);
-        let checks = [
-            "--quiet",
-            "--error-exitcode=99",
-            "--leak-check=full",
-            "--errors-for-leak-kinds=definite,possible",
-        ];
-        let mut valgrind = command("valgrind");
-        valgrind.args(checks).arg(&suppressed).arg(program);
-        succeed(with_share_of_faults(&mut valgrind, "0.03"));
+        succeed(with_share_of_faults(&mut under_memcheck(program), "0.03"));
     }
+    succeed(&mut under_memcheck(abuse::build_program(&folder, Linkage::Shared, &[])));
 }
 
 #[test]
 #[ignore = "needs valgrind"]
 fn threads_of_the_library_do_not_race() {
     let folder = fresh_folder("races");
-    let source = repository("ffi-tests/c/parallel.c");
-    let program = build(&source, &folder, Linkage::Shared, &[]);
-    succeed(command("valgrind").args(["--quiet", "--tool=drd", "--error-exitcode=99"]).arg(program));
+    for source in WITH_THREADS.map(|name| repository(&format!("ffi-tests/c/{name}"))) {
+        succeed(&mut under_drd(build(&source, &folder, Linkage::Shared, &[])));
+    }
 }
 
 #[test]
@@ -40,12 +66,10 @@ fn threads_of_the_library_do_not_race() {
 fn programs_are_clean_under_address_and_undefined_behaviour_sanitizers() {
     let folder = fresh_folder("sanitizers");
     for source in programs() {
-        let flags = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"];
-        let program = build(&source, &folder, Linkage::Static, &flags);
-        let mut program = command(program);
-        program.env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1");
-        succeed(with_share_of_faults(&mut program, "0.5"));
+        let program = build(&source, &folder, Linkage::Static, &SANITIZERS);
+        succeed(with_share_of_faults(&mut under_sanitizers(program), "0.5"));
     }
+    succeed(&mut under_sanitizers(abuse::build_program(&folder, Linkage::Static, &SANITIZERS)));
 }
 
 /// All but those that limit their own memory, which the checkers do not survive.

@@ -36,7 +36,9 @@
  * Arrays. Points are contiguous: x0 y0 x1 y1 ... in 2D, x0 y0 z0 x1 ... in 3D. Counts and capacities are
  * in points, vertices or cells, never in numbers or bytes. A pointer must be aligned for its type and
  * point to as many elements as the count says. NULL is accepted where the documentation says so, and if the
- * count is 0; otherwise it is an error.
+ * count is 0; otherwise it is an error. What a pointer leads to cannot be checked: that arrays are as long as the
+ * count says, that strings end in a NUL, and that what is handed over has not been freed or destroyed are duties of
+ * the program. Arrays that a call writes must overlap with no other of its arrays.
  *
  * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: the
  * triangulation is as it was, and outputs are not written (except the count of a buffer that is too

@@ -847,12 +847,14 @@ fn cancels_at_each_call<G: Dimension>(call: Call, setting: &Setting) -> usize {
 fn cancelled_commits_leave_all_as_it_was() {
     let mut n_calls = 0;
     for algorithm in Algorithm::ALL {
+        let n_before = n_calls;
         for is_whole in [true, false] {
             for setting in &SETTINGS {
                 n_calls += cancels_at_each_call::<Plane>(Call::Commit(algorithm, is_whole), setting);
                 n_calls += cancels_at_each_call::<Space>(Call::Commit(algorithm, is_whole), setting);
             }
         }
+        println!("cancelled commits by {algorithm:?}: {}", n_calls - n_before);
     }
     println!("cancelled {n_calls} times");
     assert!(n_calls > 500, "{n_calls}");

@@ -3,7 +3,7 @@
 use super::fence;
 use super::pointers::{self, Room, copy_out};
 use super::query::DELDRIFT_NONE;
-use super::status::{Failure, deldrift_status};
+use super::status::{Failure, Wrong, deldrift_status};
 use super::triangulation::{Kernel, deldrift_triangulation, dimension_of, in_its_dimension};
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
@@ -239,7 +239,7 @@ impl Lists {
                 return Err(Error::WrongCount { argument, given: offset_count, wanted }.into());
             }
             if entries.is_null() && room.capacity > 0 {
-                return Err(Failure::Null { argument });
+                return Err(Wrong::Null.in_argument(argument));
             }
             if !entries.is_null() && room.capacity < needed {
                 count.write(needed);

@@ -4,7 +4,7 @@ use super::fence;
 use super::motion::points_for;
 use super::pointers;
 use super::query::{deldrift_location, hint_at};
-use super::status::{Failure, deldrift_status};
+use super::status::{Failure, Wrong, deldrift_status};
 use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::error::Error;
 use crate::machine::memory;
@@ -106,5 +106,5 @@ fn method_of(code: InterpolationCode) -> Result<Interpolation, Failure> {
 /// The length of `count` rows of `n_values` numbers.
 fn numbers(argument: &'static str, count: usize, n_values: usize) -> Result<usize, Failure> {
     let size = n_values.saturating_mul(size_of::<f64>());
-    count.checked_mul(n_values).ok_or(Failure::SizeOverflow { argument, count, size })
+    count.checked_mul(n_values).ok_or(Wrong::TooLarge { count, size }.in_argument(argument))
 }

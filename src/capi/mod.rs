@@ -43,6 +43,8 @@ mod incidence;
 mod interpolation;
 mod motion;
 mod options;
+#[cfg(test)]
+mod panics;
 mod pointers;
 mod predicates;
 mod query;

@@ -4,7 +4,7 @@ use std::slice;
 
 use super::fence;
 use super::pointers;
-use super::status::{Failure, deldrift_status};
+use super::status::{Failure, Wrong, deldrift_status};
 use super::triangulation::{deldrift_triangulation, in_its_dimension, points};
 use crate::delaunay::Dimension;
 use crate::error::Error;
@@ -383,7 +383,7 @@ pub unsafe extern "C" fn deldrift_compact(
                 let count = pointers::output("count", count)?;
                 let needed = t.id_count();
                 if map.is_null() && capacity > 0 {
-                    return Err(Failure::Null { argument: "map" });
+                    return Err(Wrong::Null.in_argument("map"));
                 }
                 if !map.is_null() && capacity < needed {
                     count.write(needed);

@@ -8,6 +8,7 @@ use super::pointers;
 use super::status::Failure;
 use crate::error::Error;
 use crate::machine::memory;
+use crate::machine::tally;
 use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRule};
 
 /// What happens when vertices come to lie at the same place.
@@ -220,8 +221,13 @@ impl Callbacks {
         Ok(Some(monitor))
     }
 
-    /// Reports progress and asks whether to go on.
+    /// Reports progress and asks whether to go on. What the callbacks do with other triangulations is no part of the
+    /// call that they are called from.
     fn go_on(&self, fraction: f64) -> bool {
+        tally::uncounted(|| self.ask(fraction))
+    }
+
+    fn ask(&self, fraction: f64) -> bool {
         if let Some(progress) = self.progress {
             // SAFETY: the caller set both, the one for the other.
             unsafe { progress(self.user_data, fraction) };

@@ -6,7 +6,7 @@
 use std::mem::MaybeUninit;
 use std::{ptr, slice};
 
-use super::status::Failure;
+use super::status::{Failure, Wrong};
 
 /// A value that must be there.
 pub(super) unsafe fn reference<'a, T>(argument: &'static str, pointer: *const T) -> Result<&'a T, Failure> {
@@ -116,7 +116,7 @@ pub(super) unsafe fn copy_out(
     let count = unsafe { output("count", room.count) }?;
     if buffers.iter().all(|(_, buffer)| buffer.is_null()) {
         if room.capacity > 0 {
-            return Err(Failure::Null { argument: buffers[0].0 });
+            return Err(Wrong::Null.in_argument(buffers[0].0));
         }
     } else if room.capacity < needed {
         count.write(needed);
@@ -130,10 +130,11 @@ pub(super) unsafe fn copy_out(
 
 fn check<T>(argument: &'static str, pointer: *const T) -> Result<(), Failure> {
     if pointer.is_null() {
-        return Err(Failure::Null { argument });
+        return Err(Wrong::Null.in_argument(argument));
     }
     if !pointer.is_aligned() {
-        return Err(Failure::Misaligned { argument, address: pointer.addr(), alignment: align_of::<T>() });
+        let (address, alignment) = (pointer.addr(), align_of::<T>());
+        return Err(Wrong::Misaligned { address, alignment }.in_argument(argument));
     }
     Ok(())
 }
@@ -141,6 +142,6 @@ fn check<T>(argument: &'static str, pointer: *const T) -> Result<(), Failure> {
 fn check_size<T>(argument: &'static str, count: usize) -> Result<(), Failure> {
     match count.checked_mul(size_of::<T>()) {
         Some(bytes) if isize::try_from(bytes).is_ok() => Ok(()),
-        _ => Err(Failure::SizeOverflow { argument, count, size: size_of::<T>() }),
+        _ => Err(Wrong::TooLarge { count, size: size_of::<T>() }.in_argument(argument)),
     }
 }

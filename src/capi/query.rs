@@ -150,6 +150,9 @@ pub unsafe extern "C" fn deldrift_copy_cells(
                 let cells = t.cells()?;
                 let buffers = [("vertices", vertices.cast()), ("neighbours", neighbours.cast())];
                 copy_out(Room { capacity, count }, cells.corners.len(), &buffers, || {
+                    let needed = cells.corners.len();
+                    // Looked at before anything is written.
+                    pointers::buffer_if_any("neighbours", neighbours, needed)?;
                     if !vertices.is_null() {
                         pointers::fill("vertices", vertices.cast(), cells.corners)?;
                     }

@@ -246,7 +246,11 @@ unsafe fn fields_of<'a>(
         }
         let n_values = n.saturating_mul(field.components);
         // SAFETY: the caller's promise.
-        let values = unsafe { pointers::array(argument, field.values, n_values) }?;
+        let values = unsafe { pointers::array(argument, field.values, n_values) };
+        let values = values.map_err(|failure| match failure {
+            Failure::Pointer { argument, wrong } => Failure::ValuesOfField { argument, index, wrong },
+            other => other,
+        })?;
         read.push(Field { name, components: field.components, values });
     }
     Ok(read)

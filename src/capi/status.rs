@@ -156,12 +156,48 @@ impl deldrift_status {
     }
 }
 
+/// What is wrong with a pointer.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Wrong {
+    Null,
+    Misaligned { address: usize, alignment: usize },
+    TooLarge { count: usize, size: usize },
+}
+
+impl Wrong {
+    /// With this argument.
+    pub(super) fn in_argument(self, argument: &'static str) -> Failure {
+        Failure::Pointer { argument, wrong: self }
+    }
+
+    fn status(self) -> deldrift_status {
+        match self {
+            Wrong::Null => DELDRIFT_NULL_ARGUMENT,
+            Wrong::Misaligned { .. } => DELDRIFT_MISALIGNED_ARGUMENT,
+            Wrong::TooLarge { .. } => DELDRIFT_SIZE_OVERFLOW,
+        }
+    }
+}
+
+impl fmt::Display for Wrong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Wrong::Null => write!(f, "is NULL"),
+            Wrong::Misaligned { address, alignment } => {
+                write!(f, "is {address:#x}, which is not a multiple of {alignment}")
+            }
+            Wrong::TooLarge { count, size } => {
+                write!(f, "cannot have {count} entries of {size} bytes each")
+            }
+        }
+    }
+}
+
 /// Why a call fails, seen from the boundary.
 #[derive(Debug)]
 pub(super) enum Failure {
-    Null { argument: &'static str },
-    Misaligned { argument: &'static str, address: usize, alignment: usize },
-    SizeOverflow { argument: &'static str, count: usize, size: usize },
+    Pointer { argument: &'static str, wrong: Wrong },
+    ValuesOfField { argument: &'static str, index: usize, wrong: Wrong },
     Dimension { given: u32 },
     NotOfThePlane,
     Option { field: &'static str, value: u64, wanted: &'static str },
@@ -197,9 +233,7 @@ impl From<FileError> for Failure {
 impl Failure {
     pub(super) fn status(&self) -> deldrift_status {
         match self {
-            Failure::Null { .. } => DELDRIFT_NULL_ARGUMENT,
-            Failure::Misaligned { .. } => DELDRIFT_MISALIGNED_ARGUMENT,
-            Failure::SizeOverflow { .. } => DELDRIFT_SIZE_OVERFLOW,
+            Failure::Pointer { wrong, .. } | Failure::ValuesOfField { wrong, .. } => wrong.status(),
             Failure::Dimension { .. } | Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
             Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
             Failure::Field { .. } => DELDRIFT_INVALID_FIELD,
@@ -234,12 +268,9 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Null { argument } => write!(f, "{argument} is NULL"),
-            Failure::Misaligned { argument, address, alignment } => {
-                write!(f, "{argument} is {address:#x}, which is not a multiple of {alignment}")
-            }
-            Failure::SizeOverflow { argument, count, size } => {
-                write!(f, "{argument} cannot have {count} entries of {size} bytes each")
+            Failure::Pointer { argument, wrong } => write!(f, "{argument} {wrong}"),
+            Failure::ValuesOfField { argument, index, wrong } => {
+                write!(f, "values of {argument}[{index}] {wrong}")
             }
             Failure::Dimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
             Failure::NotOfThePlane => write!(f, "the dimension of t is 3, but must be 2"),

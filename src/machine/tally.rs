@@ -20,6 +20,14 @@ pub(crate) fn count() {
     add(1);
 }
 
+/// Does what does not count for the current thread.
+pub(crate) fn uncounted<T>(work: impl FnOnce() -> T) -> T {
+    let before = EXACT.get();
+    let done = work();
+    EXACT.set(before);
+    done
+}
+
 /// Counts those that another thread has evaluated for the current one.
 #[inline(always)]
 pub(super) fn add(n: u64) {

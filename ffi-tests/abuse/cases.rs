@@ -1,0 +1,552 @@
+//! The wrong calls: from the type and the name of a parameter follows what may be wrong with it.
+
+use std::fmt::Write;
+
+use super::declarations::{Declaration, Parameter, statuses};
+use super::rows::{ROWS, Row};
+
+/// What a parameter is to its function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Role {
+    /// The triangulation.
+    Handle,
+    /// Coordinates of points: of so many as the argument `count` says, of one, of those of a simplex.
+    Points,
+    PointsOfSimplex,
+    /// A corner of a box: both are given, or none.
+    BoxCorner,
+    /// Numbers of any value.
+    Numbers,
+    /// Numbers of any value, or none.
+    NumbersIfAny,
+    Ids,
+    Mask,
+    Hint,
+    Options,
+    Data,
+    Path,
+    Fields,
+    /// The id of a vertex, and one that may be any number.
+    Id,
+    AnyId,
+    Dimension,
+    /// A cell and a corner of it.
+    Cell,
+    Corner,
+    Level,
+    Algorithm,
+    Method,
+    Status,
+    SquaredRadius,
+    /// How many entries an array has that is read.
+    Count,
+    /// That is not for the caller to choose.
+    FixedCount,
+    /// How many numbers each entry has.
+    CountOfEach,
+    /// How many bytes are read.
+    Size,
+    /// How many entries a buffer has.
+    Capacity,
+    /// A place for one result, one for a result that nobody has to want, an array for results.
+    Output,
+    OutputIfAny,
+    Buffer,
+}
+
+fn role(function: &Declaration, parameter: &Parameter) -> Role {
+    let is_commit = function.name.starts_with("deldrift_commit");
+    match (parameter.c_type.as_str(), parameter.name.as_str()) {
+        ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,
+        ("const double *", "position" | "positions") => Role::Points,
+        ("const double *", "points") => Role::PointsOfSimplex,
+        ("const double *", "low" | "high") => Role::BoxCorner,
+        ("const double *", "values") => Role::Numbers,
+        ("const double *", "outside") => Role::NumbersIfAny,
+        ("const uint32_t *", "vertices") => Role::Ids,
+        ("const uint8_t *", "mask") => Role::Mask,
+        ("const deldrift_location *", "near") => Role::Hint,
+        ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
+        ("const void *", "data") => Role::Data,
+        ("const char *", "path") => Role::Path,
+        ("const deldrift_field *", _) => Role::Fields,
+        ("uint32_t", "vertex") if function.name == "deldrift_is_present" => Role::AnyId,
+        ("uint32_t", "vertex") => Role::Id,
+        ("uint32_t", "dimension") => Role::Dimension,
+        ("uint32_t", "cell") => Role::Cell,
+        ("uint32_t", "corner") => Role::Corner,
+        ("uint32_t", "level") => Role::Level,
+        ("deldrift_algorithm", _) => Role::Algorithm,
+        ("deldrift_interpolation", _) => Role::Method,
+        ("deldrift_status", _) => Role::Status,
+        ("double", "squared_radius") => Role::SquaredRadius,
+        ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
+        ("size_t", "count" | "vertex_field_count" | "cell_field_count") => Role::Count,
+        ("size_t", "value_count" | "mask_count" | "offset_count") => Role::FixedCount,
+        ("size_t", "n_values") => Role::CountOfEach,
+        ("size_t", "size") => Role::Size,
+        ("size_t", "capacity") => Role::Capacity,
+        (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,
+        (c_type, name) if c_type.ends_with('*') && !c_type.starts_with("const") => {
+            if function.has("capacity") && name != "count" { Role::Buffer } else { Role::Output }
+        }
+        (c_type, name) => panic!("{}: what can be wrong with {c_type} {name}?", function.name),
+    }
+}
+
+/// Whether every address is aligned for what a pointer leads to.
+fn is_of_bytes(parameter: &Parameter) -> bool {
+    ["uint8_t *", "void *", "char *", "bool *"].iter().any(|bytes| parameter.c_type.ends_with(bytes))
+}
+
+/// The source of the program.
+pub fn program(functions: &[Declaration]) -> String {
+    let names = statuses().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+    let mut text = format!("#define STATUS_NAMES {names}\n#include \"harness.h\"\n\n");
+    let mut list = String::from("const function functions[] = {\n");
+    let mut calls = String::from("deldrift_status call(size_t k) {\n    switch (k) {\n");
+    for (k, function) in functions.iter().enumerate() {
+        let Some(row) = ROWS.iter().find(|row| row.function == function.name) else {
+            panic!("{} has no row in ffi-tests/abuse/rows.rs", function.name);
+        };
+        let arity = function.parameters.len();
+        assert_eq!(
+            row.arguments.len(),
+            arity,
+            "the row of {} has another number of arguments",
+            function.name
+        );
+        let is_of_plane = function.name == "deldrift_ordered_star";
+        let _ = writeln!(text, "#define IS_STAGED {}", row.is_staged);
+        let _ = writeln!(text, "static void of_{}(void) {{", function.name);
+        let mut cases = Cases { function, row, text: &mut text };
+        if is_of_plane {
+            cases.add(
+                "dimension",
+                "3D",
+                "INVALID_DIMENSION",
+                "\"the dimension of t is 3\"",
+                &[],
+                "if (dimension == 3)",
+            );
+            cases.line("if (dimension == 3) return;");
+        }
+        cases.all();
+        text += "}\n#undef IS_STAGED\n\n";
+        let takes_t = function.takes_t();
+        let _ = writeln!(
+            list,
+            "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, of_{0}}},",
+            function.name, row.is_staged
+        );
+        let _ = writeln!(calls, "        case {k}: return {};", call(function, row.arguments));
+    }
+    let length = "const size_t n_functions = sizeof functions / sizeof *functions;";
+    text + &list
+        + &format!("}};\n{length}\n\n")
+        + &calls
+        + "        default: return DELDRIFT_INTERNAL_ERROR;\n    }\n}\n\n\
+           int main(void) {\n    try_all();\n    return 0;\n}\n"
+}
+
+/// A call as an expression that gives a status.
+fn call<T: AsRef<str>>(function: &Declaration, arguments: &[T]) -> String {
+    let arguments: Vec<&str> = arguments.iter().map(AsRef::as_ref).collect();
+    let arguments = arguments.join(", ");
+    match (function.returns.as_str(), function.name.as_str()) {
+        ("deldrift_status", name) => format!("{name}({arguments})"),
+        ("const char", name) => format!("told({name}({arguments}))"),
+        (_, "deldrift_destroy") => format!("destroyed({arguments})"),
+        (_, "deldrift_options_init") => format!("initialised({arguments})"),
+        (returns, name) => panic!("{name} gives {returns}, which is no status"),
+    }
+}
+
+/// Writes the cases of one function.
+struct Cases<'f> {
+    function: &'f Declaration,
+    row: &'f Row,
+    text: &'f mut String,
+}
+
+impl Cases<'_> {
+    fn line(&mut self, line: &str) {
+        let _ = writeln!(self.text, "    {line}");
+    }
+
+    /// A call with some of the arguments replaced. The first of them is what the case is about.
+    fn add(
+        &mut self,
+        column: &str,
+        given: &str,
+        status: &str,
+        message: &str,
+        replaced: &[(usize, String)],
+        condition: &str,
+    ) {
+        let mut arguments: Vec<String> = self.row.arguments.iter().map(|text| text.to_string()).collect();
+        for (index, argument) in replaced {
+            arguments[*index] = argument.clone();
+        }
+        let about = replaced.first().map_or("", |&(index, _)| self.function.parameters[index].name.as_str());
+        let message = if status == "OK" { "NULL" } else { message };
+        let line = format!(
+            "{condition} CASE(\"{}\", \"{about}\", \"{column}\", \"{given}\", DELDRIFT_{status}, {message}, {});",
+            self.function.name,
+            call(self.function, &arguments)
+        );
+        self.line(line.trim_start());
+    }
+
+    /// An argument that is refused. The message is a format and its arguments.
+    fn refused(&mut self, column: &str, at: usize, given: &str, argument: &str, status: &str, message: &str) {
+        self.add(column, given, status, &format!("text({message})"), &[(at, argument.to_string())], "");
+    }
+
+    fn legal(&mut self, column: &str, at: usize, given: &str, argument: &str) {
+        self.add(column, given, "OK", "", &[(at, argument.to_string())], "");
+    }
+
+    fn roles(&self) -> Vec<Role> {
+        self.function.parameters.iter().map(|parameter| role(self.function, parameter)).collect()
+    }
+
+    fn all(&mut self) {
+        self.add("valid", "what is right", "OK", "", &[], "");
+        for (at, role) in self.roles().into_iter().enumerate() {
+            let parameter = self.function.parameters[at].clone();
+            if parameter.c_type.ends_with('*') {
+                self.null(at, role, &parameter);
+                self.misaligned(at, role, &parameter);
+                self.contents(at, role, &parameter);
+            } else {
+                self.number(at, role, &parameter);
+            }
+        }
+        self.overlaps();
+    }
+
+    fn null(&mut self, at: usize, role: Role, parameter: &Parameter) {
+        let name = &parameter.name;
+        let n_buffers = self.roles().iter().filter(|&&role| role == Role::Buffer).count();
+        // Lists have offsets, which may be left out, and entries, which may only be left out with their capacity.
+        let is_list = self.function.has("offsets");
+        let is_legal = match role {
+            Role::Handle => self.function.name == "deldrift_destroy",
+            Role::Hint | Role::Options | Role::OutputIfAny | Role::NumbersIfAny => true,
+            Role::Ids => self.function.name == "deldrift_move_vertices",
+            Role::Buffer => {
+                self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
+            }
+            _ => false,
+        };
+        if is_legal {
+            return self.legal("null", at, "NULL", "NULL");
+        }
+        self.refused("null", at, "NULL", "NULL", "NULL_ARGUMENT", &format!("\"{name} is NULL\""));
+    }
+
+    fn misaligned(&mut self, at: usize, role: Role, parameter: &Parameter) {
+        // What fills the options is in the header, and is the program's own.
+        if is_of_bytes(parameter) || self.function.name == "deldrift_options_init" {
+            return;
+        }
+        let wrong = match role {
+            Role::Handle if self.function.name == "deldrift_destroy" => "(deldrift_triangulation *)odd",
+            _ => "odd",
+        };
+        let message = format!("\"{} is 0x\"", parameter.name);
+        self.refused("misaligned", at, "an odd address", wrong, "MISALIGNED_ARGUMENT", &message);
+    }
+
+    /// What may be wrong with what a pointer leads to.
+    fn contents(&mut self, at: usize, role: Role, parameter: &Parameter) {
+        let (name, valid) = (parameter.name.as_str(), self.row.arguments[at]);
+        match role {
+            Role::Points => {
+                let roles = self.roles();
+                let count = roles.iter().position(|&role| role == Role::Count || role == Role::FixedCount);
+                // Of several counts that of the points comes after them.
+                let count = if self.function.has("n_values") { Some(at + 1) } else { count };
+                self.coordinates(at, name, valid, count.map_or("1", |count| self.row.arguments[count]));
+            }
+            Role::PointsOfSimplex => self.coordinates(at, name, valid, "(dimension + 1)"),
+            Role::BoxCorner => {
+                self.coordinates(at, name, valid, "1");
+                let (wrong, other) = if name == "low" { ("3.0", "high") } else { ("-1.0", "high") };
+                let wrong = format!("bad({valid}, 0, {wrong})");
+                let message = format!("\"{other}[0] is \"");
+                self.refused("value", at, "beyond the other corner", &wrong, "INVALID_VALUE", &message);
+            }
+            Role::Numbers | Role::NumbersIfAny => {
+                self.legal("nan", at, "NaN", &format!("bad({valid}, 0, NAN)"));
+                self.legal("infinite", at, "infinity", &format!("bad({valid}, 0, INFINITY)"));
+            }
+            Role::Ids => self.ids(at),
+            Role::Hint => {
+                for (given, kind, index) in
+                    [("a vertex that is none", 0, "99"), ("a cell that is none", 1, "99")]
+                {
+                    self.legal("id", at, given, &format!("location_of({kind}, {index})"));
+                }
+                self.legal("removed", at, "a removed vertex", "location_of(0, REMOVED)");
+                self.legal("value", at, "a kind that is none", "location_of(77, 0)");
+            }
+            Role::Options if self.function.name != "deldrift_options_init" => {
+                let (size, code) = ("sizeof options", "999");
+                let wrong = format!("bad_options(0, {code})");
+                self.refused(
+                    "zero",
+                    at,
+                    "a struct_size of 0",
+                    &wrong,
+                    "INVALID_OPTIONS",
+                    "\"options.struct_size is 0\"",
+                );
+                let wrong = "bad_options(SIZE_MAX, 0)";
+                let message = "\"options.struct_size is 18446744073709551615\"";
+                self.refused("huge", at, "a struct_size of SIZE_MAX", wrong, "INVALID_OPTIONS", message);
+                let wrong = format!("bad_options({size}, {code})");
+                let message = "\"options.algorithm is 999\"";
+                self.refused("value", at, "an algorithm that is none", &wrong, "INVALID_OPTIONS", message);
+            }
+            Role::Data => {
+                self.legal("misaligned", at, "an odd address", "shifted(saved, saved_size)");
+                for (given, place) in [("damaged at its start", "0"), ("damaged within", "saved_size / 2")] {
+                    let wrong = format!("damaged({place})");
+                    self.refused("value", at, given, &wrong, "INVALID_DATA", &format!("\"{name}: \""));
+                }
+            }
+            Role::Path => {
+                let missing = "\"/no such folder/file\"";
+                let message = "\"\\\"/no such folder/file\\\": No such file or directory\"";
+                self.refused("value", at, "in no folder", missing, "IO_ERROR", message);
+                self.refused("value", at, "a folder", "\"/\"", "IO_ERROR", "\"\\\"/\\\": Is a directory\"");
+            }
+            Role::Fields => self.fields(at, name),
+            Role::Buffer if !parameter.c_type.starts_with("uint32_t") && is_of_bytes(parameter) => {
+                self.legal("misaligned", at, "an odd address", "shifted(out.bytes, 1)");
+            }
+            _ => {}
+        }
+    }
+
+    /// The last coordinate of the last point.
+    fn coordinates(&mut self, at: usize, name: &str, valid: &str, count: &str) {
+        for (column, given, value, status, said) in [
+            ("nan", "NaN", "NAN", "NOT_FINITE", "NaN"),
+            ("infinite", "infinity", "INFINITY", "NOT_FINITE", "inf"),
+            ("infinite", "-infinity", "-INFINITY", "NOT_FINITE", "-inf"),
+            ("range", "2e57", "2e57", "OUT_OF_RANGE", "2e57"),
+            ("range", "-2e57", "-2e57", "OUT_OF_RANGE", "-2e57"),
+        ] {
+            let wrong = format!("bad({valid}, {count} * dimension - 1, {value})");
+            let message =
+                format!("\"{name}[%u], coordinate %u, is {said}\", (unsigned)({count}) - 1, dimension - 1");
+            self.refused(column, at, given, &wrong, status, &message);
+        }
+    }
+
+    fn ids(&mut self, at: usize) {
+        let removes = self.function.name == "deldrift_stage_removals";
+        let twice = if removes { "REMOVED_VERTEX" } else { "DUPLICATE_MOVE" };
+        for (column, given, value, status, said) in [
+            ("id", "the number of ids", "(uint32_t)n_ids", "NO_SUCH_VERTEX", "%u\", (unsigned)n_ids"),
+            ("id", "UINT32_MAX", "UINT32_MAX", "NO_SUCH_VERTEX", "4294967295\""),
+            ("removed", "a removed vertex", "REMOVED", "REMOVED_VERTEX", "5\""),
+            ("removed", "one to be removed", "LEAVING", "REMOVED_VERTEX", "6\""),
+            ("value", "one twice", "0", twice, "0\""),
+        ] {
+            let message = format!("\"vertices[1] is {said}");
+            self.refused(column, at, given, &format!("bad_ids(1, {value})"), status, &message);
+        }
+    }
+
+    fn fields(&mut self, at: usize, name: &str) {
+        for (column, given, wrong, status, said) in [
+            ("null", "a name that is NULL", "NULL, values, 1", "INVALID_FIELD", "name of {}[0]"),
+            ("null", "values that are NULL", "\"f\", NULL, 1", "NULL_ARGUMENT", "values of {}[0] is NULL"),
+            (
+                "misaligned",
+                "values at an odd address",
+                "\"f\", odd, 1",
+                "MISALIGNED_ARGUMENT",
+                "values of {}[0] is 0x",
+            ),
+            (
+                "zero",
+                "0 components",
+                "\"f\", values, 0",
+                "INVALID_FIELD",
+                "components of {}[0] must be at least 1",
+            ),
+            (
+                "huge",
+                "SIZE_MAX components",
+                "\"f\", values, SIZE_MAX",
+                "SIZE_OVERFLOW",
+                "values of {}[0] cannot have",
+            ),
+            ("value", "a name that is not UTF-8", "\"\\xff\", values, 1", "INVALID_FIELD", "name of {}[0]"),
+        ] {
+            let message = format!("\"{}\"", said.replace("{}", name));
+            self.refused(column, at, given, &format!("bad_field({wrong})"), status, &message);
+        }
+    }
+
+    /// What may be wrong with what is no pointer.
+    fn number(&mut self, at: usize, role: Role, parameter: &Parameter) {
+        let name = parameter.name.as_str();
+        match role {
+            Role::Id | Role::AnyId => {
+                for (column, given, value, status) in [
+                    ("id", "the number of ids", "(uint32_t)n_ids", "NO_SUCH_VERTEX"),
+                    ("id", "UINT32_MAX", "UINT32_MAX", "NO_SUCH_VERTEX"),
+                    ("removed", "a removed vertex", "REMOVED", "REMOVED_VERTEX"),
+                ] {
+                    if role == Role::AnyId {
+                        self.legal(column, at, given, value);
+                    } else {
+                        let message = format!("\"vertex[0] is %u\", (unsigned){value}");
+                        self.refused(column, at, given, value, status, &message);
+                    }
+                }
+            }
+            Role::Dimension => {
+                for value in ["0", "1", "4", "4294967295"] {
+                    let message = format!("\"dimension is {value}, \"");
+                    self.refused("dimension", at, value, value, "INVALID_DIMENSION", &message);
+                }
+            }
+            Role::Cell | Role::Corner => {
+                let first = if role == Role::Cell { "(uint32_t)n_cells" } else { "dimension + 1" };
+                for (given, value) in [("the number of them", first), ("UINT32_MAX", "UINT32_MAX")] {
+                    let message = format!("\"{name} is %u\", (unsigned)({value})");
+                    self.refused("id", at, given, value, "NO_SUCH_FACET", &message);
+                }
+            }
+            Role::Level => {
+                for value in ["0", "4", "4294967295"] {
+                    let message = format!("\"level is {value}, \"");
+                    self.refused("value", at, value, value, "INVALID_LEVEL", &message);
+                }
+            }
+            Role::Algorithm => {
+                self.refused("value", at, "999", "999", "INVALID_OPTIONS", "\"algorithm is 999\"")
+            }
+            Role::Method => self.refused("value", at, "2", "2", "INVALID_VALUE", "\"method[0] is 2\""),
+            Role::Status => self.legal("value", at, "UINT32_MAX", "(deldrift_status)UINT32_MAX"),
+            Role::SquaredRadius => {
+                self.refused("nan", at, "NaN", "NAN", "INVALID_VALUE", "\"squared_radius[0] is NaN\"");
+                self.refused("value", at, "-1", "-1", "INVALID_VALUE", "\"squared_radius[0] is -1\"");
+                self.legal("infinite", at, "infinity", "INFINITY");
+                self.legal("zero", at, "0", "0");
+            }
+            Role::Count | Role::FixedCount | Role::CountOfEach | Role::Size => self.count(at, role, name),
+            Role::Capacity => self.capacity(at),
+            _ => unreachable!("{name} is a pointer"),
+        }
+    }
+
+    fn count(&mut self, at: usize, role: Role, name: &str) {
+        match role {
+            Role::FixedCount => {
+                // One that is too large for any array is found before it is compared.
+                let is_points = self.function.name == "deldrift_commit_positions";
+                let valid = self.row.arguments[at];
+                for (column, given, value) in [
+                    ("zero", "0", "0".to_string()),
+                    ("value", "one less", format!("{valid} - 1")),
+                    ("value", "one more", format!("{valid} + 1")),
+                ] {
+                    let message =
+                        format!("\"{name} is %zu, but must be %zu\", (size_t)({value}), (size_t)({valid})");
+                    self.refused(column, at, given, &value, "WRONG_COUNT", &message);
+                }
+                let (status, message) = match is_points {
+                    true => (
+                        "SIZE_OVERFLOW",
+                        "\"positions cannot have 18446744073709551615 entries\"".to_string(),
+                    ),
+                    false => ("WRONG_COUNT", format!("\"{name} is 18446744073709551615, \"")),
+                };
+                self.refused("huge", at, "SIZE_MAX", "SIZE_MAX", status, &message);
+            }
+            Role::Size => {
+                self.refused("zero", at, "0", "0", "INVALID_DATA", "\"data: \"");
+                self.refused("value", at, "one less", "saved_size - 1", "INVALID_DATA", "\"data: \"");
+                let message = "\"data cannot have 18446744073709551615 entries\"";
+                self.refused("huge", at, "SIZE_MAX", "SIZE_MAX", "SIZE_OVERFLOW", message);
+            }
+            _ => {
+                self.legal("zero", at, "0", "0");
+                if role == Role::Count && self.function.name != "deldrift_interpolate" {
+                    // The array before it, and others of as many entries, may be NULL then.
+                    let pointer = (0..at).rev().find(|&k| self.function.parameters[k].c_type.ends_with('*'));
+                    let none = vec![(at, "0".to_string()), (pointer.expect("an array"), "NULL".to_string())];
+                    self.add("zero", "0, and NULL", "OK", "", &none, "");
+                    let odd = vec![(at, "0".to_string()), (pointer.expect("an array"), "odd".to_string())];
+                    self.add("zero", "0, and an odd address", "OK", "", &odd, "");
+                }
+                let is_creation = self.function.name == "deldrift_create";
+                let status = if is_creation { "TOO_MANY_VERTICES" } else { "SIZE_OVERFLOW" };
+                let message = "\"18446744073709551615\"";
+                self.refused("huge", at, "SIZE_MAX", "SIZE_MAX", status, message);
+                if !is_creation {
+                    let message = match role {
+                        // Numbers of each entry count in its size.
+                        Role::CountOfEach => "\"values cannot have \"",
+                        _ => "\"4611686018427387903\"",
+                    };
+                    self.refused("huge", at, "SIZE_MAX / 4", "SIZE_MAX / 4", status, message);
+                }
+            }
+        }
+    }
+
+    fn capacity(&mut self, at: usize) {
+        for (column, given, value) in [("zero", "0", "0"), ("value", "1", "1")] {
+            let message = format!("\"capacity is {value}, but \"");
+            self.refused(column, at, given, value, "BUFFER_TOO_SMALL", &message);
+        }
+        self.legal("huge", at, "SIZE_MAX", "SIZE_MAX");
+        let roles = self.roles();
+        let buffers = (0..roles.len()).filter(|&k| roles[k] == Role::Buffer);
+        let nowhere: Vec<(usize, String)> = buffers.map(|k| (k, "NULL".to_string())).collect();
+        let mut without = vec![(at, "0".to_string())];
+        without.extend(nowhere.iter().cloned());
+        self.add("zero", "0, and NULL", "OK", "", &without, "");
+        // All of them are NULL, and there is a capacity.
+        let mut named = nowhere.iter().map(|&(k, _)| self.function.parameters[k].name.clone());
+        let named = named.find(|name| name != "offsets").expect("a buffer");
+        let message = format!("\"{named} is NULL\"");
+        self.add("null", "NULL for all buffers", "NULL_ARGUMENT", &message, &nowhere, "");
+    }
+
+    /// Arrays at the same place, of which one is written at least: what they hold then is anybody's guess.
+    fn overlaps(&mut self) {
+        let roles = self.roles();
+        let is_array = |k: usize| {
+            let role = roles[k];
+            let is_read = matches!(role, Role::Points | Role::BoxCorner | Role::Numbers | Role::NumbersIfAny);
+            is_read || matches!(role, Role::Mask | Role::Hint | Role::Buffer | Role::Output)
+        };
+        let element = |k: usize| {
+            let c_type = self.function.parameters[k].c_type.as_str();
+            c_type.trim_start_matches("const ").trim_end_matches(['*', ' ']).to_string()
+        };
+        let mut found = Vec::new();
+        for written in (0..roles.len()).filter(|&k| matches!(roles[k], Role::Buffer | Role::Output)) {
+            for other in (0..roles.len()).filter(|&k| k != written && is_array(k)) {
+                let is_twice = other > written && matches!(roles[other], Role::Buffer | Role::Output);
+                if element(written) == element(other) && !is_twice {
+                    found.push((written, other));
+                }
+            }
+        }
+        for (written, other) in found {
+            let given = format!("that of {}", self.function.parameters[other].name);
+            self.legal("overlap", written, &given, self.row.arguments[other]);
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! The functions of the header with their parameters.
+
+use std::collections::BTreeSet;
+
+use crate::coverage::declarations as lines_of_code;
+use crate::support::text_of;
+
+/// A parameter: its type, with one space before the stars, and its name.
+#[derive(Clone)]
+pub struct Parameter {
+    pub c_type: String,
+    pub name: String,
+}
+
+pub struct Declaration {
+    pub name: String,
+    pub returns: String,
+    pub parameters: Vec<Parameter>,
+    documentation: String,
+}
+
+impl Declaration {
+    pub fn takes_t(&self) -> bool {
+        self.parameters
+            .first()
+            .is_some_and(|parameter| parameter.c_type.ends_with("deldrift_triangulation *"))
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.parameters.iter().any(|parameter| parameter.name == name)
+    }
+
+    /// The statuses after "Errors:", and those that the first page names for all that take a triangulation.
+    pub fn documented_statuses(&self) -> BTreeSet<String> {
+        let errors = self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors);
+        let common = ["NULL_ARGUMENT", "MISALIGNED_ARGUMENT", "BUSY", "POISONED", "INTERNAL_ERROR"];
+        let common = common.iter().filter(|_| self.takes_t()).map(|name| format!("DELDRIFT_{name}"));
+        let known = statuses();
+        let named = errors.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').map(str::to_string);
+        named.filter(|word| known.contains(word)).chain(common).collect()
+    }
+}
+
+/// The names of the statuses, in the order of their numbers.
+pub fn statuses() -> Vec<String> {
+    let header = text_of("include/deldrift.h");
+    let (_, from) = header.split_once("enum deldrift_status").expect("there are statuses");
+    let (statuses, _) = from.split_once("};").expect("an enumeration ends");
+    let names = lines_of_code(statuses).filter_map(|line| line.split_once(" = "));
+    names.map(|(name, _)| name.to_string()).collect()
+}
+
+/// In the order of the header.
+pub fn declarations() -> Vec<Declaration> {
+    let header = text_of("include/deldrift.h");
+    let (_, functions) = header.split_once("extern \"C\" {").expect("functions come after the types");
+    let (mut found, mut documentation, mut code) = (Vec::new(), String::new(), String::new());
+    let mut is_body = false;
+    for line in functions.lines() {
+        if let Some(text) = line.strip_prefix("///") {
+            documentation += text;
+        } else if line == "}" {
+            is_body = false;
+        } else if !line.starts_with(['#', '}']) && !is_body {
+            code = code + line.trim() + " ";
+            is_body = line.ends_with('{');
+        }
+        if code.ends_with("; ") || is_body && !code.is_empty() {
+            found.push(declaration(&code, &documentation));
+            (documentation, code) = Default::default();
+        }
+    }
+    found
+}
+
+fn declaration(code: &str, documentation: &str) -> Declaration {
+    let (head, rest) = code.split_once('(').unwrap_or_else(|| panic!("{code} is no function"));
+    let (parameters, _) = rest.rsplit_once(')').unwrap_or_else(|| panic!("{code} has no end"));
+    let (returns, name) = head.rsplit_once([' ', '*']).unwrap_or_else(|| panic!("{head} has no type"));
+    let parameters = parameters.split(',').map(str::trim).filter(|&text| text != "void");
+    let parameters = parameters.map(|text| {
+        let start = text.rfind([' ', '*']).unwrap_or_else(|| panic!("{text} has no type")) + 1;
+        let (c_type, name) = text.split_at(start);
+        Parameter { c_type: c_type.trim().to_string(), name: name.to_string() }
+    });
+    Declaration {
+        name: name.to_string(),
+        returns: returns.trim().to_string(),
+        parameters: parameters.collect(),
+        documentation: documentation.to_string(),
+    }
+}

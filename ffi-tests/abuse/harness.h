@@ -1,0 +1,448 @@
+// What the program of ffi-tests/abuse.rs is made around: a triangulation, arguments for calls on it, and the check of
+// what comes of a call.
+#ifndef HARNESS_H
+#define HARNESS_H
+
+#define _POSIX_C_SOURCE 200809L
+#include "state.h"
+
+#include <malloc.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <unistd.h>
+
+enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, ROOM = 1024, BYTES = 16384 };
+
+// All that calls write to.
+typedef struct {
+    deldrift_triangulation *handle;
+    size_t count;
+    uint64_t timestamp;
+    uint32_t number;
+    int32_t sign;
+    bool flag;
+    deldrift_commit_report report;
+    deldrift_changes changes;
+    deldrift_cells_view cells;
+    deldrift_indices_view indices;
+    deldrift_location location, locations[8];
+    double numbers[ROOM], more_numbers[ROOM], few_numbers[8];
+    uint32_t ids[ROOM], more_ids[ROOM];
+    uint8_t bytes[BYTES];
+} outputs;
+
+static outputs out, untouched;
+
+// The triangulations that calls are made on: with moves, insertions and removals staged, and without; the one in use;
+// what is in it.
+static uint32_t dimension;
+static deldrift_triangulation *bases[2], *t;
+static size_t n_ids, n_cells, n_edges;
+static uint32_t inner_cell, inner_corner;
+
+// Arguments, which are made again before each call.
+static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3];
+static double outside[ROOM], low[ROOM], high[ROOM];
+static uint32_t ids[3];
+static uint8_t mask[ROOM], saved[BYTES];
+static size_t saved_size;
+static deldrift_options options;
+static deldrift_location near_by[8];
+static deldrift_field field;
+static char path[300], path_saved[320];
+static void *odd;
+
+static size_t n_tried, n_wrong;
+
+// What can be seen of a triangulation.
+typedef struct {
+    numbers numbers;
+    arrays arrays;
+    deldrift_algorithm algorithm;
+    deldrift_commit_report sums;
+    size_t size;
+    uint8_t saved[BYTES];
+} state;
+
+static state kept[2], now;
+
+static void look(const deldrift_triangulation *at, state *s) {
+    memset(s, 0, sizeof *s);
+    s->numbers = numbers_of(at);
+    s->arrays = arrays_of(at);
+    OK(deldrift_get_algorithm(at, &s->algorithm));
+    OK(deldrift_statistics(at, &s->sums));
+    OK(deldrift_save(at, s->saved, BYTES, &s->size));
+}
+
+static const char *text(const char *format, ...) {
+    static char made[2][1000];
+    static size_t turn;
+    turn = 1 - turn;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(made[turn], sizeof *made, format, arguments);
+    va_end(arguments);
+    return made[turn];
+}
+
+// A copy of an array of coordinates, with another number at this place.
+static double *bad(const double *from, size_t at, double value) {
+    static double made[(COUNT + 2) * 3];
+    memcpy(made, from, sizeof made);
+    made[at] = value;
+    return made;
+}
+
+static uint32_t *bad_ids(size_t at, uint32_t value) {
+    static uint32_t made[3];
+    memcpy(made, ids, sizeof made);
+    made[at] = value;
+    return made;
+}
+
+static deldrift_options *bad_options(size_t size, deldrift_algorithm algorithm) {
+    static deldrift_options made;
+    made = options;
+    made.struct_size = size;
+    made.algorithm = algorithm;
+    return &made;
+}
+
+static deldrift_field *bad_field(const char *name, const double *numbers, size_t components) {
+    static deldrift_field made;
+    made = (deldrift_field){name, numbers, components};
+    return &made;
+}
+
+static deldrift_location *location_of(uint32_t kind, uint32_t index) {
+    static uint32_t made[2];
+    made[0] = kind;
+    made[1] = index;
+    return (deldrift_location *)(void *)made;
+}
+
+static uint8_t *damaged(size_t at) {
+    static uint8_t made[BYTES];
+    memcpy(made, saved, saved_size);
+    made[at] ^= 4;
+    return made;
+}
+
+static void *shifted(const void *data, size_t size) {
+    static double made[BYTES / sizeof(double)];
+    return memcpy((char *)made + 1, data, size);
+}
+
+// Functions that give no status: what they do as one.
+static deldrift_status told(const char *said) {
+    return said != NULL && strlen(said) < 512 ? DELDRIFT_OK : DELDRIFT_INTERNAL_ERROR;
+}
+
+static deldrift_status destroyed(deldrift_triangulation *which) {
+    int32_t sign;
+    CHECK_STATUS(deldrift_orientation(9, points, &sign), DELDRIFT_INVALID_DIMENSION);
+    deldrift_destroy(which);
+    const char *said = deldrift_last_error();
+    if (strncmp(said, "dimension is 9", 14) == 0) return DELDRIFT_OK;
+    return strncmp(said, "t is in use", 11) == 0 ? DELDRIFT_BUSY : DELDRIFT_MISALIGNED_ARGUMENT;
+}
+
+static deldrift_status initialised(deldrift_options *given) {
+    deldrift_options_init(given);
+    return DELDRIFT_OK;
+}
+
+static deldrift_triangulation *spare(void) {
+    deldrift_triangulation *made = NULL;
+    OK(deldrift_clone(bases[0], &made));
+    return made;
+}
+
+// Arguments and outputs as they are before every call.
+static void before(void) {
+    uint64_t seed = 3;
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++) points[i] = next_random(&seed);
+    memcpy(points + HIDDEN * dimension, points + 3 * dimension, dimension * sizeof *points);
+    for (size_t i = 0; i < sizeof points / sizeof *points; i++) moved[i] = points[i] + 0.01 * next_random(&seed);
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) values[i] = (double)i;
+    for (size_t i = 0; i < 3; i++) {
+        low[i] = -1;
+        high[i] = 2;
+        ids[i] = (uint32_t[]){0, 1, 4}[i];
+    }
+    outside[0] = outside[1] = 7;
+    memset(mask, 1, sizeof mask);
+    mask[0] = 0;
+    near_by[0] = (deldrift_location){DELDRIFT_LOCATION_VERTEX, 1};
+    field = (deldrift_field){"field", out.more_numbers, 1};
+    memset(&out, 0x4d, sizeof out);
+}
+
+static const char *name_of(deldrift_status status) {
+    static const char *const names[] = {STATUS_NAMES};
+    return status < sizeof names / sizeof *names ? names[status] : "an unknown status";
+}
+
+static void wrong(const char *function, const char *argument, const char *given, const char *what) {
+    fprintf(stderr, "%uD, %s, %s: %s: %s\n", dimension, function, argument, given, what);
+    n_wrong++;
+}
+
+// What must be so after a call that fails: it says why, and has written nothing.
+static void check_refusal(const char *function, const char *argument, const char *given, deldrift_status status,
+                          deldrift_status expected, const char *message) {
+    if (status != expected) wrong(function, argument, given, text("%s (%s)", name_of(status), deldrift_last_error()));
+    if (strstr(deldrift_last_error(), message) == NULL) {
+        wrong(function, argument, given, text("\"%s\" is not in \"%s\"", message, deldrift_last_error()));
+    }
+    if (status == DELDRIFT_BUFFER_TOO_SMALL) {
+        if (out.count == untouched.count) wrong(function, argument, given, "the count is not told");
+        out.count = untouched.count;
+    }
+    if (memcmp(&out, &untouched, sizeof out) != 0) wrong(function, argument, given, "an output is written");
+}
+
+static void report(const char *function, const char *argument, const char *column, const char *given,
+                   deldrift_status status) {
+    n_tried++;
+    const char *said = status == DELDRIFT_OK ? "" : deldrift_last_error();
+    printf("%u\t%s\t%s\t%s\t%s\t%s\t%s\n", dimension, function, argument, column, given, name_of(status), said);
+}
+
+static void use_base(bool is_staged) {
+    if (t != NULL) deldrift_destroy(t);
+    t = NULL;
+    OK(deldrift_clone(bases[!is_staged], &t));
+    OK(deldrift_id_count(t, &n_ids));
+}
+
+// After a call: `message` is what has to be said, NULL if the call is legal.
+static void after(const char *function, const char *argument, const char *column, const char *given,
+                  deldrift_status status, deldrift_status expected, const char *message, bool is_staged) {
+    report(function, argument, column, given, status);
+    if (expected == DELDRIFT_OK) {
+        if (status != DELDRIFT_OK) wrong(function, argument, given, deldrift_last_error());
+        if (status == DELDRIFT_OK && out.handle != untouched.handle) deldrift_destroy(out.handle);
+        // What it may have changed is made again.
+        use_base(is_staged);
+        return;
+    }
+    check_refusal(function, argument, given, status, expected, message);
+    look(t, &now);
+    if (memcmp(&now, &kept[!is_staged], sizeof now) != 0) {
+        const char *what = difference(&now.numbers, &kept[!is_staged].numbers);
+        wrong(function, argument, given, what != NULL ? what : "another state");
+        use_base(is_staged);
+    }
+}
+
+#define CASE(function, argument, column, given, expected, message, call)                           \
+    do {                                                                                           \
+        before();                                                                                  \
+        const char *wanted = (message);                                                            \
+        deldrift_status status = (call);                                                           \
+        after(function, argument, column, given, status, expected, wanted, IS_STAGED);             \
+    } while (0)
+
+// Of the generated part: the functions, which of them take a triangulation, and a call of each with arguments that
+// are all right.
+typedef struct {
+    const char *name;
+    bool takes_t, of_plane, is_staged;
+    void (*cases)(void);
+} function;
+
+extern const function functions[];
+extern const size_t n_functions;
+deldrift_status call(size_t k);
+
+static bool is_intruding;
+
+// All calls on a triangulation that may not be used now.
+static void all_are_refused(const char *column, const char *given, deldrift_status expected, const char *message) {
+    for (size_t k = 0; k < n_functions; k++) {
+        const function *f = &functions[k];
+        if (f->of_plane && dimension == 3) continue;
+        if (!f->takes_t) continue;
+        bool destroys = strcmp(f->name, "deldrift_destroy") == 0;
+        // It is destroyed in the end, and is no duty of this function.
+        if (destroys && expected == DELDRIFT_POISONED) continue;
+        before();
+        deldrift_status status = destroys ? destroyed(t) : call(k);
+        report(f->name, "t", column, given, status);
+        check_refusal(f->name, "t", given, status, expected, message);
+    }
+}
+
+static void all_others_work(const char *column, const char *given) {
+    for (size_t k = 0; k < n_functions; k++) {
+        if (functions[k].takes_t) continue;
+        before();
+        deldrift_status status = call(k);
+        report(functions[k].name, "", column, given, status);
+        if (status != DELDRIFT_OK) wrong(functions[k].name, "", given, deldrift_last_error());
+        if (out.handle != untouched.handle) deldrift_destroy(out.handle);
+    }
+}
+
+static void *from_a_thread_during_a_call(void *unused) {
+    all_are_refused("thread", "during a commit", DELDRIFT_BUSY, "t is in use");
+    return unused;
+}
+
+static void *from_a_thread(void *unused) {
+    for (size_t k = 0; k < n_functions; k++) {
+        const function *f = &functions[k];
+        if (f->of_plane && dimension == 3) continue;
+        use_base(f->is_staged);
+        before();
+        deldrift_status status = call(k);
+        report(f->name, "", "thread", "between calls", status);
+        if (status != DELDRIFT_OK) wrong(f->name, "", "from another thread", deldrift_last_error());
+        if (out.handle != untouched.handle) deldrift_destroy(out.handle);
+    }
+    return unused;
+}
+
+static void in_a_thread(void *(*work)(void *)) {
+    pthread_t thread;
+    CHECK(pthread_create(&thread, NULL, work, NULL) == 0);
+    CHECK(pthread_join(thread, NULL) == 0);
+}
+
+static bool intrude(void *user_data) {
+    (void)user_data;
+    if (is_intruding) {
+        is_intruding = false;
+        all_are_refused("callback", "from its callback", DELDRIFT_BUSY, "t is in use");
+        all_others_work("callback", "from a callback");
+        in_a_thread(from_a_thread_during_a_call);
+    }
+    return false;
+}
+
+// Calls from a callback of a commit, and meanwhile from another thread: the commit then does what it would have done.
+static void calls_during_a_commit(void) {
+    use_base(true);
+    deldrift_triangulation *control = spare();
+    OK(deldrift_commit_timestamp(control, NULL));
+    is_intruding = true;
+    OK(deldrift_commit_timestamp(t, NULL));
+    CHECK(!is_intruding);
+    static state expected;
+    look(control, &expected);
+    look(t, &now);
+    if (memcmp(&now, &expected, sizeof now) != 0) {
+        wrong("deldrift_commit_timestamp", "t", "used meanwhile", "another state");
+    }
+    deldrift_destroy(control);
+}
+
+// Poisons the triangulation in use: finds the flag for that at the end of what the handle points to, by its effect. A
+// program cannot bring about the internal error that would set it.
+static uint8_t *poison(void) {
+    size_t size = malloc_usable_size(t);
+    uint8_t *bytes = (uint8_t *)t;
+    uint64_t timestamp;
+    for (size_t i = size - 1; i >= size - 16; i--) {
+        uint8_t before_that = bytes[i];
+        bytes[i] = 1;
+        if (deldrift_timestamp(t, &timestamp) == DELDRIFT_POISONED) return bytes + i;
+        bytes[i] = before_that;
+    }
+    CHECK(!"a flag that poisons");
+    return NULL;
+}
+
+static void poisoned_ones_can_be_destroyed(void) {
+    use_base(true);
+    uint8_t *flag = poison();
+    all_are_refused("poisoned", "poisoned", DELDRIFT_POISONED, "t is unusable");
+    *flag = 0;
+    look(t, &now);
+    if (memcmp(&now, &kept[0], sizeof now) != 0) wrong("all", "t", "poisoned", "another state");
+    *flag = 1;
+    deldrift_status status = destroyed(t);
+    report("deldrift_destroy", "t", "poisoned", "poisoned", status);
+    CHECK(status == DELDRIFT_OK);
+    t = NULL;
+}
+
+static void make_bases(void) {
+    deldrift_options_init(&options);
+    options.track_changes = 1;
+    options.cancel = intrude;
+    before();
+    uint32_t first;
+    OK(deldrift_create(dimension, points, COUNT, &options, &bases[0]));
+    OK(deldrift_remove_vertex(bases[0], REMOVED));
+    OK(deldrift_commit_timestamp(bases[0], NULL));
+    OK(deldrift_clone(bases[0], &bases[1]));
+    OK(deldrift_move_vertex(bases[0], STAGED, moved));
+    OK(deldrift_stage_insertions(bases[0], moved, 1, &first));
+    OK(deldrift_stage_removals(bases[0], (uint32_t[]){LEAVING}, 1));
+    for (int k = 0; k < 2; k++) look(bases[k], &kept[k]);
+    OK(deldrift_save(bases[0], saved, BYTES, &saved_size));
+    OK(deldrift_save_file(bases[0], path_saved));
+    OK(deldrift_cell_count(bases[0], &n_cells));
+    OK(deldrift_edges(bases[0], NULL, 0, &n_edges));
+    deldrift_cells_view view;
+    OK(deldrift_cells(bases[0], &view));
+    CHECK(n_cells * view.corners_per_cell * 4 < ROOM);
+    size_t at = 0;
+    while (view.neighbours[at] == DELDRIFT_NONE) at++;
+    inner_cell = (uint32_t)(at / view.corners_per_cell);
+    inner_corner = (uint32_t)(at % view.corners_per_cell);
+}
+
+// Whatever has been tried, what is pending is still there: changes, and moves to be committed.
+static void nothing_is_lost(void) {
+    use_base(true);
+    deldrift_triangulation *both[2] = {t, bases[0]};
+    size_t created[2], stars[2];
+    static state ends[2];
+    for (int k = 0; k < 2; k++) {
+        deldrift_changes changes;
+        OK(deldrift_take_changes(both[k], &changes));
+        created[k] = changes.created_count;
+        stars[k] = changes.star_count;
+        OK(deldrift_commit_timestamp(both[k], NULL));
+        OK(deldrift_validate(both[k], 3));
+        look(both[k], &ends[k]);
+    }
+    CHECK(created[0] > 0 && created[0] == created[1] && stars[0] == stars[1]);
+    CHECK(memcmp(&ends[0], &ends[1], sizeof *ends) == 0);
+}
+
+static void try_all(void) {
+    static double somewhere[8];
+    odd = (char *)somewhere + 1;
+    memset(&untouched, 0x4d, sizeof untouched);
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/deldrift-abuse-%d", folder == NULL ? "/tmp" : folder, (int)getpid());
+    snprintf(path_saved, sizeof path_saved, "%s-saved", path);
+    for (dimension = 2; dimension <= 3; dimension++) {
+        make_bases();
+        for (size_t k = 0; k < n_functions; k++) {
+            use_base(functions[k].is_staged);
+            functions[k].cases();
+        }
+        calls_during_a_commit();
+        poisoned_ones_can_be_destroyed();
+        in_a_thread(from_a_thread);
+        nothing_is_lost();
+        deldrift_destroy(t);
+        t = NULL;
+        deldrift_destroy(bases[0]);
+        deldrift_destroy(bases[1]);
+    }
+    unlink(path);
+    unlink(path_saved);
+    if (n_wrong > 0) {
+        fprintf(stderr, "%zu of %zu calls are not as they should be\n", n_wrong, n_tried);
+        exit(1);
+    }
+}
+
+#endif

@@ -1,0 +1,142 @@
+//! A panic at every point at which a commit calls its monitor, by every algorithm: the call gives an internal error,
+//! the triangulation can then only be destroyed, and others go on, on the same threads.
+
+use std::env;
+use std::mem::MaybeUninit;
+use std::process::Command;
+use std::ptr::{null, null_mut};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use super::options::deldrift_options;
+use super::triangulation::{Kernel, hand_out};
+use super::*;
+use crate::delaunay::{Dimension, Plane, Space};
+use crate::motion::{Algorithm, Monitor, MovingTriangulation, Options};
+
+/// Numbers from 0 to 1, the same in every run.
+fn points<G: Dimension>(n: usize, mut seed: u64) -> Vec<G::Point> {
+    let mut next = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut point = || {
+        let mut point = G::Point::default();
+        (0..G::D).for_each(|axis| point[axis] = next());
+        point
+    };
+    (0..n).map(|_| point()).collect()
+}
+
+struct Scene<G: Dimension> {
+    t: *mut deldrift_triangulation,
+    /// Calls of the monitor until it panics.
+    left: Arc<AtomicUsize>,
+    places: Vec<G::Point>,
+}
+
+impl<G: Dimension> Scene<G> {
+    /// A triangulation that has made a commit and has moves staged for the next one.
+    fn new(kernel: fn(Box<MovingTriangulation<G>>) -> Kernel, options: Options) -> Self {
+        let n = if options.threads > 1 { 800 } else { 60 };
+        let left = Arc::new(AtomicUsize::new(usize::MAX));
+        let counter = left.clone();
+        let monitor: Monitor = Box::new(move |_| {
+            assert!(counter.fetch_sub(1, Relaxed) != 0, "planted");
+            true
+        });
+        let options = Options { monitor: Some(monitor), ..options };
+        let made = MovingTriangulation::new_boxed(&points::<G>(n, 3), options).expect("points in range");
+        let mut out = MaybeUninit::uninit();
+        // SAFETY: NULL stands for the defaults, which have no callbacks.
+        let defaults = unsafe { deldrift_options::read(null()) }.expect("defaults are in order");
+        hand_out(&mut out, kernel(made), defaults.callbacks()).expect("there is memory");
+        // SAFETY: it has been written.
+        let t = unsafe { out.assume_init() };
+        let scene = Scene { t, left, places: points::<G>(n, 4) };
+        scene.stage();
+        assert_eq!(scene.commit(), deldrift_status::DELDRIFT_OK);
+        let places = points::<G>(n, 5);
+        let scene = Scene { places, ..scene };
+        scene.stage();
+        scene
+    }
+
+    fn stage(&self) {
+        // SAFETY: so many points are there, and the triangulation is.
+        let status =
+            unsafe { deldrift_move_vertices(self.t, null(), self.places.as_ptr().cast(), self.places.len()) };
+        assert_eq!(status, deldrift_status::DELDRIFT_OK);
+    }
+
+    fn commit(&self) -> deldrift_status {
+        // SAFETY: the triangulation is there.
+        unsafe { deldrift_commit_timestamp(self.t, null_mut()) }
+    }
+
+    fn validate(&self) -> deldrift_status {
+        // SAFETY: as above.
+        unsafe { deldrift_validate(self.t, 3) }
+    }
+
+    fn end(self) {
+        // SAFETY: nobody uses it after this.
+        unsafe { deldrift_destroy(self.t) };
+    }
+}
+
+/// How many panics there were, one in each of as many commits.
+fn panics_of<G: Dimension>(
+    kernel: fn(Box<MovingTriangulation<G>>) -> Kernel,
+    algorithm: Algorithm,
+    threads: u32,
+) -> usize {
+    let options = || Options { algorithm, threads, ..Options::default() };
+    for k in 0.. {
+        let scene = Scene::new(kernel, options());
+        scene.left.store(k, Relaxed);
+        let status = scene.commit();
+        if status == deldrift_status::DELDRIFT_OK {
+            assert_eq!(scene.validate(), deldrift_status::DELDRIFT_OK);
+            scene.end();
+            return k;
+        }
+        assert_eq!(status, deldrift_status::DELDRIFT_INTERNAL_ERROR);
+        // SAFETY: the message ends in a NUL.
+        let message = unsafe { std::ffi::CStr::from_ptr(deldrift_last_error()) }.to_string_lossy();
+        assert!(message.contains("planted"), "{message}");
+        scene.left.store(usize::MAX, Relaxed);
+        assert_eq!(scene.commit(), deldrift_status::DELDRIFT_POISONED);
+        assert_eq!(scene.validate(), deldrift_status::DELDRIFT_POISONED);
+        scene.end();
+    }
+    unreachable!("a commit calls its monitor a few times")
+}
+
+/// In a process of its own, where all threads are used that are asked for: other tests depend on how many are.
+#[test]
+fn panics_in_commits_poison_one_triangulation_and_no_other() {
+    const ALL_THREADS: &str = "DELDRIFT_ALL_THREADS";
+    if env::var_os(ALL_THREADS).is_none() {
+        let name = "capi::panics::panics_in_commits_poison_one_triangulation_and_no_other";
+        let mut test = Command::new(env::current_exe().expect("a test knows its own path"));
+        let outcome = test.args([name, "--exact", "--nocapture"]).env(ALL_THREADS, "1").output();
+        let outcome = outcome.expect("a test can be run");
+        let [said, errors] = [&outcome.stdout, &outcome.stderr].map(|text| String::from_utf8_lossy(text));
+        println!("{said}");
+        assert!(outcome.status.success() && said.contains("panics in all commits: "), "{errors}");
+        return;
+    }
+    let mut sum = 0;
+    for algorithm in Algorithm::ALL {
+        let mut n_panics = 0;
+        for threads in [1, 3] {
+            n_panics += panics_of::<Plane>(Kernel::Plane, algorithm, threads);
+            n_panics += panics_of::<Space>(Kernel::Space, algorithm, threads);
+        }
+        println!("panics in commits by {algorithm:?}: {n_panics}");
+        assert!(n_panics > 0, "{algorithm:?}");
+        sum += n_panics;
+    }
+    println!("panics in all commits: {sum}");
+}
