@@ -205,7 +205,7 @@ static PATH: AtomicPtr<libc::c_char> = AtomicPtr::new(null_mut());
 pub fn save_on_signal(path: &Path) {
     let path = std::ffi::CString::new(path.to_str().expect("UTF-8")).expect("no NUL");
     PATH.store(path.into_raw(), Relaxed);
-    for signal in [libc::SIGSEGV, libc::SIGABRT, libc::SIGBUS, libc::SIGILL, libc::SIGFPE, libc::SIGALRM] {
+    for signal in [libc::SIGSEGV, libc::SIGABRT, libc::SIGBUS, libc::SIGILL, libc::SIGFPE] {
         // SAFETY: all zero is a valid action; the handler calls only what is safe in handlers.
         unsafe {
             let mut action: libc::sigaction = std::mem::zeroed();
@@ -225,10 +225,4 @@ extern "C" fn save(signal: i32) {
         libc::write(2, text.as_ptr().cast(), text.count_bytes());
         libc::raise(signal);
     }
-}
-
-/// Ends the process by a signal unless this is called again in so many seconds.
-pub fn expect_progress_in(seconds: u32) {
-    // SAFETY: a plain call of the system.
-    unsafe { libc::alarm(seconds) };
 }

@@ -39,9 +39,10 @@ macro_rules! c {
     ($function:ident($($argument:expr),* $(,)?)) => {{
         static IS_NOTED: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
         note(stringify!($function), &IS_NOTED);
-        // SAFETY: pointers are NULL, misaligned, or to as much as the call says, and the triangulation exists.
         #[allow(unused_unsafe)] // Some take no pointers.
-        unsafe { deldrift::capi::$function($($argument),*) }
+        // SAFETY: pointers are NULL, misaligned, or to as much as the call says, and the triangulation exists.
+        let result = unsafe { deldrift::capi::$function($($argument),*) };
+        result
     }};
 }
 pub(crate) use c;

@@ -141,11 +141,11 @@ impl History<'_> {
         let short = |p: &Place| -> [f64; D] { from_fn(|k| p[k]) };
         let corners: [[f64; D]; N] = from_fn(|i| short(&self.m.at(row[i]).expect("present")));
         let (mut holds, mut faces) = (true, false);
-        for i in 0..N {
+        for (i, &beyond) in across[..N].iter().enumerate() {
             let seen: [[f64; D]; N] = from_fn(|k| if k == i { short(q) } else { corners[k] });
             let is_beyond = exact_sign(&seen, &mut Tally::default()) == Less;
             holds &= !is_beyond;
-            faces |= is_beyond && across[i] == NONE;
+            faces |= is_beyond && beyond == NONE;
         }
         (holds, faces)
     }

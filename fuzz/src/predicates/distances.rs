@@ -73,9 +73,9 @@ pub fn paths(s: &mut Source) {
         assert!(sums.iter().all(|sum| *sum > BigInt::ZERO), "stays_positive {old:?} {new:?}");
     }
     if s.below(2) == 0 {
-        check::<2, 3, 6>(s, |old, new| stays_positive2d(old, new));
+        check::<2, 3, 6>(s, stays_positive2d);
     } else {
-        check::<3, 4, 8>(s, |old, new| stays_positive3d(old, new));
+        check::<3, 4, 8>(s, stays_positive3d);
     }
 }
 
