@@ -10,7 +10,7 @@ use targets::calls::called;
 use targets::driver::{Budget, TARGETS, corpus, counts, drive};
 
 /// Random inputs of each target: some seconds each.
-const EXECUTIONS: [u64; 3] = [400_000, 700, 8_000];
+const EXECUTIONS: [u64; 3] = [400_000, 1_500, 8_000];
 
 /// One test, as requests for memory that are refused would be refused to others, too.
 #[test]
