@@ -7,6 +7,9 @@ PREFIX ?= /usr/local
 # Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy",
 # make report ARGS="--scenario man", make bench ARGS="--structured", make targets ARGS="--target loop"
 ARGS ?=
+# What is fuzzed, and for how long.
+TARGET ?= calls
+SECONDS ?= 60
 
 # Debian packages that the benchmark is built with.
 BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev
@@ -30,7 +33,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help test bench report memory large targets calibrate table lint header doc picture install examples
-.PHONY: compat demo deb dist library benchmark clean faults tsan miri
+.PHONY: compat demo deb dist library benchmark clean faults tsan miri fuzz
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -136,6 +139,23 @@ deb: ## a package for Debian, libdeldrift-dev, in build/packages
 dist: ## archives in build/packages: sources that build without a network, and what is installed
 	@.ci/packages cmake
 	cmake/make_dist
+
+# What has the compiler count for libFuzzer, also the stable one. With the nightly one there is AddressSanitizer, too.
+FUZZ_COUNTS := level=4 inline-8bit-counters pc-table trace-compares
+FUZZ_FLAGS := -Cpasses=sancov-module $(addprefix -Cllvm-args=-sanitizer-coverage-,$(FUZZ_COUNTS))
+FUZZ_NIGHTLY = $(shell rustc +nightly --version >/dev/null 2>&1 && echo yes)
+FUZZ_HOST = $(shell rustc -vV 2>/dev/null | sed -n 's/^host: //p')
+FUZZ_BUILD = $(CARGO_TARGET_DIR)/libfuzzer$(if $(FUZZ_NIGHTLY),-nightly)
+
+fuzz: ## fuzzing guided by coverage: TARGET=predicates, calls or loaders, for SECONDS=60; see fuzz/README.md
+	@.ci/packages g++
+	RUSTFLAGS="$(FUZZ_FLAGS) --cfg fuzzing $(if $(FUZZ_NIGHTLY),-Zsanitizer=address)" \
+	    cargo $(if $(FUZZ_NIGHTLY),+nightly) build --release --manifest-path fuzz/Cargo.toml --target $(FUZZ_HOST) \
+	    --target-dir "$(FUZZ_BUILD)" --features libfuzzer --bin $(TARGET)
+	mkdir -p build/fuzz/$(TARGET) fuzz/findings
+	ASAN_OPTIONS=allocator_may_return_null=1 "$(FUZZ_BUILD)/$(FUZZ_HOST)/release/$(TARGET)" \
+	    build/fuzz/$(TARGET) fuzz/corpus/$(TARGET) -max_total_time=$(SECONDS) -timeout=60 -max_len=1500 \
+	    -artifact_prefix=fuzz/findings/$(TARGET)-
 
 compat: library ## Triangle's and TetGen's calling conventions: libdeldrift_triangle_tetgen, in build/compat
 	@.ci/packages cmake g++

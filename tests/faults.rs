@@ -192,7 +192,7 @@ struct Setting {
     reads: bool,
     takes: bool,
     edits: bool,
-    /// Insertions, and about as many removals, that are staged with the moves of a commit.
+    /// Insertions, and half as many removals, that are staged with the moves of a commit.
     stages: usize,
     /// Commits before.
     warm: usize,
@@ -210,8 +210,9 @@ const COLD: Setting = Setting {
     warm: 0,
 };
 
-const SETTINGS: [Setting; 9] = [
+const SETTINGS: [Setting; 10] = [
     COLD,
+    Setting { stages: 7, ..COLD },
     Setting { reads: true, warm: 2, ..COLD },
     Setting { hides: true, takes: true, ..COLD },
     Setting { tracks: true, warm: 1, ..COLD },
@@ -413,7 +414,8 @@ impl<G: Dimension> Scene<G> {
             let coming: Vec<G::Point> = (0..setting.stages).map(|k| points[k * 3]).collect();
             let coming: Vec<G::Point> = (0..).zip(coming).map(|(k, p)| beside::<G>(&p, k)).collect();
             t.stage_insertions(&coming).expect("insertions");
-            let leaving: Vec<VertexId> = (0..setting.stages).map(|k| VertexId::at(10 + 3 * k)).collect();
+            // Fewer than come, so that these are not all at sites that are left.
+            let leaving: Vec<VertexId> = (0..setting.stages / 2).map(|k| VertexId::at(10 + 3 * k)).collect();
             t.stage_removals(&leaving).expect("removals");
         }
         let options = Some(options());

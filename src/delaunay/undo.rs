@@ -79,8 +79,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     fn log_as(&mut self, s: SiteId, has_place: bool) -> Result<()> {
-        // It may be dropped.
-        memory::reserve(&mut self.free_sites, 1)?;
+        // It may be dropped; and sites that have been added are all free again when they are taken back.
+        memory::reserve(&mut self.free_sites, self.log.sites.len() + 1)?;
         if !self.log.is_on {
             return Ok(());
         }

@@ -49,7 +49,8 @@ pub fn exact_filter<'p, const D: usize>(
     let unit = if floor < least { 2.0 * floor } else { floor };
     let is_multiple = |x: f64| {
         let scaled = x / unit;
-        scaled == scaled.trunc()
+        // What is far below the unit may become zero.
+        scaled == scaled.trunc() && (scaled != 0.0 || x == 0.0)
     };
     let is_on_lattice = |p: &[f64; D]| p.iter().all(|&x| is_multiple(x));
     let mut points = [lower, upper].into_iter().chain(points);
@@ -165,5 +166,9 @@ mod tests {
         assert!(!exact([[1.0, 1.0]; 3]) && !exact([[f64::INFINITY, 0.0]; 3]));
         assert!(exact([[1e7, 0.5], [1e7 + 1.0, 0.25], [1e7 + 2.0, 0.0]]));
         assert!(!exact([[1e-57, 0.0], [2e-57, 1e-57], [0.0, 0.0]]));
+        // In units of 4, the least number is rounded to zero.
+        assert!(exact([[0.0, 0.0], [16384.0, 0.0], [8192.0, 4.0]]));
+        assert!(!exact([[0.0, 0.0], [16384.0, 0.0], [8192.0, f64::from_bits(1)]]));
+        assert!(!exact([[1e57, 3e-294], [-1e57, 0.0], [0.0, 0.0]]));
     }
 }

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Writes the entries of the corpus that have names: one for each past defect, in the bytes that the targets read.
+
+What follows is the inverse of src/calls (History::new and History::step), of src/predicates and of src/loaders.rs, as
+far as the entries need it. Run it again when these read bytes in another way.
+"""
+
+import os
+import random
+import struct
+
+HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus")
+AUTO, REBUILDING, FLIPS, TOLERANCE, REPAIR, PLACEMENT = 0, 2, 3, 4, 5, 6
+SAFE_REGION, SAFE_REGION_TOLERANCE = 7, 8
+GENERAL, LATTICE, TAKEN, SPHERE, EXTREME, FAR = 0, 2, 203, 6, 7, 9
+MERGE, REJECT, TRACK, ASK = 0x10, 0, 0x80, 1
+JITTER, SHIFT, FLATTEN, SWAP, DOUBLE = 0, 4, 6, 7, 10
+INSERT, REMOVE, RELOCATE, MOTION, STAGE_INSERTIONS, STAGE_REMOVALS = 0, 1, 2, 5, 9, 10
+DISCARD, COMMIT, COMMIT_POSITIONS, COMPACT, TAKE, COPY, READ = 11, 12, 17, 20, 21, 22, 23
+FAMILIES = ["general", "integers", "last-bits", "extremes", "distant", "sphere", "flat", "layers", "scaled-axes",
+            "near-ties", "noise", "clusters", "rounded-sphere"]
+
+
+class Calls:
+    """A history. Places are drawn at random, by a rule."""
+
+    def __init__(self, d, n, rule=GENERAL, scale=4, flags=MERGE, algorithm=AUTO, threads=1, seed=1):
+        # Numbers of more than 256 vertices take two bytes.
+        self.random, self.rule, self.is_large = random.Random(seed), rule, n > 256
+        size = [255, n - 300] if n >= 300 else [56 + n - 3]
+        self.bytes = [d - 2, *size, rule, scale, flags | threads << 2, algorithm]
+        for v in range(n):
+            self.place()
+        self.bytes.append(200)
+
+    def any(self, n=1):
+        self.bytes += [self.random.randrange(256) for _ in range(n)]
+        return self
+
+    def place(self):
+        length = {GENERAL: 6, LATTICE: 2, SPHERE: 1, EXTREME: 9, FAR: 3}[self.rule]
+        self.bytes.append(0)
+        return self.any(length)
+
+    def taken(self, v):
+        """The place of a vertex."""
+        self.bytes += [TAKEN, v] + [0] * self.is_large
+        return self
+
+    def call(self, what, *arguments, fault=None, goes_on=False, cancel=None):
+        if fault is not None:
+            self.bytes += [0xC0 | 0x20 * goes_on | what, fault + 128]
+        elif cancel is not None:
+            self.bytes += [0x80 | what, cancel]
+        else:
+            self.bytes.append(what)
+        self.bytes += arguments
+        return self
+
+    def motion(self, rule, size=2, share=0, commits=True, **befalls):
+        return self.call(MOTION, size, rule, self.random.randrange(256), share, 0, 1, int(commits), **befalls)
+
+    def insert(self, **befalls):
+        return self.call(INSERT, **befalls).place()
+
+    def take(self):
+        return self.call(TAKE)
+
+
+def entries():
+    for d in (2, 3):
+        e = Calls(d, 20)
+        for v in (3, 3, 5):
+            e.call(INSERT).taken(v)
+        for k in (0, 1, 2, 4, 8):
+            e.call(REMOVE, 3, fault=k).call(REMOVE, 3, fault=k, goes_on=True)
+        yield f"calls/memory-refused-to-removal-with-hidden-vertices-{d}d", e
+
+        e = Calls(d, 330, threads=3)
+        for v in (3, 3, 5):
+            e.call(INSERT).taken(v)
+        for k in (0, 2, 5, 9, 14):
+            e.insert(fault=k, goes_on=True)
+        yield f"calls/memory-refused-to-insertion-on-threads-with-hidden-vertices-{d}d", e
+
+        e = Calls(d, 330)
+        for k in range(8):
+            e.call(STAGE_INSERTIONS, 5)
+            for v in range(5):
+                e.place()
+            e.call(COMMIT, fault=k, goes_on=True)
+        yield f"calls/memory-refused-to-undoing-of-insertions-{d}d", e
+
+        for name, algorithm in [("auto", AUTO), ("rebuilding", REBUILDING), ("placement-flips", FLIPS),
+                                ("tolerance", TOLERANCE), ("repair", REPAIR), ("safe-region", SAFE_REGION_TOLERANCE)]:
+            e = Calls(d, 24, flags=MERGE | TRACK, algorithm=algorithm)
+            e.call(INSERT).taken(3).call(INSERT).taken(4).take()
+            for k in (1, 2, 3, 4, 6, 8, 11, 15, 20, 30):
+                e.motion(JITTER, commits=False).call(COMMIT, fault=k, goes_on=k % 2 == 0)
+            yield f"calls/memory-refused-to-commit-by-{name}-{d}d", e
+
+        e = Calls(d, 20, flags=REJECT, algorithm=TOLERANCE)
+        for k in range(4):
+            e.motion(JITTER, 5).motion(SWAP, share=3).call(COMMIT).motion(SWAP, share=0).call(DISCARD)
+            e.call(RELOCATE, 1, 0).taken(2).call(INSERT).taken(3)
+        yield f"calls/coincidence-rejected-under-tolerance-{d}d", e
+
+        for name, algorithm in [("tolerance", TOLERANCE), ("auto", AUTO), ("safe-region", SAFE_REGION)]:
+            e = Calls(d, 12, rule=EXTREME, scale=4, algorithm=algorithm)
+            e.bytes[5] = 0
+            for k in range(48):
+                e.motion(DOUBLE if k % 8 == 0 else JITTER, 0)
+            yield f"calls/many-commits-with-a-growing-box-by-{name}-{d}d", e
+
+        e = Calls(d, 16).take()
+        for v in range(3):
+            e.insert().call(COMMIT).take().call(REMOVE, v).take()
+        e.motion(JITTER).call(COMPACT, 1).take().motion(JITTER).take()
+        yield f"calls/changes-of-immediate-calls-before-a-commit-{d}d", e
+
+        e = Calls(d, 20, flags=MERGE | ASK)
+        for left in range(4):
+            e.motion(SWAP, commits=False).call(COMMIT, cancel=left)
+            e.call(COMMIT_POSITIONS, 2, JITTER, 1, 0, 0, cancel=left)
+        yield f"calls/commits-cancelled-{d}d", e
+
+        e = Calls(d, 20, rule=LATTICE)
+        e.motion(FLATTEN).motion(JITTER, 6).motion(FLATTEN).insert()
+        e.motion(SHIFT).motion(SWAP).call(COPY, 0, 0).call(COPY, 2, MERGE, AUTO)
+        yield f"calls/lattice-flattened-and-back-{d}d", e
+
+        e = Calls(d, 20, rule=SPHERE)
+        e.motion(SHIFT).motion(SWAP).motion(JITTER, 6).motion(DOUBLE)
+        yield f"calls/one-sphere-{d}d", e
+
+        for seed in range(6):
+            e = Calls(d, 10, rule=FAR, seed=seed)
+            yield f"calls/numbers-far-below-a-lattice-{d}d-{seed}", e.motion(JITTER).insert()
+
+    for kind, name in [(0, "plane"), (3, "space")]:
+        r = random.Random(kind)
+        for k, size in enumerate([0, 1, 5, 12, 30, 59]):
+            # A near tie: its shape, its points, and the change as a power of two of the extent.
+            data = bytes([kind, 9, k % 2]) + bytes(r.randrange(256) for _ in range(40)) + bytes([size] * 60)
+            yield f"predicates/near-tie-in-{name}-of-2-to-the-minus-{size + 1}", data
+        for rule, family in enumerate(FAMILIES):
+            yield f"predicates/{family}-in-{name}", bytes([kind, rule] + [r.randrange(256) for _ in range(120)])
+    yield "predicates/number-far-below-a-lattice", bytes.fromhex("00020013000000020001004401")
+
+    for d in (2, 3):
+        for k in range(24):
+            r = random.Random(100 * d + k)
+            head = bytes([1 | 8 * (d - 2) | 0x10, r.choice([0, 2, 4, 6]), 4, 13])
+            yield f"loaders/saved-and-damaged-{d}d-{k}", head + bytes(r.randrange(200) for _ in range(140))
+        yield f"loaders/head-alone-{d}d", struct.pack("<B8x4xI", 0x10, d) + bytes(170)
+
+
+for path, entry in entries():
+    data = entry if isinstance(entry, bytes) else bytes(entry.bytes)
+    with open(os.path.join(HERE, path), "wb") as file:
+        file.write(data)

@@ -1,0 +1,307 @@
+//! Calls that change a triangulation.
+
+use super::super::tally;
+use super::called::{c, note};
+use super::model::{NONE, Place, Row, sorted};
+use super::places::Motion;
+use super::{ALGORITHMS, Carried, History, flattened, options};
+use deldrift::capi::deldrift_status::*;
+use deldrift::capi::*;
+use std::collections::BTreeSet;
+use std::ptr::{null, null_mut};
+
+impl History<'_> {
+    pub(super) fn insert(&mut self) {
+        let p = self.place();
+        let occupied = self.options.coincidence == 1 && self.m.first_at(&p).is_some();
+        let (t, mut id) = (self.t, 77);
+        let wanted = if occupied { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
+        self.expect(wanted, || c!(deldrift_insert_vertex(t, p.as_ptr(), &mut id)));
+        if !occupied {
+            assert_eq!(id as usize, self.m.positions.len(), "the id of an insertion");
+            self.m.positions.push(Some(p));
+            self.fresh = None;
+        }
+        self.check();
+    }
+
+    pub(super) fn remove(&mut self) {
+        let (t, Some(v)) = (self.t, self.some()) else { return };
+        self.ok(|| c!(deldrift_remove_vertex(t, v)));
+        self.m.positions[v as usize] = None;
+        self.m.staged.remove(&v);
+        self.m.leaving.remove(&v);
+        self.fresh = None;
+        self.check();
+    }
+
+    pub(super) fn relocate(&mut self) {
+        let (t, Some(v)) = (self.t, self.some()) else { return };
+        let q = if self.s.below(2) == 0 { self.place() } else { self.nudged(v) };
+        let other = self.m.positions.iter().enumerate().any(|(w, p)| w != v as usize && *p == Some(q));
+        let wanted = if self.m.staged.contains_key(&v) {
+            DELDRIFT_DUPLICATE_MOVE
+        } else if other && self.options.coincidence == 1 && self.m.at(v) != Some(q) {
+            DELDRIFT_COINCIDENT
+        } else {
+            DELDRIFT_OK
+        };
+        self.expect(wanted, || c!(deldrift_relocate_vertex(t, v, q.as_ptr())));
+        if wanted == DELDRIFT_OK {
+            self.m.positions[v as usize] = Some(q);
+            self.fresh = None;
+        }
+        self.check();
+    }
+
+    /// A place near that of a vertex.
+    fn nudged(&mut self, v: u32) -> Place {
+        let motion = Motion::new(&mut self.s, self.style);
+        let p = self.m.at(v).expect("present");
+        let other = self.some().and_then(|w| self.m.at(w)).unwrap_or(p);
+        motion.of(v, p, other, self.m.d)
+    }
+
+    /// Whether a move of a vertex can be staged.
+    fn is_free(&self, v: u32) -> bool {
+        !self.m.staged.contains_key(&v) && !self.m.leaving.contains(&v)
+    }
+
+    pub(super) fn move_one(&mut self) {
+        let (t, Some(v)) = (self.t, self.some()) else { return };
+        let q = self.nudged(v);
+        let wanted = if self.m.leaving.contains(&v) {
+            DELDRIFT_REMOVED_VERTEX
+        } else if self.m.staged.contains_key(&v) {
+            DELDRIFT_DUPLICATE_MOVE
+        } else {
+            DELDRIFT_OK
+        };
+        self.expect(wanted, || c!(deldrift_move_vertex(t, v, q.as_ptr())));
+        if wanted == DELDRIFT_OK {
+            self.m.staged.insert(v, q);
+        }
+        self.check();
+    }
+
+    /// Where vertices go by a motion.
+    fn destinations(&mut self) -> Vec<(u32, Place)> {
+        let motion = Motion::new(&mut self.s, self.style);
+        let start = self.s.below(motion.share);
+        let present: Vec<u32> = self.m.present().collect();
+        let chosen = present.iter().enumerate().filter(|(k, _)| k % motion.share == start);
+        let place = |k: usize| self.m.at(present[k % present.len()]).expect("present");
+        // The other one is its partner, so that they may change places.
+        chosen.map(|(k, &v)| (v, motion.of(v, place(k), place(k ^ 1), self.m.d))).collect()
+    }
+
+    /// Stages moves of many vertices, by ids or, of all, without.
+    pub(super) fn stage_motion(&mut self) {
+        let (t, d) = (self.t, self.m.d);
+        let moves: Vec<(u32, Place)> = self.destinations();
+        let n = self.m.positions.len();
+        if self.s.below(2) == 0 && moves.len() == self.m.present().count() {
+            let mut numbers = vec![f64::NAN; n * d];
+            moves.iter().for_each(|(v, q)| numbers[*v as usize * d..][..d].copy_from_slice(&q[..d]));
+            let is_double = moves.iter().any(|(v, _)| self.m.staged.contains_key(v));
+            let wanted = if is_double { DELDRIFT_DUPLICATE_MOVE } else { DELDRIFT_OK };
+            self.expect(wanted, || c!(deldrift_move_vertices(t, null(), numbers.as_ptr(), n)));
+            if wanted == DELDRIFT_OK {
+                let leaving = &self.m.leaving;
+                self.m.staged.extend(moves.into_iter().filter(|(v, _)| !leaving.contains(v)));
+            }
+        } else {
+            let moves: Vec<(u32, Place)> = moves.into_iter().filter(|&(v, _)| self.is_free(v)).collect();
+            let (ids, places): (Vec<u32>, Vec<Place>) = moves.iter().copied().unzip();
+            let numbers = flattened(&places, d);
+            self.ok(|| c!(deldrift_move_vertices(t, ids.as_ptr(), numbers.as_ptr(), ids.len())));
+            self.m.staged.extend(moves);
+        }
+        self.check();
+        // Most are committed at once.
+        if self.s.below(4) != 0 {
+            self.commit();
+        }
+    }
+
+    pub(super) fn stage_insertions(&mut self) {
+        let (t, count) = (self.t, self.s.below(6));
+        let places: Vec<Place> = (0..count).map(|_| self.place()).collect();
+        let numbers = flattened(&places, self.m.d);
+        let mut first = 77;
+        self.ok(|| c!(deldrift_stage_insertions(t, numbers.as_ptr(), count, &mut first)));
+        assert_eq!(first as usize, self.m.positions.len(), "the id of staged insertions");
+        self.m.coming.extend((first..).zip(places));
+        self.m.positions.resize(self.m.positions.len() + count, None);
+        self.check();
+    }
+
+    pub(super) fn stage_removals(&mut self) {
+        let (t, count) = (self.t, self.s.below(5));
+        let chosen: BTreeSet<u32> = (0..count).filter_map(|_| self.some()).collect();
+        let ids: Vec<u32> = chosen.into_iter().rev().filter(|v| !self.m.leaving.contains(v)).collect();
+        self.ok(|| c!(deldrift_stage_removals(t, ids.as_ptr(), ids.len())));
+        self.m.staged.retain(|v, _| !ids.contains(v));
+        self.m.leaving.extend(ids);
+        self.check();
+    }
+
+    pub(super) fn discard(&mut self) {
+        let t = self.t;
+        self.ok(|| c!(deldrift_discard_moves(t)));
+        for &(id, _) in self.m.coming.iter().rev() {
+            if id as usize + 1 == self.m.positions.len() {
+                self.m.positions.pop();
+            }
+        }
+        self.m.forget_staged();
+        self.check();
+    }
+
+    pub(super) fn commit(&mut self) {
+        let (t, after) = (self.t, self.m.committed());
+        let wanted = if self.is_rejected(&after) { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
+        let mut report = deldrift_commit_report::default();
+        self.expect(wanted, || c!(deldrift_commit_timestamp(t, &mut report)));
+        if wanted == DELDRIFT_OK {
+            self.committed(after, &report);
+        }
+        self.check();
+    }
+
+    /// The model after a commit, and what the report must say.
+    fn committed(&mut self, after: Vec<Option<Place>>, report: &deldrift_commit_report) {
+        tally::COMMITS.add(1);
+        self.baseline = Some(self.wanted_cells().to_vec());
+        let pairs = self.m.positions.iter().zip(&after);
+        let moved = pairs.filter(|(old, new)| old.is_some() && new.is_some() && old != new).count();
+        self.fresh = None;
+        self.m.positions = after;
+        self.m.timestamp += 1;
+        let counts = [moved, self.m.coming.len(), self.m.leaving.len(), self.m.hidden().len()];
+        let [moved, inserted, removed, hidden] = counts.map(|n| n as u64);
+        let wanted = [self.m.timestamp, moved, inserted, removed, hidden];
+        let found = [report.timestamp, report.moved, report.inserted, report.removed, report.coincident];
+        assert_eq!(found, wanted, "timestamp, moved, inserted, removed, coincident");
+        self.m.forget_staged();
+    }
+
+    /// The step in one call; its callers have no moves staged.
+    pub(super) fn commit_positions(&mut self) {
+        let (t, d, n) = (self.t, self.m.d, self.m.positions.len());
+        let mut numbers = vec![f64::NAN; n * d];
+        let mut after = self.m.committed();
+        for v in self.m.present() {
+            numbers[v as usize * d..][..d].copy_from_slice(&self.m.at(v).expect("present")[..d]);
+        }
+        for (v, q) in self.destinations() {
+            numbers[v as usize * d..][..d].copy_from_slice(&q[..d]);
+            if !self.m.leaving.contains(&v) {
+                after[v as usize] = Some(q);
+            }
+        }
+        let wanted = if !self.m.staged.is_empty() {
+            DELDRIFT_DUPLICATE_MOVE
+        } else if self.is_rejected(&after) {
+            DELDRIFT_COINCIDENT
+        } else {
+            DELDRIFT_OK
+        };
+        let mut report = deldrift_commit_report::default();
+        self.expect(wanted, || c!(deldrift_commit_positions(t, numbers.as_ptr(), n, &mut report)));
+        if wanted == DELDRIFT_OK {
+            self.committed(after, &report);
+        }
+        self.check();
+    }
+
+    pub(super) fn set_algorithm(&mut self) {
+        let (t, algorithm) = (self.t, self.s.pick(&ALGORITHMS));
+        self.ok(|| c!(deldrift_set_algorithm(t, algorithm)));
+        self.options.algorithm = algorithm;
+        self.check();
+    }
+
+    pub(super) fn compact(&mut self) {
+        let (t, n) = (self.t, self.m.positions.len());
+        let (mut map, mut count) = (vec![77; n], 0);
+        let is_wanted = self.s.below(4) != 0;
+        let (start, room) = if is_wanted { (map.as_mut_ptr(), n) } else { (null_mut(), 0) };
+        self.ok(|| c!(deldrift_compact(t, start, room, &mut count)));
+        assert_eq!(count, n);
+        let coming: BTreeSet<u32> = self.m.coming.iter().map(|&(v, _)| v).collect();
+        let mut next = 0;
+        let new_id = |v: u32| {
+            let is_kept = self.m.at(v).is_some() || coming.contains(&v);
+            next += u32::from(is_kept);
+            if is_kept { next - 1 } else { NONE }
+        };
+        let ids: Vec<u32> = (0..n as u32).map(new_id).collect();
+        assert!(!is_wanted || map == ids, "{map:?}, not {ids:?}");
+        self.renumber(&ids);
+        self.check();
+    }
+
+    fn renumber(&mut self, ids: &[u32]) {
+        let new = |v: u32| if v == NONE { NONE } else { ids[v as usize] };
+        let row = |row: &Row| row.map(new);
+        let old = std::mem::take(&mut self.m.positions);
+        let kept = old.iter().zip(ids).filter(|(_, id)| **id != NONE);
+        self.m.positions = kept.map(|(p, _)| *p).collect();
+        self.m.staged = self.m.staged.iter().map(|(&v, &q)| (new(v), q)).collect();
+        self.m.coming.iter_mut().for_each(|(v, _)| *v = new(*v));
+        self.m.leaving = self.m.leaving.iter().map(|&v| new(v)).collect();
+        self.carried.rows.iter_mut().for_each(|r| *r = row(r));
+        self.carried.hidden = self.carried.hidden.iter().map(|&v| new(v)).filter(|&v| v != NONE).collect();
+        if let Some(rows) = &mut self.baseline {
+            rows.iter_mut().for_each(|r| *r = sorted(row(r)));
+            rows.sort_unstable();
+        }
+        self.fresh = None;
+    }
+
+    /// Goes on with a copy, or with what has been saved.
+    pub(super) fn clone_or_load(&mut self) {
+        let (t, mut other) = (self.t, null_mut());
+        let way = self.s.below(4);
+        if way == 0 {
+            self.ok(|| c!(deldrift_clone(t, &mut other)));
+        } else {
+            let options = options(&mut self.s, &self.callback);
+            let hides = options.coincidence == 1 && !self.m.hidden().is_empty();
+            let wanted = if hides { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
+            if way == 1 {
+                let file = self.save_to_file();
+                self.expect(wanted, || c!(deldrift_load_file(file.as_ptr(), &options, &mut other)));
+                super::files::remove(&file);
+            } else {
+                let data = self.saved();
+                let (start, size) = (data.as_ptr().cast(), data.len());
+                self.expect(wanted, || c!(deldrift_load(start, size, &options, &mut other)));
+            }
+            if hides {
+                assert!(other.is_null(), "loaded in spite of coincidence");
+                self.check();
+                return;
+            }
+            self.options = options;
+            (self.baseline, self.carried) = (None, Carried::default());
+        }
+        let (kept, gone) = if way == 0 && self.s.below(2) == 0 { (t, other) } else { (other, t) };
+        self.t = kept;
+        c!(deldrift_destroy(gone));
+        self.check();
+    }
+
+    /// The bytes that are saved.
+    pub(super) fn saved(&mut self) -> Vec<u8> {
+        let (t, mut count) = (self.t, 0);
+        self.is_ok(c!(deldrift_save(t, null_mut(), 0, &mut count)));
+        let mut data = vec![0u8; count];
+        let start = data.as_mut_ptr();
+        let room = data.len();
+        self.ok(|| c!(deldrift_save(t, start.cast(), room, &mut count)));
+        assert_eq!(count, room);
+        data
+    }
+}

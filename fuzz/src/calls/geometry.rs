@@ -1,0 +1,306 @@
+//! What is computed of all cells, compared with what follows from them.
+
+use super::called::{c, note};
+use super::model::{NONE, Place, Row, sorted};
+use super::{History, flattened};
+use deldrift::capi::deldrift_status::*;
+use deldrift::capi::*;
+use std::collections::BTreeSet;
+use std::ptr::{null, null_mut};
+
+impl History<'_> {
+    pub(super) fn read_geometry(&mut self) {
+        match self.s.below(12) {
+            0 => self.spheres(),
+            1 => self.volumes(),
+            2 => self.mask(),
+            3 => self.boundary(),
+            4 => self.hull(),
+            5 => self.edges(),
+            6 => self.vertex_neighbours(),
+            7 => self.vertex_cells(),
+            8 => self.mirrors(),
+            9 => self.ordered_star(),
+            10 => self.voronoi(),
+            _ => self.interpolate(),
+        }
+    }
+
+    fn spheres(&mut self) {
+        let (t, d) = (self.t, self.m.d);
+        let squares = self
+            .copied(-1.0, 1, |to, room, count| c!(deldrift_circumcentres(t, null_mut(), to, room, count)));
+        let centres = self.copied(f64::NAN, d, |to, room, count| {
+            c!(deldrift_circumcentres(t, to, null_mut(), room, count))
+        });
+        assert_eq!(squares.len(), self.cells().0.len());
+        assert!(squares.iter().all(|&square| square >= 0.0) && centres.iter().all(|x| !x.is_nan()));
+    }
+
+    fn volumes(&mut self) {
+        let t = self.t;
+        let volumes = self.copied(-1.0, 1, |to, room, count| c!(deldrift_volumes(t, to, room, count)));
+        assert_eq!(volumes.len(), self.cells().0.len());
+        assert!(volumes.iter().all(|&volume| volume >= 0.0 && volume.is_finite()));
+    }
+
+    /// The squared circumradii are near those of the mask.
+    fn mask(&mut self) {
+        let t = self.t;
+        let mut n = 0;
+        self.is_ok(c!(deldrift_cell_count(t, &mut n)));
+        let mut squares = vec![0.0; n];
+        self.is_ok(c!(deldrift_circumcentres(t, null_mut(), squares.as_mut_ptr(), n, &mut n)));
+        let choice = self.s.below(4);
+        let limit = match choice {
+            0 => f64::INFINITY,
+            1 => self.s.magnitude().abs(),
+            _ if n > 0 => squares[self.s.below(n)] * if choice == 2 { 1.0 } else { 1.0 + 1e-8 },
+            _ => 1.0,
+        };
+        let mask = self
+            .copied(77, 1, |to, room, count| c!(deldrift_mask_by_circumradius(t, limit, to, room, count)));
+        for (square, is_in) in squares.into_iter().zip(mask) {
+            assert!(is_in <= 1);
+            if square < f64::INFINITY && square > 1e-300 && square * (1.0 + 1e-8) < limit {
+                assert_eq!(is_in, 1, "{square} within {limit}");
+            }
+            if square * (1.0 - 1e-8) > limit && square > 1e-300 && square < f64::INFINITY {
+                assert_eq!(is_in, 0, "{square} within {limit}");
+            }
+            assert!(is_in == 1 || limit < f64::INFINITY);
+        }
+    }
+
+    /// The facets between cells in the mask and others: their corners, cells and corners opposite.
+    fn wanted_boundary(&self, mask: &[u8]) -> Vec<(Row, u32, u8)> {
+        let (rows, neighbours) = self.cells();
+        let mut facets = Vec::new();
+        for (cell, (row, across)) in
+            rows.iter().zip(&neighbours).enumerate().filter(|(cell, _)| mask[*cell] != 0)
+        {
+            for i in 0..=self.m.d {
+                if across[i] == NONE || mask[across[i] as usize] == 0 {
+                    let mut facet = *row;
+                    facet[i] = NONE;
+                    facets.push((sorted(facet), cell as u32, i as u8));
+                }
+            }
+        }
+        facets
+    }
+
+    fn check_boundary(
+        &mut self,
+        mask: &[u8],
+        call: impl Fn(*mut u32, *mut u32, *mut u8, usize, *mut usize) -> deldrift_status,
+    ) {
+        let d = self.m.d;
+        let facets = self.copied(77, d, |to, room, count| call(to, null_mut(), null_mut(), room, count));
+        let cells = self.copied(77, 1, |to, room, count| call(null_mut(), to, null_mut(), room, count));
+        let corners = self.copied(77, 1, |to, room, count| call(null_mut(), null_mut(), to, room, count));
+        let rows = super::check::rows(&facets, d);
+        let found: Vec<(Row, u32, u8)> = rows
+            .into_iter()
+            .zip(cells)
+            .zip(corners)
+            .map(|((row, cell), corner)| (sorted(row), cell, corner))
+            .collect();
+        assert_eq!(found, self.wanted_boundary(mask), "boundary");
+    }
+
+    fn boundary(&mut self) {
+        let t = self.t;
+        let n = self.cells().0.len();
+        let mask: Vec<u8> = (0..n).map(|_| self.s.byte() & 1).collect();
+        self.check_boundary(&mask, |facets, cells, corners, room, count| {
+            c!(deldrift_mask_boundary(t, mask.as_ptr(), n, facets, cells, corners, room, count))
+        });
+    }
+
+    fn hull(&mut self) {
+        let t = self.t;
+        let mask = vec![1; self.cells().0.len()];
+        self.check_boundary(&mask, |facets, cells, corners, room, count| {
+            c!(deldrift_hull_facets(t, facets, cells, corners, room, count))
+        });
+    }
+
+    fn wanted_edges(&self) -> Vec<[u32; 2]> {
+        let n = self.m.d + 1;
+        let (rows, _) = self.cells();
+        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |k| (i, k)));
+        let edges =
+            rows.iter().flat_map(|row| pairs.clone().map(|(i, k)| [row[i].min(row[k]), row[i].max(row[k])]));
+        edges.collect::<BTreeSet<_>>().into_iter().collect()
+    }
+
+    fn edges(&mut self) {
+        let t = self.t;
+        let found = self.copied(77, 2, |to, room, count| c!(deldrift_edges(t, to, room, count)));
+        assert_eq!(found, self.wanted_edges().concat(), "edges");
+    }
+
+    /// Compares lists by vertex with those wanted.
+    fn check_lists(
+        &mut self,
+        wanted: &[Vec<u32>],
+        call: impl Fn(*mut u32, usize, *mut u32, usize, *mut usize) -> deldrift_status,
+    ) {
+        let n = wanted.len() + 1;
+        let mut offsets = vec![77; n];
+        let (mut count, start) = (0, offsets.as_mut_ptr());
+        let entries = self.copied(77, 1, |to, room, count| {
+            let start = if to.is_null() { null_mut() } else { start };
+            call(start, n, to, room, count)
+        });
+        self.ok(|| call(start, n, null_mut(), 0, &mut count));
+        let list = |v: usize| entries[offsets[v] as usize..offsets[v + 1] as usize].to_vec();
+        let found: Vec<Vec<u32>> = (0..wanted.len()).map(list).collect();
+        assert_eq!((found.as_slice(), count), (wanted, entries.len()), "lists by vertex");
+    }
+
+    fn vertex_neighbours(&mut self) {
+        let t = self.t;
+        let mut wanted = vec![Vec::new(); self.m.positions.len()];
+        for [a, b] in self.wanted_edges() {
+            wanted[a as usize].push(b);
+            wanted[b as usize].push(a);
+        }
+        wanted.iter_mut().for_each(|list| list.sort_unstable());
+        self.check_lists(&wanted, |offsets, n, to, room, count| {
+            c!(deldrift_vertex_neighbours(t, offsets, n, to, room, count))
+        });
+    }
+
+    fn vertex_cells(&mut self) {
+        let t = self.t;
+        let mut wanted = vec![Vec::new(); self.m.positions.len()];
+        for (cell, row) in (0..).zip(self.cells().0) {
+            row[..=self.m.d].iter().for_each(|&v| wanted[v as usize].push(cell));
+        }
+        self.check_lists(&wanted, |offsets, n, to, room, count| {
+            c!(deldrift_vertex_cells(t, offsets, n, to, room, count))
+        });
+    }
+
+    fn mirrors(&mut self) {
+        let (t, corners) = (self.t, self.m.d + 1);
+        let found =
+            self.copied(77, corners, |to, room, count| c!(deldrift_mirror_indices(t, to, room, count)));
+        let (rows, neighbours) = self.cells();
+        let wanted = |cell: usize, i: usize| match neighbours[cell][i] {
+            NONE => u8::MAX,
+            other => {
+                let opposite = |&k: &usize| !rows[cell].contains(&rows[other as usize][k]);
+                (0..corners).find(opposite).expect("one corner is opposite") as u8
+            }
+        };
+        for (k, &mirror) in found.iter().enumerate() {
+            assert_eq!(mirror, wanted(k / corners, k % corners), "mirror index {k}");
+        }
+        if found.is_empty() {
+            return;
+        }
+        let k = self.s.below(found.len());
+        let (cell, corner, mut one) = ((k / corners) as u32, (k % corners) as u32, 77);
+        self.ok(|| c!(deldrift_mirror_index(t, cell, corner, &mut one)));
+        assert_eq!(one, if found[k] == u8::MAX { NONE } else { u32::from(found[k]) });
+    }
+
+    fn ordered_star(&mut self) {
+        let t = self.t;
+        let Some((v, centre, wanted, rows)) = self.some_star() else { return };
+        if self.m.d == 3 {
+            let mut count = 77;
+            self.expect(DELDRIFT_INVALID_DIMENSION, || {
+                c!(deldrift_ordered_star(t, v, null_mut(), 0, &mut count))
+            });
+            return;
+        }
+        let found = self.copied(77, 1, |to, room, count| c!(deldrift_ordered_star(t, v, to, room, count)));
+        let set: BTreeSet<u32> = found.iter().copied().collect();
+        assert!(set.iter().eq(&wanted) && set.len() == found.len(), "star of {v}: {found:?}, not {wanted:?}");
+        // The corners that follow the centre, counter-clockwise.
+        let next = |cell: u32, steps: usize| {
+            let row = rows[cell as usize];
+            let at = row.iter().position(|&w| w == centre).expect("in the star");
+            row[(at + steps) % 3]
+        };
+        let meets = |pair: &[u32]| next(pair[0], 2) == next(pair[1], 1);
+        assert!(found.windows(2).all(meets), "star of {v} is not in order: {found:?}");
+        if let [first, .., last] = found[..] {
+            let is_closed = meets(&[last, first]);
+            assert!(
+                !is_closed || found.len() == 2 || Some(&first) == found.iter().min(),
+                "star of {v}: {found:?}"
+            );
+        }
+    }
+
+    /// Whether sums of squares and products are far from the ends of the range.
+    fn is_moderate(&self) -> bool {
+        self.m.positions.iter().flatten().flatten().all(|&x| x == 0.0 || (1e-20..1e20).contains(&x.abs()))
+    }
+
+    fn voronoi(&mut self) {
+        let (t, d) = (self.t, self.m.d);
+        let (low, high) = ([-3.0; 3], [4.0; 3]);
+        let is_boxed = self.s.below(3) != 0;
+        let [low, high] = if is_boxed { [low.as_ptr(), high.as_ptr()] } else { [null(); 2] };
+        let volumes = self
+            .copied(-7.0, 1, |to, room, count| c!(deldrift_voronoi_volumes(t, low, high, to, room, count)));
+        assert_eq!(volumes.len(), self.m.positions.len());
+        let has_cells = !self.cells().0.is_empty();
+        let representatives = self.m.representatives();
+        for (v, &volume) in volumes.iter().enumerate() {
+            let is_right = match representatives[v] {
+                NONE => volume.is_nan(),
+                _ if !has_cells => volume.is_nan(),
+                first if first as usize != v => volume == 0.0,
+                _ => !self.is_moderate() || !volume.is_nan(),
+            };
+            assert!(is_right, "Voronoi volume of {v}: {volume}");
+        }
+        let is_easy =
+            self.m.positions.iter().flatten().flatten().all(|x| x.abs() < 10.0) && self.style.is_easy();
+        if has_cells && is_boxed && is_easy {
+            let sum: f64 = volumes.iter().filter(|volume| !volume.is_nan()).sum();
+            let wanted = 7f64.powi(d as i32);
+            assert!((sum - wanted).abs() < 1e-6 * wanted, "Voronoi volumes add up to {sum}, not {wanted}");
+        }
+        let facets = self
+            .copied(-7.0, 1, |to, room, count| c!(deldrift_voronoi_facets(t, low, high, to, room, count)));
+        assert_eq!(facets.len(), self.wanted_edges().len());
+        assert!(!self.is_moderate() || facets.iter().all(|&measure| measure >= 0.0), "{facets:?}");
+    }
+
+    fn interpolate(&mut self) {
+        let (t, d, n_ids) = (self.t, self.m.d, self.m.positions.len());
+        let (method, n_values) = (self.s.below(2) as u32, 1 + self.s.below(2));
+        let values: Vec<f64> = (0..n_ids * n_values).map(|k| k as f64).collect();
+        let count = self.s.below(4);
+        let places: Vec<Place> = (0..count).map(|_| self.place()).collect();
+        let numbers = flattened(&places, d);
+        let outside = vec![-3.0; n_values];
+        let mut found = vec![f64::NAN; count * n_values];
+        self.ok(|| {
+            let (values, positions) = (values.as_ptr(), numbers.as_ptr());
+            let results = found.as_mut_ptr();
+            let (near, beyond) = (null(), outside.as_ptr());
+            c!(deldrift_interpolate(
+                t, method, values, n_ids, n_values, positions, count, near, beyond, results
+            ))
+        });
+        for (q, found) in places.iter().zip(found.chunks(n_values)) {
+            if let Some(v) = self.m.first_at(q) {
+                assert_eq!(found, &values[v as usize * n_values..][..n_values], "the value at vertex {v}");
+            } else if self.cells().0.is_empty() {
+                assert_eq!(found, outside, "outside");
+            } else if self.is_moderate() && method == 0 {
+                let [low, high] = [-3.0, (n_ids * n_values) as f64];
+                assert!(found.iter().all(|x| (low - 1e-6..=high).contains(x)), "{found:?} at {q:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! Calls with something wrong: they fail with the status that the header says, and nothing changes.
+
+use super::super::tally;
+use super::called::{c, note};
+use super::{History, message, no_triangulation};
+use deldrift::capi::deldrift_status::*;
+use deldrift::capi::*;
+use std::ptr::{null, null_mut};
+
+/// An address that is not one of a number.
+fn misaligned<T>(value: &T) -> *mut T {
+    std::ptr::from_ref(value).cast_mut().wrapping_byte_add(1)
+}
+
+impl History<'_> {
+    pub(super) fn refuse(&mut self) {
+        tally::REFUSED.add(1);
+        // What befalls a call is for calls that could succeed.
+        (self.fault, self.cancel_after) = (None, None);
+        match self.s.below(6) {
+            0 => self.refuse_vertices(),
+            1 => self.refuse_numbers(),
+            2 => self.refuse_pointers(),
+            3 => self.refuse_creation(),
+            4 => self.refuse_counts(),
+            _ => self.refuse_values(),
+        }
+        assert!(!message().is_empty() && message().len() < 512);
+        self.check();
+    }
+
+    /// An id that names no vertex, and what is said of it.
+    fn absent(&mut self) -> (u32, deldrift_status) {
+        let n = self.m.positions.len() as u32;
+        let removed: Vec<u32> = (0..n).filter(|&v| self.m.at(v).is_none()).collect();
+        if removed.is_empty() || self.s.below(2) == 0 {
+            (self.s.pick(&[n, n + 1, u32::MAX, u32::MAX - 1]), DELDRIFT_NO_SUCH_VERTEX)
+        } else {
+            (removed[self.s.below(removed.len())], DELDRIFT_REMOVED_VERTEX)
+        }
+    }
+
+    fn refuse_vertices(&mut self) {
+        let (t, (v, wanted)) = (self.t, self.absent());
+        let (p, mut out, mut number, mut count) = ([0.5; 3], 77, 77.0, 77);
+        let known = self.some();
+        self.expect(wanted, || c!(deldrift_move_vertex(t, v, p.as_ptr())));
+        self.expect(wanted, || c!(deldrift_relocate_vertex(t, v, p.as_ptr())));
+        self.expect(wanted, || c!(deldrift_remove_vertex(t, v)));
+        self.expect(wanted, || c!(deldrift_position(t, v, &mut number)));
+        self.expect(wanted, || c!(deldrift_tolerance(t, v, &mut number)));
+        self.expect(wanted, || c!(deldrift_star(t, v, null_mut(), 0, &mut count)));
+        self.expect(wanted, || c!(deldrift_coincident_representative(t, v, &mut out)));
+        self.expect(wanted, || c!(deldrift_stage_removals(t, &v, 1)));
+        if self.m.d == 2 {
+            self.expect(wanted, || c!(deldrift_ordered_star(t, v, null_mut(), 0, &mut count)));
+        }
+        assert_eq!((out, number, count), (77, 77.0, 77), "an output of a call that failed");
+        // All or none.
+        if let Some(known) = known.filter(|v| !self.m.staged.contains_key(v) && !self.m.leaving.contains(v)) {
+            let (ids, numbers) = ([known, v], [0.5; 6]);
+            self.expect(wanted, || c!(deldrift_move_vertices(t, ids.as_ptr(), numbers.as_ptr(), 2)));
+            self.expect(wanted, || c!(deldrift_stage_removals(t, ids.as_ptr(), 2)));
+            let twice = [known; 2];
+            self.expect(DELDRIFT_DUPLICATE_MOVE, || {
+                c!(deldrift_move_vertices(t, twice.as_ptr(), numbers.as_ptr(), 2))
+            });
+            self.expect(DELDRIFT_REMOVED_VERTEX, || c!(deldrift_stage_removals(t, twice.as_ptr(), 2)));
+        }
+    }
+
+    fn refuse_numbers(&mut self) {
+        let (t, d) = (self.t, self.m.d);
+        let (bad, wanted) = self.s.pick(&[
+            (f64::NAN, DELDRIFT_NOT_FINITE),
+            (f64::INFINITY, DELDRIFT_NOT_FINITE),
+            (1.0000000000000002e57, DELDRIFT_OUT_OF_RANGE),
+            (f64::MIN, DELDRIFT_OUT_OF_RANGE),
+        ]);
+        let mut numbers = [0.25; 9];
+        numbers[self.s.below(3 * d)] = bad;
+        let p = &numbers
+            [(numbers.iter().position(|x| x.to_bits() == bad.to_bits()).expect("it is there") / d) * d];
+        let (mut id, mut sign) = (77, 77);
+        let mut places =
+            [deldrift_location { kind: deldrift_location_kind::DELDRIFT_LOCATION_CELL, index: 77 }; 3];
+        self.expect(wanted, || c!(deldrift_insert_vertex(t, p, &mut id)));
+        self.expect(wanted, || c!(deldrift_stage_insertions(t, numbers.as_ptr(), 3, &mut id)));
+        self.expect(wanted, || c!(deldrift_locate(t, p, &mut places[0])));
+        self.expect(wanted, || {
+            c!(deldrift_locate_points(t, numbers.as_ptr(), 3, null(), places.as_mut_ptr()))
+        });
+        self.expect(wanted, || c!(deldrift_nearest_vertex(t, p, &mut id)));
+        if d == 2 {
+            self.expect(wanted, || c!(deldrift_orientation(2, numbers.as_ptr(), &mut sign)));
+        }
+        let mut created = null_mut();
+        self.expect(wanted, || c!(deldrift_create(d as u32, numbers.as_ptr(), 3, null(), &mut created)));
+        assert!(created.is_null() && (id, sign) == (77, 77) && places.iter().all(|place| place.index == 77));
+        if let Some(v) = self.some().filter(|v| !self.m.staged.contains_key(v) && !self.m.leaving.contains(v))
+        {
+            self.expect(wanted, || c!(deldrift_move_vertex(t, v, p)));
+            self.expect(wanted, || c!(deldrift_move_vertices(t, &v, p, 1)));
+            self.expect(wanted, || c!(deldrift_relocate_vertex(t, v, p)));
+        }
+        let n = self.m.positions.len();
+        let stays = self.m.present().find(|v| !self.m.leaving.contains(v));
+        if let Some(v) = stays.filter(|_| self.m.staged.is_empty()) {
+            let mut all = vec![0.5; n * d];
+            all[v as usize * d] = bad;
+            self.expect(wanted, || c!(deldrift_commit_positions(t, all.as_ptr(), n, null_mut())));
+            self.expect(wanted, || c!(deldrift_move_vertices(t, null(), all.as_ptr(), n)));
+        }
+    }
+
+    fn refuse_pointers(&mut self) {
+        let (t, nothing) = (self.t, no_triangulation());
+        let (number, id, count) = (0.5, 77u32, 77usize);
+        let null_argument = DELDRIFT_NULL_ARGUMENT;
+        let odd = DELDRIFT_MISALIGNED_ARGUMENT;
+        let mut out = 77;
+        self.expect(null_argument, || c!(deldrift_vertex_count(nothing, &mut out)));
+        self.expect(null_argument, || c!(deldrift_commit_timestamp(nothing.cast_mut(), null_mut())));
+        self.expect(null_argument, || c!(deldrift_insert_vertex(t, null(), null_mut())));
+        self.expect(null_argument, || c!(deldrift_move_vertices(t, null(), null(), 1)));
+        self.expect(null_argument, || c!(deldrift_stage_insertions(t, null(), 1, null_mut())));
+        self.expect(null_argument, || c!(deldrift_stage_removals(t, null(), 1)));
+        self.expect(null_argument, || c!(deldrift_cells(t, null_mut())));
+        self.expect(null_argument, || c!(deldrift_take_changes(t, null_mut())));
+        self.expect(null_argument, || c!(deldrift_clone(t, null_mut())));
+        self.expect(null_argument, || c!(deldrift_save_file(t, null())));
+        self.expect(null_argument, || c!(deldrift_compact(t, null_mut(), 0, null_mut())));
+        self.expect(odd, || c!(deldrift_vertex_count(t, misaligned(&count))));
+        self.expect(odd, || c!(deldrift_insert_vertex(t, misaligned(&number), &mut 0)));
+        self.expect(odd, || c!(deldrift_stage_insertions(t, misaligned(&number), 1, &mut 0)));
+        self.expect(odd, || c!(deldrift_stage_removals(t, misaligned(&id), 1)));
+        self.expect(odd, || c!(deldrift_commit_timestamp(t, misaligned(&deldrift_commit_report::default()))));
+        self.expect(odd, || c!(deldrift_edges(t, null_mut(), 0, misaligned(&count))));
+        assert_eq!((number, id, count, out), (0.5, 77, 77, 77), "an output of a call that failed");
+    }
+
+    fn refuse_creation(&mut self) {
+        let (d, numbers) = (self.m.d as u32, [0.5; 9]);
+        let mut created = null_mut();
+        let bad = self.s.pick(&[0, 1, 4, u32::MAX]);
+        self.expect(DELDRIFT_INVALID_DIMENSION, || {
+            c!(deldrift_create(bad, numbers.as_ptr(), 2, null(), &mut created))
+        });
+        let mut options = self.options;
+        options.cancel = None;
+        match self.s.below(6) {
+            0 => options.struct_size = self.s.pick(&[0, 1, 9, 4097, usize::MAX]),
+            1 => options.algorithm = self.s.pick(&[5, 15, 20, 999, 1002, u32::MAX]),
+            2 => options.coincidence = 2,
+            3 => options.track_changes = 2,
+            _ => options.switch_share = self.s.pick(&[f64::NAN, -0.5, 1.5]),
+        }
+        let wanted = DELDRIFT_INVALID_OPTIONS;
+        self.expect(wanted, || c!(deldrift_create(d, numbers.as_ptr(), 1, &options, &mut created)));
+        let data = self.saved();
+        let (start, size) = (data.as_ptr(), data.len());
+        self.expect(wanted, || c!(deldrift_load(start.cast(), size, &options, &mut created)));
+        let cut = self.s.below(size.min(256));
+        self.expect(DELDRIFT_INVALID_DATA, || {
+            c!(deldrift_load(start.cast(), cut.max(1), null(), &mut created))
+        });
+        self.expect(DELDRIFT_IO_ERROR, || {
+            c!(deldrift_load_file(c"/nowhere/at/all".as_ptr(), null(), &mut created))
+        });
+        let t = self.t;
+        self.expect(wanted, || c!(deldrift_set_algorithm(t, 7)));
+        assert!(created.is_null(), "an output of a call that failed");
+    }
+
+    fn refuse_counts(&mut self) {
+        let (t, n) = (self.t, self.m.positions.len());
+        let huge = usize::MAX / 2;
+        let (number, id, mut out, mut count) = (0.5, 0u32, 77, 77);
+        let overflow = DELDRIFT_SIZE_OVERFLOW;
+        self.expect(overflow, || c!(deldrift_stage_insertions(t, &number, huge, &mut out)));
+        self.expect(overflow, || c!(deldrift_move_vertices(t, &id, &number, huge)));
+        self.expect(overflow, || c!(deldrift_stage_removals(t, &id, huge)));
+        let more = vec![0.5; (n + 1) * 3];
+        self.expect(DELDRIFT_WRONG_COUNT, || c!(deldrift_move_vertices(t, null(), more.as_ptr(), n + 1)));
+        if self.m.staged.is_empty() {
+            self.expect(DELDRIFT_WRONG_COUNT, || {
+                c!(deldrift_commit_positions(t, more.as_ptr(), n + 1, null_mut()))
+            });
+        }
+        let mut offsets = vec![77; n + 3];
+        let start = offsets.as_mut_ptr();
+        self.expect(DELDRIFT_WRONG_COUNT, || {
+            c!(deldrift_vertex_cells(t, start, n + 2, null_mut(), 0, &mut count))
+        });
+        self.expect(DELDRIFT_WRONG_COUNT, || {
+            c!(deldrift_vertex_neighbours(t, start, n, null_mut(), 0, &mut count))
+        });
+        let cells = self.cells().0.len();
+        let mask = vec![1; cells + 1];
+        let none = null_mut::<u32>();
+        self.expect(DELDRIFT_WRONG_COUNT, || {
+            c!(deldrift_mask_boundary(t, mask.as_ptr(), cells + 1, none, none, null_mut(), 0, &mut count))
+        });
+        assert!(offsets.iter().all(|&x| x == 77) && (out, count) == (77, 77));
+        if n > 0 {
+            self.expect(DELDRIFT_BUFFER_TOO_SMALL, || c!(deldrift_compact(t, &mut out, n - 1, &mut count)));
+            assert_eq!(count, n);
+        }
+    }
+
+    fn refuse_values(&mut self) {
+        let (t, d) = (self.t, self.m.d);
+        let (mut count, n) = (77, self.m.positions.len());
+        let level = self.s.pick(&[0, 4, u32::MAX]);
+        self.expect(DELDRIFT_INVALID_LEVEL, || c!(deldrift_validate(t, level)));
+        let wanted = DELDRIFT_INVALID_VALUE;
+        let square = self.s.pick(&[-1.0, f64::NAN, -f64::MIN_POSITIVE, f64::NEG_INFINITY]);
+        self.expect(wanted, || c!(deldrift_mask_by_circumradius(t, square, null_mut(), 0, &mut count)));
+        let (low, high) = ([1.0; 3], [1.0; 3]);
+        let [low, high] = [low.as_ptr(), high.as_ptr()];
+        self.expect(wanted, || c!(deldrift_voronoi_volumes(t, low, high, null_mut(), 0, &mut count)));
+        self.expect(wanted, || c!(deldrift_voronoi_facets(t, low, high, null_mut(), 0, &mut count)));
+        let values = vec![0.0; n + 1];
+        let (values, place, mut result) = (values.as_ptr(), [0.5; 3], 77.0);
+        self.expect(wanted, || {
+            c!(deldrift_interpolate(t, 2, values, n, 1, place.as_ptr(), 1, null(), null(), &mut result))
+        });
+        self.expect(DELDRIFT_WRONG_COUNT, || {
+            c!(deldrift_interpolate(t, 0, values, n + 1, 1, place.as_ptr(), 1, null(), null(), &mut result))
+        });
+        let cells = self.cells().0.len() as u32;
+        let mut mirror = 77;
+        self.expect(DELDRIFT_NO_SUCH_FACET, || c!(deldrift_mirror_index(t, cells, 0, &mut mirror)));
+        if cells > 0 {
+            self.expect(DELDRIFT_NO_SUCH_FACET, || {
+                c!(deldrift_mirror_index(t, 0, d as u32 + 1, &mut mirror))
+            });
+        }
+        assert_eq!((count, mirror, result), (77, 77, 77.0), "an output of a call that failed");
+    }
+}
