@@ -145,6 +145,29 @@ fn histories<G: Dimension>(algorithm: Algorithm) {
     }
 }
 
+/// From one to seven threads, by every algorithm, on inputs of every kind.
+fn on_one_to_seven<G: Dimension>() {
+    let threads: Vec<u32> = (1..=7).collect();
+    for (i, algorithm) in Algorithm::ALL.into_iter().enumerate() {
+        let (kind, rng) = (KINDS[i % KINDS.len()], &mut Rng::new(i as u64));
+        let mut now = draw::<G>(kind, 900, rng);
+        let mut all = on_threads::<G>(&now, algorithm, &threads);
+        for step in 0..4 {
+            motion::<G>(step, &mut now, rng);
+            for t in &mut all {
+                t.commit_positions(&now).expect("positions in range");
+            }
+            assert_all_same(&all, &|| format!("{}D, {algorithm:?}, {kind:?}, step {step}", G::D));
+        }
+    }
+}
+
+#[test]
+fn every_algorithm_on_one_to_seven_threads() {
+    on_one_to_seven::<Plane>();
+    on_one_to_seven::<Space>();
+}
+
 #[test]
 fn rebuilding_in_the_plane() {
     histories::<Plane>(Algorithm::Rebuilding);
