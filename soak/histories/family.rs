@@ -46,7 +46,7 @@ impl<G: Dimension> Source<G> {
     pub fn new(n: usize, rng: &mut Rng) -> Self {
         let family = *rng.pick(&FAMILIES);
         // Whose every sign is left to exact arithmetic, in numbers of thousands of bits.
-        let n = if family == Family::Magnitudes { n.min(60) } else { n };
+        let n = if family == Family::Magnitudes { n.min(160 / G::D.pow(2)) } else { n };
         let sphere = if family == Family::Cospherical { integer_sphere::<G>() } else { Vec::new() };
         Source { family, n, sphere }
     }
@@ -113,8 +113,8 @@ impl<G: Dimension> Frame<G> {
             }
             // The largest coordinates, and the least numbers that there are: these have no filter.
             3 => (at(2f64.powi(173)), 6000),
-            4 => (at(0.5f64.powi(1054)), 150),
-            5 => (at(0.5f64.powi(540)), 150),
+            4 => (at(0.5f64.powi(1054)), 500 / G::D.pow(2)),
+            5 => (at(0.5f64.powi(540)), 500 / G::D.pow(2)),
             6 => (at(0.5f64.powi(60)), usize::MAX),
             _ => (at(1.0), usize::MAX),
         }

@@ -107,19 +107,13 @@ impl<G: Dimension> History<G> {
         Outcome { tally: self.tally, checksum: self.checksum }
     }
 
-    /// Between phases it may be compacted, saved and loaded, or cloned.
+    /// Between phases it may be compacted, and goes on by another algorithm.
     fn begin_phase(&mut self) -> Phase<G> {
         if self.now.contains(&None) && self.rng.one_in(3) {
             self.compact();
         }
-        match self.rng.below(12) {
-            0 => self.load(),
-            1 => {
-                self.note(|| "clone".to_string());
-                self.t = self.t.try_clone(None).expect("room");
-                self.tally.clones += 1;
-            }
-            _ => {}
+        if self.rng.one_in(6) {
+            self.copy();
         }
         let algorithm = if self.rng.one_in(3) { *self.rng.pick(&Algorithm::ALL) } else { self.algorithm };
         self.tally.algorithm_changes += u64::from(algorithm != self.t.algorithm());
@@ -157,10 +151,18 @@ impl<G: Dimension> History<G> {
             self.now[v] = Some(*q);
         }
         let is_whole = chosen.len() == self.t.id_count() && chosen.is_sorted();
-        let committed = match (is_whole, self.rng.below(3)) {
-            (true, 0) => self.t.move_all(&places).and_then(|()| self.t.commit_timestamp()),
-            (true, 1) => self.t.commit_positions(&places),
-            _ => self.t.move_vertices(chosen, &places).and_then(|()| self.t.commit_timestamp()),
+        let committed = if is_whole && self.rng.one_in(3) {
+            self.t.commit_positions(&places)
+        } else {
+            let staged = if is_whole && self.rng.one_in(2) {
+                self.t.move_all(&places)
+            } else {
+                self.t.move_vertices(chosen, &places)
+            };
+            if self.rng.one_in(40) {
+                self.copy();
+            }
+            staged.and_then(|()| self.t.commit_timestamp())
         };
         let report = committed.unwrap_or_else(|error| panic!("{}", self.context(&error.to_string())));
         if report.moved != moved {
@@ -254,7 +256,14 @@ impl<G: Dimension> History<G> {
         self.check(false);
     }
 
-    fn load(&mut self) {
+    /// Goes on with what has been saved and loaded, or with a clone, whatever is staged.
+    fn copy(&mut self) {
+        if self.rng.one_in(2) {
+            self.note(|| "clone".to_string());
+            self.t = self.t.try_clone(None).expect("room");
+            self.tally.clones += 1;
+            return;
+        }
         let threads = 1 + self.rng.below(3) as u32;
         self.note(|| format!("save and load, {threads} threads from now on"));
         let bytes = self.t.saved().expect("room");
