@@ -135,5 +135,5 @@ fn resident_megabytes() -> u64 {
     let pages = std::fs::read_to_string("/proc/self/statm")
         .ok()
         .and_then(|text| text.split(' ').nth(1).and_then(|pages| pages.parse::<u64>().ok()));
-    pages.map_or(0, |pages| pages * 4096 >> 20)
+    pages.map_or(0, |pages| pages / 256)
 }

@@ -38,7 +38,7 @@ pub struct History<G: Dimension> {
 /// How many points a history has at most, by its seed: they grow, up to some 10,000s.
 fn most_points<G: Dimension>(seed: u64) -> usize {
     let (first, step, most) = if G::D == 2 { (16, 24, 40_000) } else { (16, 8, 12_000) };
-    (first + step * usize::try_from(seed / 2).unwrap_or(most)).min(most)
+    step.saturating_mul(usize::try_from(seed / 2).unwrap_or(most)).saturating_add(first).min(most)
 }
 
 impl<G: Dimension> History<G> {
@@ -358,7 +358,10 @@ impl<G: Dimension> History<G> {
         };
         let (extra, missing) = (first(&found, &expected), first(&expected, &found));
         let concerned: BTreeSet<VertexId> = extra.iter().chain(&missing).flatten().copied().collect();
-        let mut text = format!("wrongly there: {extra:?}; missing: {missing:?}");
+        let valid =
+            self.t.validate(Level::Delaunay).map_or_else(|v| v.to_string(), |()| "nothing".to_string());
+        let mut text =
+            format!("wrongly there: {extra:?}; missing: {missing:?}; the validation finds wrong: {valid}");
         for v in concerned {
             text += &format!("\n  vertex {v} at {:?}", places[v]);
         }
