@@ -37,7 +37,8 @@ pub struct History<G: Dimension> {
 
 /// How many points a history has at most, by its seed: they grow, up to some 10,000s.
 fn most_points<G: Dimension>(seed: u64) -> usize {
-    let (first, step, most) = if G::D == 2 { (16, 24, 40_000) } else { (16, 8, 12_000) };
+    let (first, step, most): (usize, usize, usize) =
+        if G::D == 2 { (16, 24, 40_000) } else { (16, 8, 12_000) };
     step.saturating_mul(usize::try_from(seed / 2).unwrap_or(most)).saturating_add(first).min(most)
 }
 
