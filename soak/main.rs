@@ -16,8 +16,10 @@
 //! - what has been carried along by the change list is what there is.
 //!
 //! After every commit of up to 100 points, and one in eight of more, all certificates are evaluated exactly
-//! (`Level::Delaunay`), and all neighbours are looked at. The checksum is of all cells after every commit: it depends on
-//! the seeds alone, not on the time, the threads, the build or the processor.
+//! (`Level::Delaunay`), and all neighbours are looked at. The checksum is of all cells after every commit: it depends
+//! on the seeds alone, not on the time, the threads, the build or the processor.
+//!
+//! A process that dies has printed the seeds that were running up to a minute before; `--from` goes on from there.
 
 #[path = "../tests/common/mod.rs"]
 mod common;

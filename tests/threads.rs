@@ -307,10 +307,10 @@ fn cancelled_commits_have_no_effect() {
     }
 }
 
-/// Steps so short that hardly a facet is stuck, so that a thread that forgets one, or one that it leaves to the others,
-/// is not saved by another round.
+/// Steps so short that hardly a facet is stuck: another round, on one thread, would find the facets that a thread has
+/// left to the others, if these were forgotten.
 #[test]
-fn few_facets_are_stuck() {
+fn facets_left_to_other_threads() {
     let mut rng = Rng::new(8);
     let mut now: Vec<[f64; 3]> = (0..2000).map(|_| [(); 3].map(|()| 12.5 * rng.unit())).collect();
     let mut all = on_threads::<Space>(&now, Algorithm::Repair, &[1, 2, 3]);

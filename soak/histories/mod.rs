@@ -71,8 +71,8 @@ pub fn dimension_of(seed: u64) -> usize {
     2 + (seed % 2) as usize
 }
 
-/// Runs the history of a seed; panics at the first mismatch, with what there is to know about it. A loud one prints what
-/// it does before it does it.
+/// Runs the history of a seed; panics at the first mismatch, with what there is to know about it. A loud one prints
+/// what it does before it does it.
 pub fn run(seed: u64, is_loud: bool) -> Outcome {
     deldrift::internals::use_all_threads();
     match dimension_of(seed) {

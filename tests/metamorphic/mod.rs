@@ -92,8 +92,8 @@ fn exact_translations_change_nothing() {
     translation::<Space>();
 }
 
-/// Axes exchanged and reversed, and a rotation: in the plane by an angle of cosine 3/5, times 5, in space by a sixth of a
-/// turn about (1, 1, 1), times 3.
+/// Axes exchanged and reversed, and a rotation: in the plane by an angle of cosine 3/5, times 5, in space by a sixth
+/// of a turn about (1, 1, 1), times 3.
 fn similarity<G: Dimension>() {
     for_all::<G>(1, |scenario, expected, algorithm, rng| {
         let mut axes: Vec<usize> = (0..G::D).collect();

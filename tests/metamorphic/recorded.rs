@@ -12,7 +12,7 @@ const RECORDED: [u64; 2] = [0x0df2_185c_5a55_2384, 0xe05d_2f15_0d12_bbad];
 /// Says that a process is the second one.
 const SECOND: &str = "DELDRIFT_METAMORPHIC_SECOND";
 
-/// FNV-1a (RFC 9923) over the numbers of the vertices of all cells in order.
+/// FNV-1a over the numbers of the vertices of all cells in order.
 fn add(sum: &mut u64, cells: &CellSet) {
     let mut enter = |number: u32| {
         for byte in number.to_le_bytes() {
