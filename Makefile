@@ -10,6 +10,8 @@ ARGS ?=
 # What is fuzzed, and for how long.
 TARGET ?= calls
 SECONDS ?= 60
+# How long `make soak` goes on; fractions are allowed.
+HOURS ?= 1
 
 # Debian packages that the benchmark is built with.
 BENCHMARK_NEEDS := cmake g++ libcgal-dev libcli11-dev libfmt-dev doctest-dev
@@ -32,7 +34,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test bench report memory large targets calibrate table lint header doc picture install examples
+.PHONY: help test soak bench report memory large targets calibrate table lint header doc picture install examples
 .PHONY: compat demo deb dist library benchmark clean faults tsan miri fuzz
 
 help: ## this list
@@ -50,6 +52,9 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 	$(MAKE) compat
 	ctest --test-dir build/compat --output-on-failure
 	cpp-bench/report_page/test_page.py
+
+soak: ## random histories against fresh builds, on two threads: cpp-bench/results/soak.csv (HOURS=1, or ARGS="--seed 7")
+	cargo bench --bench soak -- $(or $(ARGS),--hours $(HOURS) --csv cpp-bench/results/soak.csv)
 
 bench: benchmark ## deldrift beside CGAL: tables, cpp-bench/results/bench.csv and structured.csv (PRESET=quick or full)
 	cpp-bench/run --preset $(PRESET) $(ARGS)

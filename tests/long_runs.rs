@@ -1,6 +1,9 @@
-//! Runs of thousands of commits: whatever is kept from commit to commit stays as it is after the first ones.
+//! Runs of thousands of commits: whatever is kept from commit to commit stays as it is after the first ones. And the
+//! first histories of `make soak`.
 
 mod common;
+#[path = "../soak/histories/mod.rs"]
+mod histories;
 
 use common::{Rng, assert_same_cells, cell_set, fresh_cells};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
@@ -87,4 +90,30 @@ fn ten_thousand_commits_of_a_drifting_cloud_in_space() {
     for algorithm in [Algorithm::Auto, Algorithm::Repair, Algorithm::Tolerance, Algorithm::PlacementFlips] {
         stays_as_it_is::<Space>(algorithm, 40, drift::<Space>);
     }
+}
+
+/// Those of the plane or of space: the checksums are the same in every build.
+fn soak<G: Dimension>() {
+    let mut sum = histories::Tally::default();
+    for (seed, &recorded) in (0..).zip(&histories::RECORDED) {
+        if histories::dimension_of(seed) == G::D {
+            let outcome = histories::run(seed, false);
+            assert_eq!(outcome.checksum, recorded, "seed {seed}: {:#018x}", outcome.checksum);
+            sum.add(&outcome.tally);
+        }
+    }
+    // They do what they are for.
+    let rare = sum.loads.min(sum.clones).min(sum.compactions).min(sum.insertions).min(sum.removals);
+    let ways = sum.flips.min(sum.placements).min(sum.rebuilds).min(sum.within_tolerance);
+    assert!(sum.comparisons > sum.commits && 50 * rare > sum.commits && 10 * ways > sum.commits, "{sum:?}");
+}
+
+#[test]
+fn the_first_histories_of_the_soak_in_the_plane() {
+    soak::<Plane>();
+}
+
+#[test]
+fn the_first_histories_of_the_soak_in_space() {
+    soak::<Space>();
 }

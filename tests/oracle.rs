@@ -2,6 +2,7 @@
 //! those of a triangulation made at once of the present positions and ids (see `common/history.rs`).
 
 mod common;
+mod metamorphic;
 
 use common::history::{History, Snapshot, nudged};
 use common::inputs::{KINDS, Kind, draw, integer_sphere, on_sphere};

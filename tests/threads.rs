@@ -145,6 +145,43 @@ fn histories<G: Dimension>(algorithm: Algorithm) {
     }
 }
 
+/// From one to seven threads, by every algorithm: points that are about 1 apart, or a lattice, tremble, meet and are
+/// reflected.
+fn on_one_to_seven<G: Dimension>(side: usize) {
+    let threads: Vec<u32> = (1..=7).collect();
+    for (i, algorithm) in Algorithm::ALL.into_iter().enumerate() {
+        for is_lattice in [false, true] {
+            let mut rng = Rng::new(i as u64);
+            let place = |v: usize, k: usize, rng: &mut Rng| {
+                if is_lattice { (v / side.pow(k as u32) % side) as f64 } else { side as f64 * rng.unit() }
+            };
+            let mut now: Vec<G::Point> =
+                (0..side.pow(G::D as u32)).map(|v| point::<G>(|k| place(v, k, &mut rng))).collect();
+            let mut all = on_threads::<G>(&now, algorithm, &threads);
+            for (step, size) in [0.02, 0.05, 0.0, 0.02, 1e-4].into_iter().enumerate() {
+                for v in 0..now.len() {
+                    (0..G::D).for_each(|k| now[v][k] += size * (rng.unit() - 0.5));
+                    if step == 2 {
+                        now[v] = if rng.one_in(10) { now[rng.below(v + 1)] } else { now[v] };
+                        now[v][0] = -now[v][0];
+                    }
+                }
+                for t in &mut all {
+                    t.commit_positions(&now).expect("positions in range");
+                }
+                let context = || format!("{}D, {algorithm:?}, lattice: {is_lattice}, step {step}", G::D);
+                assert_all_same(&all, &context);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_algorithm_on_one_to_seven_threads() {
+    on_one_to_seven::<Plane>(24);
+    on_one_to_seven::<Space>(8);
+}
+
 #[test]
 fn rebuilding_in_the_plane() {
     histories::<Plane>(Algorithm::Rebuilding);
@@ -267,5 +304,23 @@ fn cancelled_commits_have_no_effect() {
         for (v, p) in points.iter().enumerate() {
             assert_eq!(t.position(VertexId::at(v)), Ok(*p));
         }
+    }
+}
+
+/// Steps so short that hardly a facet is stuck: another round, on one thread, would find the facets that a thread has
+/// left to the others, if these were forgotten.
+#[test]
+fn facets_left_to_other_threads() {
+    let mut rng = Rng::new(8);
+    let mut now: Vec<[f64; 3]> = (0..2000).map(|_| [(); 3].map(|()| 12.5 * rng.unit())).collect();
+    let mut all = on_threads::<Space>(&now, Algorithm::Repair, &[1, 2, 3]);
+    for step in 0..20 {
+        let size = [0.009, 0.012, 0.015, 0.018, 0.022][step % 5];
+        now.iter_mut().flatten().for_each(|x| *x += size * (rng.unit() - 0.5));
+        for t in &mut all {
+            let report = t.commit_positions(&now).expect("positions in range");
+            assert!(report.rebuilds == 0 && report.flips > 30, "{report:?}");
+        }
+        assert_all_same(&all, &|| format!("step {step}"));
     }
 }
