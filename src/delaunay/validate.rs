@@ -18,6 +18,7 @@ use super::{Delaunay, Dimension, order};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::ids::Slot;
 use crate::machine::memory;
+use crate::predicates::StaticFilter;
 
 /// How much is checked; each level includes the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,6 +41,22 @@ fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point, attempt: u32) -> G::
     }
     aim
 }
+
+/// A point of a curve that meets any hyperplane in at most as many points as there are dimensions.
+fn aim_on_curve<G: Dimension>(step: u32) -> G::Point {
+    let mut aim = G::Point::default();
+    let mut power = 1.0;
+    for k in 0..G::D {
+        power *= f64::from(step);
+        aim[k] = power;
+    }
+    aim
+}
+
+/// Aims in the box of the hull that are tried: the first nearly always serves.
+const AIMS_IN_BOX: u32 = 64;
+/// Aims on the curve: the third powers of smaller numbers are exact.
+const AIMS_ON_CURVE: u32 = 1 << 17;
 
 /// The first thing found wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -243,7 +260,7 @@ impl<G: Dimension> Delaunay<G> {
                 o[k] =
                     (0..G::Corners::N).map(|i| self.site(corners[i]).point[k] / G::Corners::N as f64).sum();
             }
-            let inside = (0..G::D).all(|k| crate::predicates::is_in_range(o[k]))
+            let inside = self.is_covered(&o)
                 && (0..G::Corners::N)
                     .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &o) > 0.0);
             inside.then_some(o)
@@ -313,41 +330,52 @@ impl<G: Dimension> Delaunay<G> {
         })
     }
 
-    /// How many of the ghosts' facets a ray from `o` that meets no ridge crosses, and a point on it.
+    /// How many of the ghosts' facets, all of which have `o` on their inner side, a ray from `o` that meets no ridge
+    /// crosses, and a point on it.
+    ///
+    /// Where the hull is a few roundings wide, its box may have no other aims than `o` and points behind ridges. Of
+    /// those on the curve, each ridge is in the way of as many as there are dimensions at most, since it is in one
+    /// hyperplane with `o`.
     fn crossings_of(&self, ghosts: impl Iterator<Item = Slot> + Clone, o: &G::Point) -> (usize, G::Point) {
         // The box of the hull: that of the filter may be far wider.
         let corners = ghosts.clone().map(|g| &self.complex.cell(g).corners.as_ref()[..Self::LAST]);
         let places = corners.flatten().map(|&s| &self.site(s).point);
         let (lower, upper) = order::bounding_box::<G>(places).unwrap_or_default();
-        let aims = (0..1024).map(|attempt| aim_in::<G>(&lower, &upper, attempt));
-        aims.filter_map(|aim| Some((self.crossings(ghosts.clone(), o, &aim)?, aim))).next().unwrap_or((0, *o))
+        let in_box = (0..AIMS_IN_BOX).map(|attempt| aim_in::<G>(&lower, &upper, attempt));
+        let mut aims = in_box.chain((1..AIMS_ON_CURVE).map(aim_on_curve::<G>));
+        let crossings = |aim: G::Point| {
+            // Aims may be out of the box of the triangulation's filter.
+            let (lower, upper) = order::bounding_box::<G>([&lower, &upper, o, &aim].into_iter())?;
+            let filter = G::filter(&lower, &upper);
+            Some((self.crossings(&filter, ghosts.clone(), o, &aim)?, aim))
+        };
+        aims.find_map(crossings).unwrap_or((0, *o))
     }
 
     /// How many facets the ray from `o` through `aim` crosses; `None` if it meets a ridge.
-    fn crossings(&self, ghosts: impl Iterator<Item = Slot>, o: &G::Point, aim: &G::Point) -> Option<usize> {
-        if (0..G::D).any(|k| !crate::predicates::is_in_range(aim[k])) || aim == o {
-            return None;
-        }
+    fn crossings(
+        &self,
+        filter: &StaticFilter,
+        ghosts: impl Iterator<Item = Slot>,
+        o: &G::Point,
+        aim: &G::Point,
+    ) -> Option<usize> {
         let mut crossings = 0;
         for c in ghosts {
-            match self.is_crossed(c, o, aim) {
-                Some(true) => crossings += 1,
-                Some(false) => {}
-                None => return None,
-            }
+            crossings += usize::from(self.is_crossed(filter, c, o, aim)?);
         }
         Some(crossings)
     }
 
     /// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side;
-    /// `None` if it meets the boundary of the facet.
-    fn is_crossed(&self, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
+    /// `None` if it meets the boundary of the facet, or there is no ray.
+    fn is_crossed(&self, filter: &StaticFilter, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
         let mut is_crossed = Some(true);
         for i in 0..G::D {
             let mut points = self.view().points(&self.complex.cell(ghost).corners);
             (points[i], points[Self::LAST]) = (aim, o);
             // The facet of a ghost is oriented as seen from outside: negative, with a point on the inner side.
-            let sign = G::orient(&self.filter, &points[..G::Corners::N]);
+            let sign = G::orient(filter, &points[..G::Corners::N]);
             if sign > 0.0 {
                 return Some(false);
             }

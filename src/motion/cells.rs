@@ -58,6 +58,8 @@ pub(super) struct Cells<G: Dimension> {
     since_taken: Option<Tracker<G::Vertices>>,
     /// What has changed since the latest commit began, if that is tracked.
     since_commit: Option<Tracker<G::Vertices>>,
+    /// Whether that commit has succeeded: the tracker may be there from a first one that failed.
+    has_committed: bool,
     scratch: Scratch<G::Vertices>,
 }
 
@@ -118,6 +120,7 @@ impl<G: Dimension> Default for Cells<G> {
             is_settled: Bits::default(),
             since_taken: None,
             since_commit: None,
+            has_committed: false,
             scratch: Scratch::default(),
         }
     }
@@ -198,13 +201,14 @@ impl<G: Dimension> Cells<G> {
     pub(super) fn begin_commit(&mut self) {
         if let Some(tracker) = &mut self.since_commit {
             tracker.reset();
+            self.has_committed = true;
         }
     }
 
-    /// Lists, ascending, the cells created since the latest commit began, if that is tracked.
+    /// Lists, ascending, the cells created since the latest commit began, if that is tracked; none before the first.
     pub(super) fn list_created(&self) -> Result<Vec<CellId>> {
         let mut created = Vec::new();
-        if let Some(tracker) = &self.since_commit {
+        if let Some(tracker) = self.since_commit.as_ref().filter(|_| self.has_committed) {
             tracker.list_created(&self.corners, &mut created)?;
         }
         Ok(created)
@@ -318,6 +322,7 @@ impl<G: Dimension> Cells<G> {
             orderings: memory::copy_of(&self.orderings)?,
             since_taken: self.since_taken.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
             since_commit: self.since_commit.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
+            has_committed: self.has_committed,
             ..Cells::default()
         };
         memory::reserve_exact(&mut cells.index_of, n_slots)?;
@@ -340,6 +345,7 @@ impl<G: Dimension> Cells<G> {
             orderings: memory::copy_of(&self.orderings)?,
             since_taken: self.since_taken.as_ref().map(Tracker::copied).transpose()?,
             since_commit: self.since_commit.as_ref().map(Tracker::copied).transpose()?,
+            has_committed: self.has_committed,
             ..Cells::default()
         })
     }

@@ -25,7 +25,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Indices, ascending, of the finite cells that did not exist when the latest commit began: of none before the
-    /// first one. Immediate relocations, insertions and removals since then count.
+    /// first one since it was made or loaded. Immediate relocations, insertions and removals since then count.
     ///
     /// # Errors
     /// [`Error::ChangesNotTracked`] unless the options ask for it, [`Error::OutOfMemory`].
@@ -33,10 +33,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.options.track_changes {
             return Err(Error::ChangesNotTracked);
         }
-        // A tracker may be there from a first commit that failed.
-        let has_committed = self.timestamp() > 0;
-        self.views
-            .changed(&self.kernel, |cells| if has_committed { cells.list_created() } else { Ok(Vec::new()) })
+        self.views.changed(&self.kernel, Cells::list_created)
     }
 
     /// Gets ready to track what a commit changes, if the options ask for it.
