@@ -288,3 +288,26 @@ fn short_relocations_are_like_long_ones() {
         }
     }
 }
+
+/// A vertex must not move for being on its side of a sphere if the others of the bi-cell may be on the wrong one: so
+/// near to each other, rounding leaves no sphere between them.
+#[test]
+fn what_rounding_does_not_separate_has_no_safe_region() {
+    let mut now = [
+        [3e-12, 6.999999999996],
+        [1e-14, 6.99999999999996],
+        [-7.0000000000003, -99.90000000000049],
+        [-1e-13, 6.9999999999998],
+        [-6.9999999999999, -99.90000000000019],
+    ];
+    let start = now;
+    now[4] = [-6.99999999999996, -99.90000000000003];
+    for algorithm in MAINTENANCE {
+        let options = Options { algorithm, ..Options::default() };
+        let mut t = MovingTriangulation::<Plane>::new(&start, options).expect("a build");
+        t.move_vertices(&[vertex(4)], &now[4..]).expect("a move");
+        t.commit_timestamp().expect("a commit");
+        t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("{algorithm:?}: {v}"));
+        assert_same_cells(&cell_set(&t), &fresh_cells::<Plane>(&now.map(Some)), || format!("{algorithm:?}"));
+    }
+}

@@ -133,8 +133,11 @@ impl<G: Dimension> SafeRegions<G> {
         let (tolerance, reach) = match bicell.delimiter() {
             Some(delimiter) => {
                 let across = kernel.complex().cell(facet.cell()).neighbour(facet.index());
-                self.delimiters[facet.code().min(across.code()) as usize] =
-                    (delimiter.centre, delimiter.radius);
+                // The test only looks at the vertex that moves: the others must certainly be on their sides. If
+                // rounding leaves that open there are no sides: no place is certainly on either side of this sphere.
+                let is_certain = delimiter.half_width > 0.0;
+                let radius = if is_certain { delimiter.radius } else { f64::NAN };
+                self.delimiters[facet.code().min(across.code()) as usize] = (delimiter.centre, radius);
                 (delimiter.tolerance, delimiter.reach)
             }
             None => {
