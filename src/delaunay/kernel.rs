@@ -71,11 +71,9 @@ pub trait Kernel<G: Dimension> {
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<G>, cell: Slot) -> bool;
 
-    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each.
-    fn cells_hold(avx2: Avx2, t: &Delaunay<G>, cells: &[Slot; LANES], apexes: [&[SiteId; LANES]; 4]) -> u32;
-
-    /// As [`cells_hold`](Self::cells_hold), by bounds of their own; and what the static ones would say.
-    fn cells_hold_by_own_bounds(
+    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each. By
+    /// bounds of the cells' own, if they have these, and by the static ones, which are looser.
+    fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         t: &Delaunay<G>,
         cells: &[Slot; LANES],

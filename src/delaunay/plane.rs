@@ -83,48 +83,27 @@ impl Kernel<Plane> for Plane {
     }
 
     #[inline(always)]
-    fn cells_hold(
-        avx2: Avx2,
-        t: &Delaunay<Plane>,
-        cells: &[Slot; LANES],
-        apexes: [&[SiteId; LANES]; 4],
-    ) -> u32 {
-        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
-        let circle = predicates::circle(&a, &b, &c);
-        let mut hold = avx2.splat(t.filter.orient).is_less(circle[2]);
-        for apexes in &apexes[..3] {
-            let side = predicates::side_of_circle(&circle, &a, &places(avx2, t.view(), **apexes));
-            hold = hold
-                & (side.is_less(avx2.splat(-t.filter.prepared))
-                    | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
-        }
-        hold.bits()
-    }
-
-    #[inline(always)]
-    fn cells_hold_by_own_bounds(
+    fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         t: &Delaunay<Plane>,
         cells: &[Slot; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> [u32; 2] {
-        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
+        let [a, b, c] = corners(avx2, t.view(), cells.map(|c| t.complex.cell(c).corners));
         let circle = predicates::circle(&a, &b, &c);
         let own = OwnBounds2d::new(&a, &b, &c);
-        let mut hold = own.area().is_less(circle[2]);
         let mut hold_for_all = avx2.splat(t.filter.orient).is_less(circle[2]);
+        let mut hold = if HAVE_OWN_BOUNDS { own.area().is_less(circle[2]) } else { hold_for_all };
         for apexes in &apexes[..3] {
             let q = places(avx2, t.view(), **apexes);
             let side = predicates::side_of_circle(&circle, &a, &q);
             let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
-            hold = hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none);
             hold_for_all = hold_for_all & (side.is_less(avx2.splat(-t.filter.prepared)) | is_none);
+            hold = if HAVE_OWN_BOUNDS {
+                hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none)
+            } else {
+                hold_for_all
+            };
         }
         [hold.bits(), hold_for_all.bits()]
     }
@@ -134,12 +113,10 @@ impl Kernel<Plane> for Plane {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Plane>,
-        [k, l, m, n]: &[[SiteId; 3]; LANES],
+        cells: &[[SiteId; 3]; LANES],
         others: &[SiteId; LANES],
     ) -> u32 {
-        let a = places(avx2, sites, [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, sites, [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, sites, [k[2], l[2], m[2], n[2]]);
+        let [a, b, c] = corners(avx2, sites, *cells);
         let circle = predicates::circle(&a, &b, &c);
         let side = predicates::side_of_circle(&circle, &a, &places(avx2, sites, *others));
         side.is_less(avx2.splat(-f.prepared)).bits()
@@ -212,6 +189,16 @@ impl Kernel<Plane> for Plane {
         let same = [same[0] & 3, same[0] >> 2, same[1] & 3, same[1] >> 2];
         same.iter().map(|&bits| u64::from(bits != 3)).sum()
     }
+}
+
+/// The places of the corners of cells, by corner.
+#[inline(always)]
+fn corners(avx2: Avx2, all: Sites<Plane>, [k, l, m, n]: [[SiteId; 3]; LANES]) -> [[Lanes; 2]; 3] {
+    [
+        places(avx2, all, [k[0], l[0], m[0], n[0]]),
+        places(avx2, all, [k[1], l[1], m[1], n[1]]),
+        places(avx2, all, [k[2], l[2], m[2], n[2]]),
+    ]
 }
 
 #[inline(always)]

@@ -84,50 +84,27 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
-    fn cells_hold(
-        avx2: Avx2,
-        t: &Delaunay<Space>,
-        cells: &[Slot; LANES],
-        apexes: [&[SiteId; LANES]; 4],
-    ) -> u32 {
-        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
-        let d = places(avx2, t.view(), [k[3], l[3], m[3], n[3]]);
-        let sphere = predicates::sphere(&a, &b, &c, &d);
-        let mut hold = avx2.splat(t.filter.orient).is_less(sphere[3]);
-        for apexes in apexes {
-            let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t.view(), *apexes));
-            hold = hold
-                & (side.is_less(avx2.splat(-t.filter.prepared))
-                    | avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get()));
-        }
-        hold.bits()
-    }
-
-    #[inline(always)]
-    fn cells_hold_by_own_bounds(
+    fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         t: &Delaunay<Space>,
         cells: &[Slot; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> [u32; 2] {
-        let [k, l, m, n] = cells.map(|c| t.complex.cell(c).corners);
-        let a = places(avx2, t.view(), [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, t.view(), [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, t.view(), [k[2], l[2], m[2], n[2]]);
-        let d = places(avx2, t.view(), [k[3], l[3], m[3], n[3]]);
+        let [a, b, c, d] = corners(avx2, t.view(), cells.map(|c| t.complex.cell(c).corners));
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let own = OwnBounds3d::new(&a, &b, &c, &d);
-        let mut hold = own.volume().is_less(sphere[3]);
         let mut hold_for_all = avx2.splat(t.filter.orient).is_less(sphere[3]);
+        let mut hold = if HAVE_OWN_BOUNDS { own.volume().is_less(sphere[3]) } else { hold_for_all };
         for apexes in apexes {
             let q = places(avx2, t.view(), *apexes);
             let side = predicates::side_of_sphere(&sphere, &a, &q);
             let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
-            hold = hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none);
             hold_for_all = hold_for_all & (side.is_less(avx2.splat(-t.filter.prepared)) | is_none);
+            hold = if HAVE_OWN_BOUNDS {
+                hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none)
+            } else {
+                hold_for_all
+            };
         }
         [hold.bits(), hold_for_all.bits()]
     }
@@ -137,13 +114,10 @@ impl Kernel<Space> for Space {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Space>,
-        [k, l, m, n]: &[[SiteId; 4]; LANES],
+        cells: &[[SiteId; 4]; LANES],
         others: &[SiteId; LANES],
     ) -> u32 {
-        let a = places(avx2, sites, [k[0], l[0], m[0], n[0]]);
-        let b = places(avx2, sites, [k[1], l[1], m[1], n[1]]);
-        let c = places(avx2, sites, [k[2], l[2], m[2], n[2]]);
-        let d = places(avx2, sites, [k[3], l[3], m[3], n[3]]);
+        let [a, b, c, d] = corners(avx2, sites, *cells);
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, sites, *others));
         side.is_less(avx2.splat(-f.prepared)).bits()
@@ -263,6 +237,17 @@ impl Kernel<Space> for Space {
         old[3].store_three_to(from(places, 9));
         (0..LANES).map(|k| u64::from(new[k].are_same(old[k]).bits() != ALL)).sum()
     }
+}
+
+/// The places of the corners of cells, by corner.
+#[inline(always)]
+fn corners(avx2: Avx2, all: Sites<Space>, [k, l, m, n]: [[SiteId; 4]; LANES]) -> [[Lanes; 3]; 4] {
+    [
+        places(avx2, all, [k[0], l[0], m[0], n[0]]),
+        places(avx2, all, [k[1], l[1], m[1], n[1]]),
+        places(avx2, all, [k[2], l[2], m[2], n[2]]),
+        places(avx2, all, [k[3], l[3], m[3], n[3]]),
+    ]
 }
 
 #[inline(always)]

@@ -86,9 +86,9 @@ impl<G: Dimension> Delaunay<G> {
             for k in 0..block.n.div_ceil(LANES) {
                 let apexes = block.apexes.each_ref().map(|a| &a[k]);
                 let [hold, hold_for_all] = if has_own_bounds {
-                    G::cells_hold_by_own_bounds(avx2, self, &block.cells[k], apexes)
+                    G::cells_hold::<true>(avx2, self, &block.cells[k], apexes)
                 } else {
-                    [G::cells_hold(avx2, self, &block.cells[k], apexes); 2]
+                    G::cells_hold::<false>(avx2, self, &block.cells[k], apexes)
                 };
                 n_hold += hold_for_all.count_ones() as usize;
                 let n = (block.n - k * LANES).min(LANES);
