@@ -13,6 +13,8 @@
 //! and a 3-2 flip the other way round. A 4-4 flip is both in a row, by way of a cell whose corners are in one plane: it
 //! changes the diagonal of a quadrilateral that has two cells on each side, which on one side may be ghosts.
 
+pub(crate) use replacing::NewCell;
+
 use super::{Cell, Complex, Corners, Facet, Row};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -319,5 +321,6 @@ impl<C: Corners> Complex<C> {
 /// The indices other than each, so that it and they are an even permutation.
 const AROUND: [[usize; 3]; 4] = [[1, 2, 3], [2, 0, 3], [0, 1, 3], [2, 1, 0]];
 
+mod replacing;
 #[cfg(test)]
 mod tests;

@@ -29,6 +29,7 @@ mod sorting;
 
 pub use cell::{Cell, Facet};
 pub use corners::{Corners, Entry};
+pub(crate) use flips::NewCell;
 pub use flips::{CellRange, Obstacle};
 pub use record::Row;
 

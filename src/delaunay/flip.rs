@@ -3,7 +3,8 @@
 //! A facet that fails the empty-sphere test is flipped. In the plane that is always possible and leads to the Delaunay
 //! triangulation (Lawson, 10.1016/B978-0-12-587260-7.50011-X). In space it is done if a 2-3, 3-2 or 4-4 flip there
 //! makes positive cells (Joe, 10.1016/0167-8396(91)90038-D); every flip lowers the lifted surface, so there is an
-//! end, but that can be short of the Delaunay triangulation. The cells that a flip is about to change are kept in a
+//! end, but that can be short of the Delaunay triangulation: what is around a facet that is stuck is then triangulated
+//! again, if it is small (`islands`). The cells that a flip is about to change are kept in a
 //! journal, so that all can be as it was; flips that stay are entered into the record of the complex from there.
 //!
 //! **Threads.** Cells near each other in space are near each other in storage once they have been sorted. So each
@@ -16,6 +17,8 @@
 //! for later. Sites keep their old cells until no flip will be taken back.
 
 pub use flipper::Flipper;
+
+use islands::Island;
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
@@ -36,7 +39,7 @@ const SAMPLE: usize = 1 << 10;
 /// Rows of a journal for which the memory is always kept.
 const KEPT: usize = 1 << 14;
 
-/// Free cells made at once where there are none.
+/// Least number of free cells made at once where there are none.
 const ROOM: usize = 16;
 
 /// What has been flipped, and what is to be.
@@ -142,6 +145,15 @@ impl<G: Dimension> Flips<G> {
     }
 }
 
+/// What happens to facets that are stuck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum WhenStuck {
+    /// What is around them is triangulated again, where that is possible.
+    Fill,
+    /// They stay: to place one vertex costs no more than to triangulate around it.
+    Leave,
+}
+
 /// Those of the last call, and the memory for the next one.
 #[derive(Debug)]
 pub(super) struct AllFlips<G: Dimension> {
@@ -154,6 +166,7 @@ pub(super) struct AllFlips<G: Dimension> {
     /// The cells there were, and those of them that were free, before several threads flipped.
     n_slots: usize,
     free: Vec<Slot>,
+    island: Island<G::Corners>,
 }
 
 impl<G: Dimension> Default for AllFlips<G> {
@@ -164,6 +177,7 @@ impl<G: Dimension> Default for AllFlips<G> {
             were_several: false,
             n_slots: 0,
             free: Vec::new(),
+            island: Island::default(),
         }
     }
 }
@@ -174,6 +188,7 @@ impl<G: Dimension> AllFlips<G> {
         flips.map(Flips::memory_bytes).sum::<usize>()
             + memory::bytes_of(&self.parts)
             + memory::bytes_of(&self.free)
+            + self.island.memory_bytes()
     }
 }
 
@@ -195,7 +210,7 @@ impl<G: Dimension> Delaunay<G> {
         // Unless the cells are sorted nearly all flips would need those of several threads.
         let n = if self.is_sorted { flips.own.suspects.len() } else { 0 };
         let n_threads = self.threads.for_work(n, FLIPPED_AT_LEAST, FLIPPED_IF_ASKED);
-        let done = self.flip_listed(&mut flips, n_threads, most);
+        let done = self.flip_listed(&mut flips, n_threads, most, WhenStuck::Fill);
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
         self.flips = flips;
@@ -226,13 +241,19 @@ impl<G: Dimension> Delaunay<G> {
             let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
             suspects.extend((0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i)));
         }
-        self.flip_listed(flips, 1, u64::MAX)
+        self.flip_listed(flips, 1, u64::MAX, WhenStuck::Leave)
     }
 
     /// Flips from the suspects, and keeps that unless flips are stuck or too many; returns their number, and `None` in
     /// the latter case. After an error all is as it was.
-    fn flip_listed(&mut self, flips: &mut AllFlips<G>, n_threads: usize, most: u64) -> Result<Option<u64>> {
-        let done = self.flip_as_far_as_possible(flips, n_threads, most);
+    fn flip_listed(
+        &mut self,
+        flips: &mut AllFlips<G>,
+        n_threads: usize,
+        most: u64,
+        when_stuck: WhenStuck,
+    ) -> Result<Option<u64>> {
+        let done = self.flip_as_far_as_possible(flips, n_threads, most, when_stuck);
         let is_exhausted = flips.own.is_exhausted;
         let is_done = flips.own.stuck.is_empty() && !is_exhausted;
         let done = done.and_then(|()| if is_done { self.enter_flips(flips) } else { Ok(()) });
@@ -256,6 +277,7 @@ impl<G: Dimension> Delaunay<G> {
         flips: &mut AllFlips<G>,
         n_threads: usize,
         most: u64,
+        when_stuck: WhenStuck,
     ) -> Result<()> {
         flips.own.begin(most);
         flips.parts.iter_mut().for_each(|part| part.begin(most));
@@ -279,10 +301,20 @@ impl<G: Dimension> Delaunay<G> {
             if own.has_failed {
                 return Err(Error::OutOfMemory { bytes: own.journal.len() * size_of::<Row<G::Corners>>() });
             }
-            if own.later.is_empty() || own.is_exhausted {
+            if own.is_exhausted {
                 return Ok(());
             }
-            self.complex.create_free(ROOM)?;
+            if own.later.is_empty() {
+                if own.stuck.is_empty()
+                    || when_stuck == WhenStuck::Leave
+                    || !self.fill_islands(own, &mut flips.island)?
+                {
+                    return Ok(());
+                }
+                continue;
+            }
+            // By a few at a time each would be put off again and again.
+            self.complex.create_free(ROOM.max(own.later.len() / 2))?;
             std::mem::swap(&mut own.suspects, &mut own.later);
         }
     }
@@ -366,7 +398,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     fn take_back(&mut self, flips: &mut AllFlips<G>) {
-        let AllFlips { own, parts, were_several, n_slots, free } = flips;
+        let AllFlips { own, parts, were_several, n_slots, free, .. } = flips;
         for flips in parts.iter_mut().chain([own]).rev() {
             flips.suspects.clear();
             let rows = flips.journal.drain(..).rev();
@@ -383,5 +415,6 @@ impl<G: Dimension> Delaunay<G> {
 }
 
 mod flipper;
+mod islands;
 #[cfg(test)]
 mod tests;

@@ -92,7 +92,7 @@ fn diagonals_change_in_space() {
         assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
         let mut flips = AllFlips::default();
         flips.own.suspects.clone_from(&failures.facets);
-        t.flip_as_far_as_possible(&mut flips, 1, u64::MAX).expect("room for it");
+        t.flip_as_far_as_possible(&mut flips, 1, u64::MAX, WhenStuck::Leave).expect("room for it");
         t.flips = flips;
         t.undo_flips();
         t.validate(Level::Embedding).expect("cells as they were");
@@ -122,7 +122,8 @@ fn flips_come_back() {
         let (before, free) = (places(&t), t.complex.free_cells().to_vec());
         let mut flips = std::mem::take(&mut t.flips);
         flips.own.suspects.append(&mut suspects);
-        t.flip_as_far_as_possible(&mut flips, threads as usize, u64::MAX).expect("room for it");
+        t.flip_as_far_as_possible(&mut flips, threads as usize, u64::MAX, WhenStuck::Leave)
+            .expect("room for it");
         let n_flips =
             flips.own.journal.len() + flips.parts.iter().map(|part| part.journal.len()).sum::<usize>();
         assert!(n_flips > 100, "{n_flips}");
@@ -137,4 +138,71 @@ fn flips_come_back() {
         assert!(t.complex.free_cells().ends_with(&free));
         t.validate(Level::Structure).expect("cells as they were");
     }
+}
+
+/// Thin layers, of which a tenth of the sites have left their places, and the facets that fail.
+fn disturbed_layers(seed: u64) -> (Delaunay<Space>, Vec<Facet>) {
+    let rng = &mut Rng::new(seed);
+    let place = |i: usize| [(i % 18) as f64, (i / 18 % 18) as f64, 1e-3 * (i / 324) as f64];
+    let mut t = Delaunay::<Space>::default();
+    t.add_sites(&(0..5832).map(place).collect::<Vec<_>>()).expect("room for it");
+    t.rebuild(&mut |_| true).expect("room for it");
+    let mut failures = Failures::default();
+    for s in t.live_sites().collect::<Vec<_>>() {
+        let old = t.site(s).point;
+        let q = old.map(|x| x + 1e-4 * (rng.unit() - 0.5));
+        if rng.below(10) > 0 {
+            continue;
+        }
+        t.cover(&q, &q);
+        t.set_point(s, q);
+        failures.clear();
+        t.check_star(s, &mut failures).expect("room for it");
+        t.check_ridges(&mut failures, |_| None).expect("room for it");
+        if !failures.cells.is_empty() || !failures.ridges.is_empty() {
+            t.set_point(s, old);
+        }
+    }
+    assert!(t.sweep(&mut failures, usize::MAX, None).expect("room for it") && failures.cells.is_empty());
+    (t, failures.facets)
+}
+
+/// Around facets that are stuck all is triangulated again; that comes back like flips, and is recorded like them.
+#[test]
+fn islands_are_filled() {
+    let (mut n_stuck, mut n_filled) = (0, 0);
+    for seed in 0..8 {
+        let (mut t, mut suspects) = disturbed_layers(seed);
+        let rows =
+            |t: &Delaunay<Space>| t.complex.cells().iter().map(|cell| cell.corners).collect::<Vec<_>>();
+        let (before, free) = (rows(&t), t.complex.free_cells().to_vec());
+        let flip = |t: &mut Delaunay<Space>, when_stuck| {
+            let mut flips = AllFlips::default();
+            flips.own.suspects.clone_from(&suspects);
+            t.flip_as_far_as_possible(&mut flips, 1, u64::MAX, when_stuck).expect("room for it");
+            let is_stuck = !flips.own.stuck.is_empty();
+            t.take_back(&mut flips);
+            assert_eq!(rows(t)[..before.len()], before);
+            assert!(t.complex.free_cells().ends_with(&free));
+            t.validate(Level::Structure).expect("cells as they were");
+            is_stuck
+        };
+        if !flip(&mut t, WhenStuck::Leave) {
+            continue;
+        }
+        n_stuck += 1;
+        if flip(&mut t, WhenStuck::Fill) {
+            continue;
+        }
+        n_filled += 1;
+        let mut stuck = Vec::new();
+        t.record_changes(Vec::new());
+        assert!(t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").is_some());
+        assert_eq!(stuck, []);
+        t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+        let changed = t.take_changes().expect("a record");
+        let is_new = |&c: &Slot| before.get(c.index()) != Some(&t.complex.cell(c).corners);
+        assert!(t.complex.live().filter(is_new).all(|c| changed.contains(&c)));
+    }
+    assert!(n_filled > 1, "{n_filled} of {n_stuck}");
 }

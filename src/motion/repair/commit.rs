@@ -6,7 +6,8 @@
 //! sweep: orientation of every cell, empty sphere of every facet, convexity of every ridge of the hull
 //! while a cell is inverted or a ridge is not convex:
 //!     take a vertex of it back to its old place
-//! flip until no facet fails; where flips are stuck, undo them, take a vertex back, and again
+//! flip until no facet fails, and triangulate small cavities where flips are stuck
+//! if some still are, undo all flips, take a vertex of each back, and again
 //! place the vertices that were taken back, one by one
 //! ```
 //!
