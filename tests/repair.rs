@@ -309,6 +309,33 @@ fn sheared_lattices_are_rebuilt_at_once() {
     }
 }
 
+/// A tenth of a lattice leaves its places: there are more cells then, and the slots for them are made at once, so that
+/// facets do not wait for them by turns.
+#[test]
+fn leaving_a_lattice_takes_few_certificates_for_each_flip() {
+    let rng = &mut Rng::new(37);
+    let mut now = lattice::<Space>(19, [1.0; 3], rng);
+    let options = Options { algorithm: Algorithm::Repair, threads: 1, ..Options::default() };
+    let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
+    let n = now.len();
+    tremble::<Space>(&mut now[..n / 10], 1e-4, rng);
+    let report = t.commit_positions(&now).expect("a commit");
+    assert_eq!(report.rebuilds, 0, "{report:?}");
+    assert!(report.flips > n as u64, "{report:?}");
+    // A sweep evaluates 18 for each vertex, and a flip six.
+    assert!(report.certificates < 18 * n as u64 + 12 * report.flips, "{report:?}");
+    let positions: Vec<_> = now.iter().copied().map(Some).collect();
+    assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || "a lattice left".into());
+}
+
+/// What has made auto rebuild may not happen again: the next commit is swept, and repaired if that is cheaper.
+#[test]
+fn auto_looks_again_after_a_rebuild() {
+    let first = lattice::<Space>(19, [1.0; 3], &mut Rng::new(41));
+    let reports = shear_lattice::<Space>(Algorithm::Auto, &first, &[1e-3, 2e-3], true);
+    assert_eq!(reports.iter().map(|report| report.rebuilds).collect::<Vec<_>>(), [1, 0]);
+}
+
 /// Vertices on flat parts of the hull, which take as long as a rebuild each, are not placed to the end.
 #[test]
 fn placing_is_given_up_where_it_would_take_too_long() {

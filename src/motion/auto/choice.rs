@@ -2,6 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::motion::constants::constants;
+use crate::motion::repair::Repair;
 use crate::motion::report::{CommitReport, Evaluations};
 
 /// Which certificates a commit checks.
@@ -35,6 +36,9 @@ pub(in crate::motion) struct Auto {
     /// Commits still to be rebuilt without trying to repair, and how many they were last time.
     rebuilds: u32,
     last_rebuilds: u32,
+    /// Failures for each finite cell with which not to repair: a share of those of the last repair that was too
+    /// expensive.
+    limit: Option<f64>,
     /// Exact evaluations of the last commit that rebuilt without trying to repair, if there was one.
     exact_of_rebuild: Option<u64>,
     /// Whether the latest commit relocated few vertices, one after the other.
@@ -70,6 +74,11 @@ impl Auto {
     /// Whether all tolerances are to be computed again, for balance; not any more after that.
     pub(super) fn take_due(&mut self) -> bool {
         std::mem::take(&mut self.is_due)
+    }
+
+    /// Failures for each finite cell with which not to repair, where some repair was too expensive.
+    pub(super) fn limit(&self) -> Option<f64> {
+        self.limit
     }
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.
@@ -223,17 +232,23 @@ impl Auto {
         n: usize,
         n_swept: u64,
         report: &CommitReport,
+        repair: &Repair,
         evaluations: [Evaluations; 2],
     ) {
         let constants = constants::<G>();
         self.follow_changes::<G>(report);
         if report.rebuilds > 0 || self.is_too_expensive::<G>(n, n_swept, report, evaluations) {
+            self.rebuilds = self.last_rebuilds;
             let more = constants.rebuilds_growth * self.last_rebuilds + 1;
             self.last_rebuilds = more.min(constants.max_rebuilds);
-            self.rebuilds = self.last_rebuilds;
+            self.limit = if repair.was_foreseen() {
+                self.limit.map(|limit| constants.limit_growth * limit)
+            } else {
+                Some(constants.share_of_late * repair.share_failing())
+            };
             return;
         }
-        self.last_rebuilds = 0;
+        (self.last_rebuilds, self.limit) = (0, None);
         self.wait = self.wait.saturating_sub(1);
         // Also before the wait is over if changes have become much rarer.
         let may_try = self.wait == 0 || constants.rarer_changes * self.changes < self.changes_at_stop;

@@ -40,9 +40,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         {
             return Ok(());
         }
-        self.commit_by_repair(given, report)?;
-        let after = self.evaluations();
-        self.auto.learn::<G>(self.n_present, self.kernel.n_certificates(), report, [before, after]);
+        self.repair.set_limit(self.auto.limit());
+        let repaired = self.commit_by_repair(given, report);
+        self.repair.set_limit(None);
+        repaired?;
+        let evaluations = [before, self.evaluations()];
+        let n_swept = self.kernel.n_certificates();
+        self.auto.learn::<G>(self.n_present, n_swept, report, &self.repair, evaluations);
         Ok(())
     }
 

@@ -14,7 +14,7 @@
 //! A vertex on a flat part of the hull may have a star of slivers with all others there. How long it takes to place
 //! some of these is known only from the first ones.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::{Dimension, Failures};
 use crate::error::Result;
 use crate::motion::MovingTriangulation;
 use crate::motion::attempt::Prospect;
@@ -28,13 +28,27 @@ use crate::predicates::exact_calls;
 struct Findings {
     /// Facets that fail.
     failing: f64,
+    /// Facets and cells that fail.
+    all_failing: f64,
     /// Exact evaluations.
     exact: f64,
 }
 
 impl Findings {
+    fn of(failures: &Failures, exact: u64, weight: f64) -> Self {
+        let (facets, cells) = (failures.facets.len(), failures.cells.len());
+        Findings {
+            failing: weight * facets as f64,
+            all_failing: weight * (facets + cells) as f64,
+            exact: weight * exact as f64,
+        }
+    }
+
     /// Whether a repair would take longer than a rebuild, for this number of finite cells.
-    fn call_for_rebuild<G: Dimension>(self, n_cells: f64) -> bool {
+    fn call_for_rebuild<G: Dimension>(self, n_cells: f64, limit: Option<f64>) -> bool {
+        if limit.is_some_and(|limit| self.all_failing > limit * n_cells) {
+            return true;
+        }
         let constants = constants::<G>();
         let has_ties = self.exact > constants.exact_of_ties * n_cells;
         let most = if has_ties { constants.max_failing_of_ties } else { constants.max_failing };
@@ -49,23 +63,29 @@ impl<G: Dimension> MovingTriangulation<G> {
         // Of a whole staging all applied, the positions staged are now those before.
         let before = self.staging.others_applied().then_some(self.staging.positions());
         let n_cells = self.kernel.complex().n_finite() as f64;
+        repair.was_foreseen = true;
         let start = exact_calls();
         if let Some(slots) = self.kernel.sample(&mut repair.failures, before)? {
             // A sample may err: it decides where it is far from the limit.
             let weight = slots as f64 / constants::<G>().sample_margin;
-            let failing = weight * repair.failures.facets.len() as f64;
-            let exact = weight * (exact_calls() - start) as f64;
-            if (Findings { failing, exact }).call_for_rebuild::<G>(n_cells) {
+            let found = Findings::of(&repair.failures, exact_calls() - start, weight);
+            if found.call_for_rebuild::<G>(n_cells, repair.limit) {
                 return Ok(Prospect::TooMuch);
             }
         }
         let start = exact_calls();
+        let most = repair.limit.map_or(most, |limit| most.min((limit * n_cells) as usize));
         if !self.kernel.sweep(&mut repair.failures, most, before)? {
             return Ok(Prospect::TooMuch);
         }
         repair.exact = exact_calls() - start;
-        let found = Findings { failing: repair.failures.facets.len() as f64, exact: repair.exact as f64 };
-        Ok(if found.call_for_rebuild::<G>(n_cells) { Prospect::TooMuch } else { Prospect::Mendable })
+        let found = Findings::of(&repair.failures, repair.exact, 1.0);
+        repair.share_failing = found.all_failing / n_cells;
+        if found.call_for_rebuild::<G>(n_cells, repair.limit) {
+            return Ok(Prospect::TooMuch);
+        }
+        repair.was_foreseen = false;
+        Ok(Prospect::Mendable)
     }
 }
 

@@ -31,6 +31,12 @@ pub(in crate::motion) struct Repair {
     pub(super) n_old: usize,
     /// Exact evaluations of the sweep.
     pub(super) exact: u64,
+    /// Failures for each finite cell with which to rebuild, where that is known better than by what random points do.
+    pub(super) limit: Option<f64>,
+    /// Failures for each finite cell that were found.
+    pub(super) share_failing: f64,
+    /// Whether all has been rebuilt, and nothing done before but to look at certificates.
+    pub(super) was_foreseen: bool,
     /// Sites to be taken back.
     pub(super) sites: Vec<SiteId>,
     /// Vertices to be placed.
@@ -53,6 +59,21 @@ impl Repair {
     /// Cells that may have failed, each once.
     pub(in crate::motion) fn touched(&self) -> &[Slot] {
         &self.touched
+    }
+
+    /// From now on, rebuilds where more failures for each finite cell are found.
+    pub(in crate::motion) fn set_limit(&mut self, limit: Option<f64>) {
+        self.limit = limit;
+    }
+
+    /// Failures for each finite cell that the last repair has found.
+    pub(in crate::motion) fn share_failing(&self) -> f64 {
+        self.share_failing
+    }
+
+    /// Whether the last repair has rebuilt all, and done nothing before but to look at certificates.
+    pub(in crate::motion) fn was_foreseen(&self) -> bool {
+        self.was_foreseen
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
