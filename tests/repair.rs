@@ -346,6 +346,33 @@ fn placing_is_given_up_where_it_would_take_too_long() {
     assert!(repair.exact_calls < 2 * rebuilding.exact_calls, "{repair:?}");
 }
 
+/// A few vertices of a sphere, each with a star of hundreds of cells, are not placed to the end where that takes longer
+/// than a rebuild.
+#[test]
+fn auto_rebuilds_where_few_vertices_take_longer() {
+    let rng = &mut Rng::new(43);
+    let mut now: Vec<[f64; 3]> = (0..2000)
+        .map(|_| {
+            let p = [0; 3].map(|_| rng.unit() - 0.5);
+            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            p.map(|x| x / length)
+        })
+        .collect();
+    let first = now.clone();
+    now.iter_mut().take(80).for_each(|p| p[0] += 0.001 * p[1]);
+    let [flips, auto] = [Algorithm::PlacementFlips, Algorithm::Auto].map(|algorithm| {
+        let options = Options { algorithm, threads: 1, ..Options::default() };
+        let mut t = MovingTriangulation::<Space>::new(&first, options).expect("a build");
+        t.move_first(&now[..80]).expect("moves");
+        let report = t.commit_timestamp().expect("a commit");
+        let positions: Vec<_> = now.iter().copied().map(Some).collect();
+        assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || "few of a sphere".into());
+        report
+    });
+    assert_eq!((flips.rebuilds, auto.rebuilds), (0, 1), "{flips:?}, {auto:?}");
+    assert!(2 * auto.certificates < flips.certificates, "{flips:?}, {auto:?}");
+}
+
 /// What a repair does well is left to it: lattices that move as a whole, random points, few that go far.
 #[test]
 fn repairs_that_are_cheap_are_not_replaced() {

@@ -5,6 +5,7 @@
 //! timestamp; they share a site for that while.
 
 use super::constants::constants;
+use super::repair::Budget;
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
@@ -30,11 +31,37 @@ impl<G: Dimension> MovingTriangulation<G> {
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
+        self.queue_for_placement(given)?;
+        self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
+    }
+
+    /// Does so with flips, and rebuilds where what is left would take longer than that.
+    pub(super) fn commit_by_placement_or_rebuilding(
+        &mut self,
+        given: &mut Given<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.queue_for_placement(given)?;
+        self.place_staged_within_budget(0, report)
+    }
+
+    /// Relocates the staged vertices that are not applied yet, with flips, while that costs less than to rebuild; after
+    /// a sweep with `exact` exact evaluations, or none.
+    pub(super) fn place_staged_within_budget(&mut self, exact: u64, report: &mut CommitReport) -> Result<()> {
+        let left = self.staging.vertices().len() - self.staging.applied();
+        let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report);
+        self.place_staged(report, |t, v, new, report| {
+            let placed = t.relocate(v, new, Shortcut::Flips, report)?;
+            Ok(if budget.is_exceeded::<G>(t.evaluations(), report) { Placed::NeedBuild } else { placed })
+        })
+    }
+
+    fn queue_for_placement(&mut self, given: &mut Given<'_, G>) -> Result<()> {
         self.stage_given(given)?;
         self.staging.list()?;
         self.regions.invalidate();
         self.order_queue_by_site();
-        self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
+        Ok(())
     }
 
     /// Relocates the staged vertices that are not applied yet, one after the other.

@@ -1,7 +1,7 @@
 //! One commit, by the algorithm chosen for it.
 
 use super::choice::Scope;
-use crate::delaunay::{Dimension, Shortcut};
+use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::motion::attempt::Attempt;
 use crate::motion::constants::{Constants, constants};
@@ -24,7 +24,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
                 self.commit_by_tolerance(given, report)
             } else {
-                self.commit_by_placement(Shortcut::Flips, given, report)
+                self.commit_by_placement_or_rebuilding(given, report)
             };
         }
         let before = self.evaluations();

@@ -2,7 +2,7 @@
 //!
 //! | commit | algorithm |
 //! |---|---|
-//! | of few of the vertices | tolerance if it is up to date, else placement by flips |
+//! | of few of the vertices | tolerance if up to date, else placement by flips, rebuilding where that costs more |
 //! | of all vertices, while few leave their tolerance | watching |
 //! | of all vertices, while few bi-cells use theirs up, in space | slack |
 //! | otherwise | repair, which rebuilds where too much fails |

@@ -25,17 +25,15 @@
 //! threads, all else by one.
 
 use super::Repair;
-use super::foresight::Budget;
 use super::scratch::At;
 use crate::complex::{Corners, INFINITE};
-use crate::delaunay::{Dimension, Shortcut};
+use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::attempt::{Mending, Prospect};
 use crate::motion::constants::constants;
-use crate::motion::placement::Placed;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::squared_distance;
@@ -85,12 +83,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.commit_by_rebuilding(self.staging.applied(), report);
         }
         self.transaction.want_order();
-        let left = self.staging.vertices().len() - self.staging.applied();
-        let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report);
-        self.place_staged(report, |t, v, new, report| {
-            let placed = t.relocate(v, new, Shortcut::Flips, report)?;
-            Ok(if budget.is_exceeded::<G>(t.evaluations(), report) { Placed::NeedBuild } else { placed })
-        })
+        self.place_staged_within_budget(exact, report)
     }
 
     /// Mends a triangulation all staged vertices of which have been moved, as

@@ -91,7 +91,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
 /// The time that placing vertices may take.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Budget {
+pub(in crate::motion) struct Budget {
     /// What had been evaluated, and how many vertices placed, at the beginning.
     evaluations: Evaluations,
     placements: u64,
@@ -104,7 +104,7 @@ pub(super) struct Budget {
 
 impl Budget {
     /// For `left` vertices to be relocated out of `n`, after a sweep with `exact` exact evaluations.
-    pub(super) fn new<G: Dimension>(
+    pub(in crate::motion) fn new<G: Dimension>(
         n: usize,
         left: usize,
         exact: u64,
@@ -118,10 +118,17 @@ impl Budget {
     }
 
     /// Counts a relocation; whether all others, if they cost what the first ones have, cost more than a rebuild.
-    pub(super) fn is_exceeded<G: Dimension>(&mut self, now: Evaluations, report: &CommitReport) -> bool {
+    pub(in crate::motion) fn is_exceeded<G: Dimension>(
+        &mut self,
+        now: Evaluations,
+        report: &CommitReport,
+    ) -> bool {
         let constants = constants::<G>();
         self.left -= 1;
-        let spent = constants.costs.of(report.placements - self.placements, now.since(self.evaluations));
+        let evaluated = now.since(self.evaluations);
+        // Flips count by certificates; those of placements are in what these cost.
+        let certified = evaluated.certificates as f64 * constants.costs.certified;
+        let spent = constants.costs.of(report.placements - self.placements, evaluated).max(certified);
         let done = (self.all - self.left) as f64;
         spent > constants.min_share_spent * self.rebuild
             && spent / done * self.left as f64 > constants.max_placing * self.rebuild

@@ -4,4 +4,5 @@ mod commit;
 mod foresight;
 mod scratch;
 
+pub(super) use foresight::Budget;
 pub(super) use scratch::Repair;
