@@ -8,9 +8,10 @@
 //! creates the triangulation. *Sweep* is a commit by repair of which one vertex moves, and hardly: every
 //! certificate is checked, and next to nothing is moved or mended. *Repair* moves all vertices by a
 //! thousandth of a spacing, *rebuilding* as well; *mending* is repair after moves by a fiftieth, of which most
-//! of the time goes into flips. Thread counts take turns, so that whatever else the machine
-//! does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
-//! medians and the least are than with the first thread count.
+//! of the time goes into flips. *Leaps* are placements of one vertex in a hundred, anywhere, and *jumps* those of one
+//! in 33, up to half a spacing away, in ns per vertex that moves; they are done by one thread.
+//! Thread counts take turns, so that whatever else the machine does falls upon all alike; printed are the median of
+//! all rounds, the least, and how many times faster the medians and the least are than with the first thread count.
 
 mod common;
 
@@ -38,8 +39,8 @@ fn commit<G: Dimension>(t: &mut MovingTriangulation<G>) -> f64 {
     start.elapsed().as_secs_f64() * 1e9 / t.vertex_count() as f64
 }
 
-/// Moves every `nth` vertex by up to half of `size` either way, or to where another one is, roughly, and commits that by
-/// placements; ns for each vertex that is moved.
+/// Moves every `nth` vertex by up to half of `size` either way, or anywhere, and commits that by placements; ns for
+/// each vertex that is moved.
 fn commit_few<G: Dimension>(
     t: &mut MovingTriangulation<G>,
     points: &mut [G::Point],
