@@ -8,19 +8,20 @@
 //! creates the triangulation. *Sweep* is a commit by repair of which one vertex moves, and hardly: every
 //! certificate is checked, and next to nothing is moved or mended. *Repair* moves all vertices by a
 //! thousandth of a spacing, *rebuilding* as well; *mending* is repair after moves by a fiftieth, of which most
-//! of the time goes into flips. Thread counts take turns, so that whatever else the machine
-//! does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
-//! medians and the least are than with the first thread count.
+//! of the time goes into flips. *Leaps* are placements of one vertex in a hundred, anywhere, and *jumps* those of one
+//! in 33, up to half a spacing away, in ns per vertex that moves; they are done by one thread.
+//! Thread counts take turns, so that whatever else the machine does falls upon all alike; printed are the median of
+//! all rounds, the least, and how many times faster the medians and the least are than with the first thread count.
 
 mod common;
 
 use common::Rng;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Space, VertexId};
 use std::time::Instant;
 
 const ROUNDS: usize = 7;
-const STEPS: [&str; 5] = ["build", "sweep", "repair", "mending", "rebuilding"];
+const STEPS: [&str; 7] = ["build", "sweep", "repair", "mending", "leaps", "jumps", "rebuilding"];
 
 /// Moves each coordinate by up to half of `size` either way.
 fn shake<G: Dimension>(points: &mut [G::Point], size: f64, random: &mut Rng) {
@@ -36,6 +37,33 @@ fn commit<G: Dimension>(t: &mut MovingTriangulation<G>) -> f64 {
     let start = Instant::now();
     t.commit_timestamp().expect("finite positions");
     start.elapsed().as_secs_f64() * 1e9 / t.vertex_count() as f64
+}
+
+/// Moves every `nth` vertex by up to half of `size` either way, or anywhere, and commits that by placements; ns for
+/// each vertex that is moved.
+fn commit_few<G: Dimension>(
+    t: &mut MovingTriangulation<G>,
+    points: &mut [G::Point],
+    nth: usize,
+    size: f64,
+    random: &mut Rng,
+) -> f64 {
+    let (mut vertices, mut places) = (Vec::new(), Vec::new());
+    for v in (0..points.len()).step_by(nth) {
+        let mut place = [points[v]];
+        if size.is_finite() {
+            shake::<G>(&mut place, size, random);
+        } else {
+            place = [points[(random.unit() * points.len() as f64) as usize]];
+            shake::<G>(&mut place, 0.5, random);
+        }
+        points[v] = place[0];
+        vertices.push(VertexId::at(v));
+        places.push(place[0]);
+    }
+    t.set_algorithm(Algorithm::PlacementFlips);
+    t.move_vertices(&vertices, &places).expect("finite positions");
+    commit(t) * points.len() as f64 / vertices.len() as f64
 }
 
 /// One round: the figures of all steps.
@@ -55,19 +83,23 @@ fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] 
     shake::<G>(&mut points[..1], 1e-6, &mut random);
     t.move_first(&points[..1]).expect("finite positions");
     let sweep = commit(&mut t);
-    let mut commit_all = |algorithm, size| {
-        shake::<G>(&mut points, size, &mut random);
-        t.move_all(&points).expect("finite positions");
+    let mut commit_all = |algorithm, size, points: &mut [G::Point]| {
+        shake::<G>(points, size, &mut random);
+        t.move_all(points).expect("finite positions");
         t.set_algorithm(algorithm);
         commit(&mut t)
     };
-    let repair = commit_all(Algorithm::Repair, 1e-3);
-    let mending = commit_all(Algorithm::Repair, 2e-2);
-    let rebuilding = commit_all(Algorithm::Rebuilding, 1e-3);
+    let repair = commit_all(Algorithm::Repair, 1e-3, &mut points);
+    let mending = commit_all(Algorithm::Repair, 2e-2, &mut points);
+    let leaps = commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
+    let jumps = commit_few::<G>(&mut t, &mut points, 33, 1.0, &mut random);
+    t.move_all(&points).expect("finite positions");
+    t.set_algorithm(Algorithm::Rebuilding);
+    let rebuilding = commit(&mut t);
     if points.len() <= 100_000 {
         t.validate(Level::Delaunay).expect("a Delaunay triangulation");
     }
-    [build, sweep, repair, mending, rebuilding]
+    [build, sweep, repair, mending, leaps, jumps, rebuilding]
 }
 
 fn print<G: Dimension>(n: usize, threads: &[u32]) {

@@ -208,7 +208,7 @@ impl<G: Dimension> Delaunay<G> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::{Plane, Space};
+    use crate::delaunay::{Plane, Shortcut, Space};
     use crate::machine::threads::Threads;
     use crate::random::Rng;
 
@@ -253,6 +253,33 @@ mod tests {
             let with = mean_steps(&t, rng, is_clustered);
             assert!(without > 20.0 && with < 12.0, "{without} steps, then {with}");
         }
+    }
+
+    /// Those of sites that go anywhere, too.
+    fn relocations_become_short<G: Dimension>() {
+        let rng = &mut Rng::new(2);
+        let n = 5_000;
+        let places = std::iter::repeat_with(|| place::<G>(rng, false)).take(n).collect::<Vec<_>>();
+        let mut t = Delaunay::<G>::on(Threads::ONE).expect("room");
+        t.add_sites(&places).expect("room");
+        t.rebuild(&mut |_| true).expect("room");
+        let mut mean_steps = |n: usize| {
+            let before = t.cavity.steps;
+            for s in SiteId::range(1..n + 1) {
+                let (q, id) = (place::<G>(rng, false), t.site(s).id);
+                t.relocate_site(s, &q, id, Shortcut::Flips).expect("room");
+            }
+            (t.cavity.steps - before) as f64 / n as f64
+        };
+        mean_steps(1000);
+        let steps = mean_steps(1000);
+        assert!(steps < 12.0, "{steps} steps");
+    }
+
+    #[test]
+    fn relocations_become_short_in_both_dimensions() {
+        relocations_become_short::<Plane>();
+        relocations_become_short::<Space>();
     }
 
     #[test]

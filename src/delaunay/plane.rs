@@ -12,7 +12,7 @@ use crate::predicates::{self, OwnBounds2d, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 impl Kernel<Plane> for Plane {
-    const BUILT_AT_LEAST: usize = 16_000;
+    const BUILT_AT_LEAST: usize = 5_000;
     type Scratch = cavity_plane::Scratch;
 
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {

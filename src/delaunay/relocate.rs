@@ -18,7 +18,7 @@
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
-use crate::ids::{SiteId, Slot, VertexId};
+use crate::ids::{SiteId, VertexId};
 
 /// What a relocation did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +65,7 @@ impl<G: Dimension> Delaunay<G> {
             self.become_flat(s)?;
         }
         self.sites[s] = Site::new(*q, id);
-        match self.insert_site(s, Slot::NONE)? {
+        match self.insert_site_anywhere(s)? {
             Insertion::New => Ok(Relocation::Placed),
             Insertion::Coincident(t) => Ok(Relocation::Coincident(t)),
             Insertion::Spans => Ok(Relocation::Spans),

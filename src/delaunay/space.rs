@@ -12,7 +12,7 @@ use crate::predicates::{self, OwnBounds3d, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 impl Kernel<Space> for Space {
-    const BUILT_AT_LEAST: usize = 5_000;
+    const BUILT_AT_LEAST: usize = 2_500;
     type Scratch = cavity_space::Scratch;
 
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
