@@ -1,7 +1,7 @@
 //! What the geometry of 100,000 random points costs, beside straightforward loops over the view: nanoseconds per cell,
 //! or per vertex, or per place. Another number of points may be given. Also what circumspheres cost where few vertices
-//! move: in one pass over all cells, and by the change list, for those cells alone that are new or have a vertex that has
-//! moved.
+//! move: in one pass over all cells, and by the change list, for those cells alone that are new or have a vertex that
+//! has moved.
 mod common;
 
 use common::{Rng, in_cube};

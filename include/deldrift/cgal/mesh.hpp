@@ -194,8 +194,8 @@ private:
         has_stars_ = false;
         n_stars_asked_ = 0;
     }
-    // The stars of all vertices, in one pass over the cells, once so many have been asked for since the last change that
-    // the program seems to want them all; null before.
+    // The stars of all vertices, in one pass over the cells, once so many have been asked for since the last change
+    // that the program seems to want them all; null before.
     const Lists *all_stars() const {
         if (has_stars_.load(std::memory_order_acquire)) return &stars_;
         if (n_stars_asked_.fetch_add(1, std::memory_order_relaxed) < by_id_.size() / 8) return nullptr;
