@@ -35,7 +35,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help test soak bench report memory large targets calibrate table lint header doc picture install examples
-.PHONY: compat demo deb dist library benchmark clean faults tsan miri fuzz
+.PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -144,6 +144,10 @@ deb: ## a package for Debian, libdeldrift-dev, in build/packages
 dist: ## archives in build/packages: sources that build without a network, and what is installed
 	@.ci/packages cmake
 	cmake/make_dist
+
+packages: deb dist ## ... both, and programs built with each of them, offline; lintian and clang++ where they are there
+	@.ci/packages pkg-config
+	cmake/check_packages
 
 # What has the compiler count for libFuzzer, also the stable one. With the nightly one there is AddressSanitizer, too.
 FUZZ_COUNTS := level=4 inline-8bit-counters pc-table trace-compares

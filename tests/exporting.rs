@@ -273,6 +273,7 @@ fn files_are_read_by<G: Dimension>(package: &str, reader: &str, folder: &Path) {
 fn grids_are_read_by_meshio_and_vtk() {
     for (package, reader) in READERS {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("python-{package}"));
+        fs::create_dir_all(&folder).expect("a folder");
         let imports = || {
             let mut python = Command::new("python3");
             python.arg("-c").arg(format!("import {package}")).env("PYTHONPATH", &folder);

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <deldrift/cgal.hpp>
+#include <iterator>
 #include <random>
+#include <set>
 #include <thread>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -127,6 +130,36 @@ static void copies_are_independent() {
     const Dt2::Vertex_handle v = *b.finite_vertices_begin();
     Dt2 d = std::move(b);
     CHECK(d.nearest_vertex(v->point()) == v && v->face()->has_vertex(v));
+}
+
+// Nothing is triangulated: cells keep their indices, and the counts go on. Ids, infos and staged moves are there.
+static void copies_are_as_the_original() {
+    auto points = random_points(50);
+    Dt2 a(points.begin(), points.end());
+    a.remove(*std::next(a.finite_vertices_begin(), 7));
+    const Dt2::Vertex_handle v = *std::next(a.finite_vertices_begin(), 11);
+    a.stage_move(v, Point_2(0.125, 0.125));
+    a.commit_timestamp();
+    a.stage_move(v, Point_2(0.25, 0.5));
+    Dt2 b(a);
+    CHECK(b.triangulation().timestamp() == 1 && b.triangulation().staged_count() == 1);
+    const auto cells = a.triangulation().cells().vertices(), others = b.triangulation().cells().vertices();
+    CHECK(std::equal(cells.begin(), cells.end(), others.begin(), others.end()));
+    std::vector<Dt2::Vertex_handle> copies(b.finite_vertices_begin(), b.finite_vertices_end());
+    CHECK(copies.size() == 49);
+    for (Dt2::Vertex_handle w : a.finite_vertex_handles()) {
+        const Dt2::Vertex_handle copy = b.nearest_vertex(w->point());
+        CHECK(copy != w && copy->id() == w->id() && copy->info() == w->info() && copy->point() == w->point());
+    }
+    const Dt2::Vertex_handle moved = b.nearest_vertex(v->point());
+    b.commit_timestamp();
+    CHECK(moved->point() == Point_2(0.25, 0.5) && v->point() == Point_2(0.125, 0.125) && b.is_valid());
+    moved->info() = -1;
+    CHECK(v->info() != -1 && a.triangulation().staged_count() == 1);
+    a.commit_timestamp();
+    CHECK(v->point() == moved->point() && faces_of(a).size() == faces_of(b).size());
+    for (int i = 0; i < 60; i++) b.remove(b.insert(Point_2(anywhere(), anywhere())));
+    CHECK(b.number_of_vertices() == 49 && b.is_valid() && a.number_of_vertices() == 49 && a.is_valid());
 }
 
 static void flat_sets() {
@@ -255,6 +288,18 @@ static void threads_read_at_once() {
     }
     for (std::thread &thread : threads) thread.join();
     for (std::size_t sum : sums) CHECK(sum == 3 * 2 * (500 - 1));
+
+    Dt3 s;
+    for (int i = 0; i < 300; i++) s.insert(Point_3(anywhere(), anywhere(), anywhere()));
+    std::vector<std::size_t> degrees(4);
+    threads.clear();
+    for (std::size_t &sum : degrees) {
+        threads.emplace_back([&s, &sum] {
+            for (Dt3::Vertex_handle v : s.finite_vertex_handles()) sum += s.degree(v);
+        });
+    }
+    for (std::thread &thread : threads) thread.join();
+    for (std::size_t sum : degrees) CHECK(sum == degrees[0] && sum > 2 * s.number_of_finite_edges());
 }
 
 static void large_stars_are_whole() {
@@ -262,6 +307,52 @@ static void large_stars_are_whole() {
     for (int i = 0; i < 100; i++) wheel.emplace_back(std::cos(0.0625 * i), std::sin(0.0625 * i));
     const Dt2 t(wheel.begin(), wheel.end());
     CHECK(t.degree(t.nearest_vertex(Point_2(0, 0))) == 100);
+}
+
+// Stars and links against the edges, before and after changes, asked for one by one and for all.
+static void neighbours_follow_changes() {
+    std::vector<Point_3> points;
+    // Two vertices with many neighbours among others, and all of it twice as far as the ring is wide.
+    points.emplace_back(0, 0, -1e-3);
+    points.emplace_back(0, 0, 1e-3);
+    for (int i = 0; i < 120; i++) points.emplace_back(std::cos(i), std::sin(i), 1e-6 * i);
+    for (int i = 0; i < 200; i++) points.emplace_back(4 * anywhere(), 4 * anywhere(), 4 * anywhere());
+    Dt3 t(points.begin(), points.end());
+    std::size_t greatest = 0;
+    for (int round = 0; round < 4; round++) {
+        std::unordered_map<Dt3::Vertex_handle, std::set<std::uint32_t>> links;
+        std::unordered_map<Dt3::Vertex_handle, std::size_t> n_cells, n_on_hull;
+        for (const Dt3::Edge &e : t.finite_edges()) {
+            const Dt3::Vertex_handle v = e.first.vertex(e.second), w = e.first.vertex(e.third);
+            links[v].insert(w.id());
+            links[w].insert(v.id());
+        }
+        for (Dt3::Cell_handle c : t.all_cell_handles()) {
+            for (int i = 0; i < 4; i++) (t.is_infinite(c) ? n_on_hull : n_cells)[c.vertex(i)]++;
+        }
+        for (Dt3::Vertex_handle v : t.finite_vertex_handles()) {
+            std::vector<Dt3::Vertex_handle> link, whole;
+            std::vector<Dt3::Cell_handle> star, all;
+            t.finite_adjacent_vertices(v, std::back_inserter(link));
+            t.adjacent_vertices(v, std::back_inserter(whole));
+            std::set<std::uint32_t> ids;
+            for (Dt3::Vertex_handle w : link) ids.insert(w.id());
+            CHECK(ids == links[v] && ids.size() == link.size());
+            const bool is_on_hull = n_on_hull.count(v) > 0;
+            CHECK(t.degree(v) == link.size() + is_on_hull && whole.size() == t.degree(v));
+            t.finite_incident_cells(v, std::back_inserter(star));
+            t.incident_cells(v, std::back_inserter(all));
+            CHECK(star.size() == n_cells[v] && all.size() == star.size() + (is_on_hull ? n_on_hull[v] : 0));
+            greatest = std::max(greatest, star.size());
+        }
+        if (round == 1) t.insert(Point_3(anywhere(), anywhere(), anywhere()));
+        for (int i = 0; i < 5; i++) {
+            const Dt3::Vertex_handle v = *std::next(t.finite_vertices_begin(), 130 + 7 * i + round);
+            const Point_3 &p = v->point();
+            t.move(v, Point_3(p.y(), p.z(), p.x()));
+        }
+    }
+    CHECK(greatest > 96);
 }
 
 static void failures_have_no_effect() {
@@ -291,10 +382,12 @@ int main() {
     one_vertex_for_each_place();
     handles_last();
     copies_are_independent();
+    copies_are_as_the_original();
     flat_sets();
     neighbours_are_mutual();
     circulators_and_sets();
     threads_read_at_once();
     large_stars_are_whole();
+    neighbours_follow_changes();
     failures_have_no_effect();
 }

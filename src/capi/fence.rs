@@ -28,16 +28,21 @@ pub(super) fn enter(body: impl FnOnce() -> Result<(), Failure>) -> deldrift_stat
     INSIDE.set(outside);
     match outcome {
         Ok(Ok(())) => deldrift_status::DELDRIFT_OK,
-        Ok(Err(failure)) => {
-            record(format_args!("{failure}"));
-            failure.status()
-        }
+        Ok(Err(failure)) => report(&failure),
         Err(payload) => {
             // Its message has been recorded by the hook; to drop an unknown payload might panic again.
             std::mem::forget(payload);
             deldrift_status::DELDRIFT_INTERNAL_ERROR
         }
     }
+}
+
+/// The status of a failure, whose message is recorded.
+#[cold]
+#[inline(never)]
+fn report(failure: &Failure) -> deldrift_status {
+    record(format_args!("{failure}"));
+    failure.status()
 }
 
 /// Runs the body of an entry that looks at a triangulation.
@@ -150,6 +155,8 @@ impl Write for Message {
 }
 
 /// Makes `text` the message of this thread.
+#[cold]
+#[inline(never)]
 pub(super) fn record(text: fmt::Arguments<'_>) {
     MESSAGE.with(|message| {
         // Taken only if writing the text itself panics; the outer text is then the better one.
@@ -163,10 +170,21 @@ pub(super) fn record(text: fmt::Arguments<'_>) {
 }
 
 /// Puts the hook in place, once.
+#[inline(always)]
 fn hear_panics() {
-    static PLACED: Once = Once::new();
+    if !PLACED.is_completed() {
+        place_hook();
+    }
+}
+
+/// Whether the hook is in place.
+static PLACED: Once = Once::new();
+
+#[cold]
+#[inline(never)]
+fn place_hook() {
     // The hook cannot be exchanged while a panic of the host unwinds through its destructors.
-    if PLACED.is_completed() || std::thread::panicking() {
+    if std::thread::panicking() {
         return;
     }
     PLACED.call_once(|| {

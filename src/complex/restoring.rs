@@ -31,28 +31,22 @@ fn ghost_of<C: Corners>(corners: &C, i: usize) -> C {
     ghost
 }
 
-/// Whether two cells meet in the facets opposite corners `i` and `j`, each on its own side: with corner `i` replaced
-/// by the other's corner `j`, one has the other's corners in an order of the opposite orientation. Without branches, as
-/// the orders are random.
+/// The corners of the facet opposite each corner, all seen from the same side; in the plane there are two.
+const FACETS: [[[usize; 3]; 4]; 2] =
+    [[[1, 2, 0], [2, 0, 0], [0, 1, 0], [0, 0, 0]], [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]];
+
+/// Whether two cells meet in the facets opposite corners `i` and `j`, each on its own side: the facets have the same
+/// corners, in orders of opposite orientation. Without branches, as the orders are random. The corners of each cell are
+/// distinct.
 #[inline(always)]
 fn meet<C: Corners>(one: &C, i: usize, other: &C, j: usize) -> bool {
-    let (mut places, mut n_found) = ([0; 4], 0);
-    for a in 0..C::N {
-        for b in 0..C::N {
-            let is_there = usize::from(one[a] == other[b] && a != i && b != j);
-            places[a] |= b * is_there;
-            n_found += is_there;
-        }
+    let facets = &FACETS[C::N - 3];
+    let [a, b, c] = facets[i].map(|k| one[k]);
+    let [x, y, z] = facets[j].map(|k| other[k]);
+    if C::N == 3 {
+        return (a == y) & (b == x);
     }
-    places[i] = j;
-    let mut is_odd = false;
-    for b in 1..C::N {
-        for a in 0..b {
-            is_odd ^= places[a] > places[b];
-        }
-    }
-    // Corners are distinct, so each is found once at most.
-    n_found == C::N - 1 && is_odd
+    ((a == x) & (b == z) & (c == y)) | ((a == y) & (b == x) & (c == z)) | ((a == z) & (b == y) & (c == x))
 }
 
 /// The only place of a number in a row, if it has one.
@@ -96,11 +90,8 @@ impl<C: Corners> Complex<C> {
                     prefetch(neighbours, later[i].index());
                 }
             }
-            for i in 0..C::N {
-                if !complex.glue_row(neighbours, c, i) {
-                    let (cell, given) = (CellId::at(c), row[i]);
-                    return Err(Damage::Neighbour { cell, corner: i, given }.into());
-                }
+            if let Err(i) = complex.glue_cell(neighbours, c) {
+                return Err(Damage::Neighbour { cell: CellId::at(c), corner: i, given: row[i] }.into());
             }
         }
         for g in n..n + n_ghosts {
@@ -109,34 +100,44 @@ impl<C: Corners> Complex<C> {
         Ok(complex)
     }
 
-    /// Glues the facet of cell `c` opposite corner `i` to its neighbour's, or to a new ghost cell; `false` if the two
-    /// do not meet there.
-    fn glue_row<N: Corners<CellId>>(&mut self, neighbours: &[N], c: usize, i: usize) -> bool {
-        let (facet, across) = (Facet::new(Slot::at(c), i), neighbours[c][i]);
-        if across == CellId::NONE {
-            let ghost = ghost_of(&self.cells[c].corners, i);
-            let out = Facet::new(Slot::at(self.cells.len()), C::N - 1);
-            self.cells.push(Cell { corners: ghost, ..Cell::free() });
-            self.glue(facet, out);
-            return true;
+    /// Notes the facets that cell `c` touches, of its neighbours and of new ghost cells; if there is one that it does
+    /// not meet, the corner opposite it.
+    ///
+    /// Each cell is looked at from both sides of every facet, which finds the same: a cell has one place in the row of
+    /// its neighbour. So only cell `c` is written to, and nothing depends on which cell is first, as that is random.
+    #[inline(always)]
+    fn glue_cell<N: Corners<CellId>>(&mut self, neighbours: &[N], c: usize) -> Result<(), usize> {
+        let (row, corners) = (neighbours[c], self.cells[c].corners);
+        let mut facets = C::Of::<Facet>::filled(Facet::NONE);
+        for i in 0..C::N {
+            let d = row[i].index();
+            let Some(back) = neighbours.get(d) else {
+                if row[i] != CellId::NONE {
+                    return Err(i);
+                }
+                facets[i] = self.add_ghost(Facet::new(Slot::at(c), i));
+                continue;
+            };
+            match place_of(back, CellId::at(c)) {
+                Some(j) if meet(&corners, i, &self.cells[d].corners, j) => {
+                    facets[i] = Facet::new(Slot::at(d), j);
+                }
+                _ => return Err(i),
+            }
         }
-        let d = across.index();
-        if d < c {
-            // It has been glued from there.
-            return self.cells[c].neighbours[i] != Facet::NONE
-                && self.cells[c].neighbours[i].cell().index() == d;
-        }
-        // Two cells that met in more than one facet would have the same corners.
-        let row = neighbours.get(d).filter(|_| d != c);
-        let Some(j) = row.and_then(|row| place_of(row, CellId::at(c))) else { return false };
-        if !meet(&self.cells[c].corners, i, &self.cells[d].corners, j) {
-            return false;
-        }
-        if self.cells[d].neighbours[j] != Facet::NONE {
-            return false;
-        }
-        self.glue(facet, Facet::new(Slot::at(d), j));
-        true
+        self.cells[c].neighbours = facets;
+        Ok(())
+    }
+
+    /// A new ghost cell at a facet: its own side of it.
+    #[cold]
+    #[inline(never)]
+    fn add_ghost(&mut self, facet: Facet) -> Facet {
+        let corners = ghost_of(&self.cells[facet.cell()].corners, facet.index());
+        let mut ghost = Cell { corners, ..Cell::free() };
+        ghost.neighbours[C::N - 1] = facet;
+        self.cells.push(ghost);
+        Facet::new(Slot::at(self.cells.len() - 1), C::N - 1)
     }
 
     /// Glues the ridges of a ghost cell to those of others, where `n` finite cells are glued to each other: around a

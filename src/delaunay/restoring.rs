@@ -39,9 +39,15 @@ impl<G: Dimension> Delaunay<G> {
         t.reserve_sites(n)?;
         let mut site_of = Vec::new();
         memory::lengthen(&mut site_of, positions.len(), SiteId::NONE)?;
-        for (s, keyed) in SiteId::range(1..n + 1).zip(sorted.iter().flatten()) {
-            t.sites.push(Site::new(positions[keyed.item() as usize], VertexId::new(keyed.item())));
-            site_of[keyed.item() as usize] = s;
+        for part in &sorted {
+            for (k, keyed) in part.iter().enumerate() {
+                if let Some(later) = part.get(k + AHEAD) {
+                    prefetch(positions, later.item() as usize);
+                    prefetch(&site_of, later.item() as usize);
+                }
+                site_of[keyed.item() as usize] = SiteId::at(t.sites.len());
+                t.sites.push(Site::new(positions[keyed.item() as usize], VertexId::new(keyed.item())));
+            }
         }
         drop(sorted);
         t.parts = parts;

@@ -18,12 +18,14 @@ use crate::error::{Error, Result};
 const LARGE: usize = 4 << 20;
 
 /// Makes room for exactly `more` more entries.
+#[inline(never)]
 pub(crate) fn reserve_exact<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve_exact(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })?;
     advise_if_large(array);
     Ok(())
 }
 
+#[inline(always)]
 fn advise_if_large<T>(array: &mut Vec<T>) {
     if bytes_of(array) >= LARGE {
         advise_large_pages(array.as_mut_ptr().cast(), bytes_of(array));
@@ -93,6 +95,7 @@ pub(crate) fn bytes_of<T>(array: &Vec<T>) -> usize {
 }
 
 /// A copy of an array.
+#[inline(never)]
 pub(crate) fn copy_of<T: Copy>(array: &[T]) -> Result<Vec<T>> {
     let mut copy = Vec::new();
     reserve_exact(&mut copy, array.len())?;
@@ -192,6 +195,8 @@ fn write<T: Sync, U: Copy + Send>(
 }
 
 #[cfg(target_os = "linux")]
+#[cold]
+#[inline(never)]
 fn advise_large_pages(start: *mut u8, bytes: usize) {
     const PAGE: usize = 4096;
     let skipped = start.align_offset(PAGE);

@@ -50,13 +50,8 @@ public:
     using Point_iterator = handle_iterator<detail::Points<Mesh, D>>;
 
     Base() : mesh_(std::make_unique<Mesh>()) {}
-    // Vertices of a copy have ids of their own, in the same order. It is triangulated again.
-    Base(const Base &other) : Base() {
-        typename Mesh::Vertices vertices;
-        vertices.reserve(other.number_of_vertices());
-        for (Vertex_handle v : other.finite_vertex_handles()) vertices.emplace_back(v.point(), v.info());
-        mesh_->insert(vertices);
-    }
+    // Vertices of a copy have the same ids, cells the same indices. Nothing is triangulated.
+    Base(const Base &other) : mesh_(std::make_unique<Mesh>(*other.mesh_)) {}
     Base(Base &&) noexcept = default;
     Base &operator=(Base other) noexcept {
         swap(other);

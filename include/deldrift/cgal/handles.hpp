@@ -176,9 +176,7 @@ Cell_handle<Mesh, D> Vertex_handle<Mesh, D>::cell() const {
         const auto k = static_cast<std::size_t>(std::find(cells.neighbours, end, DELDRIFT_NONE) - cells.neighbours);
         return {mesh, static_cast<std::uint32_t>(k / (D + 1)), static_cast<std::uint32_t>(k % (D + 1))};
     }
-    std::vector<std::uint32_t> star;
-    mesh->star(id(), star);
-    return {mesh, star.front()};
+    return {mesh, *typename Mesh::Star(*mesh, id()).begin()};
 }
 
 // An iterator that stands for the handle it is at.

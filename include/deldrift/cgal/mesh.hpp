@@ -62,7 +62,17 @@ public:
     using Vertices = std::vector<std::pair<Point, Given_info>>;
 
     Mesh() : t_(D, Positions(), options()), infinite_{point_of<D, P>({}), {}, this, DELDRIFT_NONE} {}
-    Mesh(const Mesh &) = delete;
+    // All is copied, nothing triangulated: vertices have the same ids, cells the same indices, and what is staged is.
+    Mesh(const Mesh &other) : t_(other.t_.clone()), infinite_{point_of<D, P>({}), {}, this, DELDRIFT_NONE} {
+        by_id_.reserve(other.by_id_.size());
+        for (const Record *record : other.by_id_) {
+            if (record != nullptr) records_.push_back(Record{record->point, record->info, this, record->id});
+            by_id_.push_back(record == nullptr ? nullptr : &records_.back());
+        }
+        unused_.reserve(2 * records_.size() + 16);
+        staged_.reserve(other.staged_.size());
+        for (const auto &[record, p] : other.staged_) staged_.emplace_back(by_id_[record->id], p);
+    }
     Mesh &operator=(const Mesh &) = delete;
 
     const Triangulation &triangulation() const noexcept { return t_; }
@@ -80,17 +90,36 @@ public:
         }
         return cells_;
     }
-    void star(std::uint32_t vertex, std::vector<std::uint32_t> &cells) const {
-        std::size_t count = 0;
-        cells.resize(64);
-        deldrift_status status = deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count);
-        if (status == DELDRIFT_BUFFER_TOO_SMALL) {
-            cells.resize(count);
-            status = deldrift_star(t_.native(), vertex, cells.data(), cells.size(), &count);
+    // Cells around a vertex; those of most have room in place.
+    class Star {
+    public:
+        Star(const Mesh &mesh, std::uint32_t vertex) {
+            if (const Lists *all = mesh.all_stars()) {
+                const auto cells = all->of_vertex(vertex);
+                first_ = cells.data(), n_ = cells.size();
+                return;
+            }
+            deldrift_status status = deldrift_star(mesh.t_.native(), vertex, few_, room, &n_);
+            if (status == DELDRIFT_BUFFER_TOO_SMALL) {
+                many_.resize(n_);
+                first_ = many_.data();
+                status = deldrift_star(mesh.t_.native(), vertex, many_.data(), n_, &n_);
+            }
+            check(status);
         }
-        check(status);
-        cells.resize(count);
-    }
+        Star(const Star &) = delete;
+        Star &operator=(const Star &) = delete;
+        const std::uint32_t *begin() const noexcept { return first_; }
+        const std::uint32_t *end() const noexcept { return first_ + n_; }
+        std::size_t size() const noexcept { return n_; }
+
+    private:
+        static constexpr std::size_t room = 64;
+        std::uint32_t few_[room];
+        std::vector<std::uint32_t> many_;
+        const std::uint32_t *first_ = few_;
+        std::size_t n_ = 0;
+    };
 
     // The vertex at a place; null where there is none.
     Record *nearest(const Point &p) const {
@@ -105,7 +134,7 @@ public:
         if (status != DELDRIFT_OK) drop_last();
         if (status == DELDRIFT_COINCIDENT) return nearest(p);
         check(status);
-        is_fresh_ = false;
+        changed();
         return record;
     }
 
@@ -121,7 +150,7 @@ public:
 
     void remove(Record *record) {
         t_.remove_vertex(record->id);
-        is_fresh_ = false;
+        changed();
         forget(record);
         // Ids of removed vertices take memory; where there is none to compact them, the next removal tries again.
         try {
@@ -136,7 +165,7 @@ public:
         const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, numbers_of<D>(p).data());
         if (status == DELDRIFT_COINCIDENT) return nearest(p);
         check(status);
-        is_fresh_ = false;
+        changed();
         record->point = p;
         return record;
     }
@@ -153,13 +182,31 @@ public:
     }
     deldrift_commit_report commit_timestamp() {
         const deldrift_commit_report report = t_.commit_timestamp();
-        is_fresh_ = false;
+        changed();
         for (auto &[record, p] : staged_) record->point = p;
         staged_.clear();
         return report;
     }
 
 private:
+    void changed() noexcept {
+        is_fresh_ = false;
+        has_stars_ = false;
+        n_stars_asked_ = 0;
+    }
+    // The stars of all vertices, in one pass over the cells, once so many have been asked for since the last change
+    // that the program seems to want them all; null before.
+    const Lists *all_stars() const {
+        if (has_stars_.load(std::memory_order_acquire)) return &stars_;
+        if (n_stars_asked_.fetch_add(1, std::memory_order_relaxed) < by_id_.size() / 8) return nullptr;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!has_stars_.load(std::memory_order_relaxed)) {
+            stars_ = t_.vertex_cells();
+            has_stars_.store(true, std::memory_order_release);
+        }
+        return &stars_;
+    }
+
     static deldrift_options options() noexcept {
         deldrift_options options = default_options();
         options.coincidence = DELDRIFT_COINCIDENCE_REJECT;
@@ -223,7 +270,7 @@ private:
             undo_insertions(n_before);
             throw;
         }
-        is_fresh_ = false;
+        changed();
         return true;
     }
     void undo_insertions(std::size_t n_before) {
@@ -260,7 +307,7 @@ private:
             by_id_[old]->id = ids[old];
         }
         by_id_ = std::move(by_id);
-        is_fresh_ = false;
+        changed();
     }
 
     Triangulation t_;
@@ -272,6 +319,9 @@ private:
     mutable std::mutex mutex_;
     mutable std::atomic<bool> is_fresh_{false};
     mutable deldrift_cells_view cells_{};
+    mutable std::atomic<bool> has_stars_{false};
+    mutable std::atomic<std::size_t> n_stars_asked_{0};
+    mutable Lists stars_;
 };
 
 }  // namespace deldrift::cgal::detail

@@ -89,6 +89,42 @@ struct At_facet {
     }
 };
 
+// Asks for what is about to be read; cells around a vertex may lie anywhere.
+inline void prefetch(const void *place) noexcept {
+#ifdef __GNUC__
+    __builtin_prefetch(place);
+#else
+    (void)place;
+#endif
+}
+
+// The different ids of the corners of a star of few cells, without that of its vertex.
+class Few_ids {
+public:
+    // There are two more corners than cells at most.
+    static constexpr std::size_t max_cells = 96;
+
+    explicit Few_ids(std::uint32_t vertex) noexcept {
+        std::fill_n(table_, size, DELDRIFT_NONE);
+        enter(vertex);
+    }
+    // Whether an id is new is random, so nothing branches on it.
+    void enter(std::uint32_t id) noexcept {
+        std::size_t at = id * 2654435769u >> 24;
+        while (table_[at] != id && table_[at] != DELDRIFT_NONE) at = (at + 1) % size;
+        ids_[n_] = id;
+        n_ += table_[at] != id;
+        table_[at] = id;
+    }
+    const std::uint32_t *begin() const noexcept { return ids_ + 1; }
+    const std::uint32_t *end() const noexcept { return ids_ + n_; }
+
+private:
+    static constexpr std::size_t size = 256;
+    std::uint32_t table_[size], ids_[max_cells + 4];
+    std::size_t n_ = 0;
+};
+
 // Corners of the six edges of a cell.
 inline constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
@@ -194,12 +230,12 @@ public:
     }
     template <class Output>
     Output adjacent_vertices(Vertex_handle v, Output out) const {
-        for (Vertex_handle w : link(v, true)) *out++ = w;
+        visit_link(v, true, [&](Vertex_handle w) { *out++ = w; });
         return out;
     }
     template <class Output>
     Output finite_adjacent_vertices(Vertex_handle v, Output out) const {
-        for (Vertex_handle w : link(v, false)) *out++ = w;
+        visit_link(v, false, [&](Vertex_handle w) { *out++ = w; });
         return out;
     }
     template <class Output>
@@ -210,7 +246,11 @@ public:
     Output finite_incident_facets(Vertex_handle v, Output out) const {
         return facets_of(v, false, out);
     }
-    size_type degree(Vertex_handle v) const { return link(v, true).size(); }
+    size_type degree(Vertex_handle v) const {
+        size_type n = 0;
+        visit_link(v, true, [&](Vertex_handle) { n++; });
+        return n;
+    }
 
     // Around an edge, infinite cells included.
     Cell_circulator incident_cells(Cell_handle c, int i, int j) const { return {c.vertex(i), c.vertex(j), c}; }
@@ -271,39 +311,57 @@ private:
         return static_cast<size_type>(std::count(first, first + this->n_facets_of_cells(), DELDRIFT_NONE));
     }
     std::vector<Cell_handle> star(Vertex_handle v, bool with_infinite) const {
-        std::vector<std::uint32_t> indices;
-        this->mesh()->star(v.id(), indices);
+        const typename Mesh::Star star(*this->mesh(), v.id());
+        const deldrift_cells_view &rows = this->mesh()->cells();
         std::vector<Cell_handle> cells;
-        for (std::uint32_t index : indices) {
+        cells.reserve(star.size() + 8);
+        for (std::uint32_t index : star) {
             const Cell_handle c(this->mesh(), index);
             cells.push_back(c);
             for (int i = 0; with_infinite && i < 4; i++) {
-                const Cell_handle other = c.neighbor(i);
-                if (other.is_infinite() && c.vertex(i) != v) cells.push_back(other);
+                const std::size_t k = std::size_t{index} * 4 + static_cast<std::size_t>(i);
+                if (rows.neighbours[k] == DELDRIFT_NONE && rows.vertices[k] != v.id()) cells.push_back(c.neighbor(i));
             }
         }
         return cells;
     }
-    std::vector<Vertex_handle> link(Vertex_handle v, bool with_infinite) const {
-        std::vector<std::uint32_t> star, ids;
-        this->mesh()->star(v.id(), star);
-        ids.reserve(3 * star.size());
+    // Calls visit with each neighbour of a vertex, once.
+    template <class Visit>
+    void visit_link(Vertex_handle v, bool with_infinite, Visit visit) const {
+        const typename Mesh::Star star(*this->mesh(), v.id());
+        const deldrift_cells_view &cells = this->mesh()->cells();
+        const auto &by_id = this->mesh()->by_id();
+        const bool are_few = star.size() <= detail::Few_ids::max_cells;
+        if (are_few) {
+            for (std::uint32_t cell : star) detail::prefetch(cells.vertices + std::size_t{cell} * 4);
+            detail::Few_ids ids(v.id());
+            for (std::uint32_t cell : star) {
+                for (std::size_t i = 0; i < 4; i++) ids.enter(cells.vertices[std::size_t{cell} * 4 + i]);
+            }
+            for (std::uint32_t id : ids) visit(Vertex_handle(by_id[id]));
+        } else {
+            std::vector<std::uint32_t> ids;
+            ids.reserve(4 * star.size());
+            for (std::uint32_t cell : star) {
+                const std::uint32_t *row = cells.vertices + std::size_t{cell} * 4;
+                std::copy_if(row, row + 4, std::back_inserter(ids), [&](std::uint32_t id) { return id != v.id(); });
+            }
+            std::sort(ids.begin(), ids.end());
+            ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+            for (std::uint32_t id : ids) visit(Vertex_handle(by_id[id]));
+        }
+        if (with_infinite && is_on_hull(v, star)) visit(this->infinite_vertex());
+    }
+    bool is_on_hull(Vertex_handle v, const typename Mesh::Star &star) const {
+        const deldrift_cells_view &cells = this->mesh()->cells();
         bool is_on_hull = false;
         for (std::uint32_t cell : star) {
             const std::size_t first = std::size_t{cell} * 4;
             for (std::size_t k = first; k < first + 4; k++) {
-                if (this->mesh()->cells().vertices[k] == v.id()) continue;
-                ids.push_back(this->mesh()->cells().vertices[k]);
-                is_on_hull |= this->mesh()->cells().neighbours[k] == DELDRIFT_NONE;
+                is_on_hull |= (cells.neighbours[k] == DELDRIFT_NONE) & (cells.vertices[k] != v.id());
             }
         }
-        std::sort(ids.begin(), ids.end());
-        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-        std::vector<Vertex_handle> vertices;
-        vertices.reserve(ids.size() + 1);
-        for (std::uint32_t id : ids) vertices.emplace_back(this->mesh()->by_id()[id]);
-        if (with_infinite && is_on_hull) vertices.push_back(this->infinite_vertex());
-        return vertices;
+        return is_on_hull;
     }
     // Each one once, from the lower of its two cells; if only finite ones are wanted, infinite cells have none.
     template <class Output>
