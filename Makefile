@@ -35,7 +35,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help test soak bench report memory large targets calibrate table lint header doc picture install examples
-.PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz
+.PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -87,6 +87,9 @@ tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly to
 
 miri: ## tests of what needs no system under Miri, with a nightly toolchain that has it
 	.ci/nightly miri
+
+mutants: ## changes of the sources that no test notices: tests/results/mutants.csv (an hour; ARGS="--sample 0" for all)
+	mutants/run $(ARGS)
 
 table: ## fill in the tables of README.md, from cpp-bench/results
 	cpp-bench/readme_table

@@ -206,3 +206,62 @@ fn islands_are_filled() {
     }
     assert!(n_filled > 1, "{n_filled} of {n_stuck}");
 }
+
+/// What is stuck on one of several threads is a suspect for the last one.
+#[test]
+fn stuck_facets_of_a_thread_are_suspects_again() {
+    let (mut t, _) = moved::<Plane>(2000, 2, 0.0);
+    let finite: Vec<Slot> = t.complex.live().filter(|&c| !t.complex.cell(c).is_ghost()).collect();
+    let stuck = [finite[10], finite[finite.len() - 10]].map(|c| Facet::new(c, 1));
+    let mut flips = AllFlips::<Plane>::default();
+    flips.own.suspects.extend(finite.iter().map(|&c| Facet::new(c, 0)));
+    for facet in stuck {
+        flips.parts.push(Flips { stuck: vec![facet], ..Flips::default() });
+    }
+    t.flip_side_by_side(&mut flips, 2).expect("room for it");
+    assert!(stuck.iter().all(|facet| flips.own.suspects.contains(facet)));
+    assert!(flips.parts.iter().all(|part| part.n_flips == 0 && part.stuck.is_empty()));
+}
+
+/// A random place on the unit sphere, as near as numbers come, within some `step` of where it comes from.
+fn on_sphere(rng: &mut Rng, from: [f64; 3], step: f64) -> [f64; 3] {
+    let p = from.map(|x| x + step * (2.0 * rng.unit() - 1.0));
+    let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    p.map(|x| x / length)
+}
+
+/// The relocation of a site whose flips are stuck, as they sometimes are on a sphere, leaves the cells as they were.
+#[test]
+fn stuck_relocations_come_back() {
+    let rng = &mut Rng::new(7);
+    let (mut n_stuck, mut n_flipped) = (0, 0);
+    let corners = |t: &Delaunay<Space>| t.complex.cells().iter().map(|cell| cell.corners).collect::<Vec<_>>();
+    for _ in 0..12 {
+        let mut t = Delaunay::<Space>::default();
+        t.add_sites(&[(); 150].map(|()| on_sphere(rng, [0.0; 3], 1.0))).expect("room for it");
+        t.rebuild(&mut |_| true).expect("room for it");
+        for s in (0..3).flat_map(|_| t.live_sites().collect::<Vec<_>>()).collect::<Vec<_>>() {
+            let (old, before) = (t.site(s).point, corners(&t));
+            let q = on_sphere(rng, old, 0.02);
+            t.cover(&q, &q);
+            t.set_point(s, q);
+            let mut failures = Failures::default();
+            t.check_star(s, &mut failures).expect("room for it");
+            t.check_ridges(&mut failures, |_| None).expect("room for it");
+            if !failures.cells.is_empty() || !failures.ridges.is_empty() {
+                t.set_point(s, old);
+                continue;
+            }
+            t.gather_star(s).expect("room for it");
+            if t.flip_star().expect("room for it").is_some() {
+                n_flipped += 1;
+                continue;
+            }
+            n_stuck += 1;
+            t.set_point(s, old);
+            assert!(corners(&t).starts_with(&before));
+            t.validate(Level::Delaunay).expect("cells as they were");
+        }
+    }
+    assert!(n_stuck > 3 && n_flipped > 1000, "{n_stuck} stuck, {n_flipped} not");
+}
