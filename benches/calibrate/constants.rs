@@ -157,7 +157,6 @@ fn thresholds_of(dimension: usize) -> Vec<Constant> {
         max_rebuilds: Whole,
         rebuilds_growth: Whole,
         share_of_late: Share,
-        limit_growth: AboveOne,
         min_share_of_round: Share,
         shorter_rounds: Real,
         rebuilt_per_placement: Whole,

@@ -228,7 +228,9 @@ const std::vector<std::string> &target_names() {
         "grown_cells",    "grown_star",  "grown_relocate_vertex", "grown_commit_one",
         "locate_path",    "locate",      "insert",          "drift_0.03",    "drift_0.1",
         "drift_0.3",      "staged_1",    "staged_10",       "staged_100",    "staged_1000",
-        "staged_5%",      "staged_20%"};
+        "staged_5%",      "staged_20%",  "tenth_grid",      "tenth_face_centred", "tenth_layers",
+        "tenth_sphere",   "tenth_circle", "shear_grid",     "shear_face_centred", "shear_layers",
+        "shear_sphere",   "shear_circle"};
     return names;
 }
 

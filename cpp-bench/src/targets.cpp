@@ -6,10 +6,12 @@
 #include "referee.hpp"
 #include "replay.hpp"
 #include "scenarios.hpp"
+#include "structured.hpp"
 #include "table.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -46,6 +48,15 @@ constexpr double drifts[] = {0.03, 0.1, 0.3};
 /// Mending is to be so much faster than rebuilding.
 constexpr double wanted_of_drifts[] = {1.5, 1.5, 1 / 1.1};
 
+/// Structured sets that points leave: every tenth of them, another tenth each time, or all by a shear.
+constexpr const char *left_sets[] = {"grid", "face_centred", "layers", "sphere", "circle"};
+constexpr std::size_t leaving_every = 10;
+constexpr double leaving_displacement = 1e-4;
+constexpr double leaving_shear = 1e-3;
+/// Over the first ten timestamps auto may take 1.3 times as long as the best.
+constexpr std::size_t n_left = 10;
+constexpr double wanted_at_first = 1 / 1.3;
+
 /// From where points go to a random place close by.
 enum class From { where_they_began, where_they_were };
 
@@ -64,6 +75,33 @@ Series moving_points(const std::string &name, unsigned dimension, std::size_t n_
         const std::size_t centre =
             from == From::where_they_began ? at % series.frame_length() : at - series.frame_length();
         for (unsigned axis = 0; axis < dimension; ++axis) place[axis] += series.positions[centre + axis];
+    }
+    return series;
+}
+
+/// A structured set, at rest during the warm-up, that is left after it.
+Series left_points(const std::string &name, const PointSet &set, std::size_t n_points, bool is_sheared,
+                   std::uint64_t seed) {
+    Random random(seed);
+    const SolverPoints points = set.draw(set.dimension, n_points, random);
+    Series series;
+    series.name = fmt::format("{}_{}d", name, set.dimension);
+    series.dimension = set.dimension;
+    series.n_points = points.positions.size() / set.dimension;
+    const std::size_t length = points.positions.size();
+    for (std::size_t timestamp = 0; timestamp <= n_warm + n_left; ++timestamp) {
+        std::vector<double> frame = timestamp == 0 ? points.positions
+                                                   : std::vector<double>(series.positions.end() - length,
+                                                                         series.positions.end());
+        if (timestamp > n_warm && is_sheared)
+            for (std::size_t at = 0; at < length; at += set.dimension) frame[at] += leaving_shear * frame[at + 1];
+        if (timestamp > n_warm && !is_sheared)
+            for (std::size_t i = timestamp % leaving_every; i < series.n_points; i += leaving_every) {
+                double way[3];
+                random.in_ball(set.dimension, leaving_displacement * points.spacing, way);
+                for (unsigned axis = 0; axis < set.dimension; ++axis) frame[i * set.dimension + axis] += way[axis];
+            }
+        series.positions.insert(series.positions.end(), frame.begin(), frame.end());
     }
     return series;
 }
@@ -172,6 +210,11 @@ public:
                 if (sizes_.has(leap_name(displacement))) leap(dimension, displacement);
             for (std::size_t i = 0; i < std::size(drifts); ++i)
                 if (sizes_.has(drift_name(drifts[i]))) drift(dimension, drifts[i], wanted_of_drifts[i]);
+            for (const PointSet &set : point_sets())
+                if (set.dimension == dimension && std::count(std::begin(left_sets), std::end(left_sets),
+                                                             std::string(set.name)) > 0)
+                    for (const char *way : {"tenth", "shear"})
+                        if (sizes_.has(left_name(way, set))) leave(set, way);
             if (sizes_.has("threads_build")) build_anew(dimension);
             append(step_targets(dimension, sizes_, seed_, checks_, progress_));
             if (sizes_.has("loop")) append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
@@ -268,6 +311,21 @@ private:
         add(name.c_str(), series, done[0], done[1], wanted);
     }
 
+    void leave(const PointSet &set, const std::string &way) {
+        const std::size_t last = n_warm + n_left;
+        const std::string name = left_name(way, set);
+        const Series series = left_points(name, set, sizes_.n_relocated, way == "shear", seed_);
+        auto done = replay(series,
+                           {entrant("deldrift/rebuilding", 1, last), entrant("deldrift/repair", 1, last),
+                            entrant("deldrift/placement_flips", 1, last), entrant("deldrift/auto", 1, last)},
+                           1, checks_of(series), progress_);
+        // The first timestamps differ from the others.
+        for (Outcome &outcome : done) outcome.ns = outcome.mean_ns;
+        const auto best = std::min_element(done.begin(), done.end() - 1,
+                                           [](const Outcome &a, const Outcome &b) { return a.ns < b.ns; });
+        add(name.c_str(), series, *best, done.back(), wanted_at_first);
+    }
+
     void build_anew(unsigned dimension) {
         const Series series = uniform_points(dimension, sizes_.n_committed, seed_);
         const EngineKind &kind = engine_kind("deldrift/rebuilding");
@@ -277,6 +335,9 @@ private:
     }
 
     static std::string leap_name(unsigned displacement) { return fmt::format("leap_{}", displacement); }
+    static std::string left_name(const std::string &way, const PointSet &set) {
+        return fmt::format("{}_{}", way, set.name);
+    }
     static std::string drift_name(double displacement) { return fmt::format("drift_{:g}", displacement); }
 
     void append(const std::vector<Target> &targets) {

@@ -84,10 +84,9 @@ pub struct Constants {
     pub max_rebuilds: u32,
     /// So many times as many as after the last repair that was too expensive, and one more.
     pub rebuilds_growth: u32,
-    /// After a repair that was too expensive, repair where this share of what it found fails, ...
+    /// After a repair that was too expensive, what has more than this share of its failures is rebuilt, as many times
+    /// as commits are.
     pub share_of_late: f64,
-    /// ... and so many times as much after each time that this was exceeded.
-    pub limit_growth: f64,
     /// Vertices that move one at a time, at once or few in a commit, are counted in rounds of as many as there are.
     /// Tolerances are kept for them after a round of which this share changed no cell, and while this share is within.
     pub min_share_of_round: f64,
@@ -213,7 +212,6 @@ const PLANE: Constants = Constants {
     max_rebuilds: 15,
     rebuilds_growth: 2,
     share_of_late: 0.5,
-    limit_growth: 1.5,
     min_share_of_round: 0.85,
     shorter_rounds: 8.0,
     rebuilt_per_placement: 8,

@@ -170,8 +170,10 @@ fn disturbed_layers(seed: u64) -> (Delaunay<Space>, Vec<Facet>) {
 /// Around facets that are stuck all is triangulated again; that comes back like flips, and is recorded like them.
 #[test]
 fn islands_are_filled() {
-    let (mut n_stuck, mut n_filled) = (0, 0);
-    for seed in 0..8 {
+    // About every fifth has facets that are stuck; which depends on the order of the flips, so on the processor.
+    let mut n_filled = 0;
+    for seed in 0.. {
+        assert!(seed < 60, "{n_filled} filled");
         let (mut t, mut suspects) = disturbed_layers(seed);
         let rows =
             |t: &Delaunay<Space>| t.complex.cells().iter().map(|cell| cell.corners).collect::<Vec<_>>();
@@ -190,7 +192,6 @@ fn islands_are_filled() {
         if !flip(&mut t, WhenStuck::Leave) {
             continue;
         }
-        n_stuck += 1;
         if flip(&mut t, WhenStuck::Fill) {
             continue;
         }
@@ -203,8 +204,10 @@ fn islands_are_filled() {
         let changed = t.take_changes().expect("a record");
         let is_new = |&c: &Slot| before.get(c.index()) != Some(&t.complex.cell(c).corners);
         assert!(t.complex.live().filter(is_new).all(|c| changed.contains(&c)));
+        if n_filled == 2 {
+            break;
+        }
     }
-    assert!(n_filled > 1, "{n_filled} of {n_stuck}");
 }
 
 /// What is stuck on one of several threads is a suspect for the last one.

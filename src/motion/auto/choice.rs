@@ -36,9 +36,11 @@ pub(in crate::motion) struct Auto {
     /// Commits still to be rebuilt without trying to repair, and how many they were last time.
     rebuilds: u32,
     last_rebuilds: u32,
-    /// Failures for each finite cell with which not to repair: a share of those of the last repair that was too
-    /// expensive.
-    limit: Option<f64>,
+    /// A share of the failures for each finite cell that the last repair had which was too expensive. That many are not
+    /// repaired for a number of times, and how many these were at first.
+    failing: f64,
+    stops: u32,
+    all_stops: u32,
     /// Exact evaluations of the last commit that rebuilt without trying to repair, if there was one.
     exact_of_rebuild: Option<u64>,
     /// Whether the latest commit relocated few vertices, one after the other.
@@ -78,7 +80,7 @@ impl Auto {
 
     /// Failures for each finite cell with which not to repair, where some repair was too expensive.
     pub(super) fn limit(&self) -> Option<f64> {
-        self.limit
+        (self.stops > 0).then_some(self.failing)
     }
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.
@@ -241,14 +243,21 @@ impl Auto {
             self.rebuilds = self.last_rebuilds;
             let more = constants.rebuilds_growth * self.last_rebuilds + 1;
             self.last_rebuilds = more.min(constants.max_rebuilds);
-            self.limit = if repair.was_foreseen() {
-                self.limit.map(|limit| constants.limit_growth * limit)
+            if repair.was_foreseen() {
+                self.stops = self.stops.saturating_sub(1);
             } else {
-                Some(constants.share_of_late * repair.share_failing())
-            };
+                self.failing = constants.share_of_late * repair.share_failing();
+                let more = constants.rebuilds_growth * self.all_stops + 1;
+                self.all_stops = more.min(constants.max_rebuilds);
+                self.stops = self.all_stops;
+            }
             return;
         }
-        (self.last_rebuilds, self.limit) = (0, None);
+        self.last_rebuilds = 0;
+        // Few failures tell nothing about many.
+        if self.stops == 0 && repair.share_failing() > self.failing {
+            self.all_stops = 0;
+        }
         self.wait = self.wait.saturating_sub(1);
         // Also before the wait is over if changes have become much rarer.
         let may_try = self.wait == 0 || constants.rarer_changes * self.changes < self.changes_at_stop;

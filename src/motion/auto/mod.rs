@@ -18,11 +18,11 @@
 //! computed again, so that what is watched follows from how far the vertices go now.
 //!
 //! **Rebuilding.** A repair that has to rebuild, or costs more than that, may be the only one: a lattice is left once.
-//! So the next commit is swept as well. If the repair has cost more than a sweep, half of what failed then has to hold
-//! for the next to be repaired, and more each time that it does not. After the second such repair in a row one commit
-//! rebuilds at once, and twice as many and one more after each that follows. What a repair has cost is estimated from
-//! what it has counted. On lattices exact evaluations, and removals of vertices of high degree near the
-//! hull, cost more than flips.
+//! So the next commit is swept as well. If the repair has cost more than a sweep, the next
+//! commit in which half as much fails, or more, is rebuilt, and three, seven, ... after further such repairs. After the
+//! second repair in a row that had to rebuild one commit rebuilds at once, and twice as many and one more after each
+//! that follows. What a repair has cost is estimated from what it has counted. On lattices exact evaluations, and
+//! removals of vertices of high degree near the hull, cost more than flips.
 //!
 //! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
 //! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a
