@@ -346,6 +346,18 @@ fn placing_is_given_up_where_it_would_take_too_long() {
     assert!(repair.exact_calls < 2 * rebuilding.exact_calls, "{repair:?}");
 }
 
+/// A lattice that is sheared again and again: repairs that cost more than a rebuild are not made each time.
+#[test]
+fn auto_does_not_repeat_repairs_that_were_too_expensive() {
+    let first = lattice::<Space>(19, [1.0; 3], &mut Rng::new(47));
+    let shears: Vec<_> = (1..13).map(|k| 1e-3 * f64::from(k)).collect();
+    let [rebuilding, auto] = [Algorithm::Rebuilding, Algorithm::Auto].map(|algorithm| {
+        let reports = shear_lattice::<Space>(algorithm, &first, &shears, false);
+        reports.iter().map(|report| report.exact_calls).sum::<u64>()
+    });
+    assert!(2 * auto < 3 * rebuilding, "{auto} against {rebuilding}");
+}
+
 /// A few vertices of a sphere, each with a star of hundreds of cells, are not placed to the end where that takes longer
 /// than a rebuild.
 #[test]

@@ -41,7 +41,7 @@ pub(in crate::motion) struct Auto {
     failing: f64,
     stops: u32,
     all_stops: u32,
-    /// Exact evaluations of the last commit that rebuilt without trying to repair, if there was one.
+    /// Exact evaluations of the last rebuild that came without a repair that had failed, if there was one.
     exact_of_rebuild: Option<u64>,
     /// Whether the latest commit relocated few vertices, one after the other.
     is_of_few: bool,
@@ -239,6 +239,11 @@ impl Auto {
     ) {
         let constants = constants::<G>();
         self.follow_changes::<G>(report);
+        let [before, after] = evaluations;
+        if report.rebuilds > 0 && repair.was_foreseen() {
+            // All but the sweep's.
+            self.exact_of_rebuild = Some(after.since(before).exact.saturating_sub(repair.exact_of_sweep()));
+        }
         if report.rebuilds > 0 || self.is_too_expensive::<G>(n, n_swept, report, evaluations) {
             self.rebuilds = self.last_rebuilds;
             let more = constants.rebuilds_growth * self.last_rebuilds + 1;

@@ -71,6 +71,11 @@ impl Repair {
         self.share_failing
     }
 
+    /// Exact evaluations of the last sweep.
+    pub(in crate::motion) fn exact_of_sweep(&self) -> u64 {
+        self.exact
+    }
+
     /// Whether the last repair has rebuilt all, and done nothing before but to look at certificates.
     pub(in crate::motion) fn was_foreseen(&self) -> bool {
         self.was_foreseen
