@@ -209,18 +209,22 @@ fn walks_begin_in_a_cell_after_flips() {
     assert!(flips > 4000, "there were hardly any flips: {flips}");
 }
 
+/// Random places on the unit sphere, as near as numbers come.
+fn on_sphere(n: usize, rng: &mut Rng) -> Vec<[f64; 3]> {
+    let place = |_| {
+        let p = [0; 3].map(|_| rng.unit() - 0.5);
+        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+        p.map(|x| x / length)
+    };
+    (0..n).map(place).collect()
+}
+
 /// Where all cells change at once flips would be quadratic in their number: a repair gives up in time, in proportion to
 /// the number of vertices.
 #[test]
 fn repairs_that_would_flip_without_end_rebuild() {
     let mut rng = Rng::new(3);
-    let mut now: Vec<[f64; 3]> = (0..4000)
-        .map(|_| {
-            let p = [0; 3].map(|_| rng.unit() - 0.5);
-            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-            p.map(|x| x / length)
-        })
-        .collect();
+    let mut now = on_sphere(4000, &mut rng);
     let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
     let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
     // The sphere becomes an ellipsoid.
@@ -363,13 +367,7 @@ fn auto_does_not_repeat_repairs_that_were_too_expensive() {
 #[test]
 fn auto_rebuilds_where_few_vertices_take_longer() {
     let rng = &mut Rng::new(43);
-    let mut now: Vec<[f64; 3]> = (0..2000)
-        .map(|_| {
-            let p = [0; 3].map(|_| rng.unit() - 0.5);
-            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-            p.map(|x| x / length)
-        })
-        .collect();
+    let mut now = on_sphere(2000, rng);
     let first = now.clone();
     now.iter_mut().take(80).for_each(|p| p[0] += 0.001 * p[1]);
     let [flips, auto] = [Algorithm::PlacementFlips, Algorithm::Auto].map(|algorithm| {

@@ -156,7 +156,7 @@ fn thresholds_of(dimension: usize) -> Vec<Constant> {
         swept_per_placement: Whole,
         max_rebuilds: Whole,
         rebuilds_growth: Whole,
-        share_of_late: Share,
+        share_too_many: Share,
         min_share_of_round: Share,
         shorter_rounds: Real,
         rebuilt_per_placement: Whole,

@@ -89,10 +89,8 @@ Series left_points(const std::string &name, const PointSet &set, std::size_t n_p
     series.dimension = set.dimension;
     series.n_points = points.positions.size() / set.dimension;
     const std::size_t length = points.positions.size();
+    std::vector<double> frame = points.positions;
     for (std::size_t timestamp = 0; timestamp <= n_warm + n_left; ++timestamp) {
-        std::vector<double> frame = timestamp == 0 ? points.positions
-                                                   : std::vector<double>(series.positions.end() - length,
-                                                                         series.positions.end());
         if (timestamp > n_warm && is_sheared)
             for (std::size_t at = 0; at < length; at += set.dimension) frame[at] += leaving_shear * frame[at + 1];
         if (timestamp > n_warm && !is_sheared)
@@ -211,8 +209,7 @@ public:
             for (std::size_t i = 0; i < std::size(drifts); ++i)
                 if (sizes_.has(drift_name(drifts[i]))) drift(dimension, drifts[i], wanted_of_drifts[i]);
             for (const PointSet &set : point_sets())
-                if (set.dimension == dimension && std::count(std::begin(left_sets), std::end(left_sets),
-                                                             std::string(set.name)) > 0)
+                if (set.dimension == dimension && is_left(set))
                     for (const char *way : {"tenth", "shear"})
                         if (sizes_.has(left_name(way, set))) leave(set, way);
             if (sizes_.has("threads_build")) build_anew(dimension);
@@ -335,6 +332,9 @@ private:
     }
 
     static std::string leap_name(unsigned displacement) { return fmt::format("leap_{}", displacement); }
+    static bool is_left(const PointSet &set) {
+        return std::find(std::begin(left_sets), std::end(left_sets), std::string(set.name)) != std::end(left_sets);
+    }
     static std::string left_name(const std::string &way, const PointSet &set) {
         return fmt::format("{}_{}", way, set.name);
     }

@@ -84,9 +84,9 @@ pub struct Constants {
     pub max_rebuilds: u32,
     /// So many times as many as after the last repair that was too expensive, and one more.
     pub rebuilds_growth: u32,
-    /// After a repair that was too expensive, what has more than this share of its failures is rebuilt, as many times
-    /// as commits are.
-    pub share_of_late: f64,
+    /// After a repair that was too expensive, commits with more than this share of its failures are rebuilt. How many
+    /// such commits follows from the two constants above.
+    pub share_too_many: f64,
     /// Vertices that move one at a time, at once or few in a commit, are counted in rounds of as many as there are.
     /// Tolerances are kept for them after a round of which this share changed no cell, and while this share is within.
     pub min_share_of_round: f64,
@@ -211,7 +211,7 @@ const PLANE: Constants = Constants {
     swept_per_placement: 20,
     max_rebuilds: 15,
     rebuilds_growth: 2,
-    share_of_late: 0.5,
+    share_too_many: 0.5,
     min_share_of_round: 0.85,
     shorter_rounds: 8.0,
     rebuilt_per_placement: 8,

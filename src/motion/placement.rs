@@ -4,13 +4,14 @@
 //! is nearer. In between, some vertices are at their new and some at their old positions: two may meet that are never
 //! at the same place at a timestamp; they share a site for that while.
 //!
-//! **Threads.** One does it all. Four fifths of a placement in space find out what will change, and change nothing: the
-//! walk, the zone, what fills the hole. Two threads that found this out ahead, for batches of vertices far from each
-//! other, after which one made the changes, were 1.3 times as fast in space where vertices leap anywhere, and no faster
-//! where they jump by half a spacing; in the plane 1.15 and 0.8 times (300,000 points, `examples/thread_scaling`). The
-//! shares alone would allow 1.6 times in space: the rest presumably goes where threads wait for each other, twice in
-//! each batch, and where one changes what another has in its cache. Two processes side by side place 1.6 times as many
-//! vertices in the plane and 1.8 times as many in space as one alone.
+//! **Threads.** One does it all. Four fifths of a placement in space find out what will change, and change nothing:
+//! the walk, the zone, what fills the hole. In a prototype, which is not kept, two threads found this out ahead, for
+//! batches of vertices far from each other, and one made the changes after each batch. They were 1.3 times as fast in
+//! space where vertices leap anywhere, and no faster where they jump by half a spacing; in the plane 1.15 and 0.8
+//! times (300,000 points, `examples/thread_scaling`). The shares alone would allow 1.6 times in space: the rest
+//! presumably goes where threads wait for each other, twice in each batch, and where one changes what another has in
+//! its cache. Two processes side by side place 1.6 times as many vertices in the plane and 1.8 times as many in space
+//! as one alone.
 
 use super::constants::constants;
 use super::repair::Budget;

@@ -15,11 +15,23 @@ fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<F
     t.add_sites(&points).expect("room for it");
     t.rebuild(&mut |_| true).expect("room for it");
     t.sort_cells().expect("room for it");
+    let facets = move_sites(&mut t, |old| {
+        let mut q = *old;
+        (0..G::D).for_each(|k| q[k] += size * (2.0 * rng.unit() - 1.0));
+        Some(q)
+    });
+    (t, facets)
+}
+
+/// Moves the sites for which there is a place, but those that would invert a cell; returns the facets that fail.
+fn move_sites<G: Dimension>(
+    t: &mut Delaunay<G>,
+    mut place: impl FnMut(&G::Point) -> Option<G::Point>,
+) -> Vec<Facet> {
     let mut failures = Failures::default();
     for s in t.live_sites().collect::<Vec<_>>() {
         let old = t.site(s).point;
-        let mut q = old;
-        (0..G::D).for_each(|k| q[k] += size * (2.0 * rng.unit() - 1.0));
+        let Some(q) = place(&old) else { continue };
         t.cover(&q, &q);
         t.set_point(s, q);
         failures.clear();
@@ -30,8 +42,7 @@ fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<F
         }
     }
     assert!(t.sweep(&mut failures, usize::MAX, None).expect("room for it") && failures.cells.is_empty());
-    let facets = failures.facets;
-    (t, facets)
+    failures.facets
 }
 
 /// Flips on several threads lead to a Delaunay triangulation, and most of them are done side by side.
@@ -147,24 +158,11 @@ fn disturbed_layers(seed: u64) -> (Delaunay<Space>, Vec<Facet>) {
     let mut t = Delaunay::<Space>::default();
     t.add_sites(&(0..5832).map(place).collect::<Vec<_>>()).expect("room for it");
     t.rebuild(&mut |_| true).expect("room for it");
-    let mut failures = Failures::default();
-    for s in t.live_sites().collect::<Vec<_>>() {
-        let old = t.site(s).point;
+    let facets = move_sites(&mut t, |old| {
         let q = old.map(|x| x + 1e-4 * (rng.unit() - 0.5));
-        if rng.below(10) > 0 {
-            continue;
-        }
-        t.cover(&q, &q);
-        t.set_point(s, q);
-        failures.clear();
-        t.check_star(s, &mut failures).expect("room for it");
-        t.check_ridges(&mut failures, |_| None).expect("room for it");
-        if !failures.cells.is_empty() || !failures.ridges.is_empty() {
-            t.set_point(s, old);
-        }
-    }
-    assert!(t.sweep(&mut failures, usize::MAX, None).expect("room for it") && failures.cells.is_empty());
-    (t, failures.facets)
+        (rng.below(10) == 0).then_some(q)
+    });
+    (t, facets)
 }
 
 /// Around facets that are stuck all is triangulated again; that comes back like flips, and is recorded like them.

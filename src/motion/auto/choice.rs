@@ -36,11 +36,12 @@ pub(in crate::motion) struct Auto {
     /// Commits still to be rebuilt without trying to repair, and how many they were last time.
     rebuilds: u32,
     last_rebuilds: u32,
-    /// A share of the failures for each finite cell that the last repair had which was too expensive. That many are not
-    /// repaired for a number of times, and how many these were at first.
-    failing: f64,
-    stops: u32,
-    all_stops: u32,
+    /// Failures for each finite cell that are too many to repair: a share of those of the last repair that was too
+    /// expensive.
+    too_many_failing: f64,
+    /// Commits with too many failures that are still to be rebuilt, and how many they were last time.
+    refusals: u32,
+    last_refusals: u32,
     /// Exact evaluations of the last rebuild that came without a repair that had failed, if there was one.
     exact_of_rebuild: Option<u64>,
     /// Whether the latest commit relocated few vertices, one after the other.
@@ -80,7 +81,7 @@ impl Auto {
 
     /// Failures for each finite cell with which not to repair, where some repair was too expensive.
     pub(super) fn limit(&self) -> Option<f64> {
-        (self.stops > 0).then_some(self.failing)
+        (self.refusals > 0).then_some(self.too_many_failing)
     }
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.
@@ -249,19 +250,19 @@ impl Auto {
             let more = constants.rebuilds_growth * self.last_rebuilds + 1;
             self.last_rebuilds = more.min(constants.max_rebuilds);
             if repair.was_foreseen() {
-                self.stops = self.stops.saturating_sub(1);
+                self.refusals = self.refusals.saturating_sub(1);
             } else {
-                self.failing = constants.share_of_late * repair.share_failing();
-                let more = constants.rebuilds_growth * self.all_stops + 1;
-                self.all_stops = more.min(constants.max_rebuilds);
-                self.stops = self.all_stops;
+                self.too_many_failing = constants.share_too_many * repair.share_failing();
+                let more = constants.rebuilds_growth * self.last_refusals + 1;
+                self.last_refusals = more.min(constants.max_rebuilds);
+                self.refusals = self.last_refusals;
             }
             return;
         }
         self.last_rebuilds = 0;
         // Few failures tell nothing about many.
-        if self.stops == 0 && repair.share_failing() > self.failing {
-            self.all_stops = 0;
+        if self.refusals == 0 && repair.share_failing() > self.too_many_failing {
+            self.last_refusals = 0;
         }
         self.wait = self.wait.saturating_sub(1);
         // Also before the wait is over if changes have become much rarer.

@@ -17,12 +17,12 @@
 //! watched or what is recomputed has cost more than the other by a share of a computation of all, all tolerances are
 //! computed again, so that what is watched follows from how far the vertices go now.
 //!
-//! **Rebuilding.** A repair that has to rebuild, or costs more than that, may be the only one: a lattice is left once.
-//! So the next commit is swept as well. If the repair has cost more than a sweep, the next
-//! commit in which half as much fails, or more, is rebuilt, and three, seven, ... after further such repairs. After the
-//! second repair in a row that had to rebuild one commit rebuilds at once, and twice as many and one more after each
-//! that follows. What a repair has cost is estimated from what it has counted. On lattices exact evaluations, and
-//! removals of vertices of high degree near the hull, cost more than flips.
+//! **Rebuilding.** A repair may have to rebuild, or cost more than that, only once: when points leave a lattice. So
+//! the next commit is swept as well. If repairs rebuild twice in a row, the next commit rebuilds without a sweep, then
+//! three commits, then seven. Where a repair was expensive because of what came after its sweep, the next commit with
+//! at least half as many failures is rebuilt; after the second such repair three commits are, then seven. What a
+//! repair has cost is estimated from what it has counted. On lattices exact evaluations, and removals of vertices of
+//! high degree near the hull, cost more than flips.
 //!
 //! **Immediate relocations** are counted in rounds of as many as there are vertices. After a round of which most
 //! changed no cell tolerances are computed, and kept while most relocations are within: a test costs a hundredth of a

@@ -168,6 +168,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve(&mut repair.at, self.site_of.len())?;
         repair.queue.clear();
         (repair.n_new, repair.n_old, repair.exact) = (0, 0, 0);
+        (repair.share_failing, repair.was_foreseen) = (0.0, false);
         if self.staging.is_whole() {
             repair.at.resize(self.site_of.len(), At::New);
             repair.n_new = moved as usize;
