@@ -145,6 +145,10 @@ def entries():
             yield f"predicates/near-tie-in-{name}-of-2-to-the-minus-{size + 1}", data
         for rule, family in enumerate(FAMILIES):
             yield f"predicates/{family}-in-{name}", bytes([kind, rule] + [r.randrange(256) for _ in range(120)])
+    yield "calls/insertions-discarded-after-all-cells-are-built", bytes.fromhex(
+        "00b9a60000000000000000000000000000000000000000000000000000000000000000000000000000000000"
+        "000052010001008600007500000000010100a300000000000000000000c400000000000000000000697c0000"
+        "ed0100009600000000000000000000000000003531000000000002010100000000008b0054")
     yield "predicates/number-far-below-a-lattice", bytes.fromhex("00020013000000020001004401")
 
     for d in (2, 3):

@@ -648,6 +648,33 @@ fn rebuilding_lists_only_what_differs() {
     rebuilding_keeps_what_stays::<Space>();
 }
 
+/// Insertions that are staged when an immediate call builds all cells are no part of what it changes, nor of what follows
+/// when they are discarded.
+fn discarded_insertions_are_not_listed<G: Dimension>() {
+    let mut points: Vec<G::Point> = (0..9).map(|i| point::<G>(|k| [i as f64, 0.0, 0.0][k])).collect();
+    if G::D == 3 {
+        points[7][1] = 5.0;
+    }
+    points.push(points[4]);
+    let mut t = built::<G>(&points, Options::default());
+    assert_eq!(t.cell_count(), 0);
+    take(&mut t).expect("room");
+    t.stage_insertions(&cloud::<G>(4, 5)).expect("room");
+    t.relocate_vertex(vertex(0), &point::<G>(|k| [2.0, 7.0, 1.0][k])).expect("room");
+    assert!(t.cell_count() > 0);
+    t.discard_moves();
+    let ids = t.compact().expect("room");
+    assert_eq!(ids, VertexId::range(0..points.len()).collect::<Vec<_>>());
+    let list = take(&mut t).expect("room");
+    assert_eq!((list.hidden, list.shown), (vec![], vec![]));
+}
+
+#[test]
+fn insertions_discarded_after_all_cells_are_built_are_not_listed() {
+    discarded_insertions_are_not_listed::<Plane>();
+    discarded_insertions_are_not_listed::<Space>();
+}
+
 /// A first commit that fails leaves no trace in the changed cells.
 #[test]
 fn nothing_has_changed_before_the_first_commit() {

@@ -186,26 +186,23 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(hidden)
     }
 
-    /// Notes the vertices that a new kernel hides and the present one does not, or the other way round.
+    /// Notes the vertices that a new kernel hides and the present one does not, or the other way round. Insertions that
+    /// are staged, but not a part of this change, are in neither.
     fn note_visibilities_of(&mut self, next: &Delaunay<G>, hidden: &Hidden) -> Result<()> {
         if self.hidden.count() + hidden.count() == 0 {
             return Ok(());
         }
-        let mut is_representative = Vec::new();
-        memory::reserve_exact(&mut is_representative, self.site_of.len())?;
-        is_representative.resize(self.site_of.len(), false);
         for s in next.live_sites() {
-            is_representative[next.site(s).id] = true;
-        }
-        for v in VertexId::range(0..self.site_of.len()) {
-            if self.is_present(v) && self.is_hidden(v) == is_representative[v] {
-                self.note_visibility(v, self.is_hidden(v))?;
+            let representative = next.site(s).id;
+            if self.is_present(representative) && self.is_hidden(representative) {
+                self.note_visibility(representative, true)?;
             }
-        }
-        for k in 0..self.staged_edits().0 {
-            let v = self.coming(k);
-            if !is_representative[v] {
-                self.note_visibility(v, false)?;
+            let mut v = hidden.next(representative);
+            while v != VertexId::NONE {
+                if !self.is_present(v) || !self.is_hidden(v) {
+                    self.note_visibility(v, false)?;
+                }
+                v = hidden.next(v);
             }
         }
         Ok(())
