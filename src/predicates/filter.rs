@@ -369,7 +369,9 @@ fn lifted_bound_3d(constant: f64, extents @ [x, y, z]: [f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::dyadic::product;
     use super::*;
+    use crate::random::Rng;
 
     #[test]
     fn constants_are_the_first_order_counts_rounded_up() {
@@ -389,6 +391,39 @@ mod tests {
             let f = StaticFilter::space(lower, upper);
             let accepts = |bound: f64| f64::MAX > bound;
             assert!(!accepts(f.orient) && !accepts(f.in_sphere) && !accepts(f.prepared));
+        }
+    }
+
+    /// The first N factors, of which the first is a constant, and what underflow adds: the largest extent or 1, to the
+    /// power of the degree less two.
+    fn check<const N: usize>(bound: f64, factors: [f64; N], largest: f64) {
+        let [mut of_underflow, m] = [UNDERFLOW, largest.max(1.0)].map(|x| product([x]));
+        (3..N).for_each(|_| of_underflow = of_underflow.clone() * m.clone());
+        let expected = product(factors) + of_underflow;
+        assert!(product([bound]).is_close_to(&expected, 48), "{bound:e}, {factors:?}, {largest:e}");
+    }
+
+    /// Each bound is what the analysis asks for, in exact numbers, for extents of all sizes; so is the part of it that
+    /// underflow takes.
+    #[test]
+    fn bounds_are_as_documented() {
+        let rng = &mut Rng::new(5);
+        for case in 0..20_000 {
+            let lowest = [-20, -1_060][case % 2];
+            let [x, y, z] =
+                std::array::from_fn(|_| (1.0 + rng.unit()) * 2f64.powi(rng.within(lowest, 180) as i32));
+            let (flat, l) = (x.max(y), x.max(y).max(z));
+            let [orient, prepared] = semi_static_bounds_2d([x, y]);
+            check(orient, [ORIENT_2D, x, y], flat);
+            check(prepared, [PREPARED_2D, x, y, flat, flat], flat);
+            check(incircle_bound([x, y]), [IN_CIRCLE, x, y, flat, flat], flat);
+            check(prepared_bound_2d(x, y), [PREPARED_2D, x, x, y, flat], flat);
+            let [orient, prepared] = semi_static_bounds_3d([x, y, z]);
+            check(orient, [ORIENT_3D, x, y, z], l);
+            check(prepared, [PREPARED_3D, x, y, z, l, l], l);
+            check(insphere_bound([x, y, z]), [IN_SPHERE, x, y, z, l, l], l);
+            check(prepared_bound_3d(x, y), [PREPARED_3D, x, x, x, y, flat], flat);
+            check(insphere_bound_of_terms(z, [x, y, y]), [IN_SPHERE_TERMS, z, 1.0, 1.0, 1.0, 1.0], flat);
         }
     }
 }

@@ -81,6 +81,8 @@ mod bicells;
 mod big;
 mod coordinates;
 mod distance;
+#[cfg(test)]
+mod dyadic;
 mod filter;
 mod integer;
 mod lanes;

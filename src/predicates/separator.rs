@@ -267,3 +267,32 @@ impl<T: Real> Slabs<T> {
         widths
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::dyadic::product;
+    use super::*;
+    use crate::random::Rng;
+
+    /// The error bounds of slabs are those of the extents of the bi-cell, in exact numbers.
+    #[test]
+    fn bounds_of_slabs_are_as_documented() {
+        let rng = &mut Rng::new(7);
+        for _ in 0..2_000 {
+            let size = 2f64.powi(rng.within(-300, 150) as i32);
+            let points: Points<f64> = std::array::from_fn(|_| std::array::from_fn(|_| rng.unit() * size));
+            let extents: [f64; 3] = std::array::from_fn(|k| {
+                let along = points.map(|p| p[k]);
+                along.into_iter().fold(0.0, f64::max) - along.into_iter().fold(f64::INFINITY, f64::min)
+            });
+            let [x, y, z] = extents;
+            let l = x.max(y).max(z);
+            let slabs = Slabs::new(&points);
+            let bound = product([ORIENT_3D, x, y, z]) + product([LEAST_DETERMINANT]);
+            let blur = product([7.0, CROSS, l, l, l, l]) + product([LEAST, LEAST]);
+            // Where the square of the bound is all underflow, it is none of a determinant.
+            assert!(product([slabs.bound]).is_close_to(&bound, 40), "{points:?}");
+            assert!(product([slabs.blur]).is_close_to(&blur, 40), "{points:?} {} {}", slabs.blur, l);
+        }
+    }
+}

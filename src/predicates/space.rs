@@ -232,3 +232,41 @@ pub(super) fn volume(u: &[f64; 3], v: &[f64; 3], w: &[f64; 3]) -> f64 {
 fn coord(&[x, y, z]: &[f64; 3]) -> Coord3D<f64> {
     Coord3D { x, y, z }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::dyadic::{Dyadic, product};
+    use super::*;
+    use crate::random::Rng;
+
+    /// The sum of magnitudes is that of the determinant multiplied out, in exact numbers.
+    #[test]
+    fn magnitudes_are_those_of_all_terms() {
+        let rng = &mut Rng::new(6);
+        for _ in 0..2_000 {
+            let spread = rng.within(0, 60);
+            let points: [[f64; 3]; 5] = std::array::from_fn(|_| {
+                std::array::from_fn(|_| (rng.unit() - 0.5) * 2f64.powi(rng.within(-spread, spread) as i32))
+            });
+            let exact = |p: usize, q: usize| -> [Dyadic; 3] {
+                std::array::from_fn(|k| (product([points[p][k]]) - product([points[q][k]])).abs())
+            };
+            let volume = |rows: [usize; 3]| {
+                let rows = rows.map(|p| exact(p, 0));
+                let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+                orders.into_iter().fold(Dyadic::from(0.0), |sum, order| {
+                    let [u, v, w] = std::array::from_fn(|row| rows[row][order[row]].clone());
+                    sum + u * v * w
+                })
+            };
+            let scalar = |p: usize| {
+                let [from_a, from_b] = [exact(p, 0), exact(p, 1)];
+                from_a.into_iter().zip(from_b).fold(Dyadic::from(0.0), |sum, (x, y)| sum + x * y)
+            };
+            let expected =
+                volume([1, 2, 4]) * scalar(3) + volume([1, 3, 4]) * scalar(2) + volume([1, 2, 3]) * scalar(4);
+            let found = insphere_magnitudes(points.each_ref());
+            assert!(product([found]).is_close_to(&expected, 48), "{points:?}");
+        }
+    }
+}

@@ -312,7 +312,9 @@ fn non_negative(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::dyadic::{Dyadic, product};
     use super::*;
+    use crate::random::Rng;
 
     fn within(
         avx2: Avx2,
@@ -360,5 +362,66 @@ mod tests {
             }
         }
         assert!(n_within.iter().all(|n| (5_000..35_000).contains(n)), "{n_within:?}");
+    }
+
+    /// The half-width is the lesser of both distances from the radius, less what the analysis takes off, in exact
+    /// numbers: also where the radius has been rounded, and where distances are nearly [`LEAST`].
+    #[test]
+    fn half_widths_are_as_documented() {
+        let rng = &mut Rng::new(8);
+        let (mut n_nearer_inside, mut n_positive) = (0, 0);
+        for case in 0..20_000 {
+            let unit = [1.0, 1e-139, 3e50][case % 3];
+            let inner = unit * (1.0 + rng.unit());
+            let outer = inner * (1.0 + [10.0 * rng.unit(), (100 + rng.below(400)) as f64 * UNIT][case % 2]);
+            let (radius, half_width) = middle::<f64, 3>(inner * inner, outer * outer);
+            let [r, big, rho] = [(inner * inner).sqrt(), (outer * outer).sqrt(), radius].map(Dyadic::from);
+            let (inside, outside) = (rho.clone() - r, big.clone() - rho);
+            n_nearer_inside += usize::from(inside < outside);
+            let least = if inside < outside { inside } else { outside };
+            let lost = product([4.5, UNIT]) * big + product([2.0, LEAST]);
+            if least <= lost {
+                assert_eq!(half_width, 0.0, "{inner:e} {outer:e}");
+                continue;
+            }
+            n_positive += 1;
+            assert!((lost + product([half_width])).is_close_to(&least, 38), "{inner:e} {outer:e}");
+        }
+        assert!(n_nearer_inside > 1_000 && n_positive > 10_000, "{n_nearer_inside} {n_positive}");
+    }
+
+    /// Half the least distance of two opposite faces, vertex and facet or two edges, of tetrahedra of all sizes.
+    #[test]
+    fn tolerances_of_tetrahedra_are_close_below_half_the_least_width() {
+        let rng = &mut Rng::new(9);
+        let mut n_positive = 0;
+        for _ in 0..10_000 {
+            let size = 2f64.powi(rng.within(-100, 100) as i32);
+            let corners: [[f64; 3]; 4] =
+                std::array::from_fn(|_| std::array::from_fn(|_| rng.below(1_000) as f64));
+            let [u, v, w] = [1, 2, 3].map(|k| minus(&corners[k], &corners[0]));
+            // Integers of which all products are exact.
+            let normals = [
+                cross(&u, &v),
+                cross(&v, &w),
+                cross(&w, &u),
+                cross(&minus(&v, &u), &minus(&w, &u)),
+                cross(&u, &minus(&w, &v)),
+                cross(&v, &minus(&u, &w)),
+                cross(&w, &minus(&v, &u)),
+            ];
+            let square = normals.iter().map(|n| dot(n, n)).fold(0.0, f64::max);
+            let volume = dot(&cross(&u, &v), &w);
+            let scaled = corners.map(|p| p.map(|x| x * size));
+            let t = orientation_tolerance3d(scaled.each_ref());
+            if volume <= 0.0 {
+                assert_eq!(t, 0.0, "{corners:?}");
+                continue;
+            }
+            n_positive += 1;
+            let (found, limit) = (product([4.0, t, t, square]), product([volume, volume, size, size]));
+            assert!(found < limit && found.is_close_to(&limit, 24), "{corners:?}, {size:e}");
+        }
+        assert!(n_positive > 4_000);
     }
 }
