@@ -23,7 +23,7 @@ EXAMPLE_NEEDS := cmake g++ libeigen3-dev
 PAGE_NEEDS := python3-jinja2 python3-matplotlib
 
 # Tests of code that uses AVX2: they also run without it.
-SCALAR_TOO := maintenance oracle repair threads tolerances
+SCALAR_TOO := maintenance oracle repair threads tolerances work
 
 # Where cargo builds, and all others look for the library: one absolute path, CARGO_TARGET_DIR if that is set.
 override CARGO_TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)

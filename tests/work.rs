@@ -1,0 +1,178 @@
+//! How much work the algorithms take, in counts: files in `results/work`, one for each kind of input, with a row
+//! for each algorithm, summed over a fixed history. They depend on the processor in one thing alone: whether it has AVX2.
+//!
+//! A change of the library that is for speed, or against it, changes a row. `DELDRIFT_RECORD=1` writes the file again.
+
+mod common;
+
+use common::inputs::{Kind, draw};
+use common::{Rng, assert_same_cells, cell_set, fresh_cells, point};
+use deldrift::motion::{Algorithm, MovingTriangulation, Options};
+use deldrift::{Dimension, Plane, Space, VertexId};
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+
+const HEADER: &str = "timestamp,moved,unchanged,placements,flips,rebuilds,within_tolerance,within_safe_region,\
+    tolerances,certificates,exact_calls,coincident,inserted,removed";
+
+/// A triangulation and its positions, none for what has been removed.
+struct History<G: Dimension> {
+    t: MovingTriangulation<G>,
+    positions: Vec<Option<G::Point>>,
+    rng: Rng,
+}
+
+impl<G: Dimension> History<G> {
+    fn new(points: &[G::Point], algorithm: Algorithm) -> Self {
+        let t =
+            MovingTriangulation::new(points, Options { algorithm, ..Options::default() }).expect("a build");
+        History { t, positions: points.iter().copied().map(Some).collect(), rng: Rng::new(3) }
+    }
+
+    /// Moves every `stride`-th vertex, and commits.
+    fn commit(&mut self, stride: usize, mut motion: impl FnMut(&G::Point, &mut Rng) -> G::Point) {
+        for (v, place) in VertexId::range(0..self.positions.len()).zip(&mut self.positions).step_by(stride) {
+            if let Some(p) = place {
+                *p = motion(p, &mut self.rng);
+                self.t.move_vertices(&[v], &[*p]).expect("a place");
+            }
+        }
+        self.t.commit_timestamp().expect("a commit");
+    }
+
+    fn tremble(&mut self, stride: usize, size: f64) {
+        self.commit(stride, |p, rng| point::<G>(|k| p[k] + size * (rng.unit() - 0.5)));
+    }
+
+    fn random_present(&mut self) -> (usize, VertexId, G::Point) {
+        loop {
+            let v = self.rng.below(self.positions.len());
+            if let Some(p) = self.positions[v] {
+                return (v, VertexId::new(v as u32), p);
+            }
+        }
+    }
+
+    /// Relocates, inserts and removes vertices one at a time.
+    fn edit(&mut self, n: usize, size: f64) {
+        for _ in 0..n {
+            let (v, id, p) = self.random_present();
+            let q = point::<G>(|k| p[k] + size * (self.rng.unit() - 0.5));
+            self.t.relocate_vertex(id, &q).expect("a place");
+            self.positions[v] = Some(q);
+            let (_, _, p) = self.random_present();
+            let q = point::<G>(|k| p[k] + size * self.rng.unit());
+            self.t.insert_vertex(&q).expect("a place");
+            self.positions.push(Some(q));
+            let (v, id, _) = self.random_present();
+            self.t.remove_vertex(id).expect("a vertex");
+            self.positions[v] = None;
+        }
+    }
+
+    /// Stages insertions and removals along with moves, and commits.
+    fn replace(&mut self, n: usize, size: f64) {
+        let mut places = Vec::new();
+        for _ in 0..n {
+            let (v, id, p) = self.random_present();
+            self.t.stage_removals(&[id]).expect("a vertex");
+            self.positions[v] = None;
+            places.push(point::<G>(|k| p[k] + size * self.rng.unit()));
+        }
+        self.t.stage_insertions(&places).expect("places");
+        self.positions.extend(places.into_iter().map(Some));
+        self.t.commit_timestamp().expect("a commit");
+    }
+
+    fn run(&mut self, size: f64) -> String {
+        self.commit(1, |p, _| *p);
+        self.tremble(1, 1e-6 * size);
+        self.tremble(1, 0.02 * size);
+        self.commit(1, |p, _| *p);
+        self.tremble(1, 0.02 * size);
+        self.tremble(17, 0.4 * size);
+        self.commit(1, |p, _| point::<G>(|k| p[k] + 0.25));
+        self.commit(1, |p, _| point::<G>(|k| if k == 0 { p[0] + p[1] / 1024.0 } else { p[k] }));
+        self.edit(12, 0.3 * size);
+        self.replace(5, 0.3 * size);
+        self.replace(60, 0.3 * size);
+        self.tremble(1, 0.01 * size);
+        assert_same_cells(&cell_set(&self.t), &fresh_cells::<G>(&self.positions), || "at the end".into());
+        let r = self.t.statistics();
+        let counts = [
+            r.timestamp,
+            r.moved,
+            r.unchanged,
+            r.placements,
+            r.flips,
+            r.rebuilds,
+            r.within_tolerance,
+            r.within_safe_region,
+            r.tolerances,
+            r.certificates,
+            r.exact_calls,
+            r.coincident,
+            r.inserted,
+            r.removed,
+        ];
+        counts.map(|count| count.to_string()).join(",")
+    }
+}
+
+/// Several certificates are evaluated at a time where the processor has AVX2, and counted.
+fn arithmetic() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    let has_lanes = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+    #[cfg(not(target_arch = "x86_64"))]
+    let has_lanes = false;
+    if has_lanes && std::env::var_os("DELDRIFT_SCALAR").is_none() { "avx2" } else { "scalar" }
+}
+
+/// The rows of a kind of input, from the file and as measured.
+fn check<G: Dimension>(kind: Kind, n: usize) {
+    let points = draw::<G>(kind, n, &mut Rng::new(1));
+    let widths = (0..G::D).map(|k| {
+        let along = points.iter().map(|p| p[k]);
+        along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
+    });
+    // A power of two, which any mathematical library computes.
+    let size = 2f64.powi(((widths.product::<f64>() / n as f64).log2() / G::D as f64).round() as i32);
+    let name = format!("{}d_{kind:?}", G::D).to_lowercase();
+    let mut found = String::new();
+    for algorithm in Algorithm::ALL {
+        let counts = History::<G>::new(&points, algorithm).run(size);
+        writeln!(found, "{algorithm:?},{counts}").expect("room");
+    }
+    let found = format!("algorithm,{HEADER}\n{found}");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join(format!("tests/results/work/{}/{name}.csv", arithmetic()));
+    if std::env::var_os("DELDRIFT_RECORD").is_some() {
+        fs::write(&path, &found).expect("to be written");
+    }
+    let recorded = fs::read_to_string(&path).expect("the counts");
+    for (now, before) in found.lines().zip(recorded.lines()) {
+        assert_eq!(now, before, "{name}; {HEADER}");
+    }
+    assert_eq!(found.len(), recorded.len());
+}
+
+macro_rules! kinds {
+    ($($name:ident: $kind:ident,)+) => {$(
+        #[test]
+        fn $name() {
+            check::<Plane>(Kind::$kind, 700);
+            check::<Space>(Kind::$kind, 400);
+        }
+    )+};
+}
+
+kinds! {
+    random: Random,
+    lattices: Lattice,
+    integer_spheres: Sphere,
+    rounded_spheres: RoundedSphere,
+    hyperplanes: Hyperplane,
+    clusters: Clusters,
+    duplicates: Duplicates,
+}
