@@ -261,3 +261,21 @@ fn ids_of_discarded_insertions_are_given_again() {
     t.commit_timestamp().expect("room");
     assert_eq!((t.vertex_count(), t.is_present(vertex(0)), t.is_present(vertex(2))), (2, false, true));
 }
+
+/// Ids of discarded insertions are given again, unless others have been given since.
+#[test]
+fn discarded_insertions_give_back_ids_at_the_end_alone() {
+    let mut t = MovingTriangulation::<Plane>::new(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], Options::default())
+        .expect("a build");
+    assert_eq!(t.stage_insertions(&[[0.2, 0.2], [0.3, 0.2]]), Ok(vertex(3)));
+    t.discard_moves();
+    assert_eq!(t.id_count(), 3);
+    assert_eq!(t.stage_insertions(&[[0.2, 0.2], [0.3, 0.2]]), Ok(vertex(3)));
+    assert_eq!(t.insert_vertex(&[0.4, 0.4]), Ok(vertex(5)));
+    assert_eq!(t.stage_insertions(&[[0.2, 0.3]]), Ok(vertex(6)));
+    t.discard_moves();
+    assert_eq!(t.id_count(), 6);
+    assert_eq!(t.position(vertex(5)), Ok([0.4, 0.4]));
+    assert!(!t.is_present(vertex(3)) && !t.is_present(vertex(4)));
+    t.validate(Level::Delaunay).expect("valid");
+}

@@ -327,6 +327,57 @@ fn commits_are_cancelled_anywhere_in_space() {
     commits_are_cancelled_anywhere::<Space>(2200);
 }
 
+/// As above where all vertices are staged at once, most of them within their tolerance: those are moved first.
+fn whole_commits_are_cancelled_anywhere<G: Dimension>(n: usize) {
+    for algorithm in Algorithm::ALL {
+        let rng = &mut Rng::new(11);
+        let mut points = draw::<G>(Kind::Random, n, rng);
+        let canceller = Canceller::default();
+        canceller.after(usize::MAX);
+        let options = Options { algorithm, monitor: Some(canceller.monitor()), ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(&points, options).expect("a build");
+        for p in &mut points {
+            *p = nudged::<G>(p, 1 << 4, rng);
+        }
+        t.commit_positions(&points).expect("a commit");
+        let mut targets = points.clone();
+        for v in 0..n {
+            targets[v] =
+                if v % 20 == 0 { points[rng.below(n)] } else { nudged::<G>(&points[v], 1 << 4, rng) };
+        }
+        t.move_all(&targets).expect("places");
+        let before = Snapshot::of(&t);
+        let mut cancellations = 0;
+        let context = |at| format!("{algorithm:?}, cancelled at {at}");
+        while {
+            canceller.after(cancellations);
+            let outcome = t.commit_timestamp();
+            canceller.after(usize::MAX);
+            assert!(matches!(outcome, Ok(_) | Err(Error::Cancelled)), "{outcome:?}");
+            outcome.is_err()
+        } {
+            assert!(Snapshot::of(&t) == before, "{}", context(cancellations));
+            assert_eq!(t.staged_count(), n, "{}", context(cancellations));
+            cancellations += 1;
+        }
+        assert!(cancellations > 0, "{}: the monitor is not asked", context(0));
+        let expected = fresh_cells::<G>(&targets.iter().copied().map(Some).collect::<Vec<_>>());
+        assert_same_cells(&cell_set(&t), &expected, || context(cancellations));
+        let now: Vec<_> = (0..n).map(|v| t.position(VertexId::at(v)).expect("present")).collect();
+        assert!(now == targets);
+    }
+}
+
+#[test]
+fn whole_commits_are_cancelled_anywhere_in_the_plane() {
+    whole_commits_are_cancelled_anywhere::<Plane>(3000);
+}
+
+#[test]
+fn whole_commits_are_cancelled_anywhere_in_space() {
+    whole_commits_are_cancelled_anywhere::<Space>(2200);
+}
+
 #[test]
 fn creation_is_cancelled_anywhere() {
     let points = draw::<Space>(Kind::Random, 3000, &mut Rng::new(1));

@@ -54,6 +54,16 @@ impl<G: Dimension> History<G> {
         }
     }
 
+    /// As [`tremble`](Self::tremble), of all vertices at once while none has been removed.
+    fn tremble_all(&mut self, size: f64) {
+        let mut places: Vec<G::Point> = self.positions.iter().copied().flatten().collect();
+        for p in &mut places {
+            *p = point::<G>(|k| p[k] + size * (self.rng.unit() - 0.5));
+        }
+        self.t.commit_positions(&places).expect("a commit");
+        self.positions = places.into_iter().map(Some).collect();
+    }
+
     /// Relocates, inserts and removes vertices one at a time.
     fn edit(&mut self, n: usize, size: f64) {
         for _ in 0..n {
@@ -90,7 +100,8 @@ impl<G: Dimension> History<G> {
         self.tremble(1, 1e-6 * size);
         self.tremble(1, 0.02 * size);
         self.commit(1, |p, _| *p);
-        self.tremble(1, 0.02 * size);
+        self.tremble_all(0.001 * size);
+        self.tremble_all(0.02 * size);
         self.tremble(17, 0.4 * size);
         self.commit(1, |p, _| point::<G>(|k| p[k] + 0.25));
         self.commit(1, |p, _| point::<G>(|k| if k == 0 { p[0] + p[1] / 1024.0 } else { p[k] }));

@@ -364,3 +364,25 @@ impl<C: Corners> Complex<C> {
             + self.record.memory_bytes()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slots that were free before do not come back with the next cells.
+    #[test]
+    fn a_cleared_complex_begins_with_the_first_slot() {
+        let cell = [1, 2, 3].map(SiteId::new);
+        let mut complex = Complex::<[SiteId; 3]>::default();
+        complex.start(cell).expect("room");
+        assert_eq!((complex.n_finite(), complex.n_ghosts()), (1, 3));
+        complex.reserve_free(1).expect("room");
+        complex.retire(Slot::new(2));
+        complex.release(Slot::new(2));
+        complex.clear();
+        assert_eq!((complex.n_finite(), complex.n_ghosts(), complex.n_slots()), (0, 0, 0));
+        complex.start(cell).expect("room");
+        assert_eq!((complex.n_finite(), complex.n_ghosts(), complex.n_slots()), (1, 3, 4));
+        assert_eq!(complex.cell(Slot::new(0)).corners, cell);
+    }
+}

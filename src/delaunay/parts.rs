@@ -242,3 +242,40 @@ impl<G: Dimension> Delaunay<G> {
 
 /// Sites of a part at least if all threads are to be used.
 const BUILT_IF_ASKED: usize = 256;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::Plane;
+    use crate::ids::VertexId;
+    use crate::random::Rng;
+
+    /// Sites that have crossed a plane change places with others, all others stay.
+    #[test]
+    fn parts_are_restored() {
+        let rng = &mut Rng::new(1);
+        let mut sample: Vec<[f64; 2]> = (0..4_000).map(|_| [rng.unit(), rng.unit()]).collect();
+        let n_parts = 5;
+        let mut parts = Parts::of_sample::<Plane>(&mut sample, n_parts).expect("room");
+        let site = |(k, &point): (usize, &[f64; 2])| Site::new(point, VertexId::at(k));
+        // In any order at first.
+        let mut sites: Vec<Site<Plane>> = sample.iter().enumerate().map(site).collect();
+        sites.insert(0, Site::new([f64::NAN; 2], VertexId::NONE));
+        for round in 0..3 {
+            parts.restore(&mut sites, 0..n_parts);
+            assert!(parts.are_even(sites.len()));
+            for part in 0..n_parts {
+                let (least, limit) = parts.bounds(part);
+                for site in &sites[parts.sites(part..part + 1, sites.len())] {
+                    assert!((0..2).all(|k| least[k] <= site.point[k] && site.point[k] < limit[k]), "{part}");
+                }
+            }
+            let mut ids: Vec<VertexId> = sites[1..].iter().map(|site| site.id).collect();
+            ids.sort_unstable();
+            assert!(ids.into_iter().eq(VertexId::range(0..sample.len())), "{round}");
+            for site in sites[1..].iter_mut().step_by(7) {
+                site.point = [rng.unit(), rng.unit()];
+            }
+        }
+    }
+}

@@ -82,3 +82,19 @@ impl fmt::Debug for Options {
             .finish()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_are_shown_by_name() {
+        let options = Options { monitor: Some(Box::new(|_| true)), ..Options::default() };
+        let shown = format!("{options:?}");
+        for part in
+            ["algorithm: Auto", "threads: 0", "coincidence: Merge", "track_changes: false", "monitor: true"]
+        {
+            assert!(shown.contains(part), "{shown}");
+        }
+    }
+}
