@@ -123,7 +123,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	@.ci/packages $(EXAMPLE_NEEDS) libcgal-dev
 	cmake -S examples -B build/examples -DDELDRIFT_LIBRARY="$(CARGO_TARGET_DIR)/release/libdeldrift.so"
 	cmake --build build/examples
-	build/examples/solver
+	build/examples/solver docs/solver.svg
 	build/examples/tour
 	build/examples/heat 4000 100 docs/heat.svg
 	build/examples/smoothing 60 docs/smoothing.svg
