@@ -271,6 +271,34 @@ impl Canceller {
             }
         })
     }
+
+    /// Commits what is staged, cancelled at the first call of the monitor, at the second, and so on until that succeeds.
+    /// Returns how often it was cancelled.
+    fn at_every_call<G: Dimension>(
+        &self,
+        t: &mut MovingTriangulation<G>,
+        targets: &[G::Point],
+        name: &str,
+    ) -> usize {
+        let (before, n_staged) = (Snapshot::of(t), t.staged_count());
+        let mut cancellations = 0;
+        while {
+            self.after(cancellations);
+            let outcome = t.commit_timestamp();
+            self.after(usize::MAX);
+            assert!(matches!(outcome, Ok(_) | Err(Error::Cancelled)), "{outcome:?}");
+            outcome.is_err()
+        } {
+            assert!(Snapshot::of(t) == before, "{name}, cancelled at {cancellations}");
+            assert_eq!(t.staged_count(), n_staged, "{name}, cancelled at {cancellations}");
+            cancellations += 1;
+        }
+        let expected = fresh_cells::<G>(&targets.iter().copied().map(Some).collect::<Vec<_>>());
+        assert_same_cells(&cell_set(t), &expected, || format!("{name}, cancelled {cancellations} times"));
+        let now: Vec<_> = (0..targets.len()).map(|v| t.position(VertexId::at(v)).expect("present")).collect();
+        assert!(now == targets);
+        cancellations
+    }
 }
 
 /// A commit is cancelled wherever the monitor is asked; each time the timestamp before is restored,
@@ -296,24 +324,8 @@ fn commits_are_cancelled_anywhere<G: Dimension>(n: usize) {
             };
             t.move_vertices(&[VertexId::at(v)], &[targets[v]]).expect("a move");
         }
-        let before = Snapshot::of(&t);
-        let mut cancellations = 0;
-        let context = |at| format!("{kind:?}, {algorithm:?}, cancelled at {at}");
-        while {
-            canceller.after(cancellations);
-            let outcome = t.commit_timestamp();
-            canceller.after(usize::MAX);
-            assert!(matches!(outcome, Ok(_) | Err(Error::Cancelled)), "{outcome:?}");
-            outcome.is_err()
-        } {
-            assert!(Snapshot::of(&t) == before, "{}", context(cancellations));
-            cancellations += 1;
-        }
-        assert!(cancellations > 1, "{}: the monitor is not asked", context(0));
-        let expected = fresh_cells::<G>(&targets.iter().copied().map(Some).collect::<Vec<_>>());
-        assert_same_cells(&cell_set(&t), &expected, || context(cancellations));
-        let now: Vec<_> = (0..n).map(|v| t.position(VertexId::at(v)).expect("present")).collect();
-        assert!(now == targets);
+        let cancellations = canceller.at_every_call(&mut t, &targets, &format!("{kind:?}, {algorithm:?}"));
+        assert!(cancellations > 1, "{kind:?}, {algorithm:?}: {cancellations}");
     }
 }
 
@@ -346,25 +358,8 @@ fn whole_commits_are_cancelled_anywhere<G: Dimension>(n: usize) {
                 if v % 20 == 0 { points[rng.below(n)] } else { nudged::<G>(&points[v], 1 << 4, rng) };
         }
         t.move_all(&targets).expect("places");
-        let before = Snapshot::of(&t);
-        let mut cancellations = 0;
-        let context = |at| format!("{algorithm:?}, cancelled at {at}");
-        while {
-            canceller.after(cancellations);
-            let outcome = t.commit_timestamp();
-            canceller.after(usize::MAX);
-            assert!(matches!(outcome, Ok(_) | Err(Error::Cancelled)), "{outcome:?}");
-            outcome.is_err()
-        } {
-            assert!(Snapshot::of(&t) == before, "{}", context(cancellations));
-            assert_eq!(t.staged_count(), n, "{}", context(cancellations));
-            cancellations += 1;
-        }
-        assert!(cancellations > 0, "{}: the monitor is not asked", context(0));
-        let expected = fresh_cells::<G>(&targets.iter().copied().map(Some).collect::<Vec<_>>());
-        assert_same_cells(&cell_set(&t), &expected, || context(cancellations));
-        let now: Vec<_> = (0..n).map(|v| t.position(VertexId::at(v)).expect("present")).collect();
-        assert!(now == targets);
+        let cancellations = canceller.at_every_call(&mut t, &targets, &format!("{algorithm:?}"));
+        assert!(cancellations > 0, "{algorithm:?}: {cancellations}");
     }
 }
 
