@@ -1,5 +1,5 @@
 //! The kernel where memory runs out: every allocation of a call fails once, in turn. The call returns an error, and
-//! what it says to have left alone is as it was.
+//! what it says to have left alone is as it was. And what a triangulation says to hold is what it has asked for.
 #![allow(unsafe_code)] // An allocator that fails has no other way to be one.
 
 #[path = "common/random.rs"]
@@ -8,7 +8,7 @@ mod random;
 use deldrift::Error;
 use deldrift::internals::{Delaunay, Insertion, Shortcut, SiteId, Slot};
 use deldrift::motion::Level;
-use deldrift::motion::{MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
 use random::Rng;
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -23,6 +23,16 @@ static ALLOCATOR: Failing = Failing;
 thread_local! {
     /// Allocations of this thread until one fails.
     static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+    /// Bytes that this thread has asked for and not given back.
+    static HELD: Cell<usize> = const { Cell::new(0) };
+}
+
+/// What an allocation returns, counted.
+fn counted(memory: *mut u8, before: usize, after: usize) -> *mut u8 {
+    if !memory.is_null() {
+        HELD.set(HELD.get().wrapping_add(after).wrapping_sub(before));
+    }
+    memory
 }
 
 fn fails() -> bool {
@@ -37,17 +47,20 @@ fn fails() -> bool {
 unsafe impl GlobalAlloc for Failing {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller's promise.
-        if fails() { null_mut() } else { unsafe { System.alloc(layout) } }
+        let memory = if fails() { null_mut() } else { unsafe { System.alloc(layout) } };
+        counted(memory, 0, layout.size())
     }
 
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        counted(memory, layout.size(), 0);
         // SAFETY: the caller's promise.
         unsafe { System.dealloc(memory, layout) }
     }
 
     unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         // SAFETY: the caller's promise.
-        if fails() { null_mut() } else { unsafe { System.realloc(memory, layout, size) } }
+        let moved = if fails() { null_mut() } else { unsafe { System.realloc(memory, layout, size) } };
+        counted(moved, layout.size(), size)
     }
 }
 
@@ -240,4 +253,67 @@ fn triangulations_of_space_are_left_alone() {
     removes::<Space>();
     relocates::<Space>();
     answers::<Space>();
+}
+
+/// After each change the bytes that the triangulation says to hold are those that the allocator has given and not got
+/// back. Some vertices share a place.
+fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {
+    let rng = &mut Rng::new(4);
+    let mut points = random::<G>(400);
+    points[7] = points[300];
+    let before = HELD.get();
+    let options = Options { algorithm, threads: 1, track_changes: true, ..Options::default() };
+    let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+    let same = |t: &MovingTriangulation<G>, when: &str| {
+        assert_eq!(t.memory_bytes(), HELD.get() - before, "{algorithm:?} {when}");
+    };
+    same(&t, "at first");
+    for (round, size) in [1e-6, 1e-3, 0.02, 1e-3].into_iter().enumerate() {
+        for p in &mut points {
+            (0..G::D).for_each(|k| p[k] += size * (rng.unit() - 0.5));
+        }
+        if round % 2 == 0 {
+            t.move_all(&points).expect("room");
+            same(&t, "with all staged");
+            t.commit_timestamp().expect("room");
+        } else {
+            t.commit_positions(&points).expect("room");
+        }
+        same(&t, "after a commit");
+        t.cells().expect("room");
+        same(&t, "with cells");
+        t.changed_cells().expect("room");
+        same(&t, "with changed cells");
+        t.take_changes().expect("room");
+        same(&t, "with changes");
+        t.relocate_vertex(VertexId::new(3), &points[4]).expect("room");
+        t.relocate_vertex(VertexId::new(3), &points[3]).expect("room");
+        same(&t, "after relocations");
+    }
+    for k in 0..20 {
+        t.insert_vertex(&point::<G>(rng)).expect("room");
+        t.remove_vertex(VertexId::new(2 * k)).expect("room");
+    }
+    same(&t, "after edits");
+    let gone: [VertexId; 50] = std::array::from_fn(|k| VertexId::new(50 + k as u32));
+    t.stage_removals(&gone).expect("room");
+    t.stage_insertions(&random::<G>(30)).expect("room");
+    t.move_vertices(&[VertexId::new(200)], &[points[201]]).expect("room");
+    same(&t, "with staged edits");
+    t.commit_timestamp().expect("room");
+    same(&t, "after staged edits");
+    t.take_changes().expect("room");
+    let ids = t.compact().expect("room");
+    drop(ids);
+    same(&t, "after a compaction");
+    drop(t);
+    assert_eq!(HELD.get(), before);
+}
+
+#[test]
+fn triangulations_hold_what_they_say() {
+    for algorithm in Algorithm::ALL {
+        holds_what_it_says::<Plane>(algorithm);
+        holds_what_it_says::<Space>(algorithm);
+    }
 }
