@@ -140,19 +140,19 @@ fn arithmetic() -> &'static str {
     if has_lanes && std::env::var_os("DELDRIFT_SCALAR").is_none() { "avx2" } else { "scalar" }
 }
 
-/// The rows of a kind of input, from the file and as measured.
-fn check<G: Dimension>(kind: Kind, n: usize) {
-    let points = draw::<G>(kind, n, &mut Rng::new(1));
+/// Compares the rows of an input in the file with those measured.
+fn check<G: Dimension>(name: &str, points: &[G::Point]) {
     let widths = (0..G::D).map(|k| {
         let along = points.iter().map(|p| p[k]);
         along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
     });
     // A power of two, which any mathematical library computes.
-    let size = 2f64.powi(((widths.product::<f64>() / n as f64).log2() / G::D as f64).round() as i32);
-    let name = format!("{}d_{kind:?}", G::D).to_lowercase();
+    let volume = widths.product::<f64>() / points.len() as f64;
+    let size = 2f64.powi((volume.log2() / G::D as f64).round() as i32);
+    let name = format!("{}d_{name}", G::D);
     let mut found = String::new();
     for algorithm in Algorithm::ALL {
-        let counts = History::<G>::new(&points, algorithm).run(size);
+        let counts = History::<G>::new(points, algorithm).run(size);
         writeln!(found, "{algorithm:?},{counts}").expect("room");
     }
     let found = format!("algorithm,{HEADER}\n{found}");
@@ -172,8 +172,8 @@ macro_rules! kinds {
     ($($name:ident: $kind:ident,)+) => {$(
         #[test]
         fn $name() {
-            check::<Plane>(Kind::$kind, 700);
-            check::<Space>(Kind::$kind, 400);
+            check::<Plane>(stringify!($name), &draw::<Plane>(Kind::$kind, 700, &mut Rng::new(1)));
+            check::<Space>(stringify!($name), &draw::<Space>(Kind::$kind, 400, &mut Rng::new(1)));
         }
     )+};
 }
@@ -186,4 +186,24 @@ kinds! {
     hyperplanes: Hyperplane,
     clusters: Clusters,
     duplicates: Duplicates,
+}
+
+/// All places of a lattice, the last coordinate scaled.
+fn lattice<G: Dimension>(side: usize, last: f64) -> Vec<G::Point> {
+    let place = |i: usize| {
+        point::<G>(|k| (i / side.pow(k as u32) % side) as f64 * if k + 1 == G::D { last } else { 1.0 })
+    };
+    (0..side.pow(G::D as u32)).map(place).collect()
+}
+
+#[test]
+fn whole_lattices() {
+    check::<Plane>("whole_lattices", &lattice::<Plane>(24, 1.0));
+    check::<Space>("whole_lattices", &lattice::<Space>(9, 1.0));
+}
+
+#[test]
+fn layers() {
+    check::<Plane>("layers", &lattice::<Plane>(24, 1.0 / 1024.0));
+    check::<Space>("layers", &lattice::<Space>(9, 1.0 / 1024.0));
 }
