@@ -255,6 +255,49 @@ fn triangulations_of_space_are_left_alone() {
     answers::<Space>();
 }
 
+/// A vertex goes next to another one, one comes, one goes, each without every allocation in turn: positions and cells
+/// are as they were.
+fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
+    let mut points = random::<G>(60);
+    points[7] = points[30];
+    let make = || {
+        let options = Options { algorithm, threads: 1, ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+        for p in [points[1], points[2]] {
+            // What the algorithm keeps for such calls is there.
+            t.relocate_vertex(VertexId::new(1), &p).expect("room");
+        }
+        t
+    };
+    let state = |t: &MovingTriangulation<G>| {
+        let positions: Vec<_> = (0..t.id_count()).map(|v| t.position(VertexId::new(v as u32)).ok()).collect();
+        (positions, t.cells().expect("room").corners.to_vec())
+    };
+    let before = state(&make());
+    let mut after = |t: &mut MovingTriangulation<G>| assert!(state(t) == before, "{algorithm:?}");
+    let near: G::Point = {
+        let mut p = points[40];
+        p[0] += 1e-3;
+        p
+    };
+    let calls: [fn(&mut MovingTriangulation<G>, &G::Point) -> Result<(), Error>; 4] = [
+        |t, p| t.relocate_vertex(VertexId::new(5), p),
+        |t, p| t.relocate_vertex(VertexId::new(30), p),
+        |t, p| t.insert_vertex(p).map(drop),
+        |t, _| t.remove_vertex(VertexId::new(30)),
+    ];
+    let n_refused: u64 = calls.map(|call| without_each(make, |t| call(t, &near), &mut after)).iter().sum();
+    assert!(n_refused > 0, "{algorithm:?}");
+}
+
+#[test]
+fn immediate_calls_leave_all_alone() {
+    for algorithm in Algorithm::ALL {
+        immediate_calls::<Plane>(algorithm);
+        immediate_calls::<Space>(algorithm);
+    }
+}
+
 /// After each change the bytes that the triangulation says to hold are those that the allocator has given and not got
 /// back. Some vertices share a place.
 fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {
