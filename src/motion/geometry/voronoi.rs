@@ -18,7 +18,8 @@ use crate::machine::memory;
 use crate::motion::staging::check_position;
 use crate::motion::{MovingTriangulation, NO_CELL};
 
-/// The cells around an edge, in order, and the vertices of its link.
+/// The cells around an edge, in order, and the vertices of its link. Of a ring that is open, at the hull, only some cells
+/// are listed: nobody reads them.
 #[derive(Debug, Default)]
 struct Ring {
     cells: Vec<CellId>,
@@ -127,7 +128,6 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
                     break;
                 }
                 (left, met) = (met, self.other(cell, edge, met));
-                memory::push(&mut cells, cell)?;
                 memory::push(&mut link, met)?;
             }
         }
