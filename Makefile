@@ -35,7 +35,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help test soak bench report memory large targets calibrate table lint header doc picture install examples
-.PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants
+.PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -90,6 +90,10 @@ miri: ## tests of what needs no system under Miri, with a nightly toolchain that
 
 mutants: ## changes of the sources that no test notices: tests/results/mutants.csv (an hour; ARGS="--sample 0" for all)
 	mutants/run $(ARGS)
+
+coverage: ## lines and branches that the tests run: tests/results/coverage.csv (half an hour)
+	@.ci/packages llvm-19
+	tests/coverage $(ARGS)
 
 table: ## fill in the tables of README.md, from cpp-bench/results
 	cpp-bench/readme_table
