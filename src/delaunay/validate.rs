@@ -410,3 +410,6 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;
