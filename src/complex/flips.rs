@@ -87,10 +87,11 @@ impl<C: Corners> Complex<C> {
     }
 
     /// Adds `n` cells, all of them free; they are used after those that are free already, whose order
-    /// [`undo_flips`](Self::undo_flips) relies on.
-    pub(crate) fn create_free(&mut self, n: usize) -> Result<()> {
+    /// [`undo_flips`](Self::undo_flips) relies on. As they stay when flips are undone, there is room in the list for
+    /// those, too, that come back then: at most as many as there are `rows` in the journal.
+    pub(crate) fn create_free(&mut self, n: usize, rows: usize) -> Result<()> {
         self.reserve(self.free.len() + n)?;
-        self.reserve_free(n)?;
+        self.reserve_free(n + rows)?;
         let first = self.cells.len();
         self.cells.resize(first + n, Cell::free());
         self.marks.resize(first + n, 0);

@@ -314,7 +314,7 @@ impl<G: Dimension> Delaunay<G> {
                 continue;
             }
             // By a few at a time each would be put off again and again.
-            self.complex.create_free(ROOM.max(own.later.len() / 2))?;
+            self.complex.create_free(ROOM.max(own.later.len() / 2), own.journal.len())?;
             std::mem::swap(&mut own.suspects, &mut own.later);
         }
     }

@@ -56,7 +56,7 @@ impl<C: Corners> Complex<C> {
         memory::reserve(journal, slots.len() + missing)?;
         self.reserve_free(slots.len())?;
         if self.free.len() < missing {
-            self.create_free(missing)?;
+            self.create_free(missing, journal.len())?;
         }
         slots.extend(self.free.drain(self.free.len() - missing..).rev());
         Ok(())

@@ -118,7 +118,7 @@ fn flips_in_space_come_back() {
         let (n_slots, free) = (complex.n_slots(), complex.free_cells().to_vec());
         assert_eq!(complex.whole().flip_2_3(facet).err(), Some(Obstacle::Full));
         assert_eq!(cells(&complex), before);
-        complex.create_free(2).unwrap();
+        complex.create_free(2, 0).unwrap();
         let (outer, undo) = complex.whole().flip_2_3(facet).expect("all cells are there");
         let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
         assert!(is_mutual(&complex) && complex.n_finite() == 5);
@@ -147,6 +147,19 @@ fn flips_in_space_come_back() {
         assert_eq!(cells(&complex), before);
         assert_eq!((complex.n_slots(), complex.free_cells()), (n_slots, &free[..]));
     }
+}
+
+/// More free cells come when those that there were are in use, and stay when these come back: there is room for both.
+#[test]
+fn undoing_needs_no_memory_after_more_cells_have_been_made() {
+    let (mut complex, facet) = two_tetrahedra();
+    complex.create_free(2, 0).unwrap();
+    complex.free.shrink_to_fit();
+    let (_, undo) = complex.whole().flip_2_3(facet).expect("all cells are there");
+    complex.create_free(1, undo.len()).unwrap();
+    let room = complex.free.capacity();
+    complex.undo_flips(undo.into_iter().rev());
+    assert_eq!((complex.free.len(), complex.free.capacity()), (3, room));
 }
 
 /// Two tetrahedra that share a facet, and the ghosts around, which come first.
@@ -186,7 +199,7 @@ fn two_tetrahedra() -> (Complex<[SiteId; 4]>, Facet) {
 #[test]
 fn flips_need_all_their_cells() {
     let (mut complex, facet) = two_tetrahedra();
-    complex.create_free(3).unwrap();
+    complex.create_free(3, 0).unwrap();
     let before = cells(&complex);
     let n = complex.n_slots();
     // The six ghosts and two cells are all concerned.
