@@ -373,6 +373,45 @@ fn whole_commits_are_cancelled_anywhere_in_space() {
     whole_commits_are_cancelled_anywhere::<Space>(2200);
 }
 
+/// All positions are given at once, the last one is bad, and many vertices leave what an algorithm keeps for them: the
+/// call is refused, and nothing has moved.
+fn bad_positions_among_many_leave_no_trace<G: Dimension>() {
+    let n = 500;
+    for algorithm in Algorithm::ALL {
+        let rng = &mut Rng::new(12);
+        let mut points = draw::<G>(Kind::Random, n, rng);
+        let options = Options { algorithm, ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(&points, options).expect("a build");
+        for round in 0..6 {
+            for p in &mut points {
+                *p = nudged::<G>(p, 1 << 4, rng);
+            }
+            t.commit_positions(&points).expect("a commit");
+            let before = Snapshot::of(&t);
+            let mut bad = points.clone();
+            for p in bad.iter_mut().step_by(1 << round) {
+                *p = nudged::<G>(p, 1 << 22, rng);
+            }
+            let (at, value) = ([n - 1, n / 2][round % 2], [f64::NAN, 1e300, f64::INFINITY][round % 3]);
+            bad[at][G::D - 1] = value;
+            let error = t.commit_positions(&bad).expect_err("a bad number");
+            let names_it = match error {
+                Error::NotFinite { index, .. } | Error::OutOfRange { index, .. } => index == at,
+                _ => false,
+            };
+            assert!(names_it, "{algorithm:?}: {error}");
+            assert!(Snapshot::of(&t) == before, "{algorithm:?}, round {round}");
+            t.validate(Level::Delaunay).expect("valid");
+        }
+    }
+}
+
+#[test]
+fn bad_positions_among_many_leave_no_trace_anywhere() {
+    bad_positions_among_many_leave_no_trace::<Plane>();
+    bad_positions_among_many_leave_no_trace::<Space>();
+}
+
 #[test]
 fn creation_is_cancelled_anywhere() {
     let points = draw::<Space>(Kind::Random, 3000, &mut Rng::new(1));

@@ -219,6 +219,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n_moved = movers.n_moved;
         let Some((end, room)) = ended else {
             self.staging.apply_others();
+            if MOVES_ALL {
+                self.staging.set_applied(self.staging.vertices().len());
+            }
             return Ok(Advance::Moved(n_moved));
         };
         let queue = std::mem::take(self.staging.vertices_mut());

@@ -83,7 +83,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         report.moved += moved;
         let n_beyond = self.staging.vertices().len();
         report.within_tolerance += (self.n_present - n_beyond) as u64;
-        self.staging.set_applied(n_beyond);
         if n_beyond + self.regions.n_watched() > 0 {
             let mut repair = std::mem::take(&mut self.repair);
             let done = self.check_and_mend(&mut repair, report);
