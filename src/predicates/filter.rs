@@ -423,6 +423,9 @@ mod tests {
             check(prepared, [PREPARED_3D, x, y, z, l, l], l);
             check(insphere_bound([x, y, z]), [IN_SPHERE, x, y, z, l, l], l);
             check(prepared_bound_3d(x, y), [PREPARED_3D, x, x, x, y, flat], flat);
+            let within =
+                product([PREPARED_3D, l, l, l, l, l]) + product([UNDERFLOW]) + product([UNDERFLOW, l, l, l]);
+            assert!(product([prepared_bound_within_3d(l)]).is_close_to(&within, 48), "{l:e}");
             check(insphere_bound_of_terms(z, [x, y, y]), [IN_SPHERE_TERMS, z, 1.0, 1.0, 1.0, 1.0], flat);
         }
     }

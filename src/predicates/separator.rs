@@ -295,4 +295,25 @@ mod tests {
             assert!(product([slabs.blur]).is_close_to(&blur, 40), "{points:?} {} {}", slabs.blur, l);
         }
     }
+    /// Where all points are in one plane but for rounding, no slab parts them.
+    #[test]
+    fn flat_bicells_have_no_slabs() {
+        let rng = &mut Rng::new(8);
+        for _ in 0..2_000 {
+            let size = 2f64.powi(rng.within(-90, 90) as i32);
+            let [a, b] = [rng.unit() - 0.5, rng.unit() - 0.5];
+            let points: Points<f64> = std::array::from_fn(|_| {
+                let [x, y] = [rng.unit(), rng.unit()];
+                [x, y, a * x + b * y].map(|coordinate| coordinate * size)
+            });
+            let slabs = Slabs::new(&points);
+            for is_standard in [false, true] {
+                let widths = slabs.squared_widths(slabs.exception(), is_standard);
+                assert!(
+                    widths.iter().all(|&width| width == 0.0 || width == f64::INFINITY),
+                    "{points:?} {widths:?}"
+                );
+            }
+        }
+    }
 }
