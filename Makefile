@@ -91,7 +91,7 @@ miri: ## tests of what needs no system under Miri, with a nightly toolchain that
 mutants: ## changes of the sources that no test notices: tests/results/mutants.csv (an hour; ARGS="--sample 0" for all)
 	mutants/run $(ARGS)
 
-coverage: ## lines and branches that the tests run: tests/results/coverage.csv (half an hour)
+coverage: ## lines and branches that the tests run: tests/results/coverage.csv (an hour)
 	@.ci/packages llvm-19
 	tests/coverage $(ARGS)
 
