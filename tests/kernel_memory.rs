@@ -255,6 +255,8 @@ fn triangulations_of_space_are_left_alone() {
     answers::<Space>();
 }
 
+type Call<G> = fn(&mut MovingTriangulation<G>, &<G as Dimension>::Point) -> Result<(), Error>;
+
 /// A vertex goes next to another one, one comes, one goes, each without every allocation in turn: positions and cells
 /// are as they were.
 fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
@@ -280,7 +282,7 @@ fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
         p[0] += 1e-3;
         p
     };
-    let calls: [fn(&mut MovingTriangulation<G>, &G::Point) -> Result<(), Error>; 4] = [
+    let calls: [Call<G>; 4] = [
         |t, p| t.relocate_vertex(VertexId::new(5), p),
         |t, p| t.relocate_vertex(VertexId::new(30), p),
         |t, p| t.insert_vertex(p).map(drop),
