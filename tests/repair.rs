@@ -236,6 +236,34 @@ fn repairs_that_would_flip_without_end_rebuild() {
     assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || "an ellipsoid".into());
 }
 
+/// On spheres within each other most cells are in conflict with many: flips are stuck, islands are too large to be
+/// filled, and vertices are taken back, round after round.
+#[test]
+fn repairs_that_are_stuck_on_spheres_match_fresh_builds() {
+    for (algorithm, seed) in [(Algorithm::Repair, 1), (Algorithm::Repair, 2), (Algorithm::Auto, 3)] {
+        let rng = &mut Rng::new(seed);
+        let mut first = on_sphere(600, rng);
+        first.iter_mut().enumerate().for_each(|(k, p)| *p = p.map(|x| x * (1 + k % 3) as f64));
+        let options = Options { algorithm, ..Options::default() };
+        let mut t = MovingTriangulation::<Space>::new(&first, options).expect("a build");
+        let mut placements = 0;
+        for step in 0..12 {
+            let mut moved = |p: &[f64; 3]| {
+                let size = if rng.one_in(20) { 4e-4 } else { 4e-5 };
+                p.map(|x| x + size * (rng.unit() - 0.5))
+            };
+            let now: Vec<_> = first.iter().map(&mut moved).collect();
+            let report = t.commit_positions(&now).expect("a commit");
+            placements += if report.rebuilds == 0 { report.placements } else { 0 };
+            let positions: Vec<_> = now.iter().copied().map(Some).collect();
+            assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || {
+                format!("{algorithm:?}, seed {seed}, step {step}")
+            });
+        }
+        assert!(algorithm == Algorithm::Auto || placements > 0, "none was taken back and placed");
+    }
+}
+
 /// A lattice of so many points along each axis, of these spacings, in any order.
 fn lattice<G: Dimension>(side: usize, spacing: [f64; 3], rng: &mut Rng) -> Vec<Point<G>> {
     let n = side.pow(G::D as u32);

@@ -136,6 +136,10 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve(&mut flips.stuck, island.facets.len())?;
         for k in 0..island.facets.len() {
             let facet = island.facets[k];
+            // Flips, and islands before it, may have replaced its cell since it was listed.
+            if self.complex.is_free(facet.cell()) {
+                continue;
+            }
             if flips.certificates > last_certificate {
                 flips.stuck.push(facet);
                 continue;
@@ -164,13 +168,10 @@ impl<G: Dimension> Delaunay<G> {
         island: &mut Island<G::Corners>,
     ) -> Result<Gathered> {
         let complex = &self.complex;
-        if complex.is_free(facet.cell()) || complex.cell(facet.cell()).is_ghost() {
-            return Ok(Gathered::Nothing);
-        }
         let cell = complex.cell(facet.cell());
         let across = cell.neighbour(facet.index());
-        if complex.cell(across.cell()).is_ghost() || !tests.is_in_sphere(&cell.corners, complex.apex(across))
-        {
+        let is_inside = !cell.is_ghost() && !complex.cell(across.cell()).is_ghost();
+        if !is_inside || !tests.is_in_sphere(&cell.corners, complex.apex(across)) {
             return Ok(Gathered::Nothing);
         }
         island.slots.clear();
