@@ -10,6 +10,8 @@ pub enum Family {
     Of(Kind),
     /// Integer points of a few spheres with one centre.
     Cospherical,
+    /// Random points of a few spheres with one centre, as near as numbers come.
+    Shells,
     /// Random points of a few parallel hyperplanes.
     Layers,
     /// Around a few places, so near that coordinates differ in their last bits.
@@ -18,11 +20,12 @@ pub enum Family {
     Magnitudes,
 }
 
-const FAMILIES: [Family; 12] = [
+const FAMILIES: [Family; 13] = [
     Family::Of(Kind::Random),
     Family::Of(Kind::Random),
     Family::Of(Kind::Lattice),
     Family::Cospherical,
+    Family::Shells,
     Family::Of(Kind::RoundedSphere),
     Family::Layers,
     Family::Of(Kind::Line),
@@ -61,6 +64,12 @@ impl<G: Dimension> Source<G> {
             Family::Cospherical => {
                 let (p, factor) = (*rng.pick(&self.sphere), rng.within(1, 3) as f64);
                 point::<G>(|k| factor * p[k])
+            }
+            Family::Shells => {
+                let p = point::<G>(|_| 2.0 * rng.unit() - 1.0);
+                let square: f64 = (0..G::D).map(|k| p[k] * p[k]).sum();
+                let radius = rng.within(1, 3) as f64;
+                if square == 0.0 { p } else { point::<G>(|k| 100.0 * radius * (p[k] / square.sqrt())) }
             }
             Family::Layers => point::<G>(|_| 100.0 * rng.unit()),
             Family::Ulps => {
