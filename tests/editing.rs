@@ -279,3 +279,22 @@ fn discarded_insertions_give_back_ids_at_the_end_alone() {
     assert!(!t.is_present(vertex(3)) && !t.is_present(vertex(4)));
     t.validate(Level::Delaunay).expect("valid");
 }
+
+/// A vertex of which a move is staged is not relocated, not even by the short way: within the tolerance kept of it.
+#[test]
+fn staged_vertices_are_not_relocated_within_their_tolerance() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.1, 1.2], [0.5, 0.4]];
+    let options = Options { algorithm: Algorithm::Tolerance, ..Options::default() };
+    let mut t = MovingTriangulation::<Plane>::new(&corners, options).expect("a build");
+    for step in [1e-9, 2e-9, 3e-9] {
+        t.relocate_vertex(vertex(4), &[0.5 + step, 0.4]).expect("a relocation");
+    }
+    assert!(t.statistics().within_tolerance > 0);
+    t.move_vertices(&[vertex(4)], &[[0.6, 0.4]]).expect("room");
+    let error = Error::DuplicateMove { argument: "vertex", index: 0, vertex: vertex(4) };
+    assert_eq!(t.relocate_vertex(vertex(4), &[0.5 + 4e-9, 0.4]), Err(error));
+    assert_eq!(t.position(vertex(4)), Ok([0.5 + 3e-9, 0.4]));
+    t.relocate_vertex(vertex(3), &[1.1, 1.2 + 1e-9]).expect("it is not staged");
+    t.commit_timestamp().expect("room");
+    assert_eq!(t.position(vertex(4)), Ok([0.6, 0.4]));
+}

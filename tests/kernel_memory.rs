@@ -300,6 +300,56 @@ fn immediate_calls_leave_all_alone() {
     }
 }
 
+/// All vertices move, by one call or staged before, without every allocation in turn: positions and cells are as they
+/// were, and what is staged still is.
+fn commits<G: Dimension>(algorithm: Algorithm, size: f64) {
+    let rng = &mut Rng::new(9);
+    let points = random::<G>(120);
+    let mut moved = points.clone();
+    for p in &mut moved {
+        (0..G::D).for_each(|k| p[k] += size * (rng.unit() - 0.5));
+    }
+    let make = || {
+        let options = Options { algorithm, threads: 1, ..Options::default() };
+        MovingTriangulation::<G>::new(&points, options).expect("room")
+    };
+    let staged = || {
+        let mut t = make();
+        t.move_all(&moved).expect("room");
+        t
+    };
+    let cells = |t: &MovingTriangulation<G>| t.cells().expect("room").corners.to_vec();
+    let before = cells(&make());
+    let is_as_before = |t: &MovingTriangulation<G>| {
+        for (v, p) in points.iter().enumerate() {
+            assert_eq!(t.position(VertexId::new(v as u32)), Ok(*p), "{algorithm:?}");
+        }
+        assert!(cells(t) == before, "{algorithm:?}");
+    };
+    let at_once = without_each(make, |t| t.commit_positions(&moved).map(drop), |t| is_as_before(t));
+    let in_two = without_each(
+        staged,
+        |t| t.commit_timestamp().map(drop),
+        |t| {
+            is_as_before(t);
+            assert_eq!(t.staged_count(), points.len());
+            t.commit_timestamp().expect("room");
+            t.validate(Level::Delaunay).expect("a triangulation");
+        },
+    );
+    assert!(at_once.min(in_two) > 0, "{algorithm:?}");
+}
+
+#[test]
+fn commits_leave_all_alone() {
+    for algorithm in Algorithm::ALL {
+        for size in [1e-3, 0.1] {
+            commits::<Plane>(algorithm, size);
+            commits::<Space>(algorithm, size);
+        }
+    }
+}
+
 /// After each change the bytes that the triangulation says to hold are those that the allocator has given and not got
 /// back. Some vertices share a place.
 fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {

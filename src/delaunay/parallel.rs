@@ -230,6 +230,25 @@ mod tests {
         unites::<Space>();
     }
 
+    /// No hyperplane separates parts of which a site has left for the place of another one; they are united all the
+    /// same.
+    #[test]
+    fn parts_that_overlap_are_united() {
+        fn unites<G: Dimension>() {
+            for threads in [2, 5] {
+                let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
+                t.add_sites(&random::<G>(3000)).expect("room for it");
+                let [first, last] = [SiteId::at(1), SiteId::at(3000)].map(|s| t.site(s).point);
+                t.set_point(SiteId::at(1), last);
+                t.set_point(SiteId::at(3000), first);
+                assert_eq!(t.triangulate_parts(&mut |_| true), Ok(Some(Vec::new())));
+                t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+            }
+        }
+        unites::<Plane>();
+        unites::<Space>();
+    }
+
     #[test]
     fn flat_parts_are_left_to_one_thread() {
         let mut points = random::<Plane>(3000);

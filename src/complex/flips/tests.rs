@@ -162,6 +162,43 @@ fn undoing_needs_no_memory_after_more_cells_have_been_made() {
     assert_eq!((complex.free.len(), complex.free.capacity()), (3, room));
 }
 
+/// A cavity is filled with more cells than it had, as by a flip, with free cells that there are or that come; and
+/// emptied again.
+#[test]
+fn cavities_get_more_cells_than_they_had() {
+    let (mut flipped, facet) = two_tetrahedra();
+    flipped.create_free(2, 0).unwrap();
+    let (outer, _) = flipped.whole().flip_2_3(facet).expect("all cells are there");
+    let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
+    let new = made.map(|m| {
+        let cell = flipped.cell(m);
+        let (mut neighbours, mut inner) = (cell.neighbours, 0);
+        for (i, to) in neighbours.iter_mut().enumerate() {
+            if let Some(k) = made.iter().position(|&m| m == to.cell()) {
+                *to = Facet::new(Slot::at(k), to.index());
+                inner |= 1 << i;
+            }
+        }
+        replacing::NewCell { corners: cell.corners, neighbours, inner }
+    });
+    for n_free in [0, 1, 4] {
+        let (mut complex, facet) = two_tetrahedra();
+        complex.create_free(n_free, 0).unwrap();
+        let before = cells(&complex);
+        let mut slots = vec![facet.cell(), complex.cell(facet.cell()).neighbour(facet.index()).cell()];
+        let mut journal = Vec::new();
+        complex.prepare_replacing(3, &mut slots, &mut journal).unwrap();
+        assert_eq!(slots.len(), 3);
+        let n_left = complex.free.len();
+        complex.replace(2, &new, &slots, &mut journal);
+        assert!(is_mutual(&complex));
+        assert_eq!((cells(&complex), complex.n_finite()), (cells(&flipped), 3));
+        complex.undo_flips(journal.into_iter().rev());
+        assert!(is_mutual(&complex));
+        assert_eq!((cells(&complex), complex.free.len()), (before, n_left + 1));
+    }
+}
+
 /// Two tetrahedra that share a facet, and the ghosts around, which come first.
 fn two_tetrahedra() -> (Complex<[SiteId; 4]>, Facet) {
     let mut complex = Complex::<[SiteId; 4]>::default();
