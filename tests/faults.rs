@@ -252,6 +252,8 @@ enum Call {
     Tolerance,
     Circumspheres,
     MaskBoundary,
+    /// Of two vertices, or of all.
+    CellsAround(bool),
     Edges,
     VertexNeighbours,
     VertexCells,
@@ -284,6 +286,7 @@ impl Call {
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
+        calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
         calls.extend([Call::Clone, Call::Save, Call::Load]);
         calls
     }
@@ -295,6 +298,7 @@ impl Call {
             Call::Relocate(_) => "relocate_vertex".to_string(),
             Call::Insert(_) => "insert_vertex".to_string(),
             Call::Remove(_) => "remove_vertex".to_string(),
+            Call::CellsAround(_) => "CellsAround".to_string(),
             other => format!("{other:?}"),
         }
     }
@@ -546,6 +550,13 @@ impl<G: Dimension> Scene<G> {
             Call::Circumspheres => {
                 let n = given(t.circumspheres().map(Iterator::count))?;
                 Given::Numbers(vec![n as u64, t.volumes()?.len() as u64])
+            }
+            Call::CellsAround(is_of_all) => {
+                let all = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v));
+                let vertices: Vec<VertexId> = if is_of_all { all.collect() } else { ids([12, 13]).to_vec() };
+                let around = given(t.cells_around(&vertices))?;
+                let rows = t.cells()?.corners;
+                Given::Cells(around.iter().map(|&c| sorted(rows[c].as_ref())).collect())
             }
             Call::MaskBoundary => {
                 let mut n = 0;
