@@ -198,11 +198,14 @@ fn of_places<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
     black_box(sum);
 }
 
+/// Circumcentre and squared circumradius.
+type Sphere<G> = (<G as Dimension>::Point, f64);
+
 /// Circumspheres kept beside the cells.
 struct Kept<G: Dimension> {
-    spheres: Vec<(G::Point, f64)>,
+    spheres: Vec<Sphere<G>>,
     created: Vec<CellId>,
-    set_aside: Vec<(G::Point, f64)>,
+    set_aside: Vec<Sphere<G>>,
 }
 
 impl<G: Dimension> Kept<G> {
@@ -227,7 +230,7 @@ impl<G: Dimension> Kept<G> {
     }
 
     fn is_up_to_date(&self, t: &MovingTriangulation<G>) -> bool {
-        let is_near = |((centre, squared), (kept_centre, kept)): ((G::Point, f64), &(G::Point, f64))| {
+        let is_near = |((centre, squared), (kept_centre, kept)): (Sphere<G>, &Sphere<G>)| {
             let most = 2e-9 * squared.sqrt() + 1e-15;
             let is_near = |axis| f64::abs(centre[axis] - kept_centre[axis]) <= most;
             (0..G::D).all(is_near) && (squared - kept).abs() <= 1e-8 * squared

@@ -1132,7 +1132,8 @@ deldrift_status deldrift_cells_around(const deldrift_triangulation *t,
 /// deldrift_changes says; then this is called for the created cells; and then for those that deldrift_cells_around
 /// gives for the vertices that have moved. The values are then those of deldrift_circumcentres, with the same accuracy.
 /// Their last bits may be others where a cell was removed and created again in between, as they depend on the order in
-/// which the library keeps its corners. It pays unless so many vertices move that most cells are around them.
+/// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
+/// neighbours; beyond that the pass of deldrift_circumcentres is faster.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
 /// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
@@ -1163,8 +1164,8 @@ deldrift_status deldrift_update_volumes(const deldrift_triangulation *t,
 /// deldrift_mask_by_circumradius has filled for the same one: entry cells[k] becomes that of this cell. Other entries
 /// are not touched.
 ///
-/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update. squared_radius:
-/// 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
+/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update.
+/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
 ///
 /// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
 ///

@@ -322,6 +322,8 @@ struct Scene<G: Dimension> {
     /// An entry for each cell, and a value for each id.
     mask: Vec<u8>,
     values: Vec<f64>,
+    /// The vertices that are present.
+    present: Vec<VertexId>,
     /// What is to be loaded.
     saved: Vec<u8>,
 }
@@ -425,12 +427,13 @@ impl<G: Dimension> Scene<G> {
         let options = Some(options());
         let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
         let saved = if call == Call::Load { t.saved().expect("room") } else { Vec::new() };
-        Scene { t, points, carried, call, options, mask, values, saved }
+        let present = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
+        Scene { t, points, carried, call, options, mask, values, present, saved }
     }
 
     /// Makes the call, and disarms as soon as it is back.
     fn call(&mut self) -> Result<Given> {
-        let Scene { t, points, call, options, mask, values, saved, .. } = self;
+        let Scene { t, points, call, options, mask, values, present, saved, .. } = self;
         let goal = |goal: Goal| match goal {
             Goal::Near => point::<G>(|k| points[12][k] + 1e-3),
             Goal::Far => point::<G>(|k| 1.5 + k as f64),
@@ -552,9 +555,8 @@ impl<G: Dimension> Scene<G> {
                 Given::Numbers(vec![n as u64, t.volumes()?.len() as u64])
             }
             Call::CellsAround(is_of_all) => {
-                let all = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v));
-                let vertices: Vec<VertexId> = if is_of_all { all.collect() } else { ids([12, 13]).to_vec() };
-                let around = given(t.cells_around(&vertices))?;
+                let listed = if is_of_all { &present[..] } else { &present[12..14] };
+                let around = given(t.cells_around(listed))?;
                 let rows = t.cells()?.corners;
                 Given::Cells(around.iter().map(|&c| sorted(rows[c].as_ref())).collect())
             }

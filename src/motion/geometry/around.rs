@@ -1,7 +1,7 @@
 //! The cells around some of the vertices.
 //!
-//! Of few vertices the stars are listed and sorted. Where they are many, a pass over all cells looks for those that have
-//! a vertex of the list as a corner.
+//! Of few vertices the stars are listed and sorted. Where they are many, a pass over all cells looks for those that
+//! have a vertex of the list as a corner.
 
 use crate::complex::Corners;
 use crate::delaunay::{Dimension, IndexSet};
@@ -14,8 +14,8 @@ use crate::motion::cells::Cells;
 use crate::motion::marks::Bits;
 use crate::motion::query::cells_at;
 
-/// The share of the vertices from which on a pass over all cells is faster than their stars: of 100,000 vertices 0.03 in
-/// the plane and 0.02 in space, with hardly a difference in between.
+/// The share of the vertices from which on a pass over all cells is faster than their stars: of 100,000 vertices 0.03
+/// in the plane and 0.02 in space, with hardly a difference in between.
 const LEAST_SHARE: f64 = 0.025;
 
 /// Steps in which the star of a vertex is asked for, and how many vertices in advance to begin each.

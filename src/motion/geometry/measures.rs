@@ -74,8 +74,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// As [`circumspheres`](Self::circumspheres), of the cells of these indices, in their order.
     ///
     /// Rounding depends on the order in which the kernel has the corners of a cell. That may change when the cell is
-    /// removed and created again between two readings, so a value that is kept meanwhile agrees with that of a full pass
-    /// within the error given there, not always bit by bit. So it is with [`volumes_of`](Self::volumes_of).
+    /// removed and created again between two readings, so a value that is kept meanwhile agrees with that of a full
+    /// pass within the errors documented, not always bit by bit. So it is with [`volumes_of`](Self::volumes_of).
     ///
     /// # Errors
     /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
