@@ -1122,7 +1122,7 @@ deldrift_status deldrift_cells_around(const deldrift_triangulation *t,
                                       size_t *count);
 
 /// Computes circumcentres and squared circumradii of some cells again, in arrays that deldrift_circumcentres has
-/// filled: entry cells[k] of each array becomes that of this cell. Other entries are not touched.
+/// filled: for each index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
 ///
 /// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
 /// centres: an array with room for capacity points. squared_radii: an array with room for capacity numbers. One that
@@ -1145,8 +1145,8 @@ deldrift_status deldrift_update_circumcentres(const deldrift_triangulation *t,
                                               double *squared_radii,
                                               size_t capacity);
 
-/// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: entry
-/// cells[k] becomes that of this cell. Other entries are not touched.
+/// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: for each
+/// index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
 ///
 /// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update and its
 /// accuracy. volumes: an array with room for capacity numbers.
@@ -1161,8 +1161,8 @@ deldrift_status deldrift_update_volumes(const deldrift_triangulation *t,
                                         size_t capacity);
 
 /// Decides for some cells again whether their circumradius is at most a given one, in a mask that
-/// deldrift_mask_by_circumradius has filled for the same one: entry cells[k] becomes that of this cell. Other entries
-/// are not touched.
+/// deldrift_mask_by_circumradius has filled for the same one: for each index in cells, the entry of this index becomes
+/// that of the cell. Other entries are not touched.
 ///
 /// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update.
 /// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
