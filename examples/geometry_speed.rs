@@ -1,7 +1,6 @@
 //! What the geometry of 100,000 random points costs, beside straightforward loops over the view: nanoseconds per cell,
 //! or per vertex, or per place. Another number of points may be given. Also what circumspheres cost where few vertices
-//! move: in one pass over all cells, and by the change list, for those cells alone that are new or have a vertex that
-//! has moved.
+//! move: in one pass over all cells, and for those cells alone that are new or have a vertex that has moved.
 mod common;
 
 use common::{Rng, in_cube};
@@ -199,99 +198,97 @@ fn of_places<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
     black_box(sum);
 }
 
+/// Circumcentre and squared circumradius.
+type Sphere<G> = (<G as Dimension>::Point, f64);
+
 /// Circumspheres kept beside the cells.
 struct Kept<G: Dimension> {
-    spheres: Vec<(G::Point, f64)>,
-    is_due: Vec<bool>,
-    due: Vec<CellId>,
-    star: Vec<CellId>,
-    set_aside: Vec<(G::Point, f64)>,
+    spheres: Vec<Sphere<G>>,
+    created: Vec<CellId>,
+    set_aside: Vec<Sphere<G>>,
 }
 
 impl<G: Dimension> Kept<G> {
     /// Brings them up to date after a commit that has moved these vertices.
-    fn update(&mut self, t: &mut MovingTriangulation<G>, positions: &[G::Point], moved: &[VertexId]) {
-        let n = t.cells().expect("room").corners.len();
+    fn update(&mut self, t: &mut MovingTriangulation<G>, moved: &[VertexId]) {
+        let n = t.cell_count();
         let changes = t.take_changes().expect("room");
         self.set_aside.clear();
-        self.set_aside.extend(changes.renumbered_from.iter().map(|c| self.spheres[c.index()]));
+        self.set_aside.extend(changes.renumbered_from.iter().map(|&c| self.spheres[c]));
         self.spheres.resize(n, (G::Point::default(), 0.0));
-        self.is_due.resize(n, false);
-        for (c, &sphere) in changes.renumbered_to.iter().zip(&self.set_aside) {
-            self.spheres[c.index()] = sphere;
+        for (&c, &sphere) in changes.renumbered_to.iter().zip(&self.set_aside) {
+            self.spheres[c] = sphere;
         }
-        self.due.clear();
-        let mut enter = |c: CellId| {
-            if !std::mem::replace(&mut self.is_due[c.index()], true) {
-                self.due.push(c);
+        self.created.clear();
+        self.created.extend_from_slice(changes.created);
+        let around = t.cells_around(moved).expect("present");
+        for list in [&self.created, &around] {
+            for (&c, sphere) in list.iter().zip(t.circumspheres_of(list).expect("cells")) {
+                self.spheres[c] = sphere;
             }
+        }
+    }
+
+    fn is_up_to_date(&self, t: &MovingTriangulation<G>) -> bool {
+        let is_near = |((centre, squared), (kept_centre, kept)): (Sphere<G>, &Sphere<G>)| {
+            let most = 2e-9 * squared.sqrt() + 1e-15;
+            let is_near = |axis| f64::abs(centre[axis] - kept_centre[axis]) <= most;
+            (0..G::D).all(is_near) && (squared - kept).abs() <= 1e-8 * squared
         };
-        changes.created.iter().for_each(|&c| enter(c));
-        for &v in moved {
-            t.star(v, &mut self.star).expect("present");
-            self.star.iter().for_each(|&c| enter(c));
-        }
-        let corners = t.cells().expect("room").corners;
-        for &c in &self.due {
-            self.is_due[c.index()] = false;
-            self.spheres[c.index()] = sphere_of::<G>(positions, &corners[c]);
-        }
+        let all = t.circumspheres().expect("room");
+        all.len() == self.spheres.len() && all.zip(&self.spheres).all(is_near)
     }
 }
 
-fn sphere_of<G: Dimension>(positions: &[G::Point], row: &G::Vertices) -> (G::Point, f64) {
-    let mut corners = [G::Point::default(); 4];
-    corners.iter_mut().zip(row.as_ref()).for_each(|(p, &v)| *p = positions[v]);
-    let (offset, _) = cramer::<G>(&corners[..=G::D]);
-    let mut centre = corners[0];
-    (0..G::D).for_each(|axis| centre[axis] += offset[axis]);
-    (centre, offset.iter().map(|x| x * x).sum::<f64>())
-}
-
-/// Steps in which the vertices near a corner of the cube move.
+/// Steps in which some vertices move: those near a corner of the cube, or here and there.
 fn of_changes<G: Dimension>(mut positions: Vec<G::Point>, rng: &mut Rng) {
     let n = positions.len();
     let far = |p: &G::Point| p.as_ref().iter().map(|x| x * x).sum::<f64>();
     let mut nearest: Vec<VertexId> = VertexId::range(0..n).collect();
     nearest.sort_unstable_by(|&a, &b| far(&positions[a]).total_cmp(&far(&positions[b])));
+    let mut scattered = nearest.clone();
+    (1..n).for_each(|k| scattered.swap(k, (rng.unit() * (k + 1) as f64) as usize));
     let step = 0.1 / (n as f64).powf(1.0 / G::D as f64);
     println!("  circumspheres where a share of the vertices moves: a step, in microseconds");
-    println!("  {:<12}{:>12}{:>12}{:>12}{:>9}", "share", "commit", "pass", "changes", "");
-    for share in [0.001, 0.01, 0.1, 0.3, 1.0] {
-        let moved = &nearest[..(n as f64 * share) as usize];
-        let mut t = MovingTriangulation::<G>::new(&positions, Options::default()).expect("good points");
-        let spheres = t.cells().expect("room").corners.iter().map(|row| sphere_of::<G>(&positions, row));
-        let spheres = spheres.collect::<Vec<_>>();
-        let mut kept = Kept { spheres, is_due: vec![], due: vec![], star: vec![], set_aside: vec![] };
-        let mut times = [f64::MAX; 3];
-        t.take_changes().expect("room");
-        for _ in 0..9 {
-            for &v in moved {
-                (0..G::D).for_each(|axis| positions[v][axis] += step * (rng.unit() - 0.5));
+    println!("  {:<20}{:>9}{:>9}{:>9}{:>9}{:>9}", "share", "commit", "pass", "update", "", "around");
+    for (name, order) in [("together", &nearest), ("scattered", &scattered)] {
+        for share in [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0] {
+            let moved = &order[..(n as f64 * share) as usize];
+            let mut t = MovingTriangulation::<G>::new(&positions, Options::default()).expect("good points");
+            let spheres = t.circumspheres().expect("room").collect();
+            let mut kept = Kept { spheres, created: vec![], set_aside: vec![] };
+            let mut times = [f64::MAX; 4];
+            t.take_changes().expect("room");
+            for _ in 0..9 {
+                for &v in moved {
+                    (0..G::D).for_each(|axis| positions[v][axis] += step * (rng.unit() - 0.5));
+                }
+                let places: Vec<G::Point> = moved.iter().map(|&v| positions[v]).collect();
+                let mut clock = Instant::now();
+                let mut lap = |place: &mut f64| {
+                    *place = place.min(clock.elapsed().as_secs_f64());
+                    clock = Instant::now();
+                };
+                t.move_vertices(moved, &places).expect("good places");
+                t.commit_timestamp().expect("room");
+                t.cells().expect("room");
+                lap(&mut times[0]);
+                kept.update(&mut t, moved);
+                lap(&mut times[2]);
+                black_box(t.cells_around(moved).expect("present"));
+                lap(&mut times[3]);
+                let mut spheres = Vec::with_capacity(t.cell_count());
+                spheres.extend(t.circumspheres().expect("room"));
+                black_box(spheres);
+                lap(&mut times[1]);
+                assert!(kept.is_up_to_date(&t), "none is out of date");
             }
-            let places: Vec<G::Point> = moved.iter().map(|&v| positions[v]).collect();
-            let mut clock = Instant::now();
-            let mut lap = |place: &mut f64| {
-                *place = place.min(clock.elapsed().as_secs_f64());
-                clock = Instant::now();
-            };
-            t.move_vertices(moved, &places).expect("good places");
-            t.commit_timestamp().expect("room");
-            t.cells().expect("room");
-            lap(&mut times[0]);
-            kept.update(&mut t, &positions, moved);
-            lap(&mut times[2]);
-            let corners = t.cells().expect("room").corners;
-            let all = |row| sphere_of::<G>(&positions, row);
-            assert!(corners.iter().map(all).eq(kept.spheres.iter().copied()), "none is out of date");
-            lap(&mut f64::MAX.clone());
-            let mut spheres = Vec::with_capacity(corners.len());
-            spheres.extend(t.circumspheres().expect("room"));
-            black_box(spheres);
-            lap(&mut times[1]);
+            let [commit, pass, update, around] = times.map(|seconds| seconds * 1e6);
+            let times = pass / update;
+            println!(
+                "  {name:<10}{share:<10}{commit:>9.0}{pass:>9.0}{update:>9.0}{times:>8.2}x{around:>9.0}"
+            );
         }
-        let [commit, pass, changes] = times.map(|seconds| seconds * 1e6);
-        println!("  {share:<12}{commit:>12.0}{pass:>12.0}{changes:>12.0}{:>8.2}x", pass / changes);
     }
 }
 

@@ -114,6 +114,19 @@ static void ask_for_geometry(const deldrift_triangulation *t) {
     expect(count == 3 * n_cells, "each triangle has three vertices");
     check(deldrift_ordered_star(t, VERTICES / 2, star, MOST, &count));
     expect(count == offsets[VERTICES / 2 + 1] - offsets[VERTICES / 2], "those of one are its star");
+    static const uint32_t middle = VERTICES / 2;
+    static uint32_t around[MOST];
+    static uint8_t mask[MOST];
+    size_t n_around;
+    check(deldrift_cells_around(t, &middle, 1, around, MOST, &n_around));
+    expect(n_around == count, "and the triangles around it");
+    const double radius = squared_radii[around[0]], before = areas[around[0]];
+    areas[around[0]] = 0;
+    check(deldrift_update_volumes(t, around, n_around, areas, MOST));
+    check(deldrift_update_circumcentres(t, around, n_around, centres, squared_radii, MOST));
+    check(deldrift_update_mask_by_circumradius(t, around, n_around, 2 * radius, mask, MOST));
+    expect(areas[around[0]] == before && squared_radii[around[0]] == radius && mask[around[0]] == 1,
+           "what is computed again of these alone is as before");
     check(deldrift_mirror_indices(t, mirrors, MOST, &count));
     const uint32_t beyond = neighbours[3 * star[0]];
     check(deldrift_mirror_index(t, star[0], 0, &mirror));

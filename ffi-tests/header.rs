@@ -10,7 +10,7 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "status",
     "options",
     "triangulation",
@@ -20,6 +20,7 @@ const SOURCES: [&str; 13] = [
     "query",
     "geometry",
     "incidence",
+    "listed",
     "voronoi",
     "interpolation",
     "saving",

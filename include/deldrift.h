@@ -100,7 +100,8 @@ enum deldrift_status
     DELDRIFT_INVALID_OPTIONS = 5,
     /// The level of deldrift_validate is not 1, 2 or 3.
     DELDRIFT_INVALID_LEVEL = 6,
-    /// A buffer holds fewer entries than there are; how many there are has been written to the count.
+    /// A buffer has room for fewer entries than there are. How many there are is in the message, and has been written
+    /// to the count if the function has one.
     DELDRIFT_BUFFER_TOO_SMALL = 7,
     /// A coordinate is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
@@ -1096,6 +1097,88 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
                                       uint32_t *cells,
                                       size_t capacity,
                                       size_t *count);
+
+/// The cells around some vertices: the indices of those of which at least one of the vertices is a corner, ascending,
+/// each once.
+///
+/// vertices: vertex_count ids, in any order, some maybe more than once; hidden vertices have no cells. NULL if
+/// vertex_count is 0. cells: a buffer with room for capacity indices; deldrift_cell_count is always enough. count:
+/// receives the number of indices, which is also written when the buffer is too small. NULL with capacity 0 asks for
+/// the count alone, which takes as long.
+///
+/// After a commit, the cells around the vertices that have moved and those that deldrift_take_changes lists as created
+/// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
+/// those entries alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// what the first deldrift_cells does; else the cost is that of the stars, and for many vertices at most that of a pass
+/// over the cells.
+deldrift_status deldrift_cells_around(const deldrift_triangulation *t,
+                                      const uint32_t *vertices,
+                                      size_t vertex_count,
+                                      uint32_t *cells,
+                                      size_t capacity,
+                                      size_t *count);
+
+/// Computes circumcentres and squared circumradii of some cells again, in arrays that deldrift_circumcentres has
+/// filled: for each index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
+///
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
+/// centres: an array with room for capacity points. squared_radii: an array with room for capacity numbers. One that
+/// is NULL is not filled, but not both. capacity: at least deldrift_cell_count.
+///
+/// After a change an array for all cells is brought up to date in three steps: its entries follow renumbered cells as
+/// deldrift_changes says; then this is called for the created cells; and then for those that deldrift_cells_around
+/// gives for the vertices that have moved. The values are then those of deldrift_circumcentres, with the same accuracy.
+/// Their last bits may be others where a cell was removed and created again in between, as they depend on the order in
+/// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
+/// neighbours; beyond that the pass of deldrift_circumcentres is faster.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// what the first deldrift_cells does; else the cost is that of the cells listed.
+deldrift_status deldrift_update_circumcentres(const deldrift_triangulation *t,
+                                              const uint32_t *cells,
+                                              size_t cell_count,
+                                              double *centres,
+                                              double *squared_radii,
+                                              size_t capacity);
+
+/// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: for each
+/// index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
+///
+/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update and its
+/// accuracy. volumes: an array with room for capacity numbers.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// what the first deldrift_cells does; else the cost is that of the cells listed.
+deldrift_status deldrift_update_volumes(const deldrift_triangulation *t,
+                                        const uint32_t *cells,
+                                        size_t cell_count,
+                                        double *volumes,
+                                        size_t capacity);
+
+/// Decides for some cells again whether their circumradius is at most a given one, in a mask that
+/// deldrift_mask_by_circumradius has filled for the same one: for each index in cells, the entry of this index becomes
+/// that of the cell. Other entries are not touched.
+///
+/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update.
+/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
+///
+/// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
+/// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does; else the cost is that of the cells listed.
+deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulation *t,
+                                                     const uint32_t *cells,
+                                                     size_t cell_count,
+                                                     double squared_radius,
+                                                     uint8_t *mask,
+                                                     size_t capacity);
 
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
 ///

@@ -260,6 +260,21 @@ public:
         check(deldrift_mask_by_circumradius(native(), squared_radius, mask.data(), count, &count));
         return mask;
     }
+    // Of the cells listed alone, in arrays for all cells that hold those of the others already.
+    void update_circumcentres(span<const std::uint32_t> cells, Circumspheres &spheres) const {
+        const std::size_t capacity = spheres.squared_radii.size();
+        expect("centres", spheres.centres.size(), capacity * dimension_);
+        check(deldrift_update_circumcentres(native(), cells.data(), cells.size(), spheres.centres.data(),
+                                            spheres.squared_radii.data(), capacity));
+    }
+    void update_volumes(span<const std::uint32_t> cells, span<double> volumes) const {
+        check(deldrift_update_volumes(native(), cells.data(), cells.size(), volumes.data(), volumes.size()));
+    }
+    void update_mask_by_circumradius(span<const std::uint32_t> cells, double squared_radius,
+                                     span<std::uint8_t> mask) const {
+        check(deldrift_update_mask_by_circumradius(native(), cells.data(), cells.size(), squared_radius, mask.data(),
+                                                   mask.size()));
+    }
     // Seen from outside. mask: a byte for each cell, 0 if it is not in the mask.
     Facets mask_boundary(span<const std::uint8_t> mask) const {
         return facets([&](std::uint32_t *vertices, std::uint32_t *cells, std::uint8_t *corners, std::size_t capacity,
@@ -303,6 +318,21 @@ public:
         std::vector<std::uint32_t> star(count);
         check(deldrift_ordered_star(native(), vertex, star.data(), count, &count));
         return star;
+    }
+    // Those with at least one of the vertices as a corner, in ascending order.
+    std::vector<std::uint32_t> cells_around(span<const std::uint32_t> vertices) const {
+        // Room for stars of common size, and for all cells at most.
+        const std::size_t most = cell_count(), per_vertex = dimension_ == 2 ? 8 : 32;
+        std::vector<std::uint32_t> cells(vertices.size() < most / per_vertex ? vertices.size() * per_vertex : most);
+        std::size_t count = 0;
+        deldrift_status status = around(vertices, cells, count);
+        if (status == DELDRIFT_BUFFER_TOO_SMALL) {
+            cells.resize(count);
+            status = around(vertices, cells, count);
+        }
+        check(status);
+        cells.resize(count);
+        return cells;
     }
     // Of all ids, within the box from low to high; without a box, infinite on the hull.
     std::vector<double> voronoi_volumes(span<const double> low = {}, span<const double> high = {}) const {
@@ -399,6 +429,9 @@ private:
                       std::vector<std::uint8_t>(count)};
         check(list(facets.vertices.data(), facets.cells.data(), facets.corners.data(), count, &count));
         return facets;
+    }
+    deldrift_status around(span<const std::uint32_t> vertices, span<std::uint32_t> cells, std::size_t &count) const {
+        return deldrift_cells_around(native(), vertices.data(), vertices.size(), cells.data(), cells.size(), &count);
     }
     // Likewise lists by vertex.
     template <class List>

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::ids::VertexId;
+use crate::ids::{CellId, VertexId};
 
 /// The reason for which a call had no effect.
 ///
@@ -55,6 +55,17 @@ pub enum Error {
         index: usize,
         /// What was given.
         vertex: VertexId,
+    },
+    /// There is no cell of this index.
+    NoSuchCell {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What was given.
+        cell: CellId,
+        /// How many cells there are: valid indices are below it.
+        cells: usize,
     },
     /// A move is already staged for the vertex since the last commit.
     DuplicateMove {
@@ -131,6 +142,9 @@ impl fmt::Display for Error {
             }
             Error::RemovedVertex { argument, index, vertex } => {
                 write!(f, "{argument}[{index}] is {vertex}, a vertex that has been removed")
+            }
+            Error::NoSuchCell { argument, index, cell, cells } => {
+                write!(f, "{argument}[{index}] is {cell}, but there are {cells} cells")
             }
             Error::DuplicateMove { argument, index, vertex } => {
                 write!(f, "{argument}[{index}] is {vertex}, a vertex whose move is already staged")

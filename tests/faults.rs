@@ -252,6 +252,8 @@ enum Call {
     Tolerance,
     Circumspheres,
     MaskBoundary,
+    /// Of two vertices, or of all.
+    CellsAround(bool),
     Edges,
     VertexNeighbours,
     VertexCells,
@@ -284,6 +286,7 @@ impl Call {
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
+        calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
         calls.extend([Call::Clone, Call::Save, Call::Load]);
         calls
     }
@@ -295,6 +298,7 @@ impl Call {
             Call::Relocate(_) => "relocate_vertex".to_string(),
             Call::Insert(_) => "insert_vertex".to_string(),
             Call::Remove(_) => "remove_vertex".to_string(),
+            Call::CellsAround(_) => "CellsAround".to_string(),
             other => format!("{other:?}"),
         }
     }
@@ -318,6 +322,8 @@ struct Scene<G: Dimension> {
     /// An entry for each cell, and a value for each id.
     mask: Vec<u8>,
     values: Vec<f64>,
+    /// The vertices that are present.
+    present: Vec<VertexId>,
     /// What is to be loaded.
     saved: Vec<u8>,
 }
@@ -421,12 +427,13 @@ impl<G: Dimension> Scene<G> {
         let options = Some(options());
         let (mask, values) = (vec![1; t.cell_count()], (0..t.id_count()).map(|v| v as f64).collect());
         let saved = if call == Call::Load { t.saved().expect("room") } else { Vec::new() };
-        Scene { t, points, carried, call, options, mask, values, saved }
+        let present = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
+        Scene { t, points, carried, call, options, mask, values, present, saved }
     }
 
     /// Makes the call, and disarms as soon as it is back.
     fn call(&mut self) -> Result<Given> {
-        let Scene { t, points, call, options, mask, values, saved, .. } = self;
+        let Scene { t, points, call, options, mask, values, present, saved, .. } = self;
         let goal = |goal: Goal| match goal {
             Goal::Near => point::<G>(|k| points[12][k] + 1e-3),
             Goal::Far => point::<G>(|k| 1.5 + k as f64),
@@ -546,6 +553,12 @@ impl<G: Dimension> Scene<G> {
             Call::Circumspheres => {
                 let n = given(t.circumspheres().map(Iterator::count))?;
                 Given::Numbers(vec![n as u64, t.volumes()?.len() as u64])
+            }
+            Call::CellsAround(is_of_all) => {
+                let listed = if is_of_all { &present[..] } else { &present[12..14] };
+                let around = given(t.cells_around(listed))?;
+                let rows = t.cells()?.corners;
+                Given::Cells(around.iter().map(|&c| sorted(rows[c].as_ref())).collect())
             }
             Call::MaskBoundary => {
                 let mut n = 0;

@@ -1,6 +1,8 @@
 //! Geometry computed from the cells, against exact integers and against brute force over all cells.
 
 mod common;
+#[path = "geometry/listed.rs"]
+mod listed;
 #[path = "geometry/voronoi.rs"]
 mod voronoi;
 

@@ -20,6 +20,8 @@ enum Role {
     /// Numbers of any value, or none.
     NumbersIfAny,
     Ids,
+    /// Indices of cells.
+    CellIds,
     Mask,
     Hint,
     Options,
@@ -64,6 +66,7 @@ fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const double *", "values") => Role::Numbers,
         ("const double *", "outside") => Role::NumbersIfAny,
         ("const uint32_t *", "vertices") => Role::Ids,
+        ("const uint32_t *", "cells") => Role::CellIds,
         ("const uint8_t *", "mask") => Role::Mask,
         ("const deldrift_location *", "near") => Role::Hint,
         ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
@@ -81,7 +84,8 @@ fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("deldrift_status", _) => Role::Status,
         ("double", "squared_radius") => Role::SquaredRadius,
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
-        ("size_t", "count" | "vertex_field_count" | "cell_field_count") => Role::Count,
+        ("size_t", "count" | "vertex_count" | "cell_count") => Role::Count,
+        ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
         ("size_t", "value_count" | "mask_count" | "offset_count") => Role::FixedCount,
         ("size_t", "n_values") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
@@ -283,6 +287,15 @@ impl Cases<'_> {
                 self.legal("infinite", at, "infinity", &format!("bad({valid}, 0, INFINITY)"));
             }
             Role::Ids => self.ids(at),
+            Role::CellIds => {
+                self.legal("value", at, "one twice", "bad_ids(1, 0)");
+                for (given, value) in
+                    [("the number of them", "(uint32_t)n_cells"), ("UINT32_MAX", "UINT32_MAX")]
+                {
+                    let message = format!("\"cells[1] is %u\", (unsigned){value}");
+                    self.refused("id", at, given, &format!("bad_ids(1, {value})"), "NO_SUCH_FACET", &message);
+                }
+            }
             Role::Hint => {
                 for (given, kind, index) in
                     [("a vertex that is none", 0, "99"), ("a cell that is none", 1, "99")]
@@ -349,6 +362,8 @@ impl Cases<'_> {
 
     fn ids(&mut self, at: usize) {
         let removes = self.function.name == "deldrift_stage_removals";
+        // Those that only read do not mind what is staged, nor what is listed twice.
+        let reads = self.function.name == "deldrift_cells_around";
         let twice = if removes { "REMOVED_VERTEX" } else { "DUPLICATE_MOVE" };
         for (column, given, value, status, said) in [
             ("id", "the number of ids", "(uint32_t)n_ids", "NO_SUCH_VERTEX", "%u\", (unsigned)n_ids"),
@@ -357,8 +372,13 @@ impl Cases<'_> {
             ("removed", "one to be removed", "LEAVING", "REMOVED_VERTEX", "6\""),
             ("value", "one twice", "0", twice, "0\""),
         ] {
+            let wrong = format!("bad_ids(1, {value})");
+            if reads && matches!(value, "LEAVING" | "0") {
+                self.legal(column, at, given, &wrong);
+                continue;
+            }
             let message = format!("\"vertices[1] is {said}");
-            self.refused(column, at, given, &format!("bad_ids(1, {value})"), status, &message);
+            self.refused(column, at, given, &wrong, status, &message);
         }
     }
 
@@ -515,11 +535,13 @@ impl Cases<'_> {
         let nowhere: Vec<(usize, String)> = buffers.map(|k| (k, "NULL".to_string())).collect();
         let mut without = vec![(at, "0".to_string())];
         without.extend(nowhere.iter().cloned());
-        self.add("zero", "0, and NULL", "OK", "", &without, "");
-        // All of them are NULL, and there is a capacity.
         let mut named = nowhere.iter().map(|&(k, _)| self.function.parameters[k].name.clone());
         let named = named.find(|name| name != "offsets").expect("a buffer");
         let message = format!("\"{named} is NULL\"");
+        // Without a count to be told, arrays are there to be updated.
+        let status = if self.function.has("count") { "OK" } else { "NULL_ARGUMENT" };
+        self.add("zero", "0, and NULL", status, &message, &without, "");
+        // All of them are NULL, and there is a capacity.
         self.add("null", "NULL for all buffers", "NULL_ARGUMENT", &message, &nowhere, "");
     }
 

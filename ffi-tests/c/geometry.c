@@ -54,6 +54,8 @@ static void buffers_are_as_large_as_they_say(uint32_t d) {
     CHECK_BUFFER(uint8_t, n, d + 1, deldrift_mirror_indices(t, buffer, capacity, &count));
     CHECK_BUFFER(double, (size_t)5, 1, deldrift_voronoi_volumes(t, low, high, buffer, capacity, &count));
     CHECK_BUFFER(double, n_edges, 1, deldrift_voronoi_facets(t, NULL, NULL, buffer, capacity, &count));
+    const uint32_t inner[2] = {4, 4};
+    CHECK_BUFFER(uint32_t, n, 1, deldrift_cells_around(t, inner, 2, buffer, capacity, &count));
     if (d == 2) CHECK_BUFFER(uint32_t, 4u, 1, deldrift_ordered_star(t, 4, buffer, capacity, &count));
     deldrift_destroy(t);
 }
@@ -196,6 +198,91 @@ static void stars_go_around(void) {
     deldrift_destroy(t);
 }
 
+// A vertex moves within its tolerance: what is kept for the cells around it is made again, and nothing else.
+static void arrays_are_kept(uint32_t d) {
+    static double nine[] = {0, 0, 4, 0, 5, 5, 0, 4, 1, 2, 3, 1, 6, 2, 2, 5, 3, 3};
+    deldrift_triangulation *t = d == 2 ? create(2, nine, 9, NULL) : create(3, TETRAHEDRON, TETRAHEDRON_COUNT, NULL);
+    const uint32_t moved[3] = {4, 4, 4};
+    const size_t n = cell_count(t);
+    enum { MOST = 32 };
+    double centres[3 * MOST], squares[MOST], volumes[MOST], position[3];
+    uint8_t mask[MOST];
+    uint32_t around[MOST];
+    size_t count;
+    CHECK(n <= MOST);
+    deldrift_changes changes;
+    OK(deldrift_take_changes(t, &changes));
+    OK(deldrift_position(t, 4, position));
+    position[0] += 1.0 / 1024;
+    OK(deldrift_move_vertex(t, 4, position));
+    OK(deldrift_commit_timestamp(t, NULL));
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == 0 && changes.renumbered_count == 0);
+    OK(deldrift_cells_around(t, moved, 3, around, MOST, &count));
+    const deldrift_cells_view view = cells_of(t);
+    for (uint32_t cell = 0, k = 0; cell < n; cell++) {
+        bool is_around = has_corner(view.vertices + cell * (d + 1), d + 1, 4);
+        CHECK(is_around == (k < count && around[k] == cell));
+        k += is_around;
+    }
+    CHECK(d == 3 || (count > 2 && count < n));
+    memset(centres, 0x77, sizeof centres);
+    memset(squares, 0x77, sizeof squares);
+    memset(volumes, 0x77, sizeof volumes);
+    memset(mask, 0x77, sizeof mask);
+
+    // Nothing is written by a call that fails.
+    const uint32_t wrong[3] = {around[0], around[0], (uint32_t)n};
+    CHECK_STATUS(deldrift_update_circumcentres(t, wrong, 3, centres, squares, n), DELDRIFT_NO_SUCH_FACET);
+    CHECK_MESSAGE("cells[2] is");
+    CHECK_STATUS(deldrift_update_volumes(t, wrong, 3, volumes, n), DELDRIFT_NO_SUCH_FACET);
+    CHECK_STATUS(deldrift_update_mask_by_circumradius(t, wrong, 3, 9, mask, n), DELDRIFT_NO_SUCH_FACET);
+    CHECK_STATUS(deldrift_update_circumcentres(t, around, count, centres, squares, n - 1), DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK_MESSAGE("capacity is");
+    CHECK_STATUS(deldrift_update_volumes(t, around, count, volumes, n - 1), DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK_STATUS(deldrift_update_mask_by_circumradius(t, around, count, 9, mask, n - 1), DELDRIFT_BUFFER_TOO_SMALL);
+    CHECK_STATUS(deldrift_update_mask_by_circumradius(t, around, count, -9, mask, n), DELDRIFT_INVALID_VALUE);
+    CHECK_STATUS(deldrift_update_circumcentres(t, around, count, NULL, NULL, n), DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("centres is NULL");
+    CHECK_STATUS(deldrift_update_circumcentres(t, NULL, 0, NULL, NULL, 0), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_update_volumes(t, around, count, NULL, n), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_update_mask_by_circumradius(t, around, count, 9, NULL, n), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_update_volumes(t, NULL, 1, volumes, n), DELDRIFT_NULL_ARGUMENT);
+    CHECK_MESSAGE("cells is NULL");
+    const uint32_t strange[2] = {4, 99};
+    CHECK_STATUS(deldrift_cells_around(t, strange, 2, around, MOST, &count), DELDRIFT_NO_SUCH_VERTEX);
+    CHECK_MESSAGE("vertices[1] is 99");
+    CHECK_STATUS(deldrift_cells_around(t, NULL, 2, around, MOST, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK(is_untouched(centres, sizeof centres) && is_untouched(squares, sizeof squares));
+    CHECK(is_untouched(volumes, sizeof volumes) && is_untouched(mask, sizeof mask));
+
+    // What is listed becomes what a pass over all cells gives, and the rest stays.
+    double all_centres[3 * MOST], all_squares[MOST], all_volumes[MOST];
+    uint8_t all_mask[MOST];
+    size_t n_listed = count;
+    OK(deldrift_circumcentres(t, all_centres, all_squares, MOST, &count));
+    OK(deldrift_volumes(t, all_volumes, MOST, &count));
+    OK(deldrift_mask_by_circumradius(t, all_squares[around[0]], all_mask, MOST, &count));
+    OK(deldrift_update_circumcentres(t, around, n_listed, centres, NULL, n));
+    OK(deldrift_update_circumcentres(t, around, n_listed, NULL, squares, MOST));
+    OK(deldrift_update_volumes(t, around, n_listed, volumes, n));
+    OK(deldrift_update_mask_by_circumradius(t, around, n_listed, all_squares[around[0]], mask, n));
+    for (uint32_t cell = 0, k = 0; cell < MOST; cell++) {
+        if (k < n_listed && around[k] == cell) {
+            k++;
+            for (uint32_t i = 0; i < d; i++) CHECK(centres[cell * d + i] == all_centres[cell * d + i]);
+            CHECK(squares[cell] == all_squares[cell] && volumes[cell] == all_volumes[cell]);
+            CHECK(mask[cell] == all_mask[cell]);
+        } else {
+            CHECK(is_untouched(centres + cell * d, d * sizeof *centres));
+            CHECK(is_untouched(squares + cell, sizeof *squares) && is_untouched(volumes + cell, sizeof *volumes));
+            CHECK(mask[cell] == 0x77);
+        }
+    }
+    OK(deldrift_update_volumes(t, NULL, 0, volumes, n));
+    deldrift_destroy(t);
+}
+
 // Nothing is an answer, too.
 static void without_cells_all_is_empty(void) {
     static const double line[] = {0, 0, 1, 1, 2, 2};
@@ -215,6 +302,13 @@ static void without_cells_all_is_empty(void) {
         OK(deldrift_vertex_neighbours(t, offsets, n + 1, NULL, 0, &count));
         OK(deldrift_mirror_indices(t, &byte, 0, &count));
         OK(deldrift_voronoi_facets(t, NULL, NULL, &number, 0, &count));
+        CHECK(count == 0);
+        static const uint32_t first = 0;
+        OK(deldrift_cells_around(t, n > 0 ? &first : NULL, n > 0, &id, 0, &count));
+        OK(deldrift_update_circumcentres(t, NULL, 0, NULL, NULL, 0));
+        OK(deldrift_update_volumes(t, NULL, 0, NULL, 0));
+        OK(deldrift_update_mask_by_circumradius(t, NULL, 0, 1, NULL, 0));
+        CHECK_STATUS(deldrift_update_volumes(t, &first, 1, &number, 1), DELDRIFT_NO_SUCH_FACET);
         CHECK(count == 0 && offsets[0] == 0 && offsets[n] == 0);
         if (n > 0) OK(deldrift_ordered_star(t, 1, &id, 0, &count));
         CHECK(count == 0);
@@ -295,6 +389,8 @@ int main(void) {
     boundaries_go_around();
     lists_are_by_vertex();
     stars_go_around();
+    arrays_are_kept(2);
+    arrays_are_kept(3);
     without_cells_all_is_empty();
     return 0;
 }

@@ -44,6 +44,7 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
     DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
+    CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
     CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
@@ -56,7 +57,9 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells", "deldrift_circumcentres",
     "deldrift_volumes", "deldrift_mask_by_circumradius", "deldrift_mask_boundary", "deldrift_hull_facets",
     "deldrift_edges", "deldrift_vertex_neighbours", "deldrift_vertex_cells", "deldrift_mirror_indices",
-    "deldrift_mirror_index", "deldrift_ordered_star", "deldrift_voronoi_volumes", "deldrift_voronoi_facets",
+    "deldrift_mirror_index", "deldrift_ordered_star", "deldrift_cells_around", "deldrift_cells_around, all",
+    "deldrift_update_circumcentres", "deldrift_update_volumes", "deldrift_update_mask_by_circumradius",
+    "deldrift_voronoi_volumes", "deldrift_voronoi_facets",
     "deldrift_interpolate", "deldrift_interpolate, natural",
     "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu",
     "deldrift_write_medit",
@@ -97,6 +100,13 @@ static const uint8_t *all_cells(void) {
     static uint8_t mask[ROOM];
     memset(mask, 1, sizeof mask);
     return mask;
+}
+
+// The numbers from 0 on, as a list of cells.
+static const uint32_t *numbers_from_0(void) {
+    static uint32_t numbers[ROOM];
+    for (uint32_t k = 0; k < ROOM; k++) numbers[k] = k;
+    return numbers;
 }
 
 // A file for calls that write one, or read it.
@@ -262,6 +272,14 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     const uint8_t *mask = all_cells();
     size_t n_cells = cell_count(s->t), id_count = 0;
     OK(deldrift_id_count(s->t, &id_count));
+    const uint32_t *numbers = numbers_from_0();
+    static uint32_t vertices[ROOM];
+    size_t n_vertices = 0;
+    for (uint32_t v = 0; v < id_count; v++) {
+        bool present;
+        OK(deldrift_is_present(s->t, v, &present));
+        if (present) vertices[n_vertices++] = v;
+    }
     size_t size = 0;
     const deldrift_field field = {"field", numbers_out, 1};
     const char *file = file_of_test();
@@ -308,6 +326,17 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case MIRROR_INDICES: status = deldrift_mirror_indices(s->t, bytes_out, ROOM / 4, &count); break;
         case MIRROR_INDEX: status = deldrift_mirror_index(s->t, 11, 1, &out); break;
         case ORDERED_STAR: status = deldrift_ordered_star(s->t, 12, ids_out, ROOM, &count); break;
+        case CELLS_AROUND:
+            status = deldrift_cells_around(s->t, (uint32_t[]){12}, 1, ids_out, ROOM, &count);
+            break;
+        case CELLS_AROUND_ALL: status = deldrift_cells_around(s->t, vertices, n_vertices, ids_out, ROOM, &count); break;
+        case UPDATE_CIRCUMCENTRES:
+            status = deldrift_update_circumcentres(s->t, numbers, n_cells, numbers_out, NULL, ROOM / 3);
+            break;
+        case UPDATE_VOLUMES: status = deldrift_update_volumes(s->t, numbers, n_cells, numbers_out, ROOM); break;
+        case UPDATE_MASK:
+            status = deldrift_update_mask_by_circumradius(s->t, numbers, n_cells, 0.01, bytes_out, ROOM);
+            break;
         case VORONOI_VOLUMES: status = deldrift_voronoi_volumes(s->t, low, high, numbers_out, ROOM, &count); break;
         case VORONOI_FACETS: status = deldrift_voronoi_facets(s->t, low, high, numbers_out, ROOM, &count); break;
         case INTERPOLATE:
@@ -370,6 +399,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         }
         case ORDERED_STAR:
         case SAVE: *given = count; break;
+        case CELLS_AROUND:
+        case CELLS_AROUND_ALL:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
         case INTERPOLATE:
@@ -380,12 +411,15 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case VORONOI_VOLUMES:
             for (size_t i = 0; i < count; i++) *given += (uint64_t)(1e6 * (numbers_out[i] > 0 ? numbers_out[i] : 0));
             break;
+        case UPDATE_CIRCUMCENTRES:
+        case UPDATE_VOLUMES: count = n_cells; // fall through
         case CIRCUMCENTRES:
         case VOLUMES:
         case ANNULUS_WIDTHS:
-            if (s->call.kind == CIRCUMCENTRES) count *= d;
+            if (s->call.kind == CIRCUMCENTRES || s->call.kind == UPDATE_CIRCUMCENTRES) count *= d;
             for (size_t i = 0; i < count; i++) *given += digest_of(&numbers_out[i], sizeof *numbers_out);
             break;
+        case UPDATE_MASK: count = n_cells; // fall through
         case MASK_BY_CIRCUMRADIUS:
             for (size_t i = 0; i < count; i++) *given += bytes_out[i];
             break;

@@ -68,6 +68,51 @@ static void vertices_have_lists() {
     CHECK(Triangulation(3, {}).vertex_cells().offsets == Ids{0} && Triangulation(2, {}).edges().empty());
 }
 
+static void arrays_are_kept() {
+    Triangulation t(2, square);
+    deldrift::Circumspheres spheres = t.circumcentres();
+    std::vector<double> volumes = t.volumes();
+    std::vector<std::uint8_t> mask = t.mask_by_circumradius(9);
+    CHECK((t.cells_around({4}) == Ids{0, 1, 2, 3}) && t.cells_around({0, 0}).size() == 2);
+    CHECK(t.cells_around({}).empty() && t.cells_around(Ids{0, 1, 2, 3, 4}).size() == 4);
+    t.take_changes();
+    t.move_vertex(4, {3.0, 2.5});
+    t.commit_timestamp();
+    const deldrift_changes changes = t.take_changes();
+    CHECK(changes.created_count == 0 && changes.renumbered_count == 0);
+    const Ids around = t.cells_around({4});
+    t.update_circumcentres(around, spheres);
+    t.update_volumes(around, volumes);
+    t.update_mask_by_circumradius(around, 9, mask);
+    CHECK(spheres.centres == t.circumcentres().centres && spheres.squared_radii == t.circumcentres().squared_radii);
+    CHECK(volumes == t.volumes() && mask == t.mask_by_circumradius(9));
+    int thrown = 0;
+    for (int wrong = 0; wrong < 3; wrong++) {
+        try {
+            if (wrong == 0) t.update_volumes({0, 4}, volumes);
+            if (wrong == 1) t.update_mask_by_circumradius({0}, -1, mask);
+            spheres.centres.pop_back();
+            if (wrong == 2) t.update_circumcentres({0}, spheres);
+        } catch (const deldrift::Error &error) {
+            static const deldrift_status wanted[] = {DELDRIFT_NO_SUCH_FACET, DELDRIFT_INVALID_VALUE,
+                                                     DELDRIFT_WRONG_COUNT};
+            thrown += error.status() == wanted[wrong];
+        }
+    }
+    CHECK(thrown == 3);
+    // Stars that are larger than usual.
+    std::vector<double> wheel{0, 0};
+    for (int k = 0; k < 50; k++) {
+        wheel.push_back(std::cos(k * 0.1256));
+        wheel.push_back(std::sin(k * 0.1256));
+    }
+    const Triangulation spokes(2, wheel);
+    CHECK(spokes.cells_around({0}).size() == spokes.cell_count() && spokes.cell_count() > 40);
+    deldrift::Circumspheres none;
+    Triangulation(3, {}).update_circumcentres({}, none);
+    CHECK(Triangulation(3, {}).cells_around({}).empty());
+}
+
 static void voronoi_cells_fill_a_box() {
     const Triangulation t(2, square);
     const std::vector<double> volumes = t.voronoi_volumes({-1.0, -2.0}, {7.0, 3.0});
@@ -97,6 +142,7 @@ int main() {
     voronoi_cells_fill_a_box();
     values_are_interpolated();
     cells_have_measures();
+    arrays_are_kept();
     masks_have_boundaries();
     vertices_have_lists();
 }

@@ -41,6 +41,7 @@ mod files;
 mod geometry;
 mod incidence;
 mod interpolation;
+mod listed;
 mod motion;
 mod options;
 #[cfg(test)]
@@ -58,6 +59,7 @@ pub use changes::*;
 pub use geometry::*;
 pub use incidence::*;
 pub use interpolation::*;
+pub use listed::*;
 pub use motion::*;
 pub use options::*;
 pub use predicates::*;

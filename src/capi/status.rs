@@ -30,7 +30,8 @@ pub enum deldrift_status {
     DELDRIFT_INVALID_OPTIONS = 5,
     /// The level of deldrift_validate is not 1, 2 or 3.
     DELDRIFT_INVALID_LEVEL = 6,
-    /// A buffer holds fewer entries than there are; how many there are has been written to the count.
+    /// A buffer has room for fewer entries than there are. How many there are is in the message, and has been written
+    /// to the count if the function has one.
     DELDRIFT_BUFFER_TOO_SMALL = 7,
     /// A coordinate is NaN or infinite.
     DELDRIFT_NOT_FINITE = 8,
@@ -146,7 +147,7 @@ impl deldrift_status {
             DELDRIFT_BUSY => c"the triangulation is being changed",
             DELDRIFT_POISONED => c"an internal error has made the triangulation unusable",
             DELDRIFT_INTERNAL_ERROR => c"internal error",
-            DELDRIFT_NO_SUCH_FACET => c"no cell has this facet",
+            DELDRIFT_NO_SUCH_FACET => c"there is no such cell or facet",
             DELDRIFT_NO_DELIMITER => c"a facet of the hull has no delimiter",
             DELDRIFT_INVALID_VALUE => c"a number has no meaning for its argument",
             DELDRIFT_INVALID_DATA => c"the data are not those of a saved triangulation",
@@ -251,6 +252,7 @@ impl Failure {
                 Error::OutOfRange { .. } => DELDRIFT_OUT_OF_RANGE,
                 Error::NoSuchVertex { .. } => DELDRIFT_NO_SUCH_VERTEX,
                 Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
+                Error::NoSuchCell { .. } => DELDRIFT_NO_SUCH_FACET,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,
@@ -283,7 +285,7 @@ impl fmt::Display for Failure {
             }
             Failure::Level { given } => write!(f, "level is {given}, but must be 1, 2 or 3"),
             Failure::BufferTooSmall { argument, capacity, needed } => {
-                write!(f, "{argument} is {capacity}, but {needed} entries are to be written")
+                write!(f, "{argument} is {capacity}, but there are {needed} entries")
             }
             Failure::NoSuchFacet { cell, corner, cells, corners } => write!(
                 f,

@@ -10,7 +10,7 @@ use std::ptr::{null, null_mut};
 
 impl History<'_> {
     pub(super) fn read_geometry(&mut self) {
-        match self.s.below(12) {
+        match self.s.below(14) {
             0 => self.spheres(),
             1 => self.volumes(),
             2 => self.mask(),
@@ -22,7 +22,9 @@ impl History<'_> {
             8 => self.mirrors(),
             9 => self.ordered_star(),
             10 => self.voronoi(),
-            _ => self.interpolate(),
+            11 => self.interpolate(),
+            12 => self.cells_around(),
+            _ => self.update(),
         }
     }
 
@@ -182,6 +184,72 @@ impl History<'_> {
         self.check_lists(&wanted, |offsets, n, to, room, count| {
             c!(deldrift_vertex_cells(t, offsets, n, to, room, count))
         });
+    }
+
+    /// Some vertices that are present, maybe more than once.
+    fn some_vertices(&mut self) -> Vec<u32> {
+        let present: Vec<u32> = self.m.present().collect();
+        let n = if present.is_empty() { 0 } else { self.s.below(6) };
+        (0..n).map(|_| present[self.s.below(present.len())]).collect()
+    }
+
+    fn cells_around(&mut self) {
+        let t = self.t;
+        let vertices = self.some_vertices();
+        let (start, n) = (vertices.as_ptr(), vertices.len());
+        let found =
+            self.copied(77, 1, |to, room, count| c!(deldrift_cells_around(t, start, n, to, room, count)));
+        let (rows, _) = self.cells();
+        let is_around = |row: &Row| row.iter().any(|v| vertices.contains(v));
+        let cells = (0..).zip(&rows).filter(|(_, row)| is_around(row));
+        let wanted: Vec<u32> = cells.map(|(cell, _)| cell).collect();
+        assert_eq!(found, wanted, "cells around {vertices:?}");
+    }
+
+    /// Entries of listed cells become those of a pass over all, and others stay.
+    fn update(&mut self) {
+        let (t, d, n) = (self.t, self.m.d, self.cells().0.len());
+        let n_listed = if n == 0 { 0 } else { self.s.below(8) };
+        let mut cells: Vec<u32> = (0..n_listed).map(|_| self.s.below(n) as u32).collect();
+        let limit = self.s.magnitude().abs();
+        // As entries that no pass gives.
+        let (mut centres, mut squares) = (vec![f64::NAN; n * d], vec![-1.0; n]);
+        let (mut volumes, mut mask) = (vec![-1.0; n], vec![77; n]);
+        let is_wrong = self.s.below(4) == 0;
+        let wanted = if is_wrong {
+            cells.push(n as u32);
+            DELDRIFT_NO_SUCH_FACET
+        } else {
+            DELDRIFT_OK
+        };
+        let (start, count) = (cells.as_ptr(), cells.len());
+        let [to_centres, to_squares, to_volumes] =
+            [&mut centres, &mut squares, &mut volumes].map(|v| v.as_mut_ptr());
+        let to_mask = mask.as_mut_ptr();
+        self.expect(wanted, || c!(deldrift_update_circumcentres(t, start, count, to_centres, to_squares, n)));
+        self.expect(wanted, || c!(deldrift_update_volumes(t, start, count, to_volumes, n)));
+        self.expect(wanted, || c!(deldrift_update_mask_by_circumradius(t, start, count, limit, to_mask, n)));
+        let (mut all_centres, mut all_squares) = (vec![f64::NAN; n * d], vec![-1.0; n]);
+        let (mut all_volumes, mut all_mask, mut n_all) = (vec![-1.0; n], vec![77; n], 0);
+        let (to_centres, to_squares) = (all_centres.as_mut_ptr(), all_squares.as_mut_ptr());
+        self.is_ok(c!(deldrift_circumcentres(t, to_centres, to_squares, n, &mut n_all)));
+        self.is_ok(c!(deldrift_volumes(t, all_volumes.as_mut_ptr(), n, &mut n_all)));
+        self.is_ok(c!(deldrift_mask_by_circumradius(t, limit, all_mask.as_mut_ptr(), n, &mut n_all)));
+        for cell in 0..n {
+            if is_wrong || !cells.contains(&(cell as u32)) {
+                let entries = (squares[cell], volumes[cell], mask[cell]);
+                assert_eq!(entries, (-1.0, -1.0, 77), "entries of cell {cell}, which is not listed");
+                assert!(centres[cell * d..][..d].iter().all(|x| x.is_nan()), "centre of cell {cell}");
+                continue;
+            }
+            let found = (&centres[cell * d..][..d], squares[cell], volumes[cell], mask[cell]);
+            let all = (&all_centres[cell * d..][..d], all_squares[cell], all_volumes[cell], all_mask[cell]);
+            assert_eq!(found, all, "entries of cell {cell}");
+        }
+        if n > 0 {
+            let small = DELDRIFT_BUFFER_TOO_SMALL;
+            self.expect(small, || c!(deldrift_update_volumes(t, start, count, to_volumes, n - 1)));
+        }
     }
 
     fn mirrors(&mut self) {

@@ -52,6 +52,7 @@ impl History<'_> {
         self.expect(wanted, || c!(deldrift_star(t, v, null_mut(), 0, &mut count)));
         self.expect(wanted, || c!(deldrift_coincident_representative(t, v, &mut out)));
         self.expect(wanted, || c!(deldrift_stage_removals(t, &v, 1)));
+        self.expect(wanted, || c!(deldrift_cells_around(t, &v, 1, null_mut(), 0, &mut count)));
         if self.m.d == 2 {
             self.expect(wanted, || c!(deldrift_ordered_star(t, v, null_mut(), 0, &mut count)));
         }
@@ -180,6 +181,7 @@ impl History<'_> {
         self.expect(overflow, || c!(deldrift_stage_insertions(t, &number, huge, &mut out)));
         self.expect(overflow, || c!(deldrift_move_vertices(t, &id, &number, huge)));
         self.expect(overflow, || c!(deldrift_stage_removals(t, &id, huge)));
+        self.expect(overflow, || c!(deldrift_cells_around(t, &id, huge, null_mut(), 0, &mut count)));
         let more = vec![0.5; (n + 1) * 3];
         self.expect(DELDRIFT_WRONG_COUNT, || c!(deldrift_move_vertices(t, null(), more.as_ptr(), n + 1)));
         if self.m.staged.is_empty() {

@@ -3,6 +3,7 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `around` | the cells around some of the vertices |
 //! | `measures` | circumspheres and volumes of cells, masks by circumradius |
 //! | `boundary` | facets around a mask of cells, the convex hull |
 //! | `incidence` | edges, neighbours and cells of vertices, mirror indices |
@@ -15,6 +16,7 @@
 //! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much.
 //! They are computed the same way on every processor.
 
+mod around;
 mod boundary;
 mod clipping;
 mod incidence;

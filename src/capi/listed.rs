@@ -1,0 +1,185 @@
+//! Geometry of some of the cells: those around vertices, and entries of arrays that a program keeps for all cells.
+
+use std::mem::MaybeUninit;
+
+use super::fence;
+use super::pointers::{self, Room, copy_out};
+use super::state::pointer_for;
+use super::status::{Failure, Wrong, deldrift_status};
+use super::triangulation::{deldrift_triangulation, in_its_dimension};
+use crate::ids::{CellId, VertexId};
+
+/// The cells around some vertices: the indices of those of which at least one of the vertices is a corner, ascending,
+/// each once.
+///
+/// vertices: vertex_count ids, in any order, some maybe more than once; hidden vertices have no cells. NULL if
+/// vertex_count is 0. cells: a buffer with room for capacity indices; deldrift_cell_count is always enough. count:
+/// receives the number of indices, which is also written when the buffer is too small. NULL with capacity 0 asks for
+/// the count alone, which takes as long.
+///
+/// After a commit, the cells around the vertices that have moved and those that deldrift_take_changes lists as created
+/// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
+/// those entries alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// what the first deldrift_cells does; else the cost is that of the stars, and for many vertices at most that of a pass
+/// over the cells.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_cells_around(
+    t: *const deldrift_triangulation,
+    vertices: *const u32,
+    vertex_count: usize,
+    cells: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            let vertices = VertexId::of_numbers(pointers::array("vertices", vertices, vertex_count)?);
+            let found = in_its_dimension!(kernel, t => t.cells_around(vertices))?;
+            copy_out(Room { capacity, count }, found.len(), &[("cells", cells.cast())], || {
+                pointers::fill("cells", cells, CellId::numbers_of(&found))
+            })
+        })
+    }
+}
+
+/// Computes circumcentres and squared circumradii of some cells again, in arrays that deldrift_circumcentres has
+/// filled: for each index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
+///
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
+/// centres: an array with room for capacity points. squared_radii: an array with room for capacity numbers. One that
+/// is NULL is not filled, but not both. capacity: at least deldrift_cell_count.
+///
+/// After a change an array for all cells is brought up to date in three steps: its entries follow renumbered cells as
+/// deldrift_changes says; then this is called for the created cells; and then for those that deldrift_cells_around
+/// gives for the vertices that have moved. The values are then those of deldrift_circumcentres, with the same accuracy.
+/// Their last bits may be others where a cell was removed and created again in between, as they depend on the order in
+/// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
+/// neighbours; beyond that the pass of deldrift_circumcentres is faster.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// what the first deldrift_cells does; else the cost is that of the cells listed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_update_circumcentres(
+    t: *const deldrift_triangulation,
+    cells: *const u32,
+    cell_count: usize,
+    centres: *mut f64,
+    squared_radii: *mut f64,
+    capacity: usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let (n, centres) = (t.cell_count(), pointer_for(t, centres));
+                let arrays = [("centres", centres.cast()), ("squared_radii", squared_radii.cast())];
+                check_arrays(&arrays, capacity, n)?;
+                let cells = CellId::of_numbers(pointers::array("cells", cells, cell_count)?);
+                let centres = pointers::buffer_if_any("centres", centres, n)?;
+                let squared_radii = pointers::buffer_if_any("squared_radii", squared_radii, n)?;
+                for (&cell, (centre, squared_radius)) in cells.iter().zip(t.circumspheres_of(cells)?) {
+                    write_if_any(centres, cell, centre);
+                    write_if_any(squared_radii, cell, squared_radius);
+                }
+                Ok(())
+            })
+        })
+    }
+}
+
+/// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: for each
+/// index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
+///
+/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update and its
+/// accuracy. volumes: an array with room for capacity numbers.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// what the first deldrift_cells does; else the cost is that of the cells listed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_update_volumes(
+    t: *const deldrift_triangulation,
+    cells: *const u32,
+    cell_count: usize,
+    volumes: *mut f64,
+    capacity: usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let n = t.cell_count();
+                check_arrays(&[("volumes", volumes.cast())], capacity, n)?;
+                let cells = CellId::of_numbers(pointers::array("cells", cells, cell_count)?);
+                let volumes = pointers::buffer("volumes", volumes, n)?;
+                for (&cell, volume) in cells.iter().zip(t.volumes_of(cells)?) {
+                    volumes[cell].write(volume);
+                }
+                Ok(())
+            })
+        })
+    }
+}
+
+/// Decides for some cells again whether their circumradius is at most a given one, in a mask that
+/// deldrift_mask_by_circumradius has filled for the same one: for each index in cells, the entry of this index becomes
+/// that of the cell. Other entries are not touched.
+///
+/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update.
+/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
+///
+/// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
+/// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// deldrift_cells does; else the cost is that of the cells listed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_update_mask_by_circumradius(
+    t: *const deldrift_triangulation,
+    cells: *const u32,
+    cell_count: usize,
+    squared_radius: f64,
+    mask: *mut u8,
+    capacity: usize,
+) -> deldrift_status {
+    // SAFETY: the header's conditions on pointers.
+    unsafe {
+        fence::read(t, |kernel| {
+            in_its_dimension!(kernel, t => {
+                let n = t.cell_count();
+                check_arrays(&[("mask", mask)], capacity, n)?;
+                let cells = CellId::of_numbers(pointers::array("cells", cells, cell_count)?);
+                let mask = pointers::buffer("mask", mask, n)?;
+                for (&cell, is_in) in cells.iter().zip(t.mask_by_circumradius_of(cells, squared_radius)?) {
+                    mask[cell].write(u8::from(is_in));
+                }
+                Ok(())
+            })
+        })
+    }
+}
+
+/// There must be an array at least, and room in it for an entry of each of `n` cells.
+fn check_arrays(arrays: &[(&'static str, *mut u8)], capacity: usize, n: usize) -> Result<(), Failure> {
+    if n > 0 && arrays.iter().all(|(_, array)| array.is_null()) {
+        return Err(Wrong::Null.in_argument(arrays[0].0));
+    }
+    if capacity < n {
+        return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed: n });
+    }
+    Ok(())
+}
+
+/// Writes the entry of a cell to an array for all cells, if there is one.
+#[inline(always)]
+fn write_if_any<T>(array: &mut [MaybeUninit<T>], cell: CellId, value: T) {
+    if let Some(place) = array.get_mut(cell.index()) {
+        place.write(value);
+    }
+}
