@@ -21,8 +21,12 @@ struct Failing;
 static ALLOCATOR: Failing = Failing;
 
 thread_local! {
-    /// Allocations of this thread until one fails.
+    /// Allocations of this thread until one fails, ...
     static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
+    /// ... whether all do from that one on, ...
+    static FOR_GOOD: Cell<bool> = const { Cell::new(false) };
+    /// ... and whether one has.
+    static HAS_FAILED: Cell<bool> = const { Cell::new(false) };
     /// Bytes that this thread has asked for and not given back.
     static HELD: Cell<usize> = const { Cell::new(0) };
 }
@@ -36,11 +40,19 @@ fn counted(memory: *mut u8, before: usize, after: usize) -> *mut u8 {
 }
 
 fn fails() -> bool {
-    let left = LEFT.get();
-    if left != u64::MAX {
-        LEFT.set(left.wrapping_sub(1));
+    match LEFT.get() {
+        u64::MAX => return false,
+        0 => {}
+        left => {
+            LEFT.set(left - 1);
+            return false;
+        }
     }
-    left == 0
+    if !FOR_GOOD.get() {
+        LEFT.set(u64::MAX);
+    }
+    HAS_FAILED.set(true);
+    true
 }
 
 // SAFETY: all is handed on to the system's allocator, or there is no memory.
@@ -64,29 +76,32 @@ unsafe impl GlobalAlloc for Failing {
     }
 }
 
-/// Does the work on something new each time, without the `k`-th allocation, for all `k` until it needs no more; returns
-/// how many there were. After an error `after` looks at what is left.
+/// Does the work on something new each time, without the `k`-th allocation, or without those after it either, for all
+/// `k` until it needs no more; returns how many there were. Afterwards `after` looks at what is left, and is told whether
+/// the work has been done: what can do without goes on.
 fn without_each<T>(
     make: impl Fn() -> T,
     mut work: impl FnMut(&mut T) -> Result<(), Error>,
-    mut after: impl FnMut(&mut T),
+    mut after: impl FnMut(&mut T, bool),
 ) -> u64 {
-    for k in 0.. {
-        let mut t = make();
-        LEFT.set(k);
-        let done = work(&mut t);
-        let has_failed = LEFT.replace(u64::MAX) > k;
-        match done {
-            Ok(()) if !has_failed => return k,
-            // What can do without goes on.
-            Ok(()) => {}
-            Err(error) => {
+    let counts = [false, true].map(|for_good| {
+        for k in 0.. {
+            let mut t = make();
+            (FOR_GOOD.set(for_good), LEFT.set(k));
+            let done = work(&mut t);
+            LEFT.set(u64::MAX);
+            let has_failed = HAS_FAILED.replace(false);
+            if let Err(error) = &done {
                 assert!(has_failed && matches!(error, Error::OutOfMemory { .. }), "{error}");
-                after(&mut t);
             }
+            if !has_failed {
+                return k;
+            }
+            after(&mut t, done.is_ok());
         }
-    }
-    unreachable!()
+        unreachable!()
+    });
+    counts.into_iter().min().expect("two")
 }
 
 fn point<G: Dimension>(rng: &mut Rng) -> G::Point {
@@ -136,7 +151,7 @@ fn builds<G: Dimension>() {
             t.add_sites(&points)?;
             t.rebuild(&mut |_| true).map(|merges| assert_eq!(merges.len(), 1))
         },
-        |_| {},
+        |_, _| {},
     );
     assert!(n > 10, "{n}");
     // Where there is no memory for parts, the whole is built on one thread.
@@ -145,7 +160,7 @@ fn builds<G: Dimension>() {
     let n = without_each(
         || None,
         |t| MovingTriangulation::<G>::new(&points, options()).map(|built| *t = Some(built)),
-        |t| assert!(t.is_none()),
+        |t, is_done| assert_eq!(t.is_some(), is_done),
     );
     assert!(n > 20, "{n}");
 }
@@ -171,8 +186,11 @@ fn inserts<G: Dimension>() {
                     .map(|_| ())
                     .inspect_err(|_| t.discard_site(s).expect("room was made for it"))
             },
-            |t| {
+            |t, is_done| {
                 is_valid(t);
+                if is_done {
+                    return;
+                }
                 let s = t.add_site(q, VertexId::new(1000)).expect("room for it");
                 let inserted = t.insert_site(s, Slot::NONE).expect("room for it");
                 assert_eq!(inserted == Insertion::New, !points.contains(&q));
@@ -189,8 +207,8 @@ fn removes<G: Dimension>() {
         let n = without_each(
             || built::<G>(&points),
             |t| t.remove_site(site_of(t, VertexId::new(0))),
-            |t| {
-                if n_corners > G::D + 1 {
+            |t, is_done| {
+                if n_corners > G::D + 1 && !is_done {
                     is_valid(t);
                     t.remove_site(site_of(t, VertexId::new(0))).expect("room for it");
                     is_valid(t);
@@ -203,8 +221,11 @@ fn removes<G: Dimension>() {
 
 fn relocates<G: Dimension>() {
     for points in [random::<G>(300), hub::<G>(300), random::<G>(G::D + 1)] {
+        let mut near = points[0];
+        near[0] += 0.03;
         for (q, shortcut) in [
             (points[0], Shortcut::Flips),
+            (near, Shortcut::Flips),
             (random::<G>(1000)[999], Shortcut::Flips),
             (hub::<G>(2)[1], Shortcut::Certificates),
             (points[1], Shortcut::Flips),
@@ -212,7 +233,11 @@ fn relocates<G: Dimension>() {
             without_each(
                 || built::<G>(&points),
                 |t| t.relocate_site(site_of(t, VertexId::new(0)), &q, VertexId::new(0), shortcut).map(|_| ()),
-                |_| {},
+                |t, is_done| {
+                    if is_done && t.has_cells() {
+                        is_valid(t);
+                    }
+                },
             );
         }
     }
@@ -226,7 +251,7 @@ fn answers<G: Dimension>() {
                 t.tolerance(VertexId::new(0))?;
                 t.nearest_vertex(&G::Point::default()).map(|nearest| assert!(nearest.is_some()))
             },
-            |_| {},
+            |_, _| {},
         );
         assert!(n < 1000);
     }
@@ -234,6 +259,7 @@ fn answers<G: Dimension>() {
     LEFT.set(0);
     let validated = t.validate(Level::Delaunay);
     assert_eq!(LEFT.replace(u64::MAX), 0, "needs no memory");
+    assert!(!HAS_FAILED.get());
     validated.expect("a Delaunay triangulation");
 }
 
@@ -269,6 +295,8 @@ fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
             // What the algorithm keeps for such calls is there.
             t.relocate_vertex(VertexId::new(1), &p).expect("room");
         }
+        // Who reads the cells follows the changes, which takes memory.
+        t.cells().expect("room");
         t
     };
     let state = |t: &MovingTriangulation<G>| {
@@ -276,14 +304,23 @@ fn immediate_calls<G: Dimension>(algorithm: Algorithm) {
         (positions, t.cells().expect("room").corners.to_vec())
     };
     let before = state(&make());
-    let mut after = |t: &mut MovingTriangulation<G>| assert!(state(t) == before, "{algorithm:?}");
+    let mut after = |t: &mut MovingTriangulation<G>, is_done: bool| {
+        t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{algorithm:?}: {violation}"));
+        assert!(is_done || state(t) == before, "{algorithm:?}");
+    };
     let near: G::Point = {
         let mut p = points[40];
         p[0] += 1e-3;
         p
     };
-    let calls: [Call<G>; 4] = [
+    let calls: [Call<G>; 5] = [
         |t, p| t.relocate_vertex(VertexId::new(5), p),
+        |t, _| {
+            // By flips.
+            let mut p = t.position(VertexId::new(9)).expect("a vertex");
+            (0..G::D).for_each(|k| p[k] += 0.04);
+            t.relocate_vertex(VertexId::new(9), &p)
+        },
         |t, p| t.relocate_vertex(VertexId::new(30), p),
         |t, p| t.insert_vertex(p).map(drop),
         |t, _| t.remove_vertex(VertexId::new(30)),
@@ -311,7 +348,9 @@ fn commits<G: Dimension>(algorithm: Algorithm, size: f64) {
     }
     let make = || {
         let options = Options { algorithm, threads: 1, ..Options::default() };
-        MovingTriangulation::<G>::new(&points, options).expect("room")
+        let t = MovingTriangulation::<G>::new(&points, options).expect("room");
+        t.cells().expect("room");
+        t
     };
     let staged = || {
         let mut t = make();
@@ -326,15 +365,24 @@ fn commits<G: Dimension>(algorithm: Algorithm, size: f64) {
         }
         assert!(cells(t) == before, "{algorithm:?}");
     };
-    let at_once = without_each(make, |t| t.commit_positions(&moved).map(drop), |t| is_as_before(t));
+    let is_valid = |t: &MovingTriangulation<G>| {
+        t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{algorithm:?}: {violation}"));
+    };
+    let at_once = without_each(
+        make,
+        |t| t.commit_positions(&moved).map(drop),
+        |t, is_done| if is_done { is_valid(t) } else { is_as_before(t) },
+    );
     let in_two = without_each(
         staged,
         |t| t.commit_timestamp().map(drop),
-        |t| {
-            is_as_before(t);
-            assert_eq!(t.staged_count(), points.len());
-            t.commit_timestamp().expect("room");
-            t.validate(Level::Delaunay).expect("a triangulation");
+        |t, is_done| {
+            if !is_done {
+                is_as_before(t);
+                assert_eq!(t.staged_count(), points.len());
+                t.commit_timestamp().expect("room");
+            }
+            is_valid(t);
         },
     );
     assert!(at_once.min(in_two) > 0, "{algorithm:?}");

@@ -208,3 +208,17 @@ fn layers() {
     check::<Plane>("layers", &lattice::<Plane>(24, 1.0 / 1024.0));
     check::<Space>("layers", &lattice::<Space>(9, 1.0 / 1024.0));
 }
+
+/// Where flips are stuck, and islands are filled or given up.
+#[test]
+fn spheres_within_each_other() {
+    let rng = &mut Rng::new(5);
+    let spheres: Vec<_> = (0..600)
+        .map(|k| {
+            let p = [0; 3].map(|_| rng.unit() - 0.5);
+            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            p.map(|x| x / length * (1 + k % 3) as f64)
+        })
+        .collect();
+    check::<Space>("spheres_within_each_other", &spheres);
+}
