@@ -168,6 +168,9 @@ std::vector<Target> staged_targets(unsigned dimension, const TargetSizes &sizes,
     for (const Algorithm &algorithm : algorithms())
         if (algorithm.purpose == Purpose::for_use) runners.emplace_back(algorithm, series);
     Staging staging(series, seed + 1);
+    // A program has moved all vertices before it moves few: its first commit of all fills arrays that the others have.
+    const Moves all = staging.draw(series.n_points);
+    for (Runner &runner : runners) runner.commit(all);
     std::vector<Target> targets;
     for (const double share : shares) {
         const auto n = std::max<std::size_t>(1, std::llround(share * static_cast<double>(series.n_points)));
