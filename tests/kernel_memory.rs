@@ -87,7 +87,8 @@ fn without_each<T>(
     let counts = [false, true].map(|for_good| {
         for k in 0.. {
             let mut t = make();
-            (FOR_GOOD.set(for_good), LEFT.set(k));
+            FOR_GOOD.set(for_good);
+            LEFT.set(k);
             let done = work(&mut t);
             LEFT.set(u64::MAX);
             let has_failed = HAS_FAILED.replace(false);
