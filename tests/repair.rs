@@ -6,6 +6,7 @@
 
 mod common;
 
+use common::inputs::{on_spheres_within_each_other, on_unit_sphere};
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Commits, Level, Location, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
@@ -209,22 +210,12 @@ fn walks_begin_in_a_cell_after_flips() {
     assert!(flips > 4000, "there were hardly any flips: {flips}");
 }
 
-/// Random places on the unit sphere, as near as numbers come.
-fn on_sphere(n: usize, rng: &mut Rng) -> Vec<[f64; 3]> {
-    let place = |_| {
-        let p = [0; 3].map(|_| rng.unit() - 0.5);
-        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-        p.map(|x| x / length)
-    };
-    (0..n).map(place).collect()
-}
-
 /// Where all cells change at once flips would be quadratic in their number: a repair gives up in time, in proportion to
 /// the number of vertices.
 #[test]
 fn repairs_that_would_flip_without_end_rebuild() {
     let mut rng = Rng::new(3);
-    let mut now = on_sphere(4000, &mut rng);
+    let mut now = on_unit_sphere(4000, &mut rng);
     let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
     let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
     // The sphere becomes an ellipsoid.
@@ -242,8 +233,7 @@ fn repairs_that_would_flip_without_end_rebuild() {
 fn repairs_that_are_stuck_on_spheres_match_fresh_builds() {
     for (algorithm, seed) in [(Algorithm::Repair, 1), (Algorithm::Repair, 2), (Algorithm::Auto, 3)] {
         let rng = &mut Rng::new(seed);
-        let mut first = on_sphere(600, rng);
-        first.iter_mut().enumerate().for_each(|(k, p)| *p = p.map(|x| x * (1 + k % 3) as f64));
+        let first = on_spheres_within_each_other(600, rng);
         let options = Options { algorithm, ..Options::default() };
         let mut t = MovingTriangulation::<Space>::new(&first, options).expect("a build");
         let mut placements = 0;
@@ -395,7 +385,7 @@ fn auto_does_not_repeat_repairs_that_were_too_expensive() {
 #[test]
 fn auto_rebuilds_where_few_vertices_take_longer() {
     let rng = &mut Rng::new(43);
-    let mut now = on_sphere(2000, rng);
+    let mut now = on_unit_sphere(2000, rng);
     let first = now.clone();
     now.iter_mut().take(80).for_each(|p| p[0] += 0.001 * p[1]);
     let [flips, auto] = [Algorithm::PlacementFlips, Algorithm::Auto].map(|algorithm| {

@@ -382,6 +382,34 @@ fn cells_that_are_not_the_triangulation_are_refused() {
 
 /// Five triangles around a point that go around it twice: all are positive, every facet is locally Delaunay, and the hull
 /// is convex at every vertex.
+/// Two neighbours are saved as if both were on the hull: whatever else agrees, that is not the triangulation.
+fn cells_cut_apart_are_refused<G: Dimension>() {
+    let mut n_cut = 0;
+    for seed in 0..20 {
+        let rng = &mut Rng::new(seed);
+        let points: Vec<G::Point> =
+            (0..5 + G::D).map(|_| point::<G>(|_| rng.within(-60, 60) as f64)).collect();
+        let parts = parts_of::<G>(&points);
+        let n = G::D + 1;
+        for k in (0..parts.neighbours.len()).filter(|&k| parts.neighbours[k] != u32::MAX) {
+            let (cell, across) = (k / n, parts.neighbours[k] as usize);
+            let back = (across * n..(across + 1) * n).find(|&l| parts.neighbours[l] as usize == cell);
+            let mut parts = parts.clone();
+            parts.neighbours[k] = u32::MAX;
+            parts.neighbours[back.expect("a neighbour")] = u32::MAX;
+            damage_of::<G>(&parts);
+            n_cut += 1;
+        }
+    }
+    assert!(n_cut > 200, "{n_cut}");
+}
+
+#[test]
+fn cells_cut_apart_are_refused_in_the_plane_and_in_space() {
+    cells_cut_apart_are_refused::<Plane>();
+    cells_cut_apart_are_refused::<Space>();
+}
+
 #[test]
 fn a_hull_that_winds_twice_is_refused() {
     let mut points = vec![[0.0, 0.0]];

@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::inputs::{Kind, draw};
+use common::inputs::{Kind, draw, on_spheres_within_each_other};
 use common::{Rng, assert_same_cells, cell_set, fresh_cells, point};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
@@ -212,13 +212,6 @@ fn layers() {
 /// Where flips are stuck, and islands are filled or given up.
 #[test]
 fn spheres_within_each_other() {
-    let rng = &mut Rng::new(5);
-    let spheres: Vec<_> = (0..600)
-        .map(|k| {
-            let p = [0; 3].map(|_| rng.unit() - 0.5);
-            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-            p.map(|x| x / length * (1 + k % 3) as f64)
-        })
-        .collect();
-    check::<Space>("spheres_within_each_other", &spheres);
+    let points = on_spheres_within_each_other(600, &mut Rng::new(5));
+    check::<Space>("spheres_within_each_other", &points);
 }

@@ -194,7 +194,7 @@ impl<G: Dimension> AllFlips<G> {
 
 impl<G: Dimension> Delaunay<G> {
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that
-    /// fail still as they cannot be flipped. There are none in the plane; if there are,
+    /// fail still as they cannot be flipped, all of cells that are there. There are none in the plane; if there are,
     /// [`undo_flips`](Self::undo_flips) must follow. Returns the number of flips; `None` if more than `most`
     /// certificates would have to be evaluated on the way, and then [`undo_flips`](Self::undo_flips) must follow, too.
     /// After an error all is as it was.

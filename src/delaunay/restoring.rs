@@ -136,15 +136,15 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Whether a fresh build has the same cells: for those so thin that no double lies inside any, where it cannot be
-    /// told how often the hull winds.
+    /// Whether a fresh build has the same cells, and as many ghosts: where the hull could not be seen to wind once, as
+    /// that of cells so thin that no double lies inside any. A facet has one other cell to be glued to or none, so cells
+    /// with as many ghosts are glued alike.
     fn has_cells_of_a_build(&self) -> Result<bool> {
         let mut build = Delaunay::<G>::on(self.threads)?;
         memory::reserve_exact(&mut build.sites, self.sites.len() - 1)?;
         build.sites.extend(self.sites[1..].iter().map(|site| Site::new(site.point, site.id)));
         build.parts = self.parts.copy()?;
         let merges = build.rebuild(&mut |_| true)?;
-        // As many ghosts, too: cells that should be neighbours may have been saved as if both were on the hull.
         let sizes = |t: &Self| (t.complex.n_finite(), t.complex.n_ghosts());
         if !merges.is_empty() || sizes(&build) != sizes(self) {
             return Ok(false);

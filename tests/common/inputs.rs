@@ -121,3 +121,20 @@ pub fn on_sphere<G: Dimension>(radius: f64, rng: &mut Rng) -> G::Point {
         }
     }
 }
+
+/// Random places on the unit sphere, as near as numbers come.
+pub fn on_unit_sphere(n: usize, rng: &mut Rng) -> Vec<[f64; 3]> {
+    let place = |_| {
+        let p = [0; 3].map(|_| rng.unit() - 0.5);
+        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+        p.map(|x| x / length)
+    };
+    (0..n).map(place).collect()
+}
+
+/// Random places on three spheres with one centre, in turn.
+pub fn on_spheres_within_each_other(n: usize, rng: &mut Rng) -> Vec<[f64; 3]> {
+    let mut points = on_unit_sphere(n, rng);
+    points.iter_mut().enumerate().for_each(|(k, p)| *p = p.map(|x| x * (1 + k % 3) as f64));
+    points
+}

@@ -303,6 +303,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         for k in 0..repair.stuck.len() {
             let facet = repair.stuck[k];
             let complex = self.kernel.complex();
+            debug_assert!(!complex.is_free(facet.cell()), "what is stuck is of a cell that is there");
             let across = complex.cell(facet.cell()).neighbour(facet.index());
             let mut corners = [INFINITE; 5];
             corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
