@@ -2,8 +2,9 @@
 //! and on a poisoned triangulation. What must come of it is the status that the header names, a message with the
 //! argument, the index and the value, no output, and the triangulation as it was.
 //!
-//! The functions and their parameters are those of the header; `abuse/rows.rs` has a call of each that is all right.
-//! From both `abuse/cases.rs` makes the wrong calls, a program in C; `abuse/harness.h` is what that is made around.
+//! The functions and their parameters are those of the header, and `abuse/roles.rs` tells what each parameter is for;
+//! `abuse/rows.rs` has a call of each function that is all right. From these `abuse/cases.rs` makes the wrong calls, a
+//! program in C; `abuse/harness.h` is what that is made around.
 //! docs/ABUSE.md shows what has been tried.
 
 #[path = "abuse/cases.rs"]
@@ -12,6 +13,8 @@ mod cases;
 mod declarations;
 #[path = "abuse/page.rs"]
 mod page;
+#[path = "abuse/roles.rs"]
+mod roles;
 #[path = "abuse/rows.rs"]
 mod rows;
 

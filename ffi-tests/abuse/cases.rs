@@ -1,107 +1,10 @@
-//! The wrong calls: from the type and the name of a parameter follows what may be wrong with it.
+//! The wrong calls: from the role of a parameter follows what may be wrong with it.
 
 use std::fmt::Write;
 
 use super::declarations::{Declaration, Parameter, statuses};
+use super::roles::{Role, is_of_bytes, role};
 use super::rows::{ROWS, Row};
-
-/// What a parameter is to its function.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Role {
-    /// The triangulation.
-    Handle,
-    /// Coordinates of points: of so many as the argument `count` says, of one, of those of a simplex.
-    Points,
-    PointsOfSimplex,
-    /// A corner of a box: both are given, or none.
-    BoxCorner,
-    /// Numbers of any value.
-    Numbers,
-    /// Numbers of any value, or none.
-    NumbersIfAny,
-    Ids,
-    /// Indices of cells.
-    CellIds,
-    Mask,
-    Hint,
-    Options,
-    Data,
-    Path,
-    Fields,
-    /// The id of a vertex, and one that may be any number.
-    Id,
-    AnyId,
-    Dimension,
-    /// A cell and a corner of it.
-    Cell,
-    Corner,
-    Level,
-    Algorithm,
-    Method,
-    Status,
-    SquaredRadius,
-    /// How many entries an array has that is read.
-    Count,
-    /// That is not for the caller to choose.
-    FixedCount,
-    /// How many numbers each entry has.
-    CountOfEach,
-    /// How many bytes are read.
-    Size,
-    /// How many entries a buffer has.
-    Capacity,
-    /// A place for one result, one for a result that nobody has to want, an array for results.
-    Output,
-    OutputIfAny,
-    Buffer,
-}
-
-fn role(function: &Declaration, parameter: &Parameter) -> Role {
-    let is_commit = function.name.starts_with("deldrift_commit");
-    match (parameter.c_type.as_str(), parameter.name.as_str()) {
-        ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,
-        ("const double *", "position" | "positions") => Role::Points,
-        ("const double *", "points") => Role::PointsOfSimplex,
-        ("const double *", "low" | "high") => Role::BoxCorner,
-        ("const double *", "values") => Role::Numbers,
-        ("const double *", "outside") => Role::NumbersIfAny,
-        ("const uint32_t *", "vertices") => Role::Ids,
-        ("const uint32_t *", "cells") => Role::CellIds,
-        ("const uint8_t *", "mask") => Role::Mask,
-        ("const deldrift_location *", "near") => Role::Hint,
-        ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
-        ("const void *", "data") => Role::Data,
-        ("const char *", "path") => Role::Path,
-        ("const deldrift_field *", _) => Role::Fields,
-        ("uint32_t", "vertex") if function.name == "deldrift_is_present" => Role::AnyId,
-        ("uint32_t", "vertex") => Role::Id,
-        ("uint32_t", "dimension") => Role::Dimension,
-        ("uint32_t", "cell") => Role::Cell,
-        ("uint32_t", "corner") => Role::Corner,
-        ("uint32_t", "level") => Role::Level,
-        ("deldrift_algorithm", _) => Role::Algorithm,
-        ("deldrift_interpolation", _) => Role::Method,
-        ("deldrift_status", _) => Role::Status,
-        ("double", "squared_radius") => Role::SquaredRadius,
-        ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
-        ("size_t", "count" | "vertex_count" | "cell_count") => Role::Count,
-        ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
-        ("size_t", "value_count" | "mask_count" | "offset_count") => Role::FixedCount,
-        ("size_t", "n_values") => Role::CountOfEach,
-        ("size_t", "size") => Role::Size,
-        ("size_t", "capacity") => Role::Capacity,
-        (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,
-        (c_type, name) if c_type.ends_with('*') && !c_type.starts_with("const") => {
-            if function.has("capacity") && name != "count" { Role::Buffer } else { Role::Output }
-        }
-        (c_type, name) => panic!("{}: what can be wrong with {c_type} {name}?", function.name),
-    }
-}
-
-/// Whether every address is aligned for what a pointer leads to.
-fn is_of_bytes(parameter: &Parameter) -> bool {
-    ["uint8_t *", "void *", "char *", "bool *"].iter().any(|bytes| parameter.c_type.ends_with(bytes))
-}
 
 /// The source of the program.
 pub fn program(functions: &[Declaration]) -> String {
