@@ -24,7 +24,8 @@ pub fn program(functions: &[Declaration]) -> String {
             function.name
         );
         let is_of_plane = function.name == "deldrift_ordered_star";
-        let _ = writeln!(text, "#define IS_STAGED {}", row.is_staged);
+        let has_count = function.tells_count();
+        let _ = writeln!(text, "#define IS_STAGED {}\n#define HAS_COUNT {has_count}", row.is_staged);
         let _ = writeln!(text, "static void of_{}(void) {{", function.name);
         let mut cases = Cases { function, row, text: &mut text };
         if is_of_plane {
@@ -39,11 +40,11 @@ pub fn program(functions: &[Declaration]) -> String {
             cases.line("if (dimension == 3) return;");
         }
         cases.all();
-        text += "}\n#undef IS_STAGED\n\n";
+        text += "}\n#undef IS_STAGED\n#undef HAS_COUNT\n\n";
         let takes_t = function.takes_t();
         let _ = writeln!(
             list,
-            "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, of_{0}}},",
+            "    {{\"{0}\", {takes_t}, {is_of_plane}, {1}, {has_count}, of_{0}}},",
             function.name, row.is_staged
         );
         let _ = writeln!(calls, "        case {k}: return {};", call(function, row.arguments));
@@ -266,7 +267,7 @@ impl Cases<'_> {
     fn ids(&mut self, at: usize) {
         let removes = self.function.name == "deldrift_stage_removals";
         // Those that only read do not mind what is staged, nor what is listed twice.
-        let reads = self.function.name == "deldrift_cells_around";
+        let reads = !self.function.changes_t();
         let twice = if removes { "REMOVED_VERTEX" } else { "DUPLICATE_MOVE" };
         for (column, given, value, status, said) in [
             ("id", "the number of ids", "(uint32_t)n_ids", "NO_SUCH_VERTEX", "%u\", (unsigned)n_ids"),
@@ -442,7 +443,7 @@ impl Cases<'_> {
         let named = named.find(|name| name != "offsets").expect("a buffer");
         let message = format!("\"{named} is NULL\"");
         // Without a count to be told, arrays are there to be updated.
-        let status = if self.function.has("count") { "OK" } else { "NULL_ARGUMENT" };
+        let status = if self.function.tells_count() { "OK" } else { "NULL_ARGUMENT" };
         self.add("zero", "0, and NULL", status, &message, &without, "");
         // All of them are NULL, and there is a capacity.
         self.add("null", "NULL for all buffers", "NULL_ARGUMENT", &message, &nowhere, "");

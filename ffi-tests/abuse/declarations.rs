@@ -30,6 +30,16 @@ impl Declaration {
         self.parameters.iter().any(|parameter| parameter.name == name)
     }
 
+    pub fn changes_t(&self) -> bool {
+        self.takes_t() && !self.parameters[0].c_type.starts_with("const")
+    }
+
+    /// Whether the caller learns how many entries there are, also when its buffer has no room for them.
+    pub fn tells_count(&self) -> bool {
+        let tells = |parameter: &Parameter| parameter.name == "count" && parameter.c_type == "size_t *";
+        self.parameters.iter().any(tells)
+    }
+
     /// The statuses after "Errors:", and those that the first page names for all that take a triangulation.
     pub fn documented_statuses(&self) -> BTreeSet<String> {
         let errors = self.documentation.split_once("Errors:").map_or("", |(_, errors)| errors);
