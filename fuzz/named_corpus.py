@@ -12,7 +12,7 @@ import struct
 HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus")
 AUTO, REBUILDING, FLIPS, TOLERANCE, REPAIR, PLACEMENT = 0, 2, 3, 4, 5, 6
 SAFE_REGION, SAFE_REGION_TOLERANCE = 7, 8
-GENERAL, LATTICE, TAKEN, SPHERE, EXTREME, FAR = 0, 2, 203, 6, 7, 9
+GENERAL, NEAR_SPHERE, LATTICE, TAKEN, SPHERE, EXTREME, FAR = 0, 1, 2, 203, 6, 7, 9
 MERGE, REJECT, TRACK, ASK = 0x10, 0, 0x80, 1
 JITTER, SHIFT, FLATTEN, SWAP, DOUBLE = 0, 4, 6, 7, 10
 INSERT, REMOVE, RELOCATE, MOTION, STAGE_INSERTIONS, STAGE_REMOVALS = 0, 1, 2, 5, 9, 10
@@ -26,7 +26,7 @@ class Calls:
 
     def __init__(self, d, n, rule=GENERAL, scale=4, flags=MERGE, algorithm=AUTO, threads=1, seed=1):
         # Numbers of more than 256 vertices take two bytes.
-        self.random, self.rule, self.is_large = random.Random(seed), rule, n > 256
+        self.d, self.random, self.rule, self.is_large = d, random.Random(seed), rule, n > 256
         size = [255, n - 300] if n >= 300 else [56 + n - 3]
         self.bytes = [d - 2, *size, rule, scale, flags | threads << 2, algorithm]
         for v in range(n):
@@ -38,7 +38,7 @@ class Calls:
         return self
 
     def place(self):
-        length = {GENERAL: 6, LATTICE: 2, SPHERE: 1, EXTREME: 9, FAR: 3}[self.rule]
+        length = {GENERAL: 6, NEAR_SPHERE: 2 * self.d, LATTICE: 2, SPHERE: 1, EXTREME: 9, FAR: 3}[self.rule]
         self.bytes.append(0)
         return self.any(length)
 
@@ -133,6 +133,11 @@ def entries():
         e.motion(SHIFT).motion(SWAP).motion(JITTER, 6).motion(DOUBLE)
         yield f"calls/one-sphere-{d}d", e
 
+        if d == 3:
+            e = Calls(d, 420, rule=NEAR_SPHERE, algorithm=REPAIR, seed=6)
+            e.motion(JITTER, 4).motion(JITTER, 4, share=5).motion(JITTER, 4)
+            yield "calls/facets-stuck-in-cells-that-islands-replace", e
+
         for seed in range(6):
             e = Calls(d, 10, rule=FAR, seed=seed)
             yield f"calls/numbers-far-below-a-lattice-{d}d-{seed}", e.motion(JITTER).insert()
@@ -165,6 +170,11 @@ def entries():
             head = bytes([1 | 8 * (d - 2) | 0x10, r.choice([0, 2, 4, 6]), 4, 13])
             yield f"loaders/saved-and-damaged-{d}d-{k}", head + bytes(r.randrange(200) for _ in range(140))
         yield f"loaders/head-alone-{d}d", struct.pack("<B8x4xI", 0x10, d) + bytes(170)
+    yield "loaders/neighbours-saved-as-if-on-the-hull-2d", bytes.fromhex(
+        "1106040d9b0ab4950f4c8e21270b4b2fc285525e6222c6176c4963114ec60b29240877490d4731536a9382f7"
+        "9a9529428f18be279e42bbb24911923a9b425f4f7276c60942c01fc6bdb806889293b51a7736210db6704cbb"
+        "9b0534160c93c632b3ae8379a09e0e491f5087038e587c4c25bc9130181d9b822bc29108134f99a1b7895cad"
+        "94a135bd399fb5af50439a90365833456e8a80620a47a7703ead985231aa0abc0db9546d4dc109a31f70")
 
 
 for path, entry in entries():

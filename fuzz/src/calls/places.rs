@@ -38,7 +38,8 @@ pub fn place(s: &mut Source, style: Style, model: &Model) -> Place {
     };
     let d = model.d;
     let p: Place = match rule {
-        0 | 1 => from_fn(|_| s.unit()),
+        0 => from_fn(|_| s.unit()),
+        1 => near_sphere(s, d),
         2 => {
             let [x, y] = [s.byte(), s.byte()];
             [x & 7, x >> 3 & 7, y & 7].map(f64::from)
@@ -92,6 +93,14 @@ fn on_sphere(s: &mut Source, d: usize) -> Place {
     p
 }
 
+/// A point of one of four circles or spheres within each other, but for rounding.
+fn near_sphere(s: &mut Source, d: usize) -> Place {
+    let p: Place = from_fn(|k| if k < d { s.unit() } else { 0.0 });
+    let radius = 16.0 * (1.0 + (p[0].to_bits() & 3) as f64);
+    let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    p.map(|x| x * (radius / length))
+}
+
 /// What the library keeps of a place: accepted numbers, and no negative zero.
 fn within_dimension(p: Place, d: usize) -> Place {
     from_fn(|k| if k < d { admissible(p[k]) + 0.0 } else { 0.0 })
@@ -136,6 +145,6 @@ impl Motion {
 impl Style {
     /// Whether places are such that rounded sums are accurate.
     pub fn is_easy(&self) -> bool {
-        self.rule <= 1 && self.scale == 1.0 && self.offset == 0.0
+        self.rule == 0 && self.scale == 1.0 && self.offset == 0.0
     }
 }
