@@ -191,6 +191,9 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether the static bound is of the order of in-sphere determinants, and so decides little: that of clusters, of
     /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells.
     fn is_filter_weak(&self, order: &[SiteId]) -> bool {
+        if self.filter.is_exact {
+            return false;
+        }
         let step = (order.len() / SAMPLED_PAIRS).max(1);
         let pairs = order.windows(2).step_by(step);
         let (mut n_weak, mut n_pairs) = (0, 0);
@@ -223,8 +226,13 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<Vec<(SiteId, SiteId)>> {
         let mut coincident = Vec::new();
         for (done, &s) in order.iter().enumerate() {
-            if done % MONITORED == 0 && !monitor(done as f64 / order.len() as f64) {
-                return Err(Error::Cancelled);
+            if done % MONITORED == 0 {
+                if !monitor(done as f64 / order.len() as f64) {
+                    return Err(Error::Cancelled);
+                }
+                if BUILD {
+                    cavity.scratch.adapt();
+                }
             }
             if self.site(s).cell != Slot::NONE {
                 continue;

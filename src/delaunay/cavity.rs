@@ -36,6 +36,9 @@ pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
         Ok(())
     }
 
+    /// Between insertions of a build, now and then: looks what tests have needed, for those to come.
+    fn adapt(&mut self) {}
+
     /// Frees what [`begin_build`](Self::begin_build) made.
     fn end_build(&mut self) {}
 

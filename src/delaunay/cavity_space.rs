@@ -35,7 +35,8 @@ struct Rim {
     out: Facet,
 }
 
-const IN_ZONE: u8 = 1;
+/// Mark of a cell that has been found in conflict with the site; of all others it is 0.
+pub(super) const IN_ZONE: u8 = 1;
 
 /// Scratch memory.
 #[derive(Debug, Default)]
@@ -55,6 +56,10 @@ pub struct Scratch {
 impl Insert<Space> for Scratch {
     fn begin_build(&mut self, n_cells: usize, is_weak: bool) -> Result<()> {
         self.spheres.begin(n_cells, is_weak)
+    }
+
+    fn adapt(&mut self) {
+        self.spheres.adapt();
     }
 
     fn end_build(&mut self) {
@@ -80,7 +85,11 @@ impl Insert<Space> for Scratch {
     ) -> Result<()> {
         let Cavity { cells, scratch, .. } = cavity;
         let mut ridges = Vec::new();
-        let dug = dig::<BUILD>(t, scratch, start, s);
+        let dug = match (BUILD, scratch.spheres.has_lengths) {
+            (true, true) => dig_by_lengths(t, scratch, start, s),
+            (true, false) => dig_by_filter(t, scratch, start, s),
+            _ => dig::<false, false>(t, scratch, start, s),
+        };
         if let Err(error) = dug.and_then(|()| reserve::<BUILD>(t, cells, &mut ridges, scratch)) {
             for &c in &scratch.zone[..scratch.n_zone] {
                 t.complex.set_mark(c, 0);
@@ -148,9 +157,22 @@ fn reserve<const BUILD: bool>(
     if n_rim > SMALL_RIM { memory::reserve_exact(ridges, 3 * n_rim) } else { Ok(()) }
 }
 
+/// As [`dig`], in a build with bounds by lengths.
+// Each on its own: inlined in the loop over all sites, both would be slower.
+#[inline(never)]
+fn dig_by_lengths(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: Slot, s: SiteId) -> Result<()> {
+    dig::<true, true>(t, scratch, start, s)
+}
+
+/// As [`dig`], in a build with the static bound.
+#[inline(never)]
+fn dig_by_filter(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: Slot, s: SiteId) -> Result<()> {
+    dig::<true, false>(t, scratch, start, s)
+}
+
 /// Finds the zone of `s` from one cell of it, and its rim. After an error the zone is what has been marked.
 #[inline(always)]
-fn dig<const BUILD: bool>(
+fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
     t: &mut Delaunay<Space>,
     scratch: &mut Scratch,
     start: Slot,
@@ -172,26 +194,33 @@ fn dig<const BUILD: bool>(
         let cell = *t.complex.cell(zone[next]);
         n_ghosts += cell.is_ghost() as usize;
         next += 1;
-        for i in 0..4 {
-            let out = cell.neighbour(i);
-            let known = t.complex.mark(out.cell());
-            // A prepared test is cheaper than a wrong guess whether the cell is known.
-            let in_zone = if BUILD {
-                spheres.is_in_conflict(t, out.cell(), q, id)
-            } else {
-                known == IN_ZONE || t.is_in_conflict(out.cell(), q, id)
+        // Written out four times: as a loop the compiler would not unroll it everywhere, 5 % of a build.
+        macro_rules! look_across {
+            ($i:literal) => {
+                let out = cell.neighbour($i);
+                let known = t.complex.mark(out.cell());
+                // A prepared test is cheaper than a wrong guess whether the cell is known.
+                let in_zone = if BUILD {
+                    spheres.is_in_conflict::<BY_LENGTHS>(t, out.cell(), q, id, known)
+                } else {
+                    u8::from(known == IN_ZONE || t.is_in_conflict(out.cell(), q, id))
+                };
+                // A site that comes alone finds nothing at hand.
+                if !BUILD && in_zone == IN_ZONE && known != IN_ZONE {
+                    t.complex.prefetch_neighbours(out.cell());
+                    t.complex.prefetch_marks(t.complex.cell(out.cell()));
+                }
+                t.complex.set_mark(out.cell(), in_zone);
+                zone[n_zone] = out.cell();
+                rim[n_rim] = Rim { corners: joined(cell.corners, $i, s), out };
+                n_zone += usize::from(in_zone & !known);
+                n_rim += usize::from(in_zone ^ IN_ZONE);
             };
-            // A site that comes alone finds nothing at hand.
-            if !BUILD && in_zone && known != IN_ZONE {
-                t.complex.prefetch_neighbours(out.cell());
-                t.complex.prefetch_marks(t.complex.cell(out.cell()));
-            }
-            t.complex.set_mark(out.cell(), in_zone as u8);
-            zone[n_zone] = out.cell();
-            rim[n_rim] = Rim { corners: joined(cell.corners, i, s), out };
-            n_zone += (in_zone as u8 & !known) as usize;
-            n_rim += !in_zone as usize;
         }
+        look_across!(0);
+        look_across!(1);
+        look_across!(2);
+        look_across!(3);
     }
     (scratch.n_zone, scratch.n_rim, scratch.n_ghosts) = (n_zone, n_rim, n_ghosts);
     Ok(())
@@ -252,21 +281,23 @@ fn glue<const BUILD: bool>(
         }
     }
     if BUILD {
-        if spheres.has_extents {
-            return prepare_with_extents(t, rim, cells, spheres);
+        if spheres.has_lengths {
+            return prepare_by_lengths(t, rim, cells, spheres);
         }
-        let mut spheres = spheres.table();
-        for (facet, &cell) in rim.iter().zip(cells) {
-            spheres.put(t, cell, &facet.corners);
-        }
+        prepare::<false>(t, rim, cells, spheres);
     }
 }
 
 #[inline(never)]
-fn prepare_with_extents(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
+fn prepare_by_lengths(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
+    prepare::<true>(t, rim, cells, spheres);
+}
+
+#[inline(always)]
+fn prepare<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
     let mut spheres = spheres.table();
     for (facet, &cell) in rim.iter().zip(cells) {
-        spheres.put_with_extent(t, cell, &facet.corners);
+        spheres.put::<BY_LENGTHS>(t, cell, &facet.corners);
     }
 }
 

@@ -67,7 +67,10 @@ pub fn exact_filter<'p, const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicates::{incircle, insphere, orient2d, orient3d, side_of_sphere, sphere};
+    use crate::predicates::{
+        incircle, insphere, insphere_perturbed, is_inside_cospherical_on_lattice, orient2d, orient3d,
+        side_of_sphere, sphere,
+    };
     use crate::random::Rng;
 
     /// Integers up to 512 apart, at an offset, in units of any power of two; half of them near the ends.
@@ -127,6 +130,38 @@ mod tests {
             n_ties += u32::from(det == 0);
         }
         assert!(n_ties > 10_000);
+    }
+
+    /// Without branches ties of all kinds come out as they do with them, those of four points in a plane too.
+    #[test]
+    fn ties_on_lattices_are_decided_as_elsewhere() {
+        let rng = &mut Rng::new(3);
+        let f = exact_filter(StaticFilter::space, &[0.0; 3], &[512.0; 3], [].iter()).expect("a lattice");
+        let mut n = [[0; 2]; 2];
+        for _ in 0..200_000 {
+            // Images of a point under changes of signs and permutations of axes, which are on one sphere.
+            let most = *rng.pick(&[1, 2, 5, 255]);
+            let mut p: [i64; 3] = std::array::from_fn(|_| rng.within(0, most));
+            let points: [[f64; 3]; 5] = std::array::from_fn(|_| {
+                rng.shuffle(&mut p);
+                p.map(|x| (256 + if rng.one_in(2) { x } else { -x }) as f64)
+            });
+            let [a, b, c, d, e] = points.each_ref();
+            let is_distinct = (0..5).all(|i| (0..i).all(|j| points[i] != points[j]));
+            if !is_distinct || orient3d(&f, a, b, c, d) <= 0.0 {
+                continue;
+            }
+            let mut ids = [0, 3, u32::MAX - 1, 1 << 31, 7];
+            rng.shuffle(&mut ids);
+            let expected = insphere_perturbed(&f, points.each_ref(), || ids);
+            let found = is_inside_cospherical_on_lattice(points.each_ref(), ids);
+            assert_eq!(found, expected, "{points:?}, {ids:?}");
+            let is_flat = [[e, b, c, d], [a, e, c, d], [a, b, e, d], [a, b, c, e]]
+                .iter()
+                .any(|[p, q, r, s]| orient3d(&f, p, q, r, s) == 0.0);
+            n[usize::from(is_flat)][usize::from(found)] += 1;
+        }
+        assert!(n.as_flattened().iter().all(|&n| n > 1_000), "{n:?}");
     }
 
     #[test]

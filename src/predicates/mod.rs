@@ -116,7 +116,7 @@ pub use lattice::exact_filter;
 pub use lifted::{Lifted, side_of_seen_circle};
 pub use measures::Measures;
 pub use path::{stays_positive2d, stays_positive3d};
-pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical};
+pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};
 #[cfg(feature = "internals")]
 pub use plane::incircle;
 pub use plane::orient2d;
@@ -125,8 +125,9 @@ pub use separator::{delimiter3d, separator3d, tolerances3d};
 pub use space::insphere;
 pub use space::orient3d;
 pub use sphere::{
-    OwnBounds2d, OwnBounds3d, Sphere, circle, half_space, is_box_outside_circle, is_box_outside_sphere,
-    is_side_certain, is_side_certain_within, reach, side_of_circle, side_of_sphere, sphere,
+    OwnBounds2d, OwnBounds3d, Sphere, circle, edge_length, half_space, half_space_by_length,
+    is_box_outside_circle, is_box_outside_sphere, is_side_certain, side_bound_by_length, side_of_circle,
+    side_of_sphere, sphere,
 };
 pub(crate) use tolerance::are_within;
 pub use tolerance::{

@@ -10,8 +10,8 @@ use super::plane::{incircle_rounded, incircle_sign};
 use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
 use super::{
-    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, big, circle, is_side_certain, is_side_certain_within, reach,
-    side_of_circle, side_of_sphere, sphere,
+    MAX_MAGNITUDE, OwnBounds2d, OwnBounds3d, big, circle, edge_length, half_space_by_length, is_side_certain,
+    side_bound_by_length, side_of_circle, side_of_sphere, sphere,
 };
 use crate::random::Rng;
 
@@ -138,7 +138,7 @@ fn noisy_lattice(rng: &mut Rng) -> [[f64; 3]; 5] {
 #[test]
 fn stages_after_the_static_bound_of_spheres_are_exact() {
     let rng = &mut Rng::new(4);
-    let (mut n_sides, mut n_within, mut n_volumes) = (0, 0, 0);
+    let (mut n_sides, mut n_by_lengths, mut n_half_spaces, mut n_volumes) = (0, 0, 0, 0);
     let (mut n_by_terms, mut n_open) = (0, 0);
     let mut n_long = [0; 4];
     for k in 0..1_200_000 {
@@ -158,10 +158,15 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
             assert_eq!(sign(volume), sign(big::orient3d(1.0, [a, b, c, d])), "{points:?}");
             n_volumes += 1;
         }
-        let extent = [b, c, d].map(|p| reach(a, p)).into_iter().fold(0.0, f64::max);
-        if is_side_certain_within(side, extent, a, q) {
+        if side.abs() > side_bound_by_length(edge_length(a, b, c, d), a, q) {
             assert_eq!(sign(side), expected, "{points:?}");
-            n_within += 1;
+            n_by_lengths += 1;
+        }
+        let (half_space, length) = half_space_by_length(a, b, c);
+        let side = side_of_sphere(&half_space, a, q);
+        if side.abs() > side_bound_by_length(length, a, q) {
+            assert_eq!(sign(side), sign(big::orient3d(1.0, [a, b, c, q])), "{points:?}");
+            n_half_spaces += 1;
         }
         let bound = insphere_bound(extents);
         if is_certain(det, bound, extents) {
@@ -182,10 +187,17 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
         }
     }
     println!(
-        "{n_sides} sides, {n_within} within, {n_volumes} volumes, {n_by_terms} by terms, {n_open} open, {n_long:?} long"
+        "{n_sides} sides, {n_by_lengths} by lengths, {n_half_spaces} half-spaces, {n_volumes} volumes, \
+         {n_by_terms} by terms, {n_open} open, {n_long:?} long"
     );
     assert!(n_volumes > 100_000);
-    assert!(n_sides > 100_000 && n_within > 50_000 && n_by_terms > 50_000 && n_open > 100_000);
+    assert!(
+        n_sides > 100_000
+            && n_by_lengths > 50_000
+            && n_half_spaces > 50_000
+            && n_by_terms > 50_000
+            && n_open > 100_000
+    );
     assert!(n_long.iter().all(|&n| n > 1_000));
 }
 

@@ -35,6 +35,7 @@
 use super::filter::StaticFilter;
 use super::plane::{incircle, orient2d};
 use super::space::{insphere, orient3d};
+use super::vectors::{minor, minus};
 
 /// Whether the last point is inside the circle of the first three, ties being decided by `ids`, which only these ask
 /// for.
@@ -72,7 +73,7 @@ fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u3
 /// As [`insphere_perturbed`], of points that are cospherical.
 #[cold]
 #[inline(never)]
-pub fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
+fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
     debug_assert!(orient3d(f, a, b, c, d) > 0.0, "the tetrahedron is not positive");
     is_inside_raised(ids, |vertex| match vertex {
         0 => orient3d(f, e, b, c, d),
@@ -80,6 +81,31 @@ pub fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], 
         2 => orient3d(f, a, b, e, d),
         _ => orient3d(f, a, b, c, e),
     })
+}
+
+/// As [`insphere_perturbed`], of points that are cospherical and on a lattice (see [`lattice`](super::lattice)): without
+/// a branch, as which vertex decides cannot be foreseen.
+#[inline(always)]
+pub fn is_inside_cospherical_on_lattice([a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
+    let [a, b, c, d] = [a, b, c, d].map(|p| minus(p, e));
+    let (ab, ac, ad) = (minor(&a, &b), minor(&a, &c), minor(&a, &d));
+    let (bc, bd, cd) = (minor(&b, &c), minor(&b, &d), minor(&c, &d));
+    // Of the simplex with each vertex replaced.
+    let orientations = [
+        cd * b[2] - bd * c[2] + bc * d[2],
+        ad * c[2] - cd * a[2] - ac * d[2],
+        bd * a[2] - ad * b[2] + ab * d[2],
+        ac * b[2] - bc * a[2] - ab * c[2],
+    ];
+    // The id first, so that the greatest is that of the vertex that decides.
+    let raised = |id: u32, is_inside: u64| u64::from(id) << 1 | is_inside;
+    let deciding = (0..4).fold(raised(ids[4], 0), |most, i| {
+        let bits = orientations[i].to_bits();
+        // Comparisons of integers: those of numbers look for NaN as well, by a branch.
+        let is_zero = bits << 1 == 0;
+        most.max(if is_zero { 0 } else { raised(ids[i], 1 - (bits >> 63)) })
+    });
+    deciding & 1 == 1
 }
 
 /// Decides a tie among the `N − 1` vertices of a positive simplex and a query point, which comes last.

@@ -27,8 +27,8 @@
 
 use super::StaticFilter;
 use super::filter::{
-    extents, largest, prepared_bound_2d, prepared_bound_3d, prepared_bound_within_3d, semi_static_bounds_2d,
-    semi_static_bounds_3d,
+    HALF_SPACE_SCALE, LEAST_LENGTH, extents, largest, prepared_bound_2d, prepared_bound_3d,
+    prepared_bound_by_lengths, semi_static_bounds_2d, semi_static_bounds_3d,
 };
 use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
 use crate::simd::Real;
@@ -72,6 +72,15 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
     [x, y, z, 0.0]
 }
 
+/// The same half-space at another scale, for [`side_bound_by_length`], and the length for that.
+#[inline(always)]
+pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere, f32) {
+    let squared = Real::max(squared_length(a, b), squared_length(a, c));
+    let scale = HALF_SPACE_SCALE * squared;
+    let [x, y, z] = fused_cross(&minus(b, a), &minus(c, a)).map(|t| t * scale);
+    ([x, y, z, 0.0], length_above(squared))
+}
+
 /// Positive if `q` is inside the sphere of which `a` is the first corner, negative if outside; open if the
 /// magnitude is not above [`StaticFilter::prepared`]. (Two numbers, not one answer of three: a branch on it
 /// would be mispredicted.)
@@ -95,11 +104,32 @@ pub fn is_side_certain(side: f64, [a, b, c, d, q]: [&[f64; 3]; 5]) -> bool {
     side.abs() > bound
 }
 
-/// As [`is_side_certain`], where the corners of the sphere's cell differ from the first one, `a`, by at most `extent`
-/// along each axis.
+/// What the magnitude of [`side_of_sphere`] exceeds if it is certain, where edges from the first corner, `a`, of the
+/// sphere's cell have at most this length, see [`edge_length`]; also for half-spaces by [`half_space_by_length`].
 #[inline(always)]
-pub fn is_side_certain_within(side: f64, extent: f64, a: &[f64; 3], q: &[f64; 3]) -> bool {
-    side.abs() > prepared_bound_within_3d(Real::max(extent, reach(a, q)))
+pub fn side_bound_by_length(length: f32, a: &[f64; 3], q: &[f64; 3]) -> f64 {
+    let s = minus(q, a);
+    prepared_bound_by_lengths(length.into(), fused_dot(&s, &s))
+}
+
+/// The greatest distance of `b`, `c` and `d` from `a`, from above; infinite where it is too small or too large for
+/// [`side_bound_by_length`], which is infinite, too, then.
+#[inline(always)]
+pub fn edge_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> f32 {
+    let [uu, vv, ww] = [b, c, d].map(|p| squared_length(a, p));
+    length_above(Real::max(Real::max(uu, vv), ww))
+}
+
+#[inline(always)]
+fn squared_length(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    let u = minus(b, a);
+    fused_dot(&u, &u)
+}
+
+#[inline(always)]
+fn length_above(squared: f64) -> f32 {
+    let length = squared.sqrt() * (1.0 + f64::from(f32::EPSILON));
+    if length >= LEAST_LENGTH { length as f32 } else { f32::INFINITY }
 }
 
 /// The bounds of a cell of the plane and of points next to it, by their own differences from its first corner.
@@ -162,13 +192,6 @@ fn extended<T: Real, const D: usize>(mut extents: [T; D], a: &[T; D], q: &[T; D]
         extents[axis] = s[axis].abs().max(extents[axis]);
     }
     extents
-}
-
-/// The greatest difference of two points along an axis.
-#[inline(always)]
-pub fn reach(p: &[f64; 3], q: &[f64; 3]) -> f64 {
-    let [x, y, z] = minus(p, q).map(f64::abs);
-    Real::max(Real::max(x, y), z)
 }
 
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron
