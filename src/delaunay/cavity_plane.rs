@@ -17,11 +17,13 @@ use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::predicates::{Lifted, side_of_seen_circle};
+use crate::predicates::{Lifted, seen_circle_bound, side_of_seen_circle};
 
 /// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.
 #[derive(Debug, Default)]
 pub struct Scratch {
+    /// Whether tests of this build have bounds of their own: the static one would leave most of them uncertain.
+    has_own_bounds: bool,
     /// Edges where the walk through the zone turned right, to be taken up when it comes back.
     turns: Vec<Edge>,
     /// The rim counter-clockwise: the start of each edge, and the edge seen from outside the zone.
@@ -29,6 +31,11 @@ pub struct Scratch {
 }
 
 impl Insert<Plane> for Scratch {
+    fn begin_build(&mut self, _n_cells: usize, is_weak: bool) -> Result<()> {
+        self.has_own_bounds = is_weak;
+        Ok(())
+    }
+
     fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.turns) + memory::bytes_of(&self.rim)
     }
@@ -42,7 +49,10 @@ impl Insert<Plane> for Scratch {
     ) -> Result<()> {
         // A polygon has two edges more than triangles.
         t.complex.reserve(2)?;
-        let zone = dig(t, cavity, start, s)?;
+        let zone = match BUILD && cavity.scratch.has_own_bounds {
+            true => dig::<true>(t, cavity, start, s)?,
+            false => dig::<false>(t, cavity, start, s)?,
+        };
         t.reserve_record(zone.n_cells + 2)?;
         if !BUILD {
             t.complex.note_all(cavity.cells[..zone.n_cells].iter().copied())?;
@@ -94,7 +104,12 @@ impl Edge {
 /// Finds the zone of `s` from one cell of it, and its rim.
 // On its own the loop has all registers: inlined in that over all sites, a build of 1,000 points takes a fifth longer.
 #[inline(never)]
-fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: Slot, s: SiteId) -> Result<Zone> {
+fn dig<const OWN_BOUNDS: bool>(
+    t: &Delaunay<Plane>,
+    cavity: &mut Cavity<Plane>,
+    start: Slot,
+    s: SiteId,
+) -> Result<Zone> {
     let (q, id) = (&t.site(s).point, t.site(s).id);
     let mut n_ghosts = t.complex.cell(start).is_ghost() as usize;
     let (mut n_cells, mut n_turns, mut n_rim) = (1, 2, 0);
@@ -115,9 +130,12 @@ fn dig(t: &Delaunay<Plane>, cavity: &mut Cavity<Plane>, start: Slot, s: SiteId) 
             let tip_site = cell.corners[tip_at];
             let tip = Lifted::new(t.view().point(tip_site), q);
             let (right, left) = (edge.right.cross(&tip), tip.cross(&edge.left));
-            let side = side_of_seen_circle([&edge.left, &edge.right, &tip], [-edge.cross, right, left]);
-            let bound = t.filter.prepared;
-            let is_in_zone = side > bound || side >= -bound && is_in_uncertain_conflict(t, beyond, q, id);
+            let corners = [&edge.left, &edge.right, &tip];
+            let side = side_of_seen_circle(corners, [-edge.cross, right, left]);
+            let bound = if OWN_BOUNDS { seen_circle_bound(corners) } else { t.filter.prepared };
+            let is_in_zone = side > bound
+                || side >= -bound
+                    && is_in_uncertain_conflict(t, beyond, q, id, side, seen_circle_bound(corners));
             is_in_zone.then(|| {
                 let [out_first, out_second] = [first, second].map(|i| cell.neighbour(i));
                 [
@@ -159,7 +177,7 @@ fn make_room(cavity: &mut Cavity<Plane>, n_cells: usize) -> Result<()> {
 #[cold]
 #[inline(never)]
 fn grow(
-    Cavity { cells, scratch: Scratch { turns, rim }, .. }: &mut Cavity<Plane>,
+    Cavity { cells, scratch: Scratch { turns, rim, .. }, .. }: &mut Cavity<Plane>,
     n_cells: usize,
 ) -> Result<()> {
     // Little at first, as the first insertion of all has to write it.
@@ -175,9 +193,20 @@ fn grow(
 /// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.
 const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
 
+/// After the first bound: by that of the corners, of what has been computed.
 #[cold]
 #[inline(never)]
-fn is_in_uncertain_conflict(t: &Delaunay<Plane>, cell: Slot, q: &[f64; 2], id: VertexId) -> bool {
+fn is_in_uncertain_conflict(
+    t: &Delaunay<Plane>,
+    cell: Slot,
+    q: &[f64; 2],
+    id: VertexId,
+    side: f64,
+    own_bound: f64,
+) -> bool {
+    if side.abs() > own_bound {
+        return side > 0.0;
+    }
     Plane::is_in_sphere(&t.filter, t.view(), &t.complex.cell(cell).corners, q, id)
 }
 

@@ -74,6 +74,11 @@
 //! together are 2/√3 · L³ (5/2 |s|² + 3/2 L²) at most ([`prepared_bound_by_lengths`]). The bound is larger than what
 //! underflow adds, L being not less than [`LEAST_LENGTH`].
 //!
+//! In the plane the same holds for `lifted.rs`: four differences, each rounded, the square of a length and a minor,
+//! twice each, their product, and two sums, 11 times in all. Permanents of two rows are at most the product of their
+//! lengths, so that with L for the greatest of the three distances all magnitudes add up to 3 L⁴
+//! ([`lifted_bound_by_lengths`]). Where L is above 1, that exceeds what underflow adds.
+//!
 //! # Rounding of the bounds
 //!
 //! The calculus adds and multiplies positive numbers only, fewer than 200 times, and evaluating a bound
@@ -153,6 +158,9 @@ const PREPARED_3D: f64 = {
 
 /// Bound of a prepared sphere / (L³ (|s|² + 3/5 L²)) for an edge's length L and the difference s of the point.
 const PREPARED_BY_LENGTHS: f64 = 17.0 * UNIT * PERMANENT_3D * 2.5 * ROUND_UP;
+
+/// Bound of `side_of_seen_circle` / the fourth power of a corner's greatest distance.
+const LIFTED_BY_LENGTHS: f64 = 11.0 * UNIT * 3.0 * ROUND_UP;
 
 /// 2/√3, from above: of the permanent of three rows / the product of their lengths.
 const PERMANENT_3D: f64 = 1.1548;
@@ -360,6 +368,12 @@ pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
         + UNDERFLOW * (amplified * amplified * amplified)
 }
 
+/// Bound of `side_of_seen_circle` by the greatest of the corners' squared distances.
+#[inline(always)]
+pub(super) fn lifted_bound_by_lengths(square: f64) -> f64 {
+    LIFTED_BY_LENGTHS * (square * square) + UNDERFLOW
+}
+
 /// Bounds of `orient2d` and of a prepared circle for differences of at most these magnitudes.
 #[inline(always)]
 pub(super) fn semi_static_bounds_2d<T: Real>([x, y]: [T; 2]) -> [T; 2] {
@@ -452,6 +466,8 @@ mod tests {
             check(prepared, [PREPARED_3D, x, y, z, l, l], l);
             check(insphere_bound([x, y, z]), [IN_SPHERE, x, y, z, l, l], l);
             check(prepared_bound_3d(x, y), [PREPARED_3D, x, x, x, y, flat], flat);
+            let seen = product([LIFTED_BY_LENGTHS, x, x, x, x]) + product([UNDERFLOW]);
+            assert!(product([lifted_bound_by_lengths(x * x)]).is_close_to(&seen, 48), "{x:e}");
             if x > LEAST_LENGTH {
                 let c = PREPARED_BY_LENGTHS;
                 let by_lengths = product([c, x, x, x, y, y]) + product([c, 0.6, x, x, x, x, x]);

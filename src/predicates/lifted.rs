@@ -3,10 +3,13 @@
 //! With the differences u, v, w from `q` to the corners of a triangle, the determinant is
 //! `|u|² v×w + |v|² w×u + |w|² u×v`. A search of neighbouring triangles with one `q` meets every difference,
 //! every square and every cross product of an edge more than once: kept, they leave 16 operations to a test,
-//! of 25. The bound is derived like those of the other determinants, for this operation order, and is static
-//! only: what it leaves uncertain goes to [`incircle`](super::incircle).
+//! of 25. The static bound is derived like those of the other determinants, for this operation order, and
+//! [`seen_circle_bound`] is that of the corners at hand; what they leave uncertain goes to
+//! [`incircle`](super::incircle).
 
+use super::filter::lifted_bound_by_lengths;
 use super::vectors::{dot, minor, minus};
+use crate::simd::Real;
 
 /// A point as seen from another: the difference, and its square.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +42,12 @@ pub fn side_of_seen_circle([u, v, w]: [&Lifted; 3], [uv, vw, wu]: [f64; 3]) -> f
     u.square * vw + v.square * wu + w.square * uv
 }
 
+/// What the magnitude of [`side_of_seen_circle`] exceeds if it is certain, by the distances of the corners.
+#[inline(always)]
+pub fn seen_circle_bound([u, v, w]: [&Lifted; 3]) -> f64 {
+    lifted_bound_by_lengths(Real::max(Real::max(u.square, v.square), w.square))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,7 +61,7 @@ mod tests {
         let rng = &mut Rng::new(5);
         let mut below = |n: f64| rng.unit() * n;
         let f = StaticFilter::plane([-6.0; 2], [6.0; 2]);
-        let (mut n_certain, mut n_open) = (0, 0);
+        let (mut n_certain, mut n_by_lengths, mut n_open) = (0, 0, 0);
         for round in 0..200_000 {
             let on_circle = [[3., 4.], [5., 0.], [4., -3.], [-4., 3.], [0., -5.], [-3., -4.], [0., 5.]];
             let p: [[f64; 2]; 4] = std::array::from_fn(|_| {
@@ -65,15 +74,21 @@ mod tests {
             let [a, b, c, q] = &p;
             let [u, v, w] = [a, b, c].map(|p| Lifted::new(p, q));
             let side = side_of_seen_circle([&u, &v, &w], [u.cross(&v), v.cross(&w), w.cross(&u)]);
+            let exact = incircle(&f, a, b, c, q);
+            if side.abs() > seen_circle_bound([&u, &v, &w]) {
+                n_by_lengths += 1;
+                assert_eq!(side > 0.0, exact > 0.0);
+                assert_ne!(exact, 0.0);
+            }
             if side.abs() > f.prepared {
                 n_certain += 1;
-                let exact = incircle(&f, a, b, c, q);
                 assert_eq!(side > 0.0, exact > 0.0);
                 assert_ne!(exact, 0.0);
             } else {
                 n_open += 1;
             }
         }
-        assert!(n_certain > 90_000 && n_open > 10_000, "{n_certain} certain, {n_open} open");
+        assert!(n_by_lengths > n_certain && n_certain > 90_000, "{n_by_lengths} by lengths, {n_certain}");
+        assert!(n_open > 10_000, "{n_open} open");
     }
 }
