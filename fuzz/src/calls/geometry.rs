@@ -330,8 +330,8 @@ impl History<'_> {
             };
             assert!(is_right, "Voronoi volume of {v}: {volume}");
         }
-        let is_easy =
-            self.m.positions.iter().flatten().flatten().all(|x| x.abs() < 10.0) && self.style.is_easy();
+        let is_easy = self.style.is_easy() && self.is_moderate();
+        let is_easy = is_easy && self.m.positions.iter().flatten().flatten().all(|x| x.abs() < 10.0);
         if has_cells && is_boxed && is_easy {
             let sum: f64 = volumes.iter().filter(|volume| !volume.is_nan()).sum();
             let wanted = 7f64.powi(d as i32);
