@@ -40,6 +40,59 @@ fn build<G: Dimension>(points: &[G::Point], name: &str) -> MovingTriangulation<G
     t
 }
 
+/// Small balls at random places.
+fn clusters<G: Dimension>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
+    let centres: Vec<G::Point> = (0..20).map(|_| point::<G>(|_| rng.unit())).collect();
+    (0..n).map(|i| point::<G>(|k| centres[i % 20][k] + 1e-4 * (rng.unit() - 0.5))).collect()
+}
+
+/// Denser and denser towards the origin.
+fn graded<G: Dimension>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
+    let place = |rng: &mut Rng| {
+        let radius = 10f64.powf(-6.0 * rng.unit());
+        point::<G>(|_| radius * (rng.unit() - 0.5))
+    };
+    (0..n).map(|_| place(rng)).collect()
+}
+
+/// A lattice, each coordinate off by up to this.
+fn noisy_lattice<G: Dimension>(n: usize, noise: f64, rng: &mut Rng) -> Vec<G::Point> {
+    let side = (n as f64).powf(1.0 / G::D as f64) as usize;
+    let steps = |i: usize, k: usize| i / side.pow(k as u32) % side;
+    (0..side.pow(G::D as u32))
+        .map(|i| point::<G>(|k| steps(i, k) as f64 + noise * (rng.unit() - 0.5)))
+        .collect()
+}
+
+/// Builds large enough to find out that the static bound decides little, at sizes where the bounds of cells by lengths
+/// hold, and where these are too small and too large for them.
+fn many_scales_are_triangulated<G: Dimension>() {
+    let rng = &mut Rng::new(1);
+    let sets = [
+        ("clusters", clusters::<G>(3_000, rng)),
+        ("graded", graded::<G>(3_000, rng)),
+        ("noise of 1e-12", noisy_lattice::<G>(3_500, 1e-12, rng)),
+        ("noise of 1e-15", noisy_lattice::<G>(3_500, 1e-15, rng)),
+    ];
+    for (name, points) in sets {
+        for exponent in [0, -90, -110, -300, 40, 140] {
+            let size = 2f64.powi(exponent);
+            let scaled: Vec<G::Point> = points.iter().map(|p| point::<G>(|k| size * p[k])).collect();
+            build::<G>(&scaled, &format!("{name}, 2^{exponent}"));
+        }
+    }
+}
+
+#[test]
+fn many_scales_are_triangulated_in_the_plane() {
+    many_scales_are_triangulated::<Plane>();
+}
+
+#[test]
+fn many_scales_are_triangulated_in_space() {
+    many_scales_are_triangulated::<Space>();
+}
+
 /// Every vertex moves to the place of the next one and back, by each algorithm; the cells follow exactly.
 fn goes_around<G: Dimension>(points: &[G::Point], name: &str) {
     let mut t = build::<G>(points, name);
