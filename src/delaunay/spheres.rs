@@ -6,8 +6,9 @@
 //! valid while sites do not move and every cell made is [`put`](Table::put) there.
 //!
 //! Where the static bound leaves most tests uncertain, or many that a bound of the cell's own decides, a sphere is
-//! prepared with that bound, and tested against it at once: *by lengths*, those of the cell's edges. That costs 15 %
-//! more instructions, and no branch that goes either way.
+//! prepared with that bound, and tested against it at once: *by lengths*, those of the cell's edges. That takes more
+//! operations, but hardly a branch that may go either way: a build of clusters takes a sixth less time, one of a lattice
+//! with noise two fifths less.
 
 #![allow(unsafe_code)]
 
