@@ -41,12 +41,16 @@ pub fn in_plane(s: &mut Source) {
     let (orientation, beyond) = (exact(&[*a, *b, *c]), exact(&[*b, *a, *d]));
     let side = exact(&p);
     let [u, v, w] = [a, b, c].map(|p| Lifted::new(p, d));
+    let corners = [&u, &v, &w];
+    let seen = side_of_seen_circle(corners, [u.cross(&v), v.cross(&w), w.cross(&u)]);
+    if seen.abs() > seen_circle_bound(corners) {
+        assert_eq!(sign(seen), side, "by lengths {p:?}");
+    }
     for f in filters(StaticFilter::plane, &p) {
         assert_eq!(sign(orient2d(&f, a, b, c)), orientation, "orient2d {p:?} {f:?}");
         assert_eq!(sign(orient2d(&f, b, a, d)), beyond, "orient2d {p:?} {f:?}");
         assert_eq!(sign(incircle(&f, a, b, c, d)), side, "incircle {p:?} {f:?}");
         assert_eq!(sign(incircle(&f, a, c, b, d)), side.reverse(), "incircle, exchanged {p:?} {f:?}");
-        let seen = side_of_seen_circle([&u, &v, &w], [u.cross(&v), v.cross(&w), w.cross(&u)]);
         for certain in [side_of_circle(&circle(a, b, c), a, d), seen] {
             // On a lattice a value of zero is a tie.
             if certain.abs() > f.prepared {
@@ -83,12 +87,20 @@ pub fn in_space(s: &mut Source) {
     let [a, b, c, d, e] = &p;
     let (orientation, beyond) = (exact(&[*a, *b, *c, *d]), exact(&[*a, *c, *b, *e]));
     let side = exact(&p);
+    let prepared = side_of_sphere(&sphere(a, b, c, d), a, e);
+    if prepared.abs() > side_bound_by_length(edge_length(a, b, c, d), a, e) {
+        assert_eq!(sign(prepared), side, "by lengths {p:?}");
+    }
+    let (half_space_by_length, length) = half_space_by_length(a, b, c);
+    let beyond_plane = side_of_sphere(&half_space_by_length, a, d);
+    if beyond_plane.abs() > side_bound_by_length(length, a, d) {
+        assert_eq!(sign(beyond_plane), orientation, "half-space by lengths {p:?}");
+    }
     for f in filters(StaticFilter::space, &p) {
         assert_eq!(sign(orient3d(&f, a, b, c, d)), orientation, "orient3d {p:?} {f:?}");
         assert_eq!(sign(orient3d(&f, a, c, b, e)), beyond, "orient3d {p:?} {f:?}");
         assert_eq!(sign(insphere(&f, a, b, c, d, e)), side, "insphere {p:?} {f:?}");
         assert_eq!(sign(insphere(&f, b, a, c, d, e)), side.reverse(), "insphere, exchanged {p:?} {f:?}");
-        let prepared = side_of_sphere(&sphere(a, b, c, d), a, e);
         if prepared.abs() > f.prepared || is_side_certain(prepared, [a, b, c, d, e]) {
             assert_eq!(sign(prepared), side, "prepared {p:?} {f:?}");
         }
@@ -175,11 +187,15 @@ pub fn perturbed_in_plane(s: &mut Source) {
 
 pub fn perturbed_in_space(s: &mut Source) {
     let Some(p) = positive::<3, 5>(s, |[a, b, c, d, _]| exact(&[*a, *b, *c, *d])) else { return };
-    let ids = ids(s);
+    let (is_tie, ids) = (exact(&p) == Equal, ids(s));
     let expected = inside(&p, &ids);
     for f in filters(StaticFilter::space, &p) {
         let found = insphere_perturbed(&f, p.each_ref(), || ids);
         assert_eq!(found, expected, "insphere_perturbed {p:?} {ids:?} {f:?}");
+        if f.is_exact && is_tie {
+            let found = is_inside_cospherical_on_lattice(p.each_ref(), ids);
+            assert_eq!(found, expected, "on a lattice {p:?} {ids:?}");
+        }
     }
 }
 
