@@ -22,8 +22,8 @@ use crate::predicates::{Lifted, seen_circle_bound, side_of_seen_circle};
 /// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    /// Whether tests of this build have bounds of their own: the static one would leave most of them uncertain.
-    has_own_bounds: bool,
+    /// Whether this build tests by lengths (see [`seen_circle_bound`]): the static bound would leave most tests uncertain.
+    has_lengths: bool,
     /// Edges where the walk through the zone turned right, to be taken up when it comes back.
     turns: Vec<Edge>,
     /// The rim counter-clockwise: the start of each edge, and the edge seen from outside the zone.
@@ -32,7 +32,7 @@ pub struct Scratch {
 
 impl Insert<Plane> for Scratch {
     fn begin_build(&mut self, _n_cells: usize, is_weak: bool) -> Result<()> {
-        self.has_own_bounds = is_weak;
+        self.has_lengths = is_weak;
         Ok(())
     }
 
@@ -49,7 +49,7 @@ impl Insert<Plane> for Scratch {
     ) -> Result<()> {
         // A polygon has two edges more than triangles.
         t.complex.reserve(2)?;
-        let zone = match BUILD && cavity.scratch.has_own_bounds {
+        let zone = match BUILD && cavity.scratch.has_lengths {
             true => dig::<true>(t, cavity, start, s)?,
             false => dig::<false>(t, cavity, start, s)?,
         };
@@ -104,7 +104,7 @@ impl Edge {
 /// Finds the zone of `s` from one cell of it, and its rim.
 // On its own the loop has all registers: inlined in that over all sites, a build of 1,000 points takes a fifth longer.
 #[inline(never)]
-fn dig<const OWN_BOUNDS: bool>(
+fn dig<const BY_LENGTHS: bool>(
     t: &Delaunay<Plane>,
     cavity: &mut Cavity<Plane>,
     start: Slot,
@@ -132,7 +132,7 @@ fn dig<const OWN_BOUNDS: bool>(
             let (right, left) = (edge.right.cross(&tip), tip.cross(&edge.left));
             let corners = [&edge.left, &edge.right, &tip];
             let side = side_of_seen_circle(corners, [-edge.cross, right, left]);
-            let bound = if OWN_BOUNDS { seen_circle_bound(corners) } else { t.filter.prepared };
+            let bound = if BY_LENGTHS { seen_circle_bound(corners) } else { t.filter.prepared };
             let is_in_zone = side > bound
                 || side >= -bound
                     && is_in_uncertain_conflict(t, beyond, q, id, side, seen_circle_bound(corners));

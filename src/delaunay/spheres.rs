@@ -7,8 +7,8 @@
 //!
 //! Where the static bound leaves most tests uncertain, or many that a bound of the cell's own decides, a sphere is
 //! prepared with that bound, and tested against it at once: *by lengths*, those of the cell's edges. That takes more
-//! operations, but hardly a branch that may go either way: a build of clusters takes a sixth less time, one of a lattice
-//! with noise two fifths less.
+//! operations, but hardly a branch that may go either way. Builds of clusters and of lattices with noise gain (`clusters`
+//! and `grid_noise` of `cpp-bench/run --structured`).
 
 #![allow(unsafe_code)]
 
@@ -111,8 +111,8 @@ impl Table<'_> {
         put::<BY_LENGTHS>(self.0, t, cell, corners);
     }
 
-    /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell of mark `known`: [`IN_ZONE`] or
-    /// 0, like what is known already.
+    /// The mark of a cell for `q`: [`IN_ZONE`] if they are in conflict, with ties broken as those of vertex `id`, else 0.
+    /// `known` is the mark that the cell has: one in the zone stays there.
     #[inline(always)]
     pub(super) fn is_in_conflict<const BY_LENGTHS: bool>(
         &mut self,

@@ -62,23 +62,6 @@
 //! ([`insphere_bound_of_terms`]); second-order terms, and its own rounding, are less than 50 u of it, and left to
 //! [`ROUND_UP`]. Underflow adds what it adds to the bound by extents.
 //!
-//! # Lengths of edges
-//!
-//! Where spacings differ much, prepared spheres need a bound for each cell that costs little. Multiplied out, the value
-//! of `sphere.rs` is a sum of products of five differences, too. Each has been rounded at most 17 times: in the
-//! differences, three times in the square of a length, twice in a minor, three times in a component of n, three times in
-//! the scalar product, and once in the last sum. The magnitudes of a determinant's products add up to the permanent of
-//! the magnitudes, which is at most 2/√3 times the product of the lengths of its three rows (Carlen, Lieb and Loss,
-//! 10.4310/MAA.2006.v13.n1.a1). With L for the longest edge from the first corner, the magnitudes that belong to s·n
-//! thus add up to 2/√3 · 3 L⁴ |s| at most, and those of |s|² V to 2/√3 · L³ |s|². Since 2 L |s| ≤ L² + |s|², all
-//! together are 2/√3 · L³ (5/2 |s|² + 3/2 L²) at most ([`prepared_bound_by_lengths`]). The bound is larger than what
-//! underflow adds, L being not less than [`LEAST_LENGTH`].
-//!
-//! In the plane the same holds for `lifted.rs`: four differences, each rounded, the square of a length and a minor,
-//! twice each, their product, and two sums, 11 times in all. Permanents of two rows are at most the product of their
-//! lengths, so that with L for the greatest of the three distances all magnitudes add up to 3 L⁴
-//! ([`lifted_bound_by_lengths`]). Where L is above 1, that exceeds what underflow adds.
-//!
 //! # Rounding of the bounds
 //!
 //! The calculus adds and multiplies positive numbers only, fewer than 200 times, and evaluating a bound
@@ -95,7 +78,7 @@
 use crate::simd::Real;
 
 /// Unit roundoff, u.
-const UNIT: f64 = f64::EPSILON / 2.0;
+pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// Covers the rounding of the bounds themselves.
 pub(super) const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
@@ -154,27 +137,6 @@ const PREPARED_3D: f64 = {
     let volume = MINOR.times(DIFFERENCE);
     let volume = volume.plus(volume).plus(volume);
     term.plus(term).plus(term).last_plus(lift.times(volume))
-};
-
-/// Bound of a prepared sphere / (L³ (|s|² + 3/5 L²)) for an edge's length L and the difference s of the point.
-const PREPARED_BY_LENGTHS: f64 = 17.0 * UNIT * PERMANENT_3D * 2.5 * ROUND_UP;
-
-/// Bound of `side_of_seen_circle` / the fourth power of a corner's greatest distance.
-const LIFTED_BY_LENGTHS: f64 = 11.0 * UNIT * 3.0 * ROUND_UP;
-
-/// 2/√3, from above: of the permanent of three rows / the product of their lengths.
-const PERMANENT_3D: f64 = 1.1548;
-
-/// With edges that are shorter, underflow may be more than the rounding errors of a prepared sphere.
-pub(super) const LEAST_LENGTH: f64 = 1e-30;
-
-/// A half-space by lengths is the sphere of V = 0 and this many times L² times the facet's normal.
-pub(super) const HALF_SPACE_SCALE: f64 = 4.0;
-
-/// It keeps the bound of spheres: its terms have been rounded nine times at most, and |s|² + 3/5 L² ≥ 2 √(3/5) L |s|.
-const _: () = {
-    let error = 9.0 * UNIT * PERMANENT_3D * HALF_SPACE_SCALE * ROUND_UP;
-    assert!(error < PREPARED_BY_LENGTHS * 1.549);
 };
 
 /// Error of the vector of a circle / largest extent³, see `sphere.rs`.
@@ -352,26 +314,12 @@ pub(super) fn prepared_bound_2d(extent: f64, reach: f64) -> f64 {
     PREPARED_2D * (extent * extent * reach) * largest + UNDERFLOW * (amplified * amplified)
 }
 
-/// Bound of a prepared sphere, or half-space, of a cell with edges of at most this length from its first corner, for a
-/// point at this squared distance from there.
-#[inline(always)]
-pub(super) fn prepared_bound_by_lengths(length: f64, squared_distance: f64) -> f64 {
-    let square = length * length;
-    PREPARED_BY_LENGTHS * (square * length) * (0.6 * square + squared_distance)
-}
-
 /// As [`prepared_bound_2d`], for a prepared sphere.
 pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
     let largest = extent.max(reach);
     let amplified = largest.max(1.0);
     PREPARED_3D * (extent * extent * extent * reach) * largest
         + UNDERFLOW * (amplified * amplified * amplified)
-}
-
-/// Bound of `side_of_seen_circle` by the greatest of the corners' squared distances.
-#[inline(always)]
-pub(super) fn lifted_bound_by_lengths(square: f64) -> f64 {
-    LIFTED_BY_LENGTHS * (square * square) + UNDERFLOW
 }
 
 /// Bounds of `orient2d` and of a prepared circle for differences of at most these magnitudes.
@@ -466,16 +414,6 @@ mod tests {
             check(prepared, [PREPARED_3D, x, y, z, l, l], l);
             check(insphere_bound([x, y, z]), [IN_SPHERE, x, y, z, l, l], l);
             check(prepared_bound_3d(x, y), [PREPARED_3D, x, x, x, y, flat], flat);
-            let seen = product([LIFTED_BY_LENGTHS, x, x, x, x]) + product([UNDERFLOW]);
-            assert!(product([lifted_bound_by_lengths(x * x)]).is_close_to(&seen, 48), "{x:e}");
-            if x > LEAST_LENGTH {
-                let c = PREPARED_BY_LENGTHS;
-                let by_lengths = product([c, x, x, x, y, y]) + product([c, 0.6, x, x, x, x, x]);
-                let found = prepared_bound_by_lengths(x, y * y);
-                assert!(product([found]).is_close_to(&by_lengths, 48), "{x:e}, {y:e}");
-                // It covers what underflow adds.
-                assert!(found > 10.0 * UNDERFLOW * (1.0 + y * y * y), "{x:e}, {y:e}");
-            }
             check(insphere_bound_of_terms(z, [x, y, y]), [IN_SPHERE_TERMS, z, 1.0, 1.0, 1.0, 1.0], flat);
         }
     }

@@ -7,7 +7,7 @@
 //! [`seen_circle_bound`] is that of the corners at hand; what they leave uncertain goes to
 //! [`incircle`](super::incircle).
 
-use super::filter::lifted_bound_by_lengths;
+use super::lengths::lifted_bound_by_lengths;
 use super::vectors::{dot, minor, minus};
 use crate::simd::Real;
 

@@ -87,6 +87,7 @@ mod filter;
 mod integer;
 mod lanes;
 mod lattice;
+mod lengths;
 mod lifted;
 mod measures;
 #[cfg(test)]

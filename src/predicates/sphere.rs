@@ -27,9 +27,9 @@
 
 use super::StaticFilter;
 use super::filter::{
-    HALF_SPACE_SCALE, LEAST_LENGTH, extents, largest, prepared_bound_2d, prepared_bound_3d,
-    prepared_bound_by_lengths, semi_static_bounds_2d, semi_static_bounds_3d,
+    extents, largest, prepared_bound_2d, prepared_bound_3d, semi_static_bounds_2d, semi_static_bounds_3d,
 };
+use super::lengths::{HALF_SPACE_SCALE, LEAST_LENGTH, prepared_bound_by_lengths};
 use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
 use crate::simd::Real;
 
