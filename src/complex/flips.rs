@@ -15,7 +15,7 @@
 
 pub(crate) use replacing::NewCell;
 
-use super::{Cell, Complex, Corners, Facet, Row};
+use super::{Cell, Complex, Corners, Facet, INFINITE, Row};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -291,10 +291,12 @@ impl CellRange<'_, [SiteId; 4]> {
 
 impl<C: Corners> Complex<C> {
     /// Takes flips back by the rows that they changed, the latest first. The list of free cells comes back as well if
-    /// all were flips of the whole.
+    /// all were flips of the whole, and so does the number of ghosts.
     pub(crate) fn undo_flips(&mut self, rows: impl Iterator<Item = Row<C>>) {
         for row in rows {
             let was_free = self.is_free(row.slot);
+            self.n_ghosts -= usize::from(self.cell(row.slot).is_ghost());
+            self.n_ghosts += usize::from(row.corners[C::N - 1] == INFINITE);
             self.put_back(row);
             match (was_free, row.is_free()) {
                 (false, true) => self.free.push(row.slot),

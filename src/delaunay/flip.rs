@@ -19,6 +19,7 @@
 pub use flipper::Flipper;
 
 use islands::Island;
+use untangle::Untangling;
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
@@ -167,6 +168,8 @@ pub(super) struct AllFlips<G: Dimension> {
     n_slots: usize,
     free: Vec<Slot>,
     island: Island<G::Corners>,
+    /// What was exchanged before all flips.
+    untangling: Untangling<G>,
 }
 
 impl<G: Dimension> Default for AllFlips<G> {
@@ -178,6 +181,7 @@ impl<G: Dimension> Default for AllFlips<G> {
             n_slots: 0,
             free: Vec::new(),
             island: Island::default(),
+            untangling: Untangling::default(),
         }
     }
 }
@@ -189,6 +193,7 @@ impl<G: Dimension> AllFlips<G> {
             + memory::bytes_of(&self.parts)
             + memory::bytes_of(&self.free)
             + self.island.memory_bytes()
+            + self.untangling.memory_bytes()
     }
 }
 
@@ -268,6 +273,12 @@ impl<G: Dimension> Delaunay<G> {
             if is_done {
                 self.keep(part);
             }
+        }
+        let untangled = &mut flips.untangling.flips;
+        if is_done && untangled.n_flips > 0 {
+            n_flips += untangled.n_flips;
+            self.keep(untangled);
+            untangled.begin(u64::MAX);
         }
         Ok((!is_exhausted).then_some(n_flips))
     }
@@ -358,7 +369,8 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Enters flips that will stay into the records.
     fn enter_flips(&mut self, flips: &AllFlips<G>) -> Result<()> {
-        for part in flips.parts.iter().chain([&flips.own]) {
+        let untangled = &flips.untangling.flips;
+        for part in [untangled].into_iter().chain(&flips.parts).chain([&flips.own]) {
             self.complex.note_rows(&part.journal)?;
             if let Some(changed) = &mut self.changed {
                 memory::reserve(changed, part.changed.len() + part.made.len())?;
@@ -390,7 +402,8 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Takes the flips of the last [`flip_all`](Self::flip_all) back.
+    /// Takes the flips of the last [`flip_all`](Self::flip_all) back, and those of [`untangle`](Self::untangle) before it
+    /// or after it.
     pub(crate) fn undo_flips(&mut self) {
         let mut flips = std::mem::take(&mut self.flips);
         self.take_back(&mut flips);
@@ -398,7 +411,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     fn take_back(&mut self, flips: &mut AllFlips<G>) {
-        let AllFlips { own, parts, were_several, n_slots, free, .. } = flips;
+        let AllFlips { own, parts, were_several, n_slots, free, untangling, .. } = flips;
         for flips in parts.iter_mut().chain([own]).rev() {
             flips.suspects.clear();
             let rows = flips.journal.drain(..).rev();
@@ -411,10 +424,13 @@ impl<G: Dimension> Delaunay<G> {
         if *were_several {
             self.complex.restore_free(*n_slots, free);
         }
+        self.take_untangling_back(untangling);
     }
 }
 
 mod flipper;
 mod islands;
+mod peel;
 #[cfg(test)]
 mod tests;
+mod untangle;

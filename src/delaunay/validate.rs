@@ -251,20 +251,22 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
-    /// A point strictly inside a finite cell.
+    /// A point strictly inside some finite cell.
     fn inner_point(&self) -> Option<G::Point> {
-        self.complex.finite().find_map(|c| {
-            let corners = &self.complex.cell(c).corners;
-            let mut o = G::Point::default();
-            for k in 0..G::D {
-                o[k] =
-                    (0..G::Corners::N).map(|i| self.site(corners[i]).point[k] / G::Corners::N as f64).sum();
-            }
-            let inside = self.is_covered(&o)
-                && (0..G::Corners::N)
-                    .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &o) > 0.0);
-            inside.then_some(o)
-        })
+        self.complex.finite().find_map(|c| self.point_inside(c))
+    }
+
+    /// A point strictly inside a finite cell, unless that is too thin.
+    pub(super) fn point_inside(&self, c: Slot) -> Option<G::Point> {
+        let corners = &self.complex.cell(c).corners;
+        let mut o = G::Point::default();
+        for k in 0..G::D {
+            o[k] = (0..G::Corners::N).map(|i| self.site(corners[i]).point[k] / G::Corners::N as f64).sum();
+        }
+        let is_inside = self.is_covered(&o)
+            && (0..G::Corners::N)
+                .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &o) > 0.0);
+        is_inside.then_some(o)
     }
 
     fn check_hull(&self) -> Check {

@@ -1,6 +1,6 @@
 //! Other cells in the place of some: the flip of a whole cavity.
 
-use super::{Cell, Complex, Corners, Facet, Row};
+use super::{Cell, Complex, Corners, Facet, INFINITE, Row};
 use crate::error::Result;
 use crate::ids::Slot;
 use crate::machine::memory;
@@ -16,7 +16,7 @@ pub(crate) struct NewCell<C: Corners> {
 }
 
 impl<C: Corners> Complex<C> {
-    /// Replaces finite cells by others with the same boundary, for which there are `slots` in all, the old ones first
+    /// Replaces cells by others with the same boundary, for which there are `slots` in all, the old ones first
     /// and then free ones as [`prepare_replacing`](Self::prepare_replacing) has chosen them; enters the rows before.
     pub(crate) fn replace(
         &mut self,
@@ -26,6 +26,8 @@ impl<C: Corners> Complex<C> {
         journal: &mut Vec<Row<C>>,
     ) {
         journal.extend(slots.iter().map(|&slot| Row::of(slot, self.cell(slot))));
+        self.n_ghosts -= slots[..n_old].iter().filter(|&&slot| self.cell(slot).is_ghost()).count();
+        self.n_ghosts += new.iter().filter(|cell| cell.corners[C::N - 1] == INFINITE).count();
         for (&slot, cell) in slots.iter().zip(new) {
             let mut neighbours = cell.neighbours;
             for (i, out) in neighbours.as_mut().iter_mut().enumerate() {

@@ -1,0 +1,177 @@
+//! Untangling after motions, and undoing it.
+
+use super::*;
+use crate::delaunay::{Level, Plane, Space};
+use crate::random::Rng;
+
+/// A lattice, in any order.
+fn lattice<G: Dimension>(side: usize, rng: &mut Rng) -> Vec<G::Point> {
+    let mut points: Vec<G::Point> = (0..side.pow(G::D as u32))
+        .map(|i| {
+            let mut p = G::Point::default();
+            (0..G::D).for_each(|k| p[k] = (i / side.pow(k as u32) % side) as f64);
+            p
+        })
+        .collect();
+    for k in (1..points.len()).rev() {
+        points.swap(k, (rng.unit() * (k + 1) as f64) as usize);
+    }
+    points
+}
+
+fn built<G: Dimension>(points: &[G::Point]) -> Delaunay<G> {
+    let mut t = Delaunay::<G>::default();
+    t.add_sites(points).expect("room for it");
+    t.rebuild(&mut |_| true).expect("room for it");
+    t
+}
+
+/// Moves all sites, and sweeps.
+fn move_all<G: Dimension>(t: &mut Delaunay<G>, points: &[G::Point]) -> Failures {
+    for s in t.live_sites().collect::<Vec<_>>() {
+        let q = points[t.site(s).id.index()];
+        t.cover(&q, &q);
+        t.set_point(s, q);
+    }
+    let mut failures = Failures::default();
+    assert!(t.sweep(&mut failures, usize::MAX, None).expect("room for it"));
+    failures
+}
+
+/// What there is: how many ghosts, and of every cell its slot, corners and neighbours.
+fn contents<G: Dimension>(t: &Delaunay<G>) -> Vec<u32> {
+    let mut numbers = vec![t.complex.n_ghosts() as u32];
+    for c in t.complex.live() {
+        let cell = t.complex.cell(c);
+        numbers.push(c.get());
+        numbers.extend(cell.corners.as_ref().iter().map(|s| s.get()));
+        numbers.extend((0..G::Corners::N).map(|i| cell.neighbour(i).code()));
+    }
+    numbers
+}
+
+fn n_ghosts_counted<G: Dimension>(t: &Delaunay<G>) -> usize {
+    t.complex.live().filter(|&c| t.complex.cell(c).is_ghost()).count()
+}
+
+/// Whether all cells are positive and the hull is convex.
+fn is_untangled<G: Dimension>(t: &Delaunay<G>) -> bool {
+    let is_right = |c: Slot| {
+        if t.is_ghost(c) { (0..G::D).all(|i| t.is_convex(Facet::new(c, i))) } else { t.is_positive(c) }
+    };
+    t.complex.live().all(is_right)
+}
+
+/// Untangles, undoes that, does it again, and flips; whether it could be done. If not, nothing has changed.
+fn mends<G: Dimension>(t: &mut Delaunay<G>, failures: &Failures) -> bool {
+    let before = contents(t);
+    let mut suspects = Vec::new();
+    let is_done = t.untangle(failures, &mut suspects, u64::MAX).expect("room for it");
+    if is_done {
+        assert!(is_untangled(t));
+        assert_eq!(t.complex.n_ghosts(), n_ghosts_counted(t));
+        t.undo_flips();
+    }
+    assert!(contents(t) == before, "what is undone leaves a trace");
+    if !is_done {
+        return false;
+    }
+    suspects.clear();
+    assert_eq!(t.untangle(failures, &mut suspects, u64::MAX), Ok(true));
+    suspects.extend_from_slice(&failures.facets);
+    let mut stuck = Vec::new();
+    t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").expect("no limit");
+    assert_eq!(stuck, []);
+    t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+    true
+}
+
+/// The sides of a lattice that is sheared, again and again, are in a plane but for rounding. Returns how often cells were
+/// not positive, and how often all of them were, but the hull was dented.
+fn sheared_lattices<G: Dimension>(side: usize, n_steps: usize) -> [usize; 2] {
+    let mut points = lattice::<G>(side, &mut Rng::new(1));
+    let mut n_tangled = [0; 2];
+    for _ in 0..n_steps {
+        let mut t = built::<G>(&points);
+        for p in &mut points {
+            p[0] += 0.001 * p[1];
+        }
+        let failures = move_all(&mut t, &points);
+        if is_untangled(&t) {
+            continue;
+        }
+        n_tangled[usize::from(failures.cells.is_empty())] += 1;
+        assert!(mends(&mut t, &failures), "not untangled");
+    }
+    n_tangled
+}
+
+#[test]
+fn sheared_squares_are_untangled() {
+    let [cells, dents] = sheared_lattices::<Plane>(30, 40);
+    assert!(cells > 10 && dents > 2, "{cells} and {dents}");
+}
+
+#[test]
+fn sheared_cubes_are_untangled() {
+    let [cells, dents] = sheared_lattices::<Space>(9, 40);
+    assert!(cells > 3 && dents > 3, "{cells} and {dents}");
+}
+
+/// Random points go farther and farther: at first nearly always all can be mended, in the end it is not even tried for
+/// long.
+fn random_points<G: Dimension>(n: usize, sizes: [f64; 2]) {
+    let rng = &mut Rng::new(2);
+    for (size, is_large) in sizes.into_iter().zip([false, true]) {
+        let (mut n_tangled, mut n_mended) = (0, 0);
+        for _ in 0..60 {
+            let mut points = vec![G::Point::default(); n];
+            points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
+            let mut t = built::<G>(&points);
+            points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] += size * (rng.unit() - 0.5)));
+            let failures = move_all(&mut t, &points);
+            if !is_untangled(&t) {
+                let before = t.certificates();
+                n_tangled += 1;
+                n_mended += usize::from(mends(&mut t, &failures));
+                assert!(!is_large || t.certificates() - before < 20 * n as u64);
+            }
+        }
+        assert!(n_tangled > 30, "{n_tangled}");
+        assert!(
+            if is_large { n_mended == 0 } else { 10 * n_mended > 7 * n_tangled },
+            "{n_mended} of {n_tangled}"
+        );
+    }
+}
+
+#[test]
+fn triangles_are_untangled() {
+    random_points::<Plane>(300, [0.003, 0.5]);
+}
+
+#[test]
+fn tetrahedra_are_untangled() {
+    random_points::<Space>(300, [0.003, 0.5]);
+}
+
+/// Not more certificates are evaluated than allowed, but for those of one cell.
+#[test]
+fn untangling_ends_where_it_takes_too_much() {
+    let mut points = lattice::<Space>(9, &mut Rng::new(1));
+    let mut n_ended = 0;
+    for _ in 0..8 {
+        let mut t = built::<Space>(&points);
+        points.iter_mut().for_each(|p| p[0] += 0.001 * p[1]);
+        let failures = move_all(&mut t, &points);
+        let before = (contents(&t), t.certificates());
+        if !is_untangled(&t) && t.untangle(&failures, &mut Vec::new(), 50) == Ok(false) {
+            n_ended += 1;
+            assert!(t.certificates() - before.1 < 150, "{}", t.certificates() - before.1);
+            assert!(contents(&t) == before.0);
+        } else {
+            t.undo_flips();
+        }
+    }
+    assert!(n_ended > 3, "{n_ended}");
+}
