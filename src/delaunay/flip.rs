@@ -58,6 +58,8 @@ pub struct Flips<G: Dimension> {
     pub(super) made: Vec<Slot>,
     /// For undoing: the rows that each flip has changed.
     journal: Vec<Row<G::Corners>>,
+    /// How many rows of other flips, before these, would be undone with them.
+    n_before: usize,
     n_flips: u64,
     certificates: u64,
     /// How many certificates may be evaluated.
@@ -77,6 +79,7 @@ impl<G: Dimension> Default for Flips<G> {
             changed: Vec::new(),
             made: Vec::new(),
             journal: Vec::new(),
+            n_before: 0,
             n_flips: 0,
             certificates: 0,
             most: u64::MAX,
@@ -292,6 +295,7 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<()> {
         flips.own.begin(most);
         flips.parts.iter_mut().for_each(|part| part.begin(most));
+        flips.own.n_before = flips.untangling.flips.journal.len();
         flips.were_several = false;
         if n_threads > 1 {
             flips.n_slots = self.complex.n_slots();
@@ -325,7 +329,7 @@ impl<G: Dimension> Delaunay<G> {
                 continue;
             }
             // By a few at a time each would be put off again and again.
-            self.complex.create_free(ROOM.max(own.later.len() / 2), own.journal.len())?;
+            self.complex.create_free(ROOM.max(own.later.len() / 2), own.n_before + own.journal.len())?;
             std::mem::swap(&mut own.suspects, &mut own.later);
         }
     }

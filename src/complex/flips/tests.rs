@@ -187,7 +187,7 @@ fn cavities_get_more_cells_than_they_had() {
         let before = cells(&complex);
         let mut slots = vec![facet.cell(), complex.cell(facet.cell()).neighbour(facet.index()).cell()];
         let mut journal = Vec::new();
-        complex.prepare_replacing(3, &mut slots, &mut journal).unwrap();
+        complex.prepare_replacing(3, &mut slots, &mut journal, 0).unwrap();
         assert_eq!(slots.len(), 3);
         let n_left = complex.free.len();
         complex.replace(2, &new, &slots, &mut journal);
