@@ -331,7 +331,7 @@ fn sheared_lattices_are_rebuilt_at_once() {
     }
 }
 
-/// A tenth of a lattice leaves its places: there are more cells then, and the slots for them are made at once, so that
+/// A seventh of a lattice leaves its places: there are more cells then, and the slots for them are made at once, so that
 /// facets do not wait for them by turns.
 #[test]
 fn leaving_a_lattice_takes_few_certificates_for_each_flip() {
@@ -340,7 +340,7 @@ fn leaving_a_lattice_takes_few_certificates_for_each_flip() {
     let options = Options { algorithm: Algorithm::Repair, threads: 1, ..Options::default() };
     let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
     let n = now.len();
-    tremble::<Space>(&mut now[..n / 10], 1e-4, rng);
+    tremble::<Space>(&mut now[..n / 7], 1e-4, rng);
     let report = t.commit_positions(&now).expect("a commit");
     assert_eq!(report.rebuilds, 0, "{report:?}");
     assert!(report.flips > n as u64, "{report:?}");
@@ -425,4 +425,37 @@ fn repairs_that_are_cheap_are_not_replaced() {
     }
     all_repair::<Plane>(130, 0.15);
     all_repair::<Space>(19, 0.06);
+}
+
+/// A tenth of a lattice leaves it while the rest stays: those are placed, nothing is built, however they are staged, and
+/// also where slack has moved them before it gave up.
+#[test]
+fn few_vertices_that_leave_a_lattice_are_placed() {
+    for (algorithm, is_whole) in
+        [(Algorithm::Repair, true), (Algorithm::Repair, false), (Algorithm::Auto, true)]
+    {
+        let rng = &mut Rng::new(41);
+        let mut now = lattice::<Space>(15, [1.0; 3], rng);
+        let n = now.len();
+        let options = Options { algorithm, threads: 1, ..Options::default() };
+        let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
+        for _ in 0..4 {
+            t.commit_positions(&now).expect("a commit");
+        }
+        for step in 0..4 {
+            let first = step * n / 10;
+            tremble::<Space>(&mut now[first..first + n / 10], 1e-4, rng);
+            let report = if is_whole {
+                t.commit_positions(&now).expect("a commit")
+            } else {
+                let vertices: Vec<_> = VertexId::range(first..first + n / 10).collect();
+                t.move_vertices(&vertices, &now[first..first + n / 10]).expect("room");
+                t.commit_timestamp().expect("a commit")
+            };
+            assert_eq!((report.rebuilds, report.moved), (0, (n / 10) as u64), "{algorithm:?}, step {step}");
+            assert!(report.certificates < 40 * n as u64, "{algorithm:?}: {report:?}");
+            let positions: Vec<_> = now.iter().copied().map(Some).collect();
+            assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || format!("{algorithm:?}"));
+        }
+    }
 }

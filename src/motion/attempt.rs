@@ -42,6 +42,8 @@ pub(super) enum Mending {
 pub(super) enum Prospect {
     /// They can be mended; what has to be is listed.
     Mendable,
+    /// To take all vertices back that have moved, and place them, would take less time.
+    Placeable,
     /// That would take longer than to build them again.
     TooMuch,
 }

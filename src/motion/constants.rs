@@ -101,6 +101,9 @@ pub struct Constants {
     /// A vertex taken back mends about this number of failures: where a sweep finds more than all that may be taken
     /// back mend, it ends at once.
     pub failures_per_placement: usize,
+    /// Place all vertices that have moved, where these are few enough for that to cost less than a rebuild, when more
+    /// facets and cells fail for each of them than this number. (Where they leave a lattice all of their facets fail.)
+    pub failures_per_moved: f64,
     /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
     /// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
     pub certified_per_vertex: u64,
@@ -216,6 +219,7 @@ const PLANE: Constants = Constants {
     shorter_rounds: 8.0,
     rebuilt_per_placement: 8,
     failures_per_placement: 3,
+    failures_per_moved: f64::INFINITY,
     certified_per_vertex: 8,
     max_rounds: 8,
     max_failing: 0.3,
@@ -254,6 +258,7 @@ const SPACE: Constants = Constants {
     max_imbalance: 4.0,
     rebuilt_per_placement: 10,
     failures_per_placement: 12,
+    failures_per_moved: 5.0,
     certified_per_vertex: 20,
     max_failing: 0.28,
     max_failing_of_ties: 0.1,

@@ -154,6 +154,8 @@ impl<G: Dimension> Delaunay<G> {
         most: u64,
     ) -> Result<bool> {
         let mut flips = std::mem::take(&mut self.flips);
+        // Undoing must not go back to before flips that have been kept.
+        flips.were_several = false;
         let untangling = &mut flips.untangling;
         untangling.flips.begin(most);
         untangling.flips.suspects.clear();

@@ -129,16 +129,18 @@ impl Auto {
         self.excess = (self.excess + excess).max(0.0);
         self.wait = self.wait.saturating_sub(1);
         if self.excess > constants.max_excess * constants.costs.computed * n as f64 {
-            self.give_up::<G>();
+            self.give_up::<G>(n, report.rebuilds > 0);
         } else {
             self.next_wait = self.next_wait.saturating_sub(1);
         }
     }
 
-    /// From now on the more expensive way is taken.
-    pub(super) fn give_up<G: Dimension>(&mut self) {
+    /// From now on the more expensive way is taken; slack only if few cells change, of `n` vertices, and not all have just
+    /// been rebuilt.
+    pub(super) fn give_up<G: Dimension>(&mut self, n: usize, has_rebuilt: bool) {
         let constants = constants::<G>();
-        self.scope = if self.scope == Scope::Watched && constants.costs.slack.is_some() {
+        let are_changes_few = !has_rebuilt && self.changes * constants.vertices_per_change <= n as f64;
+        self.scope = if self.scope == Scope::Watched && constants.costs.slack.is_some() && are_changes_few {
             Scope::Slack
         } else {
             Scope::All

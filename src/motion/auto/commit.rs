@@ -64,7 +64,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 }
                 return Ok(Attempt::Committed);
             }
-            self.auto.give_up::<G>();
+            self.auto.give_up::<G>(self.n_present, false);
         }
         if self.auto.scope() == Scope::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
@@ -75,7 +75,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 }
                 return Ok(ended);
             }
-            self.auto.give_up::<G>();
+            self.auto.give_up::<G>(self.n_present, false);
         }
         Ok(ended)
     }
@@ -132,7 +132,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_kept {
             if !ended.are_most_within {
                 self.regions.invalidate();
-                self.auto.give_up::<G>();
+                self.auto.give_up::<G>(self.n_present, false);
             }
         } else if self.auto.has_waited() && ended.are_most_unchanged {
             // Without the memory for them all goes on as it did.

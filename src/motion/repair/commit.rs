@@ -46,11 +46,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let can_move_all = self.kernel.has_cells()
-            && self.staging.is_whole()
-            && !self.staging.others_applied()
-            && self.hidden.count() == 0;
-        if !can_move_all {
+        let are_all = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
+        if !are_all {
             self.stage_given(given)?;
             self.staging.list()?;
         }
@@ -60,8 +57,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.regions.invalidate();
         let accepted = report.moved;
         let mut repair = std::mem::take(&mut self.repair);
-        let begun = if can_move_all {
-            let moved = self.move_all_staged(given);
+        let begun = if are_all {
+            // By slack they may have moved.
+            let moved =
+                if self.staging.others_applied() { Ok(self.n_moved()) } else { self.move_all_staged(given) };
             moved.and_then(|moved| self.begin_moves(&mut repair, moved))
         } else {
             self.move_staged(&mut repair)
@@ -108,10 +107,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
         let most = self.n_present / constants.rebuilt_per_placement;
-        if repair.failures.is_sweep_due
-            && self.sweep(repair, constants.failures_per_placement * most)? == Prospect::TooMuch
-        {
-            return Ok(Mending::TooMuch);
+        if repair.failures.is_sweep_due {
+            match self.sweep(repair, constants.failures_per_placement * most)? {
+                Prospect::Mendable => {}
+                Prospect::Placeable => {
+                    self.take_all_back(repair)?;
+                    return Ok(Mending::Mended);
+                }
+                Prospect::TooMuch => return Ok(Mending::TooMuch),
+            }
         }
         let mut is_triangulation = repair.failures.is_triangulation();
         if !self.monitor(0.5) {
@@ -317,12 +321,36 @@ impl<G: Dimension> MovingTriangulation<G> {
         with_displacement.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
     }
 
+    /// Takes all vertices back, so that the cells are those before.
+    fn take_all_back(&mut self, repair: &mut Repair) -> Result<()> {
+        self.reserve_queue(repair, repair.n_new)?;
+        for v in VertexId::range(0..self.site_of.len()) {
+            if repair.at[v] == At::New && self.exchange_position(v) {
+                repair.at[v] = At::Old;
+                repair.queue.push(v);
+            }
+        }
+        repair.n_old += std::mem::take(&mut repair.n_new);
+        Ok(())
+    }
+
+    /// Has room for so many more vertices in the queue. It has to fit where the staged vertices are listed, too.
+    fn reserve_queue(&mut self, repair: &mut Repair, more: usize) -> Result<()> {
+        memory::reserve(&mut repair.queue, more)?;
+        let listed = self.staging.vertices_mut();
+        memory::reserve(listed, (repair.queue.len() + more).saturating_sub(listed.len()))
+    }
+
+    /// How many vertices of a whole staging, all applied, have gone to another place.
+    fn n_moved(&self) -> u64 {
+        let before = self.staging.positions();
+        let has_moved = |&v: &VertexId| self.kernel.site(self.site_of[v]).point != before[v];
+        VertexId::range(0..self.site_of.len()).filter(has_moved).count() as u64
+    }
+
     /// Takes a vertex back to its old place, and looks at its star.
     fn take_back(&mut self, repair: &mut Repair, s: SiteId) -> Result<()> {
-        memory::reserve(&mut repair.queue, 1)?;
-        // The queue has to fit where the staged vertices are listed.
-        let listed = self.staging.vertices_mut();
-        memory::reserve(listed, (repair.queue.len() + 1).saturating_sub(listed.len()))?;
+        self.reserve_queue(repair, 1)?;
         let v = self.kernel.site(s).id;
         self.exchange_position(v);
         repair.at[v] = At::Old;

@@ -44,21 +44,24 @@ impl Findings {
         }
     }
 
-    /// Whether a repair would take longer than a rebuild, for this number of finite cells.
-    fn call_for_rebuild<G: Dimension>(self, n_cells: f64, limit: Option<f64>) -> bool {
-        if limit.is_some_and(|limit| self.all_failing > limit * n_cells) {
-            return true;
-        }
+    /// What to do, for `n` vertices of which `n_moved` have moved, and this number of finite cells.
+    fn prospect<G: Dimension>(self, n: usize, n_moved: usize, n_cells: f64, limit: Option<f64>) -> Prospect {
         let constants = constants::<G>();
+        if limit.is_some_and(|limit| self.all_failing > limit * n_cells) {
+            return Prospect::TooMuch;
+        }
+        let are_few = n_moved as f64 * constants.costs.placed < n as f64 * constants.costs.rebuilt;
+        if are_few && self.all_failing > constants.failures_per_moved * n_moved as f64 {
+            return Prospect::Placeable;
+        }
         let has_ties = self.exact > constants.exact_of_ties * n_cells;
         let most = if has_ties { constants.max_failing_of_ties } else { constants.max_failing };
-        self.failing > most * n_cells
+        if self.failing > most * n_cells { Prospect::TooMuch } else { Prospect::Mendable }
     }
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Sweeps all cells, of which `most` may fail; too much also if a sample or the sweep shows that a repair would
-    /// take longer than a rebuild.
+    /// Sweeps all cells, of which `most` may fail, unless a sample shows what to do.
     pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
         // Of a whole staging all applied, the positions staged are now those before.
         let before = self.staging.others_applied().then_some(self.staging.positions());
@@ -69,23 +72,35 @@ impl<G: Dimension> MovingTriangulation<G> {
             // A sample may err: it decides where it is far from the limit.
             let weight = slots as f64 / constants::<G>().sample_margin;
             let found = Findings::of(&repair.failures, exact_calls() - start, weight);
-            if found.call_for_rebuild::<G>(n_cells, repair.limit) {
-                return Ok(Prospect::TooMuch);
+            match found.prospect::<G>(self.n_present, repair.n_new, n_cells, repair.limit) {
+                Prospect::Mendable => {}
+                Prospect::TooMuch => return Ok(Prospect::TooMuch),
+                Prospect::Placeable => {
+                    repair.note_findings(found, n_cells);
+                    return Ok(Prospect::Placeable);
+                }
             }
         }
         let start = exact_calls();
         let most = repair.limit.map_or(most, |limit| most.min((limit * n_cells) as usize));
-        if !self.kernel.sweep(&mut repair.failures, most, before)? {
+        let is_done = self.kernel.sweep(&mut repair.failures, most, before)?;
+        let found = Findings::of(&repair.failures, exact_calls() - start, 1.0);
+        let prospect = found.prospect::<G>(self.n_present, repair.n_new, n_cells, repair.limit);
+        if is_done || prospect == Prospect::Placeable {
+            repair.note_findings(found, n_cells);
+        } else {
             return Ok(Prospect::TooMuch);
         }
-        repair.exact = exact_calls() - start;
-        let found = Findings::of(&repair.failures, repair.exact, 1.0);
-        repair.share_failing = found.all_failing / n_cells;
-        if found.call_for_rebuild::<G>(n_cells, repair.limit) {
-            return Ok(Prospect::TooMuch);
-        }
-        repair.was_foreseen = false;
-        Ok(Prospect::Mendable)
+        repair.was_foreseen = prospect == Prospect::TooMuch;
+        Ok(prospect)
+    }
+}
+
+impl Repair {
+    fn note_findings(&mut self, found: Findings, n_cells: f64) {
+        self.exact = found.exact as u64;
+        self.share_failing = found.all_failing / n_cells;
+        self.was_foreseen = false;
     }
 }
 

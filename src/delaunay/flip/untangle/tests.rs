@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::delaunay::{Level, Plane, Space};
+use crate::machine::threads::Threads;
 use crate::random::Rng;
 
 /// A lattice, in any order.
@@ -20,7 +21,11 @@ fn lattice<G: Dimension>(side: usize, rng: &mut Rng) -> Vec<G::Point> {
 }
 
 fn built<G: Dimension>(points: &[G::Point]) -> Delaunay<G> {
-    let mut t = Delaunay::<G>::default();
+    built_on(points, 1)
+}
+
+fn built_on<G: Dimension>(points: &[G::Point], threads: u32) -> Delaunay<G> {
+    let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
     t.add_sites(points).expect("room for it");
     t.rebuild(&mut |_| true).expect("room for it");
     t
@@ -174,4 +179,33 @@ fn untangling_ends_where_it_takes_too_much() {
         }
     }
     assert!(n_ended > 3, "{n_ended}");
+}
+
+/// What several threads have flipped before stays when untangling is undone.
+#[test]
+fn undoing_goes_back_to_before_untangling_only() {
+    let rng = &mut Rng::new(3);
+    let mut points = vec![[0.0; 3]; 3000];
+    points.iter_mut().flatten().for_each(|x| *x = rng.unit());
+    let mut t = built_on::<Space>(&points, 3);
+    t.sort_cells().expect("room for it");
+    let mut n_after_several = 0;
+    for _ in 0..30 {
+        points.iter_mut().flatten().for_each(|x| *x += 4e-4 * rng.unit());
+        let failures = move_all(&mut t, &points);
+        if is_untangled(&t) {
+            let (mut suspects, mut stuck) = (failures.facets, Vec::new());
+            t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").expect("no limit");
+            assert!(stuck.is_empty());
+            continue;
+        }
+        let were_several = t.flips.were_several;
+        if mends(&mut t, &failures) {
+            n_after_several += usize::from(were_several);
+        } else {
+            t = built_on(&points, 3);
+            t.sort_cells().expect("room for it");
+        }
+    }
+    assert!(n_after_several > 3, "{n_after_several}");
 }
