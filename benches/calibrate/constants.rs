@@ -161,6 +161,7 @@ fn thresholds_of(dimension: usize) -> Vec<Constant> {
         shorter_rounds: Real,
         rebuilt_per_placement: Whole,
         failures_per_placement: Whole,
+        failures_per_moved: Real,
         certified_per_vertex: Whole,
         max_rounds: Whole,
         max_failing: Real,
