@@ -1,4 +1,5 @@
-//! Whether a repair is going to take longer than a rebuild, as far as that can be told before.
+//! Whether a repair is going to take longer than a rebuild, or than to place the vertices that have moved, as far as that
+//! can be told before.
 //!
 //! | when | from what |
 //! |---|---|
@@ -10,6 +11,9 @@
 //! the plane, fails. Where many vertices in space are cospherical, or nearly so, flips get stuck in flat cells, or
 //! evaluate the certificates of one cluster again and again: then a repair takes longer from a third as many on. That
 //! there are such clusters shows in exact evaluations.
+//!
+//! Where few vertices leave a lattice all of their facets fail, ten and more for each. Most of these vertices would have
+//! to be placed in the end: they are placed at once.
 //!
 //! A vertex on a flat part of the hull may have a star of slivers with all others there. How long it takes to place
 //! some of these is known only from the first ones.
