@@ -28,6 +28,7 @@ use crate::error::{Error, Result};
 use crate::ids::Slot;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::predicates::exact_calls;
 
 /// Failing facets for each thread that take longer to flip than the thread to wake up; and as many if all threads are
 /// to be used.
@@ -39,6 +40,9 @@ const SAMPLE: usize = 1 << 10;
 
 /// Rows of a journal for which the memory is always kept.
 const KEPT: usize = 1 << 14;
+
+/// An exact evaluation takes as long as this number of certificates (`make calibrate`).
+pub(crate) const CERTIFICATES_PER_EXACT: u64 = 4;
 
 /// Least number of free cells made at once where there are none.
 const ROOM: usize = 16;
@@ -62,7 +66,9 @@ pub struct Flips<G: Dimension> {
     n_before: usize,
     n_flips: u64,
     certificates: u64,
-    /// How many certificates may be evaluated.
+    /// Signs evaluated exactly among them.
+    exact: u64,
+    /// How much may be spent, in certificates.
     most: u64,
     /// Whether these were not enough.
     is_exhausted: bool,
@@ -82,6 +88,7 @@ impl<G: Dimension> Default for Flips<G> {
             n_before: 0,
             n_flips: 0,
             certificates: 0,
+            exact: 0,
             most: u64::MAX,
             is_exhausted: false,
             has_failed: false,
@@ -100,13 +107,26 @@ impl<G: Dimension> Flips<G> {
     }
 
     fn begin(&mut self, most: u64) {
-        (self.n_flips, self.certificates, self.most) = (0, 0, most);
+        (self.n_flips, self.certificates, self.exact, self.most) = (0, 0, 0, most);
         (self.is_exhausted, self.has_failed) = (false, false);
         self.stuck.clear();
         self.later.clear();
         self.changed.clear();
         self.made.clear();
         self.journal.clear();
+    }
+
+    /// Adds the exact evaluations since `counted`, and counts from there on.
+    #[inline(always)]
+    fn count_exact(&mut self, counted: &mut u64) {
+        let now = exact_calls();
+        self.exact += now - std::mem::replace(counted, now);
+    }
+
+    /// What has been spent, in certificates.
+    #[inline(always)]
+    fn spent(&self) -> u64 {
+        self.certificates + CERTIFICATES_PER_EXACT * self.exact
     }
 
     /// Makes room for what a flip enters: twice that of one for a 4-4 flip.
@@ -204,7 +224,8 @@ impl<G: Dimension> Delaunay<G> {
     /// Flips until no facet of a triangulation fails, where `suspects` are all that may; leaves in `stuck` those that
     /// fail still as they cannot be flipped, all of cells that are there. There are none in the plane; if there are,
     /// [`undo_flips`](Self::undo_flips) must follow. Returns the number of flips; `None` if more than `most`
-    /// certificates would have to be evaluated on the way, and then [`undo_flips`](Self::undo_flips) must follow, too.
+    /// certificates would have to be evaluated on the way, exact evaluations counted as
+    /// [so many](CERTIFICATES_PER_EXACT), and then [`undo_flips`](Self::undo_flips) must follow, too.
     /// After an error all is as it was.
     pub(crate) fn flip_all(
         &mut self,

@@ -104,8 +104,9 @@ pub struct Constants {
     /// Place all vertices that have moved, where these are few enough for that to cost less than a rebuild, when more
     /// facets and cells fail for each of them than this number. (Where they leave a lattice all of their facets fail.)
     pub failures_per_moved: f64,
-    /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long. (Where nearly all
-    /// cells change at once flips may be quadratic in their number: points on a sphere that becomes an ellipsoid.)
+    /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long, and what a rebuild
+    /// would evaluate exactly. (Where nearly all cells change at once flips may be quadratic in their number: points on
+    /// a sphere that becomes an ellipsoid.)
     pub certified_per_vertex: u64,
     /// Times that flips may be stuck before the triangulation is rebuilt.
     pub max_rounds: usize,
@@ -114,15 +115,22 @@ pub struct Constants {
     /// in clusters, in steps of 0.01 to 0.6 spacings: with so many, repair and rebuild take as long. In the plane flips
     /// are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
     pub max_failing: f64,
-    /// The same where there are ties. Measured with lattices, face-centred ones, layers and grids with noise, sheared
-    /// and back: where repair takes longer, an eighth and more fail.
-    pub max_failing_of_ties: f64,
+    /// The same where hardly a cell is inverted, or ties are, and the clusters of cells that hang together by what fails
+    /// are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back.
+    pub max_failing_of_small: f64,
+    /// The same where clusters are large. Measured with spheres, spheres within each other and cylinders.
+    pub max_failing_of_large: f64,
+    /// A cluster of this number of cells is large.
+    pub cells_of_large: f64,
+    /// Hardly a cell is inverted where so many times as many facets fail, and more. (A random point is taken back for
+    /// every other inverted cell, and placing it costs as much as two dozen failing facets.)
+    pub failing_per_inverted: f64,
     /// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random
-    /// points need none, those of a sheared lattice about one, or one in ten if they are noisy.)
+    /// points need none, those of a sheared lattice about one.)
     pub exact_of_ties: f64,
     /// How many times the limit a sample has to find to be believed: about the error of a small one.
     pub sample_margin: f64,
-    /// Exact evaluations of a rebuild for each one of a sweep, measured with sheared lattices: three to five in space.
+    /// Exact evaluations of a rebuild for each one of a sweep, measured with sheared lattices.
     pub exact_per_swept: f64,
     /// Placing vertices is given up where, by what is counted, those left would cost more than this number of rebuilds.
     /// (Among ties in space placing takes several times as long as the counts tell.)
@@ -223,7 +231,10 @@ const PLANE: Constants = Constants {
     certified_per_vertex: 8,
     max_rounds: 8,
     max_failing: 0.3,
-    max_failing_of_ties: 0.3,
+    max_failing_of_small: 0.3,
+    max_failing_of_large: 0.3,
+    cells_of_large: 7.0,
+    failing_per_inverted: 80.0,
     exact_of_ties: 0.1,
     sample_margin: 1.25,
     exact_per_swept: 2.0,
@@ -259,10 +270,11 @@ const SPACE: Constants = Constants {
     rebuilt_per_placement: 10,
     failures_per_placement: 12,
     failures_per_moved: 5.0,
-    certified_per_vertex: 20,
+    certified_per_vertex: 80,
     max_failing: 0.28,
-    max_failing_of_ties: 0.1,
-    exact_per_swept: 4.0,
+    max_failing_of_small: 0.7,
+    max_failing_of_large: 0.03,
+    exact_per_swept: 2.0,
     max_placing: 1.0,
     watched_share: 0.1,
     ..PLANE

@@ -6,7 +6,7 @@ use super::Flips;
 use crate::complex::{CellRange, Corners, Facet, INFINITE, Obstacle};
 use crate::delaunay::Dimension;
 use crate::delaunay::site::Sites;
-use crate::predicates::StaticFilter;
+use crate::predicates::{StaticFilter, exact_calls};
 use crate::simd::{Avx2, LANES};
 
 /// Flips cells of a range.
@@ -20,6 +20,7 @@ impl<G: Dimension> Flipper<'_, '_, G> {
     /// Flips until no suspect is left, or none but those that are stuck or for later.
     pub(super) fn flip_all(&mut self, flips: &mut Flips<G>) {
         let mut before = flips.n_flips;
+        let mut counted = exact_calls();
         loop {
             // Most suspects hold. If one of those taken together changes cells of the others, what has become of these
             // is a suspect again.
@@ -30,6 +31,7 @@ impl<G: Dimension> Flipper<'_, '_, G> {
                 flips.suspects.truncate(rest.len());
                 let hold = self.surely_hold(avx2, &four);
                 flips.certificates += u64::from(hold.count_ones());
+                flips.count_exact(&mut counted);
                 for k in (0..LANES).rev().filter(|k| hold >> k & 1 == 0) {
                     if self.flip_suspect(four[k], flips).is_break() {
                         return;
@@ -37,6 +39,7 @@ impl<G: Dimension> Flipper<'_, '_, G> {
                 }
             }
             while let Some(facet) = flips.suspects.pop() {
+                flips.count_exact(&mut counted);
                 if self.flip_suspect(facet, flips).is_break() {
                     return;
                 }
@@ -85,7 +88,7 @@ impl<G: Dimension> Flipper<'_, '_, G> {
     /// Flips a facet if it fails, or puts it off; ends where there is no memory, or too much has been evaluated.
     #[inline(always)]
     fn flip_suspect(&mut self, facet: Facet, flips: &mut Flips<G>) -> ControlFlow<()> {
-        if flips.certificates >= flips.most {
+        if flips.spent() >= flips.most {
             flips.is_exhausted = true;
             return ControlFlow::Break(());
         }

@@ -21,6 +21,10 @@ use crate::predicates::squared_distance;
 /// area is that small, next to a square. Between what rounding makes and what any mesh has; nothing else depends on it.
 const FLAT: f64 = 1e-9;
 
+/// Flat cells that are taken away at most for each one that has to be. On sheared lattices they are about as many. On a
+/// hull that is rough there are more, and filling large dents there gets stuck.
+const TAKEN_PER_INVERTED: usize = 64;
+
 /// Cells of a star that are looked at in the time of a certificate.
 const SEEN_PER_CERTIFICATE: usize = 8;
 
@@ -55,9 +59,10 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Lists the flat cells around those listed, and marks all; whether these are not too many.
+    /// Lists flat cells around those listed, the nearest ones if there are many, and marks all; whether there was time.
     fn gather_flat(&mut self, untangling: &mut Untangling<G>) -> Result<bool> {
         untangling.cells.iter().for_each(|&c| self.complex.set_mark(c, 1));
+        let most = TAKEN_PER_INVERTED * untangling.cells.len();
         let mut k = 0;
         while k < untangling.cells.len() {
             let cell = *self.complex.cell(untangling.cells[k]);
@@ -71,6 +76,9 @@ impl<G: Dimension> Delaunay<G> {
                     return Ok(false);
                 }
                 if self.is_flat(next) {
+                    if untangling.cells.len() == most {
+                        return Ok(true);
+                    }
                     memory::push(&mut untangling.cells, next)?;
                     self.complex.set_mark(next, 1);
                 }

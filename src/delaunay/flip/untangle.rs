@@ -7,7 +7,8 @@
 //! ```text
 //! exchange cells that are not positive, with one or two neighbours, for positive ones on the same sites
 //! if some are left: take flat cells at the hull away until none is (peel)
-//! where the hull is not convex: exchange ghost cells, which adds a positive cell under them
+//! where the hull is not convex: exchange ghost cells, which adds a positive cell under them; again, in another order,
+//!     where that is stuck
 //! ```
 //!
 //! An exchange is a flip, done for another reason: of two cells for three or three for two in space, two for two in the
@@ -37,6 +38,12 @@ const HARD_SHARE: usize = 4;
 /// leave a side of a lattice dent all of it, and where some have gone outwards what is added soon reaches across the side
 /// and is stuck.
 const FACETS_PER_DENT: usize = 4;
+
+/// Dents are filled in this number of orders at most, of which nine in ten end: where edges around a vertex that has sunk
+/// wait for each other, none of them can be flipped. (In a regular triangulation of the plane that is the same:
+/// Edelsbrunner and Shah, 10.1007/BF01975867.) But only while this number of exchanges succeed for each that does not.
+const ATTEMPTS: u32 = 8;
+const FILLED_PER_STUCK: u64 = 16;
 
 /// The most cells on either side of an exchange, and facets around it.
 const MOST_CELLS: usize = 3;
@@ -248,10 +255,37 @@ impl<G: Dimension> Delaunay<G> {
         failures: &Failures,
         inner: &G::Point,
     ) -> Result<bool> {
-        untangling.ridges.clear();
-        memory::append(&mut untangling.ridges, &failures.ridges)?;
-        self.add_ridges(&failures.open_ghosts, &mut untangling.ridges)?;
-        self.add_ridges(&untangling.flips.changed, &mut untangling.ridges)?;
+        let flips = &untangling.flips;
+        let before = (flips.journal.len(), flips.changed.len(), flips.suspects.len(), flips.n_flips);
+        for attempt in 0..ATTEMPTS {
+            untangling.ridges.clear();
+            memory::append(&mut untangling.ridges, &failures.ridges)?;
+            self.add_ridges(&failures.open_ghosts, &mut untangling.ridges)?;
+            self.add_ridges(&untangling.flips.changed, &mut untangling.ridges)?;
+            if attempt > 0 {
+                // Any other order.
+                let factor = attempt.wrapping_mul(0x9e37_79b9);
+                untangling.ridges.sort_unstable_by_key(|ridge| ridge.code().wrapping_mul(factor));
+            }
+            if self.fill_listed_dents(untangling, inner)? {
+                return Ok(true);
+            }
+            let filled = untangling.flips.n_flips - before.3;
+            let are_most_stuck = FILLED_PER_STUCK * untangling.stuck.len() as u64 > filled;
+            if attempt + 1 == ATTEMPTS || are_most_stuck || untangling.is_exhausted() {
+                break;
+            }
+            let flips = &mut untangling.flips;
+            self.complex.undo_flips(flips.journal.drain(before.0..).rev());
+            flips.changed.truncate(before.1);
+            flips.suspects.truncate(before.2);
+            flips.n_flips = before.3;
+        }
+        Ok(false)
+    }
+
+    /// As [`fill_dents`](Self::fill_dents), where these ridges are listed, those at the end first.
+    fn fill_listed_dents(&mut self, untangling: &mut Untangling<G>, inner: &G::Point) -> Result<bool> {
         loop {
             let before = untangling.flips.n_flips;
             untangling.stuck.clear();

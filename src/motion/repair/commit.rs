@@ -11,7 +11,8 @@
 //! place the vertices that were taken back, one by one
 //! ```
 //!
-//! Untangling is tried once, and undone where flips are stuck after it. Invariant: with every vertex taken back all is as
+//! Untangling is tried once, and undone where flips are stuck after it. Where it fails and many facets fail, all is
+//! rebuilt: flips would be stuck among what is placed. Invariant: with every vertex taken back all is as
 //! before the commit, so taking back comes to an end; and when it has, the cells are the Delaunay triangulation of the
 //! vertices where they are ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the
 //! one that moved farthest is taken back, so that a vertex that jumps across the domain goes first.
@@ -27,7 +28,7 @@
 use super::Repair;
 use super::scratch::At;
 use crate::complex::{Corners, INFINITE};
-use crate::delaunay::Dimension;
+use crate::delaunay::{CERTIFICATES_PER_EXACT, Dimension};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
@@ -36,7 +37,7 @@ use crate::motion::attempt::{Mending, Prospect};
 use crate::motion::constants::constants;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
-use crate::predicates::squared_distance;
+use crate::predicates::{exact_calls, squared_distance};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there
@@ -121,19 +122,25 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
-        let most_certificates = constants.certified_per_vertex * self.n_present as u64;
-        let last_certificate = self.kernel.certificates() + most_certificates;
+        // A rebuild's exact evaluations, too.
+        let exact_of_rebuild = (constants.exact_per_swept * repair.exact as f64) as u64;
+        let most_spent = self.spent()
+            + constants.certified_per_vertex * self.n_present as u64
+            + CERTIFICATES_PER_EXACT * exact_of_rebuild;
         for round in 0..constants.max_rounds {
             repair.suspects.clear();
-            let is_mended = is_triangulation
-                || round == 0 && self.untangle(repair)?
-                || self.take_back_failed(repair, most)? == Prospect::Mendable && self.winds_once(repair)?;
-            if !is_mended {
-                return Ok(Mending::TooMuch);
+            is_triangulation = is_triangulation || round == 0 && self.untangle(repair)?;
+            if !is_triangulation {
+                let is_mended = self.is_worth_placing(repair)
+                    && self.take_back_failed(repair, most)? == Prospect::Mendable
+                    && self.winds_once(repair)?;
+                if !is_mended {
+                    return Ok(Mending::TooMuch);
+                }
             }
             memory::reserve(&mut repair.suspects, repair.failures.facets.len())?;
             repair.suspects.extend_from_slice(&repair.failures.facets);
-            let left = last_certificate.saturating_sub(self.kernel.certificates());
+            let left = most_spent.saturating_sub(self.spent());
             let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck, left)?;
             let Some(flips) = flips else {
                 self.kernel.undo_flips();
@@ -155,6 +162,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(Mending::TooMuch)
     }
 
+    /// What has been evaluated so far, in certificates.
+    fn spent(&self) -> u64 {
+        self.kernel.certificates() + CERTIFICATES_PER_EXACT * exact_calls()
+    }
+
+    /// Whether so few facets fail that vertices may be taken back, and placed, besides.
+    fn is_worth_placing(&self, repair: &Repair) -> bool {
+        let n_cells = self.kernel.complex().n_finite() as f64;
+        repair.failures.facets.len() as f64 <= constants::<G>().max_failing * n_cells
+    }
+
     /// Makes the cells a triangulation by flips alone, if that can be done; what has failed is listed as before.
     fn untangle(&mut self, repair: &mut Repair) -> Result<bool> {
         if repair.failures.cells.is_empty() {
@@ -163,8 +181,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return self.winds_once(repair);
             }
         }
-        // Where it is done it takes a sixth of a sweep at most, on lattices of a thousand vertices a third.
-        let most = self.kernel.n_certificates() / 2;
+        // Where it can be done it takes less on lattices, of which small ones have the larger share of flat cells.
+        let most = 2 * self.kernel.n_certificates();
         if !self.kernel.untangle(&repair.failures, &mut repair.suspects, most)? {
             return Ok(false);
         }

@@ -8,9 +8,11 @@
 //! | while vertices are placed | what those placed so far have cost |
 //!
 //! On random points a repair takes as long as a rebuild where about every seventh facet in space, or every fifth in
-//! the plane, fails. Where many vertices in space are cospherical, or nearly so, flips get stuck in flat cells, or
-//! evaluate the certificates of one cluster again and again: then a repair takes longer from a third as many on. That
-//! there are such clusters shows in exact evaluations.
+//! the plane, fails: more and more vertices have to be placed then. Where hardly a cell is inverted, or ties are, which
+//! flips untangle, it may be every third: two thirds of a facet for each cell. In space that holds where what fails is in many small clusters of cells, as
+//! in the cubes of a lattice. In large ones, of hundreds of vertices nearly on a sphere, flips get stuck, or evaluate
+//! the certificates of a cluster again and again: then a repair takes longer when one facet in seventy fails. So some
+//! clusters are gathered.
 //!
 //! Where few vertices leave a lattice all of their facets fail, ten and more for each. Most of these vertices would have
 //! to be placed in the end: they are placed at once.
@@ -18,7 +20,7 @@
 //! A vertex on a flat part of the hull may have a star of slivers with all others there. How long it takes to place
 //! some of these is known only from the first ones.
 
-use crate::delaunay::{Dimension, Failures};
+use crate::delaunay::{Dimension, Failures, Joint};
 use crate::error::Result;
 use crate::motion::MovingTriangulation;
 use crate::motion::attempt::Prospect;
@@ -32,8 +34,8 @@ use crate::predicates::exact_calls;
 struct Findings {
     /// Facets that fail.
     failing: f64,
-    /// Facets and cells that fail.
-    all_failing: f64,
+    /// Cells that are not positive.
+    inverted: f64,
     /// Exact evaluations.
     exact: f64,
 }
@@ -43,24 +45,13 @@ impl Findings {
         let (facets, cells) = (failures.facets.len(), failures.cells.len());
         Findings {
             failing: weight * facets as f64,
-            all_failing: weight * (facets + cells) as f64,
+            inverted: weight * cells as f64,
             exact: weight * exact as f64,
         }
     }
 
-    /// What to do, for `n` vertices of which `n_moved` have moved, and this number of finite cells.
-    fn prospect<G: Dimension>(self, n: usize, n_moved: usize, n_cells: f64, limit: Option<f64>) -> Prospect {
-        let constants = constants::<G>();
-        if limit.is_some_and(|limit| self.all_failing > limit * n_cells) {
-            return Prospect::TooMuch;
-        }
-        let are_few = n_moved as f64 * constants.costs.placed < n as f64 * constants.costs.rebuilt;
-        if are_few && self.all_failing > constants.failures_per_moved * n_moved as f64 {
-            return Prospect::Placeable;
-        }
-        let has_ties = self.exact > constants.exact_of_ties * n_cells;
-        let most = if has_ties { constants.max_failing_of_ties } else { constants.max_failing };
-        if self.failing > most * n_cells { Prospect::TooMuch } else { Prospect::Mendable }
+    fn all_failing(self) -> f64 {
+        self.failing + self.inverted
     }
 }
 
@@ -76,7 +67,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             // A sample may err: it decides where it is far from the limit.
             let weight = slots as f64 / constants::<G>().sample_margin;
             let found = Findings::of(&repair.failures, exact_calls() - start, weight);
-            match found.prospect::<G>(self.n_present, repair.n_new, n_cells, repair.limit) {
+            match self.prospect(found, repair) {
                 Prospect::Mendable => {}
                 Prospect::TooMuch => return Ok(Prospect::TooMuch),
                 Prospect::Placeable => {
@@ -87,9 +78,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let start = exact_calls();
         let most = repair.limit.map_or(most, |limit| most.min((limit * n_cells) as usize));
+        let before = self.staging.others_applied().then_some(self.staging.positions());
         let is_done = self.kernel.sweep(&mut repair.failures, most, before)?;
         let found = Findings::of(&repair.failures, exact_calls() - start, 1.0);
-        let prospect = found.prospect::<G>(self.n_present, repair.n_new, n_cells, repair.limit);
+        let prospect = self.prospect(found, repair);
         if is_done || prospect == Prospect::Placeable {
             repair.note_findings(found, n_cells);
         } else {
@@ -98,12 +90,39 @@ impl<G: Dimension> MovingTriangulation<G> {
         repair.was_foreseen = prospect == Prospect::TooMuch;
         Ok(prospect)
     }
+
+    /// What to do about these findings.
+    fn prospect(&mut self, found: Findings, repair: &Repair) -> Prospect {
+        let constants = constants::<G>();
+        let (n, n_moved) = (self.n_present as f64, repair.n_new as f64);
+        let n_cells = self.kernel.complex().n_finite() as f64;
+        if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
+            return Prospect::TooMuch;
+        }
+        let are_few = n_moved * constants.costs.placed < n * constants.costs.rebuilt;
+        if are_few && found.all_failing() > constants.failures_per_moved * n_moved {
+            return Prospect::Placeable;
+        }
+        if found.failing <= constants.max_failing_of_large * n_cells {
+            return Prospect::Mendable;
+        }
+        let has_ties = found.exact > constants.exact_of_ties * n_cells;
+        let joint = if has_ties { Joint::Uncertain } else { Joint::Failing };
+        let most = if self.kernel.mean_cluster(&repair.failures.facets, joint) > constants.cells_of_large {
+            constants.max_failing_of_large
+        } else if has_ties || found.inverted * constants.failing_per_inverted < found.failing {
+            constants.max_failing_of_small
+        } else {
+            constants.max_failing
+        };
+        if found.failing > most * n_cells { Prospect::TooMuch } else { Prospect::Mendable }
+    }
 }
 
 impl Repair {
     fn note_findings(&mut self, found: Findings, n_cells: f64) {
         self.exact = found.exact as u64;
-        self.share_failing = found.all_failing / n_cells;
+        self.share_failing = found.all_failing() / n_cells;
         self.was_foreseen = false;
     }
 }

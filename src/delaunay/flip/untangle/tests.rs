@@ -209,3 +209,17 @@ fn undoing_goes_back_to_before_untangling_only() {
     }
     assert!(n_after_several > 3, "{n_after_several}");
 }
+
+/// Of these ten lattices four have dents that are stuck in the first order.
+#[test]
+fn dents_that_are_stuck_are_filled_in_another_order() {
+    let mut n_mended = 0;
+    for seed in 1..11 {
+        let mut points = lattice::<Space>(20, &mut Rng::new(seed));
+        let mut t = built::<Space>(&points);
+        points.iter_mut().for_each(|p| p[0] += 0.001 * p[1]);
+        let failures = move_all(&mut t, &points);
+        n_mended += usize::from(mends(&mut t, &failures));
+    }
+    assert!(n_mended > 8, "{n_mended}");
+}
