@@ -8,9 +8,9 @@
 //! | while vertices are placed | what those placed so far have cost |
 //!
 //! On random points a repair takes as long as a rebuild where about every seventh facet in space, or every fifth in
-//! the plane, fails: more and more vertices have to be placed then. Where hardly a cell is inverted, or ties are, which
-//! flips untangle, it may be every third: two thirds of a facet for each cell. In space that holds where what fails is in many small clusters of cells, as
-//! in the cubes of a lattice. In large ones, of hundreds of vertices nearly on a sphere, flips get stuck, or evaluate
+//! the plane, fails: more and more vertices have to be placed then. In space it may be every third where hardly a cell is
+//! inverted, or there are ties and flips untangle the cells. That holds if what fails is in many small clusters of cells,
+//! as in the cubes of a lattice. In large ones, of hundreds of vertices nearly on a sphere, flips get stuck, or evaluate
 //! the certificates of a cluster again and again: then a repair takes longer when one facet in seventy fails. So some
 //! clusters are gathered.
 //!
