@@ -41,6 +41,9 @@ impl<G: Dimension> Delaunay<G> {
             let before = untangling.flips.n_flips;
             let (mut n_left, mut are_positive) = (0, true);
             for k in 0..untangling.cells.len() {
+                if untangling.is_exhausted() {
+                    return Ok(false);
+                }
                 let c = untangling.cells[k];
                 if !self.is_finite(c) || self.take_away(c, untangling)? {
                     continue;
