@@ -17,18 +17,19 @@
 //! for later. Sites keep their old cells until no flip will be taken back.
 
 pub use flipper::Flipper;
+pub(crate) use flips::CERTIFICATES_PER_EXACT;
+pub use flips::Flips;
 
 use islands::Island;
 use untangle::Untangling;
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, Obstacle, Row};
+use crate::complex::{Corners, Facet, Row};
 use crate::error::{Error, Result};
-use crate::ids::Slot;
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::predicates::exact_calls;
 
 /// Failing facets for each thread that take longer to flip than the thread to wake up; and as many if all threads are
 /// to be used.
@@ -41,134 +42,8 @@ const SAMPLE: usize = 1 << 10;
 /// Rows of a journal for which the memory is always kept.
 const KEPT: usize = 1 << 14;
 
-/// An exact evaluation takes as long as this number of certificates: their costs in `motion::constants` are as 135 to 30
-/// in space, and as 80 to 20 in the plane.
-pub(crate) const CERTIFICATES_PER_EXACT: u64 = 4;
-
 /// Least number of free cells made at once where there are none.
 const ROOM: usize = 16;
-
-/// What has been flipped, and what is to be.
-#[derive(Debug)]
-pub struct Flips<G: Dimension> {
-    /// Facets that may fail.
-    suspects: Vec<Facet>,
-    /// Facets that fail and cannot be flipped.
-    stuck: Vec<Facet>,
-    /// Facets that may fail, for when there are more cells.
-    later: Vec<Facet>,
-    /// Of each flip, two cells that have all its sites as corners.
-    changed: Vec<Slot>,
-    /// The third cell of flips that have made one.
-    pub(super) made: Vec<Slot>,
-    /// For undoing: the rows that each flip has changed.
-    journal: Vec<Row<G::Corners>>,
-    /// How many rows of other flips, before these, would be undone with them.
-    n_before: usize,
-    n_flips: u64,
-    certificates: u64,
-    /// Signs evaluated exactly among them.
-    exact: u64,
-    /// How much may be spent, in certificates.
-    most: u64,
-    /// Whether these were not enough.
-    is_exhausted: bool,
-    /// Whether there was no memory to go on.
-    has_failed: bool,
-}
-
-impl<G: Dimension> Default for Flips<G> {
-    fn default() -> Self {
-        Flips {
-            suspects: Vec::new(),
-            stuck: Vec::new(),
-            later: Vec::new(),
-            changed: Vec::new(),
-            made: Vec::new(),
-            journal: Vec::new(),
-            n_before: 0,
-            n_flips: 0,
-            certificates: 0,
-            exact: 0,
-            most: u64::MAX,
-            is_exhausted: false,
-            has_failed: false,
-        }
-    }
-}
-
-impl<G: Dimension> Flips<G> {
-    fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.suspects)
-            + memory::bytes_of(&self.stuck)
-            + memory::bytes_of(&self.later)
-            + memory::bytes_of(&self.changed)
-            + memory::bytes_of(&self.made)
-            + memory::bytes_of(&self.journal)
-    }
-
-    fn begin(&mut self, most: u64) {
-        (self.n_flips, self.certificates, self.exact, self.most) = (0, 0, 0, most);
-        (self.is_exhausted, self.has_failed) = (false, false);
-        self.stuck.clear();
-        self.later.clear();
-        self.changed.clear();
-        self.made.clear();
-        self.journal.clear();
-    }
-
-    /// Adds the exact evaluations since `counted`, and counts from there on.
-    #[inline(always)]
-    fn count_exact(&mut self, counted: &mut u64) {
-        let now = exact_calls();
-        self.exact += now - std::mem::replace(counted, now);
-    }
-
-    /// What has been spent, in certificates.
-    #[inline(always)]
-    fn spent(&self) -> u64 {
-        self.certificates + CERTIFICATES_PER_EXACT * self.exact
-    }
-
-    /// Makes room for what a flip enters: twice that of one for a 4-4 flip.
-    #[inline(always)]
-    fn reserve(&mut self) -> Result<(), Obstacle> {
-        let has_room = self.suspects.capacity() - self.suspects.len() >= 12
-            && self.changed.capacity() - self.changed.len() >= 4
-            && self.made.capacity() - self.made.len() >= 1
-            && self.journal.capacity() - self.journal.len() >= 6;
-        if has_room { Ok(()) } else { self.grow().map_err(|_| Obstacle::Memory) }
-    }
-
-    #[cold]
-    fn grow(&mut self) -> Result<()> {
-        memory::reserve(&mut self.suspects, 12)?;
-        memory::reserve(&mut self.changed, 4)?;
-        memory::reserve(&mut self.made, 1)?;
-        memory::reserve(&mut self.journal, 6)
-    }
-
-    /// Enters a flip: facets on its boundary, of two cells that have all its sites, and the rows before.
-    #[inline(always)]
-    pub(super) fn enter<const N: usize, const ROWS: usize>(
-        &mut self,
-        (outer, rows): ([Facet; N], [Row<G::Corners>; ROWS]),
-    ) {
-        self.changed.extend([outer[0].cell(), outer[N / 2].cell()]);
-        self.journal.extend(rows);
-        self.suspects.extend(outer);
-    }
-
-    /// Lists a facet that was not flipped.
-    fn put_off(&mut self, facet: Facet, obstacle: Obstacle) {
-        let listed = match obstacle {
-            Obstacle::Shape => memory::push(&mut self.stuck, facet),
-            Obstacle::OtherRange | Obstacle::Full => memory::push(&mut self.later, facet),
-            Obstacle::Memory => Err(Error::OutOfMemory { bytes: 0 }),
-        };
-        self.has_failed = listed.is_err();
-    }
-}
 
 /// What happens to facets that are stuck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -454,7 +329,18 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
+/// The sites of the facet opposite corner `i`, in ascending order.
+fn key<C: Corners>(corners: &C, i: usize) -> [SiteId; 3] {
+    let mut key = [SiteId::NONE; 3];
+    for (k, site) in key.iter_mut().enumerate().take(C::N - 1) {
+        *site = corners[(i + k + 1) % C::N];
+    }
+    key.sort_unstable();
+    key
+}
+
 mod flipper;
+mod flips;
 mod islands;
 mod peel;
 #[cfg(test)]

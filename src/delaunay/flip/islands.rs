@@ -12,7 +12,7 @@
 //! Cost: an in-sphere test for each pair of a facet and a vertex, some hundreds for an island. What it spares is to
 //! take all flips back and a vertex with them, and to flip again.
 
-use super::{Delaunay, Dimension, Flips};
+use super::{Delaunay, Dimension, Flips, key};
 use crate::complex::{Corners, Facet, NewCell};
 use crate::delaunay::site::Sites;
 use crate::error::Result;
@@ -81,13 +81,6 @@ impl<C: Corners> Island<C> {
         }
         Ok(())
     }
-}
-
-/// The sites of the facet opposite corner `i` of a cell in space.
-fn key<C: Corners>(corners: &C, i: usize) -> [SiteId; 3] {
-    let mut key = [1, 2, 3].map(|k| corners[(i + k) % C::N]);
-    key.sort_unstable();
-    key
 }
 
 /// The predicates, and how many in-sphere tests there have been.

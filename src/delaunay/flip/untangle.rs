@@ -22,21 +22,21 @@
 //! lattice of 10,648 vertices, sheared by 0.001 in each timestamp, `deldrift_bench --targets --target shear_grid` has 1.2
 //! microseconds a vertex for repairs; 5.4 without it, and 2.4 for rebuilding.)
 
-use super::{Delaunay, Dimension, Flips};
+use super::{Delaunay, Dimension, Flips, key};
 use crate::complex::{Corners, Facet, INFINITE, NewCell};
 use crate::delaunay::Failures;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
-/// It ends at once when more of the cells looked at than this number and one in `HARD_SHARE` can neither be exchanged nor
-/// peeled: where vertices go farther than cells are thick, hardly any can.
+/// It ends when more than this number of cells, and one in `HARD_SHARE` of those seen, cannot be exchanged and are not
+/// flat: where vertices go farther than cells are thick, hardly any can be exchanged.
 const HARD: usize = 8;
 const HARD_SHARE: usize = 4;
 
-/// Nor is it begun with more ridges that are not convex than one for this number of facets of the hull. Vertices that
-/// leave a side of a lattice dent all of it, and where some have gone outwards what is added soon reaches across the side
-/// and is stuck.
+/// It is not begun with more ridges that are not convex than one for this number of facets of the hull; a sweep lists each
+/// from both sides, and they are known only if all cells are positive. Vertices that leave a side of a lattice dent all of
+/// it, and where some have gone outwards what is added soon reaches across the side and is stuck.
 const FACETS_PER_DENT: usize = 4;
 
 /// Orders in which dents are filled at most. Four of five times the first one does; else edges around a vertex that has
@@ -115,15 +115,15 @@ impl<C: Corners> Exchange<C> {
         let mut n_glued = 0;
         for a in 0..new.len() {
             for i in 0..C::N {
-                let key = key(&new[a].corners, i);
-                if let Some(&(_, to)) = outer.iter().find(|(outer, _)| *outer == key) {
+                let sites = key(&new[a].corners, i);
+                if let Some(&(_, to)) = outer.iter().find(|(outer, _)| *outer == sites) {
                     new[a].neighbours[i] = to;
                     n_glued += 1;
                     continue;
                 }
                 let others = (0..new.len()).filter(|&b| b != a);
                 let mut facets = others.flat_map(|b| (0..C::N).map(move |j| (b, j)));
-                let Some((b, j)) = facets.find(|&(b, j)| self::key(&new[b].corners, j) == key) else {
+                let Some((b, j)) = facets.find(|&(b, j)| key(&new[b].corners, j) == sites) else {
                     return false;
                 };
                 new[a].neighbours[i] = Facet::new(Slot::at(b), j);
@@ -132,16 +132,6 @@ impl<C: Corners> Exchange<C> {
         }
         n_glued == outer.len()
     }
-}
-
-/// The sites of the facet opposite corner `i`, in ascending order.
-fn key<C: Corners>(corners: &C, i: usize) -> [SiteId; 3] {
-    let mut key = [SiteId::NONE; 3];
-    for (k, site) in key.iter_mut().enumerate().take(C::N - 1) {
-        *site = corners[(i + k + 1) % C::N];
-    }
-    key.sort_unstable();
-    key
 }
 
 /// The same cell, with the ghost vertex last if it has that.

@@ -12,10 +12,11 @@
 //! compute that of all costs eight sweeps. What is recomputed after that, and watched, is counted and weighed by
 //! measured costs ([`constants`](super::constants)). When it has cost more than the expensive way would have, by a
 //! share of a computation of all tolerances, the expensive way is taken, and the cheaper one is tried more and more
-//! rarely. In space the way down is repair, slack, watching, without slack where almost nothing changes, and the way up the
-//! same, without slack where much has changed; in the plane a sweep is so cheap that slack would seldom pay. Before watching a sample of the vertices is checked. When what is
-//! watched or what is recomputed has cost more than the other by a share of a computation of all, all tolerances are
-//! computed again, so that what is watched follows from how far the vertices go now.
+//! rarely. In space the way down is repair, slack, watching, without slack where almost nothing changes, and the way
+//! up the same, without slack where much has changed; in the plane a sweep is so cheap that slack would seldom pay.
+//! Before watching a sample of the vertices is checked. When what is watched or what is recomputed has cost more than
+//! the other by a share of a computation of all, all tolerances are computed again, so that what is watched follows
+//! from how far the vertices go now.
 //!
 //! **Rebuilding.** A repair may have to rebuild, or cost more than that, only once: when points leave a lattice. So
 //! the next commit is swept as well. If repairs rebuild twice in a row, the next commit rebuilds without a sweep, then
