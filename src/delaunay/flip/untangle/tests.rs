@@ -210,7 +210,7 @@ fn undoing_goes_back_to_before_untangling_only() {
     assert!(n_after_several > 3, "{n_after_several}");
 }
 
-/// Of these ten lattices four have dents that are stuck in the first order.
+/// Of these ten lattices three have dents that are stuck in the first order.
 #[test]
 fn dents_that_are_stuck_are_filled_in_another_order() {
     let mut n_mended = 0;
