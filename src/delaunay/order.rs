@@ -212,31 +212,67 @@ fn hilbert_key_2(x: u32, y: u32, bits: u32) -> u32 {
     key
 }
 
-/// Position along the space's Hilbert curve (Skilling's transform, 10.1063/1.1751381).
-fn hilbert_key_3(mut x: [u32; 3], bits: u32) -> u32 {
-    let mut q = 1u32 << (bits - 1);
-    while q > 1 {
-        let p = q - 1;
-        for i in 0..3 {
-            let set = 0u32.wrapping_sub((x[i] & q != 0) as u32);
-            let t = (x[0] ^ x[i]) & p & !set;
-            x[0] ^= (p & set) | t;
-            x[i] ^= t;
+/// The space's Hilbert curve (Skilling's transform, 10.1063/1.1751381): for each state and octant (three bits, x first)
+/// the position along the curve (bits 0 to 2) and the state after it.
+///
+/// The state is what the octants passed so far do to those within: which coordinates are mirrored (bits 0 to 2, x last),
+/// in which order they are (as in [`ORDERS`], times 8), and whether the curve is passed backwards (48).
+static CURVE_3: [[u16; 8]; 96] = {
+    let mut table = [[0; 8]; 96];
+    let mut state = 0;
+    while state < 96 {
+        let mut octant = 0;
+        while octant < 8 {
+            table[state][octant] = step_of_curve_3(state, octant);
+            octant += 1;
         }
-        q >>= 1;
+        state += 1;
     }
-    x[1] ^= x[0];
-    x[2] ^= x[1];
-    let mut t = 0;
-    let mut q = 1u32 << (bits - 1);
-    while q > 1 {
-        if x[2] & q != 0 {
-            t ^= q - 1;
+    table
+};
+
+/// All orders of three coordinates.
+const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 0, 2], [2, 1, 0], [0, 2, 1], [1, 2, 0], [2, 0, 1]];
+
+/// An entry of [`CURVE_3`].
+const fn step_of_curve_3(state: usize, octant: usize) -> u16 {
+    let (order, is_backwards) = (ORDERS[state / 8 % 6], state / 48);
+    let mut mirrored = [state >> 2 & 1, state >> 1 & 1, state & 1];
+    let given = [octant >> 2 & 1, octant >> 1 & 1, octant & 1];
+    let x = [given[order[0]] ^ mirrored[0], given[order[1]] ^ mirrored[1], given[order[2]] ^ mirrored[2]];
+    let mut after = order;
+    let mut i = 0;
+    while i < 3 {
+        if x[i] == 1 {
+            mirrored[0] ^= 1;
+        } else {
+            (after[0], after[i]) = (after[i], after[0]);
+            (mirrored[0], mirrored[i]) = (mirrored[i], mirrored[0]);
         }
-        q >>= 1;
+        i += 1;
     }
-    let x = x.map(|v| v ^ t);
-    spread_3(x[0]) << 2 | spread_3(x[1]) << 1 | spread_3(x[2])
+    let gray = [x[0], x[0] ^ x[1], x[0] ^ x[1] ^ x[2]];
+    let [a, b, c] = [gray[0] ^ is_backwards, gray[1] ^ is_backwards, gray[2] ^ is_backwards];
+    let mut k = 0;
+    while !(ORDERS[k][0] == after[0] && ORDERS[k][1] == after[1] && ORDERS[k][2] == after[2]) {
+        k += 1;
+    }
+    let next = mirrored[0] << 2 | mirrored[1] << 1 | mirrored[2] | k << 3;
+    ((next + 48 * (is_backwards ^ gray[2])) << 3 | a << 2 | b << 1 | c) as u16
+}
+
+/// Position along the space's Hilbert curve of the cell `x` of a grid of `2^bits` cells a side.
+fn hilbert_key_3(x: [u32; 3], bits: u32) -> u32 {
+    let octants = spread_3(x[0]) << 2 | spread_3(x[1]) << 1 | spread_3(x[2]);
+    let (mut key, mut state) = (0, 0);
+    let mut shift = 3 * bits;
+    while shift > 0 {
+        shift -= 3;
+        let entry = CURVE_3[state][(octants >> shift & 7) as usize];
+        key = key << 3 | u32::from(entry & 7);
+        state = usize::from(entry >> 3);
+    }
+    key
 }
 
 /// The low 10 bits, three places apart.
@@ -300,6 +336,37 @@ mod tests {
             space.sort_by_key(|&c| hilbert_key_3(c, bits));
             for w in space.windows(2) {
                 assert_eq!((0..3).map(|k| w[0][k].abs_diff(w[1][k])).sum::<u32>(), 1, "{w:?}");
+            }
+        }
+    }
+
+    /// Skilling's transform, bit by bit.
+    fn transformed(mut x: [u32; 3], bits: u32) -> u32 {
+        for q in (1..bits).rev().map(|bit| 1 << bit) {
+            for i in 0..3 {
+                if x[i] & q != 0 {
+                    x[0] ^= q - 1;
+                } else {
+                    let t = (x[0] ^ x[i]) & (q - 1);
+                    (x[0], x[i]) = (x[0] ^ t, x[i] ^ t);
+                }
+            }
+        }
+        x[1] ^= x[0];
+        x[2] ^= x[1];
+        let set = (1..bits).map(|bit| 1 << bit).filter(|q| x[2] & q != 0);
+        let t = set.fold(0, |t, q| t ^ (q - 1));
+        let x = x.map(|v| v ^ t);
+        (0..bits).rev().fold(0, |key, bit| x.iter().fold(key, |key, v| key << 1 | v >> bit & 1))
+    }
+
+    #[test]
+    fn the_curve_of_space_is_skillings() {
+        let rng = &mut Rng::new(1);
+        for bits in 1..=10 {
+            for _ in 0..5_000 {
+                let x = std::array::from_fn(|_| rng.next() as u32 % (1 << bits));
+                assert_eq!(hilbert_key_3(x, bits), transformed(x, bits), "{x:?}, {bits} bits");
             }
         }
     }
