@@ -15,6 +15,7 @@ use super::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
+use crate::predicates::StaticFilter;
 
 /// What an insertion found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +42,12 @@ pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
 
     /// Frees what [`begin_build`](Self::begin_build) made.
     fn end_build(&mut self) {}
+
+    /// Whether the point is certainly in the sphere of a cell, as far as that is known.
+    #[inline(always)]
+    fn is_inside(&self, _filter: &StaticFilter, _cell: Slot, _q: &G::Point) -> bool {
+        false
+    }
 
     /// Bytes held.
     fn memory_bytes(&self) -> usize;
@@ -137,8 +144,13 @@ impl<G: Dimension> Delaunay<G> {
         near: Slot,
     ) -> Result<Insertion> {
         let q = self.site(s).point;
-        let start = self.walk(&self.filter, &q, near, &mut cavity.steps);
-        if let Some(t) = self.corner_at(start, &q) {
+        let Cavity { scratch, steps, .. } = &mut *cavity;
+        let is_inside = |cell| BUILD && scratch.is_inside(&self.filter, cell, &q);
+        let start = self.walk_until(&self.filter, &q, near, steps, is_inside);
+        // What is inside of a sphere is not at its corners, nor at others.
+        if !is_inside(start)
+            && let Some(t) = self.corner_at(start, &q)
+        {
             return Ok(Insertion::Coincident(t));
         }
         G::Scratch::insert::<BUILD>(self, cavity, start, s)?;

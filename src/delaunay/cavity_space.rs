@@ -10,12 +10,15 @@
 //! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept.
 
 use super::cavity::{Cavity, Insert};
-use super::spheres::Spheres;
+use super::spheres::{Spheres, Table};
 use super::{Delaunay, Space};
 use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
+use crate::predicates::StaticFilter;
+use crate::simd::{Avx2, LANES};
+use std::hint::select_unpredictable;
 
 /// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
 const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
@@ -41,8 +44,9 @@ pub(super) const IN_ZONE: u8 = 1;
 /// Scratch memory.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    /// Cells in conflict: the first `n_zone` entries. The rest is room to write before it is known whether to keep it.
-    zone: Vec<Slot>,
+    /// Cells in conflict, each by the facet through which it was found: the first `n_zone` entries. The rest is room to
+    /// write before it is known whether to keep it.
+    zone: Vec<Facet>,
     n_zone: usize,
     /// How many of them are ghosts.
     n_ghosts: usize,
@@ -64,6 +68,11 @@ impl Insert<Space> for Scratch {
 
     fn end_build(&mut self) {
         self.spheres.end();
+    }
+
+    #[inline(always)]
+    fn is_inside(&self, filter: &StaticFilter, cell: Slot, q: &[f64; 3]) -> bool {
+        self.spheres.is_inside(filter, cell, q)
     }
 
     fn memory_bytes(&self) -> usize {
@@ -91,8 +100,8 @@ impl Insert<Space> for Scratch {
             _ => dig::<false, false>(t, scratch, start, s),
         };
         if let Err(error) = dug.and_then(|()| reserve::<BUILD>(t, cells, &mut ridges, scratch)) {
-            for &c in &scratch.zone[..scratch.n_zone] {
-                t.complex.set_mark(c, 0);
+            for found in &scratch.zone[..scratch.n_zone] {
+                t.complex.set_mark(found.cell(), 0);
             }
             return Err(error);
         }
@@ -100,10 +109,10 @@ impl Insert<Space> for Scratch {
         t.complex.retire_ghosts(scratch.n_ghosts);
         // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
         let reused = zone.len().min(n_rim);
-        for &c in &zone[reused..] {
-            t.complex.release(c);
+        for found in &zone[reused..] {
+            t.complex.release(found.cell());
         }
-        cells.extend_from_slice(&zone[..reused]);
+        cells.extend(zone[..reused].iter().map(|found| found.cell()));
         for _ in reused..n_rim {
             cells.push(t.complex.create_blank());
         }
@@ -148,7 +157,7 @@ fn reserve<const BUILD: bool>(
     if BUILD {
         t.complex.reserve_free(scratch.n_zone)?;
     } else {
-        t.complex.note_all(scratch.zone[..scratch.n_zone].iter().copied())?;
+        t.complex.note_all(scratch.zone[..scratch.n_zone].iter().map(|found| found.cell()))?;
         t.complex.reserve_rows(n_rim)?;
     }
     t.reserve_record(n_rim)?;
@@ -161,13 +170,31 @@ fn reserve<const BUILD: bool>(
 // Each on its own: inlined in the loop over all sites, both would be slower.
 #[inline(never)]
 fn dig_by_lengths(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: Slot, s: SiteId) -> Result<()> {
-    dig::<true, true>(t, scratch, start, s)
+    match Avx2::new() {
+        Some(avx2) => avx2.run_with(
+            (t, scratch),
+            start,
+            s,
+            #[inline(always)]
+            |(t, scratch), start, s| dig::<true, true>(t, scratch, start, s),
+        ),
+        None => dig::<true, true>(t, scratch, start, s),
+    }
 }
 
 /// As [`dig`], in a build with the static bound.
 #[inline(never)]
 fn dig_by_filter(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: Slot, s: SiteId) -> Result<()> {
-    dig::<true, false>(t, scratch, start, s)
+    match Avx2::new() {
+        Some(avx2) => avx2.run_with(
+            (t, scratch),
+            start,
+            s,
+            #[inline(always)]
+            |(t, scratch), start, s| dig::<true, false>(t, scratch, start, s),
+        ),
+        None => dig::<true, false>(t, scratch, start, s),
+    }
 }
 
 /// Finds the zone of `s` from one cell of it, and its rim. After an error the zone is what has been marked.
@@ -184,43 +211,55 @@ fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
     let (q, id) = (&{ t.site(s).point }, t.site(s).id);
     let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
     make_room(zone, rim, meetings, [n_zone, n_rim])?;
-    zone[0] = start;
+    zone[0] = Facet::new(start, 0);
     t.complex.set_mark(start, IN_ZONE);
+    // With the corners of the new cell if the neighbour is not in the zone.
+    macro_rules! look_across {
+        ($out:expr, $corners:expr) => {
+            let out = $out;
+            let known = t.complex.mark(out.cell());
+            // A prepared test is cheaper than a wrong guess whether the cell is known.
+            let in_zone = if BUILD {
+                spheres.is_in_conflict::<BY_LENGTHS>(t, out.cell(), q, id, known)
+            } else {
+                u8::from(known == IN_ZONE || t.is_in_conflict(out.cell(), q, id))
+            };
+            // A site that comes alone finds nothing at hand.
+            if !BUILD && in_zone == IN_ZONE && known != IN_ZONE {
+                t.complex.prefetch_neighbours(out.cell());
+                t.complex.prefetch_marks(t.complex.cell(out.cell()));
+            }
+            t.complex.set_mark(out.cell(), in_zone);
+            zone[n_zone] = out;
+            rim[n_rim] = Rim { corners: $corners, out };
+            n_zone += usize::from(in_zone & !known);
+            n_rim += usize::from(in_zone ^ IN_ZONE);
+        };
+    }
+    let cell = *t.complex.cell(start);
+    look_across!(cell.neighbour(0), joined(cell.corners, 0, s));
     while next < n_zone {
         if let Err(error) = make_room(zone, rim, meetings, [n_zone, n_rim]) {
             scratch.n_zone = n_zone;
             return Err(error);
         }
-        let cell = *t.complex.cell(zone[next]);
-        n_ghosts += cell.is_ghost() as usize;
+        // Through which facet the cell was found: it has been looked across.
+        let (cell, from) = (*t.complex.cell(zone[next].cell()), zone[next].index());
         next += 1;
-        // Written out four times: as a loop the compiler would not unroll it everywhere, 5 % of a build.
-        macro_rules! look_across {
-            ($i:literal) => {
-                let out = cell.neighbour($i);
-                let known = t.complex.mark(out.cell());
-                // A prepared test is cheaper than a wrong guess whether the cell is known.
-                let in_zone = if BUILD {
-                    spheres.is_in_conflict::<BY_LENGTHS>(t, out.cell(), q, id, known)
-                } else {
-                    u8::from(known == IN_ZONE || t.is_in_conflict(out.cell(), q, id))
-                };
-                // A site that comes alone finds nothing at hand.
-                if !BUILD && in_zone == IN_ZONE && known != IN_ZONE {
-                    t.complex.prefetch_neighbours(out.cell());
-                    t.complex.prefetch_marks(t.complex.cell(out.cell()));
-                }
-                t.complex.set_mark(out.cell(), in_zone);
-                zone[n_zone] = out.cell();
-                rim[n_rim] = Rim { corners: joined(cell.corners, $i, s), out };
-                n_zone += usize::from(in_zone & !known);
-                n_rim += usize::from(in_zone ^ IN_ZONE);
-            };
+        if cell.is_ghost() {
+            n_ghosts += 1;
+            for i in (0..4).filter(|&i| i != from) {
+                look_across!(cell.neighbour(i), joined(cell.corners, i, s));
+            }
+            continue;
         }
-        look_across!(0);
-        look_across!(1);
-        look_across!(2);
-        look_across!(3);
+        // Written out, and in an order of corners by which each facet is at a fixed place: an even one, as are all that
+        // exchange two pairs.
+        let at = |k: usize| from ^ k;
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| cell.corners[at(k)]);
+        look_across!(cell.neighbour(at(1)), [s, c, a, d]);
+        look_across!(cell.neighbour(at(2)), [s, a, b, d]);
+        look_across!(cell.neighbour(at(3)), [s, c, b, a]);
     }
     (scratch.n_zone, scratch.n_rim, scratch.n_ghosts) = (n_zone, n_rim, n_ghosts);
     Ok(())
@@ -228,14 +267,19 @@ fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
 
 /// Makes room for the four neighbours of a cell.
 #[inline(always)]
-fn make_room(zone: &mut Vec<Slot>, rim: &mut Vec<Rim>, meetings: &mut Meetings, n: [usize; 2]) -> Result<()> {
+fn make_room(
+    zone: &mut Vec<Facet>,
+    rim: &mut Vec<Rim>,
+    meetings: &mut Meetings,
+    n: [usize; 2],
+) -> Result<()> {
     if zone.len() < n[0] + 4 || rim.len() < n[1] + 4 { grow(zone, rim, meetings, n) } else { Ok(()) }
 }
 
 #[cold]
 #[inline(never)]
 fn grow(
-    zone: &mut Vec<Slot>,
+    zone: &mut Vec<Facet>,
     rim: &mut Vec<Rim>,
     meetings: &mut Meetings,
     [n_zone, n_rim]: [usize; 2],
@@ -253,7 +297,7 @@ fn grow(
         memory::lengthen(rim, n, Rim { corners: [INFINITE; 4], out: facet })?;
     }
     if zone.len() < n_zone + 4 {
-        memory::lengthen(zone, 2 * n_zone + 30, Slot::new(0))?;
+        memory::lengthen(zone, 2 * n_zone + 30, facet)?;
     }
     Ok(())
 }
@@ -295,9 +339,53 @@ fn prepare_by_lengths(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres:
 
 #[inline(always)]
 fn prepare<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
-    let mut spheres = spheres.table();
+    let spheres = spheres.table();
+    match Avx2::new() {
+        Some(avx2) => avx2.run_with(
+            (t, avx2),
+            (rim, cells),
+            spheres,
+            #[inline(always)]
+            |(t, avx2), (rim, cells), spheres| prepare_in_lanes::<BY_LENGTHS>(avx2, t, rim, cells, spheres),
+        ),
+        None => prepare_each::<BY_LENGTHS>(t, rim, cells, spheres),
+    }
+}
+
+fn prepare_each<const BY_LENGTHS: bool>(
+    t: &Delaunay<Space>,
+    rim: &[Rim],
+    cells: &[Slot],
+    mut spheres: Table,
+) {
     for (facet, &cell) in rim.iter().zip(cells) {
         spheres.put::<BY_LENGTHS>(t, cell, &facet.corners);
+    }
+}
+
+/// Four at a time; the last four are those at the end, some of them twice.
+#[inline(always)]
+fn prepare_in_lanes<const BY_LENGTHS: bool>(
+    avx2: Avx2,
+    t: &Delaunay<Space>,
+    rim: &[Rim],
+    cells: &[Slot],
+    mut spheres: Table,
+) {
+    let last = rim.len() - LANES;
+    let s = t.view().point(rim[0].corners[0]);
+    for begin in (0..rim.len()).step_by(LANES) {
+        let begin = begin.min(last);
+        let (rim, cells) = (&rim[begin..], &cells[begin..]);
+        if let (Some(rim), Some(cells)) = (rim.first_chunk(), cells.first_chunk()) {
+            spheres.put_four::<BY_LENGTHS>(
+                avx2,
+                t,
+                s,
+                cells,
+                rim.each_ref().map(|facet: &Rim| &facet.corners),
+            );
+        }
     }
 }
 
@@ -326,7 +414,7 @@ fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
             let site = t.corner_mut(v);
             let old = site.cell.get();
             let is_known = (old < n_labels) & (labels[old as usize % LABELS] == v);
-            let label = if is_known { old } else { n_labels };
+            let label = select_unpredictable(is_known, old, n_labels);
             labels[label as usize % LABELS] = v;
             site.cell = Slot::new(label);
             n_labels += !is_known as u32;

@@ -29,6 +29,19 @@ impl<G: Dimension> Delaunay<G> {
     /// Cell where a walk to `q` from the cell `start` ends. `f` must hold for `q`. Counts its steps.
     #[inline(always)]
     pub(super) fn walk(&self, f: &StaticFilter, q: &G::Point, start: Slot, steps: &mut u64) -> Slot {
+        self.walk_until(f, q, start, steps, |_| false)
+    }
+
+    /// As [`walk`](Self::walk), but a finite cell that is enough ends it, too.
+    #[inline(always)]
+    pub(super) fn walk_until(
+        &self,
+        f: &StaticFilter,
+        q: &G::Point,
+        start: Slot,
+        steps: &mut u64,
+        is_enough: impl Fn(Slot) -> bool,
+    ) -> Slot {
         let n = G::Corners::N;
         let mut cell = start;
         if self.complex.cell(cell).is_ghost() {
@@ -36,6 +49,9 @@ impl<G: Dimension> Delaunay<G> {
         }
         let mut entered = n;
         'cells: loop {
+            if is_enough(cell) {
+                return cell;
+            }
             let c = self.complex.cell(cell);
             for i in 0..n {
                 if i != entered && G::orientation_with(f, self.view(), &c.corners, i, q) < 0.0 {

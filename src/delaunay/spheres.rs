@@ -18,7 +18,8 @@ use crate::complex::INFINITE;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::predicates::{self, Sphere};
+use crate::predicates::{self, Sphere, StaticFilter};
+use crate::simd::{Avx2, LANES, rows};
 
 /// Entries of the table at most: 256 KiB, a part of a core's own cache. Sixteen times as many are no faster.
 const MOST_ENTRIES: usize = 1 << 12;
@@ -81,6 +82,19 @@ impl Spheres {
         self.entries = Vec::new();
     }
 
+    /// Whether the point is certainly in the sphere of this cell; not if that is not in the table.
+    #[inline(always)]
+    pub(super) fn is_inside(&self, filter: &StaticFilter, cell: Slot, q: &[f64; 3]) -> bool {
+        let Some(at) = self.entries.len().checked_sub(1) else { return false };
+        let entry = &self.entries[cell.index() & at];
+        let bound = if self.has_lengths {
+            predicates::side_bound_by_length(entry.length, &entry.first, q)
+        } else {
+            filter.prepared
+        };
+        predicates::side_of_sphere(&entry.sphere, &entry.first, q) > bound && entry.cell == cell
+    }
+
     /// The table as a build uses it.
     #[inline(always)]
     pub(super) fn table(&mut self) -> Table<'_> {
@@ -109,6 +123,45 @@ impl Table<'_> {
         corners: &[SiteId; 4],
     ) {
         put::<BY_LENGTHS>(self.0, t, cell, corners);
+    }
+
+    /// As [`put`](Self::put), for four cells that have `a` for their first corner.
+    #[inline(always)]
+    pub(super) fn put_four<const BY_LENGTHS: bool>(
+        &mut self,
+        avx2: Avx2,
+        t: &Delaunay<Space>,
+        a: &[f64; 3],
+        cells: &[Slot; LANES],
+        corners: [&[SiteId; 4]; LANES],
+    ) {
+        let at = a.map(
+            #[inline(always)]
+            |x| avx2.splat(x),
+        );
+        let others = |i: usize| {
+            avx2.points(corners.map(
+                #[inline(always)]
+                |corners| t.view().point(corners[i]),
+            ))
+        };
+        let (b, c, d) = (others(1), others(2), others(3));
+        let spheres = rows(predicates::sphere(&at, &b, &c, &d));
+        let lengths = if BY_LENGTHS {
+            predicates::edge_length(&at, &b, &c, &d).store()
+        } else {
+            [f64::INFINITY; LANES]
+        };
+        for k in 0..LANES {
+            let entry = entry(self.0, cells[k]);
+            spheres[k].store_to(&mut entry.sphere);
+            (entry.first, entry.cell, entry.length) = (*a, cells[k], lengths[k] as f32);
+        }
+        for k in 0..LANES {
+            if corners[k][3] == INFINITE {
+                self.put::<BY_LENGTHS>(t, cells[k], corners[k]);
+            }
+        }
     }
 
     /// The mark of a cell for `q`: [`IN_ZONE`] if they are in conflict, with ties broken as those of vertex `id`, else 0.
@@ -140,7 +193,7 @@ fn put<const BY_LENGTHS: bool>(
     let [a, b, c, d] = corners.map(|s| t.view().point(s));
     let (sphere, length) = match (corners[3] == INFINITE, BY_LENGTHS) {
         (false, false) => (predicates::sphere(a, b, c, d), f32::INFINITY),
-        (false, true) => (predicates::sphere(a, b, c, d), predicates::edge_length(a, b, c, d)),
+        (false, true) => (predicates::sphere(a, b, c, d), predicates::edge_length(a, b, c, d) as f32),
         (true, false) => (predicates::half_space(&t.filter, a, b, c), f32::INFINITY),
         (true, true) => predicates::half_space_by_length(a, b, c),
     };
@@ -209,7 +262,7 @@ fn is_in_uncertain_conflict<const BY_LENGTHS: bool>(
     // The sphere has been prepared from the corners in this order.
     if !BY_LENGTHS || entry.length == f32::INFINITY {
         let is_kept = entry.length < f32::INFINITY;
-        let length = if is_kept { entry.length } else { predicates::edge_length(a, b, c, d) };
+        let length = if is_kept { entry.length } else { predicates::edge_length(a, b, c, d) as f32 };
         if side.abs() > predicates::side_bound_by_length(length, a, q) {
             entry.length = length;
             return side > 0.0;

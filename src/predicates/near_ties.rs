@@ -158,7 +158,7 @@ fn stages_after_the_static_bound_of_spheres_are_exact() {
             assert_eq!(sign(volume), sign(big::orient3d(1.0, [a, b, c, d])), "{points:?}");
             n_volumes += 1;
         }
-        if side.abs() > side_bound_by_length(edge_length(a, b, c, d), a, q) {
+        if side.abs() > side_bound_by_length(edge_length(a, b, c, d) as f32, a, q) {
             assert_eq!(sign(side), expected, "{points:?}");
             n_by_lengths += 1;
         }

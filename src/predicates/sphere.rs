@@ -78,7 +78,7 @@ pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere
     let squared = Real::max(squared_length(a, b), squared_length(a, c));
     let scale = HALF_SPACE_SCALE * squared;
     let [x, y, z] = fused_cross(&minus(b, a), &minus(c, a)).map(|t| t * scale);
-    ([x, y, z, 0.0], length_above(squared))
+    ([x, y, z, 0.0], length_above(squared) as f32)
 }
 
 /// Positive if `q` is inside the sphere of which `a` is the first corner, negative if outside; open if the
@@ -112,24 +112,27 @@ pub fn side_bound_by_length(length: f32, a: &[f64; 3], q: &[f64; 3]) -> f64 {
     prepared_bound_by_lengths(length.into(), fused_dot(&s, &s))
 }
 
-/// The greatest distance of `b`, `c` and `d` from `a`, from above; infinite where it is too small or too large for
-/// [`side_bound_by_length`], which is infinite, too, then.
+/// The greatest distance of `b`, `c` and `d` from `a`, from above, also after rounding to `f32`; infinite where it is too
+/// small or too large for [`side_bound_by_length`], which is infinite, too, then.
 #[inline(always)]
-pub fn edge_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> f32 {
-    let [uu, vv, ww] = [b, c, d].map(|p| squared_length(a, p));
+pub fn edge_length<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> T {
+    let [uu, vv, ww] = [b, c, d].map(
+        #[inline(always)]
+        |p| squared_length(a, p),
+    );
     length_above(Real::max(Real::max(uu, vv), ww))
 }
 
 #[inline(always)]
-fn squared_length(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+fn squared_length<T: Real>(a: &[T; 3], b: &[T; 3]) -> T {
     let u = minus(b, a);
     fused_dot(&u, &u)
 }
 
 #[inline(always)]
-fn length_above(squared: f64) -> f32 {
-    let length = squared.sqrt() * (1.0 + f64::from(f32::EPSILON));
-    if length >= LEAST_LENGTH { length as f32 } else { f32::INFINITY }
+fn length_above<T: Real>(squared: T) -> T {
+    let length = squared.sqrt() * squared.splat(1.0 + f64::from(f32::EPSILON));
+    T::select(length.is_less(squared.splat(LEAST_LENGTH)), squared.splat(f64::INFINITY), length)
 }
 
 /// The bounds of a cell of the plane and of points next to it, by their own differences from its first corner.

@@ -57,6 +57,10 @@ macro_rules! functions {
 
 impl Lanes {
     functions! {
+        pub(super) fn even_with_even(Lanes) -> Lanes;
+        pub(super) fn odd_with_odd(Lanes) -> Lanes;
+        pub(super) fn low_with_low(Lanes) -> Lanes;
+        pub(super) fn high_with_high(Lanes) -> Lanes;
         pub fn with_last_of(Lanes) -> Lanes;
         pub fn rotated() -> Lanes;
         pub fn are_same(Lanes) -> Lanes;

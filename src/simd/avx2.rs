@@ -125,9 +125,13 @@ macro_rules! functions {
 impl Lanes {
     functions! {
         /// Lane 0 of each, then lane 2 of each.
-        fn even_with_even(x, y) = _mm256_unpacklo_pd(x, y);
+        pub(super) fn even_with_even(x, y) = _mm256_unpacklo_pd(x, y);
         /// Lane 1 of each, then lane 3 of each.
-        fn odd_with_odd(x, y) = _mm256_unpackhi_pd(x, y);
+        pub(super) fn odd_with_odd(x, y) = _mm256_unpackhi_pd(x, y);
+        /// Lanes 0 and 1 of each.
+        pub(super) fn low_with_low(x, y) = _mm256_permute2f128_pd::<0x20>(x, y);
+        /// Lanes 2 and 3 of each.
+        pub(super) fn high_with_high(x, y) = _mm256_permute2f128_pd::<0x31>(x, y);
         fn blend(mask, yes, no) = _mm256_blendv_pd(no, yes, mask);
         /// These, with the last lane of `y`.
         pub fn with_last_of(x, y) = _mm256_blend_pd::<0b1000>(x, y);

@@ -153,6 +153,14 @@ impl Avx2 {
     }
 }
 
+/// The numbers of each lane, in lanes of their own: the reverse of [`Avx2::fours`].
+#[inline(always)]
+pub fn rows([x, y, z, w]: [Lanes; 4]) -> [Lanes; LANES] {
+    let [xy, zw] = [x.even_with_even(y), z.even_with_even(w)];
+    let [xy_odd, zw_odd] = [x.odd_with_odd(y), z.odd_with_odd(w)];
+    [xy.low_with_low(zw), xy_odd.low_with_low(zw_odd), xy.high_with_high(zw), xy_odd.high_with_high(zw_odd)]
+}
+
 /// Prefetches what is at an address, which need not be valid.
 #[inline(always)]
 pub fn prefetch_at<T>(address: *const T) {

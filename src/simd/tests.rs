@@ -84,6 +84,8 @@ fn lanes_are_where_they_belong() {
     let fours = [0, 7, 12, 20].map(|k| numbers[k..].first_chunk().expect("four"));
     let rows = [[0, 7, 12, 20], [1, 8, 13, 21], [2, 9, 14, 22], [3, 10, 15, 23]];
     assert_all(&avx2.fours(fours), &rows);
+    let columns = [0, 7, 12, 20].map(|k| [k, k + 1, k + 2, k + 3]);
+    assert_all(&super::rows(avx2.fours(fours)), &columns);
 
     let [x, y] = [fours[0], fours[1]].map(|x| avx2.load(x));
     assert_all(&[x.with_last_of(y), x.rotated()], &[[0, 1, 2, 10], [1, 2, 3, 0]]);
