@@ -10,8 +10,8 @@
 //!
 //! 1. *Static*: one bound per predicate, valid for all points of a bounding box ([`StaticFilter`]). The
 //!    only work beside the determinant is one comparison; this much is inlined into the caller.
-//! 2. *Semi-static*: the same bound for the bounding box of this call's own points; for `insphere` then a sharper
-//!    one, from the magnitudes of its terms.
+//! 2. *Semi-static*: the same bound for the bounding box of this call's own points; then sharper ones, for `insphere`
+//!    from the magnitudes of its terms, for `incircle` from running errors.
 //! 3. *Two heights*: where a coordinate has two values, as at the corners of boxes, prisms and layers, the determinant
 //!    is zero by comparisons alone, or one of lower degree (`two_heights.rs`; before the sharper bound).
 //! 4. *Integer*: where differences are integers that fit, as those of neighbours on a grid are, the determinant

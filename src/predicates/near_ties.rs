@@ -2,11 +2,12 @@
 
 use std::cmp::Ordering;
 
+use super::dyadic::product;
 use super::filter::{
     extents, incircle_bound, insphere_bound, insphere_bound_of_terms, is_certain, largest, orient3d_bound,
 };
 use super::integer::{LongScaled, Scaled};
-use super::plane::{incircle_rounded, incircle_sign};
+use super::plane::{incircle_rounded, incircle_sign, own_incircle_bound};
 use super::space::{insphere_magnitudes, insphere_rounded, insphere_sign, orient3d_sign, volume};
 use super::vectors::minus;
 use super::{
@@ -233,6 +234,60 @@ fn near_ties_of_circles_are_those_of_long_integers() {
     println!("{n_sides} sides, {n_areas} areas");
     assert!(n_sides > CASES / 20 && n_areas > CASES / 20);
     assert_all_taken(&counts);
+}
+
+/// Points of an arc of any length, but for rounding.
+fn on_arc(rng: &mut Rng) -> [[f64; 2]; 4] {
+    let scale = 2f64.powi(rng.within(-260, 150) as i32);
+    let (middle, half) = (7.0 * rng.unit(), 3.2 * 2f64.powi(-rng.within(0, 25) as i32));
+    std::array::from_fn(|_| {
+        let angle = middle + half * (2.0 * rng.unit() - 1.0);
+        [scale * angle.cos(), scale * angle.sin()]
+    })
+}
+
+/// The bound by running errors is what the analysis asks for, and what exceeds it has the right sign.
+#[test]
+fn running_errors_of_circles_are_bounded() {
+    let rng = &mut Rng::new(6);
+    let (mut n_certain, mut n_open) = (0, 0);
+    for case in 0..CASES {
+        let points = if case % 4 == 0 { near_tie::<2, 4>(rng) } else { on_arc(rng) };
+        let refs @ [a, b, c, d] = points.each_ref();
+        let (extents, det) = (extents(refs), incircle_rounded(refs));
+        let bound = own_incircle_bound(refs, extents);
+        if is_certain(det, incircle_bound(extents), extents) {
+            continue;
+        }
+        if det.abs() > bound {
+            assert_eq!(sign(det), sign(big::incircle(1.0, refs)), "{points:?}");
+            n_certain += 1;
+        } else {
+            n_open += 1;
+        }
+        if case % 8 > 0 {
+            continue;
+        }
+        let (u, v, w) = (minus::<f64, 2>(b, a), minus(c, a), minus(d, a));
+        let exact = |x: f64| product([x]);
+        let unit = exact(f64::EPSILON / 2.0);
+        let running = |first: f64, second: f64| {
+            let magnitude = exact((first + second).abs());
+            let error = exact(3.0) * (exact(first.abs()) + exact(second.abs())) + magnitude.clone();
+            (magnitude, unit.clone() * error)
+        };
+        let mut expected = exact(f64::MIN_POSITIVE) * exact(largest(extents).max(1.0).powi(2));
+        for (p, q, from_b) in [(&w, &v, c), (&v, &w, d)] {
+            let r = minus::<f64, 2>(from_b, b);
+            let (c, of_c) = running(u[0] * p[1], -(u[1] * p[0]));
+            let (d, of_d) = running(q[0] * r[0], q[1] * r[1]);
+            let both = unit.clone() * c.clone() * d.clone();
+            expected = expected + c * of_d.clone() + of_c * (d + of_d) + both;
+        }
+        assert!(exact(bound).is_close_to(&expected, 38), "{points:?}");
+    }
+    println!("{n_certain} certain, {n_open} open");
+    assert!(n_certain > CASES / 10 && n_open > CASES / 10);
 }
 
 #[test]

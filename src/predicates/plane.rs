@@ -1,7 +1,10 @@
 //! Predicates of the plane.
 
 use super::big::{self, has_room};
-use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
+use super::filter::{
+    Running, StaticFilter, extents, incircle_bound, incircle_running_bound, is_certain, largest,
+    orient2d_bound,
+};
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
 use super::two_heights::incircle_at_two_heights;
 use super::vectors::{dot, minor, minus};
@@ -71,11 +74,21 @@ fn orient2d_exact(det: f64, points: [&[f64; 2]; 3]) -> f64 {
 #[inline(never)]
 fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
     let extents = extents(points);
-    if is_certain(det, incircle_bound(extents), extents) {
+    if is_certain(det, incircle_bound(extents), extents) || det.abs() > own_incircle_bound(points, extents) {
         return det;
     }
     tally::count();
     incircle_exact(det, points, largest(extents))
+}
+
+/// What [`incircle_rounded`] of these points exceeds if its sign is certain.
+#[inline(always)]
+pub(super) fn own_incircle_bound([a, b, c, d]: [&[f64; 2]; 4], extents: [f64; 2]) -> f64 {
+    let (u, v, w) = (minus::<f64, 2>(b, a), minus(c, a), minus(d, a));
+    let cross = |p: &[f64; 2]| Running::sum(u[0] * p[1], -(u[1] * p[0]));
+    let dot = |p: &[f64; 2], q: &[f64; 2]| Running::sum(p[0] * q[0], p[1] * q[1]);
+    let products = [[cross(&w), dot(&v, &minus(c, b))], [cross(&v), dot(&w, &minus(d, b))]];
+    incircle_running_bound(products, extents)
 }
 
 fn incircle_exact(det: f64, points: [&[f64; 2]; 4], extent: f64) -> f64 {

@@ -88,7 +88,7 @@ pub fn in_space(s: &mut Source) {
     let (orientation, beyond) = (exact(&[*a, *b, *c, *d]), exact(&[*a, *c, *b, *e]));
     let side = exact(&p);
     let prepared = side_of_sphere(&sphere(a, b, c, d), a, e);
-    if prepared.abs() > side_bound_by_length(edge_length(a, b, c, d), a, e) {
+    if prepared.abs() > side_bound_by_length(edge_length(a, b, c, d) as f32, a, e) {
         assert_eq!(sign(prepared), side, "by lengths {p:?}");
     }
     let (half_space_by_length, length) = half_space_by_length(a, b, c);
