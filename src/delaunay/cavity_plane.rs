@@ -17,7 +17,7 @@ use crate::complex::{Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::predicates::{Lifted, seen_circle_bound, side_of_seen_circle};
+use crate::predicates::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
 
 /// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.
 #[derive(Debug, Default)]
@@ -131,11 +131,12 @@ fn dig<const BY_LENGTHS: bool>(
             let tip = Lifted::new(t.view().point(tip_site), q);
             let (right, left) = (edge.right.cross(&tip), tip.cross(&edge.left));
             let corners = [&edge.left, &edge.right, &tip];
-            let side = side_of_seen_circle(corners, [-edge.cross, right, left]);
+            let crosses = [-edge.cross, right, left];
+            let side = side_of_seen_circle(corners, crosses);
             let bound = if BY_LENGTHS { seen_circle_bound(corners) } else { t.filter.prepared };
             let is_in_zone = side > bound
                 || side >= -bound
-                    && is_in_uncertain_conflict(t, beyond, q, id, side, seen_circle_bound(corners));
+                    && is_in_uncertain_conflict(t, beyond, q, id, side, (corners.map(|&p| p), crosses));
             is_in_zone.then(|| {
                 let [out_first, out_second] = [first, second].map(|i| cell.neighbour(i));
                 [
@@ -193,7 +194,7 @@ fn grow(
 /// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.
 const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
 
-/// After the first bound: by that of the corners, of what has been computed.
+/// After the first bound: by those of the corners and of their cross products, of what has been computed.
 #[cold]
 #[inline(never)]
 fn is_in_uncertain_conflict(
@@ -202,9 +203,14 @@ fn is_in_uncertain_conflict(
     q: &[f64; 2],
     id: VertexId,
     side: f64,
-    own_bound: f64,
+    (corners, crosses): ([Lifted; 3], [f64; 3]),
 ) -> bool {
-    if side.abs() > own_bound {
+    let corners = corners.each_ref();
+    // Of lattices it is zero.
+    let is_certain = side != 0.0
+        && (side.abs() > seen_circle_bound(corners)
+            || side.abs() > seen_circle_running_bound(corners, crosses));
+    if is_certain {
         return side > 0.0;
     }
     Plane::is_in_sphere(&t.filter, t.view(), &t.complex.cell(cell).corners, q, id)

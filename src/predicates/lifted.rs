@@ -4,10 +4,17 @@
 //! `|u|² v×w + |v|² w×u + |w|² u×v`. A search of neighbouring triangles with one `q` meets every difference,
 //! every square and every cross product of an edge more than once: kept, they leave 16 operations to a test,
 //! of 25. The static bound is derived like those of the other determinants, for this operation order, and
-//! [`seen_circle_bound`] is that of the corners at hand; what they leave uncertain goes to
-//! [`incircle`](super::incircle).
+//! [`seen_circle_bound`] is that of the corners at hand, [`seen_circle_running_bound`] that of the values at hand; what
+//! they leave uncertain goes to [`incircle`](super::incircle).
+//!
+//! # Running errors
+//!
+//! Let C be a cross product and m the sum of the magnitudes of its two products, as computed: it is off by at most
+//! u (3 m + |C|), as in `filter.rs`. A square S is off by 4 u S, for two differences, a product and a sum. With its own
+//! rounding, S C is off by u S (3 m + 6 |C|), and the sum of three of these by what they are off together and by
+//! u S |C| of two of them. Second-order terms are less than 10 u of that, and left to the factor that rounds up.
 
-use super::lengths::lifted_bound_by_lengths;
+use super::lengths::{lifted_bound_by_lengths, lifted_running_bound};
 use super::vectors::{dot, minor, minus};
 use crate::simd::Real;
 
@@ -48,10 +55,23 @@ pub fn seen_circle_bound([u, v, w]: [&Lifted; 3]) -> f64 {
     lifted_bound_by_lengths(Real::max(Real::max(u.square, v.square), w.square))
 }
 
+/// What the magnitude of [`side_of_seen_circle`] exceeds if it is certain, by the errors of what it is computed from.
+#[inline(always)]
+pub fn seen_circle_running_bound([u, v, w]: [&Lifted; 3], [uv, vw, wu]: [f64; 3]) -> f64 {
+    let errors = |Lifted { square, .. }: &Lifted, p: &Lifted, q: &Lifted, cross: f64| {
+        let ([x, y], [z, t]) = (p.difference, q.difference);
+        square * (3.0 * ((x * t).abs() + (y * z).abs()) + 7.0 * cross.abs())
+    };
+    let errors = errors(u, v, w, vw) + errors(v, w, u, wu) + errors(w, u, v, uv);
+    lifted_running_bound(errors, Real::max(Real::max(u.square, v.square), w.square))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicates::{StaticFilter, incircle};
+    use crate::predicates::dyadic::product;
+    use crate::predicates::near_ties::on_arc;
+    use crate::predicates::{StaticFilter, big, incircle};
     use crate::random::Rng;
 
     /// A certain answer is that of the exact predicate, on random
@@ -90,5 +110,44 @@ mod tests {
         }
         assert!(n_by_lengths > n_certain && n_certain > 90_000, "{n_by_lengths} by lengths, {n_certain}");
         assert!(n_open > 10_000, "{n_open} open");
+    }
+
+    /// The bound by running errors is what the analysis asks for, and what exceeds it has the right sign.
+    #[test]
+    fn running_errors_are_bounded() {
+        let rng = &mut Rng::new(7);
+        let (mut n_certain, mut n_open) = (0, 0);
+        for case in 0..400_000 {
+            let points = on_arc(rng);
+            let [a, b, c, q] = &points;
+            let [u, v, w] = &[a, b, c].map(|p| Lifted::new(p, q));
+            let crosses = [u.cross(v), v.cross(w), w.cross(u)];
+            let side = side_of_seen_circle([u, v, w], crosses);
+            let bound = seen_circle_running_bound([u, v, w], crosses);
+            if side.abs() > seen_circle_bound([u, v, w]) {
+                continue;
+            }
+            if side.abs() > bound {
+                let exact = big::incircle(1.0, [a, b, c, q]);
+                assert!(exact != 0.0 && (side > 0.0) == (exact > 0.0), "{points:?}");
+                n_certain += 1;
+            } else {
+                n_open += 1;
+            }
+            if case % 8 > 0 {
+                continue;
+            }
+            let exact = |x: f64| product([x]);
+            let mut expected =
+                exact(f64::MIN_POSITIVE) * exact(u.square.max(v.square).max(w.square).max(1.0));
+            for (p, left, right) in [(u, v, w), (v, w, u), (w, u, v)] {
+                let ([x, y], [z, t]) = (left.difference, right.difference);
+                let products = exact((x * t).abs()) + exact((y * z).abs());
+                let errors = exact(3.0) * products + exact(7.0) * exact((x * t - y * z).abs());
+                expected = expected + exact(f64::EPSILON / 2.0) * exact(p.square) * errors;
+            }
+            assert!(exact(bound).is_close_to(&expected, 38), "{points:?}");
+        }
+        assert!(n_certain > 40_000 && n_open > 40_000, "{n_certain} certain, {n_open} open");
     }
 }

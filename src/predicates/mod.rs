@@ -114,7 +114,7 @@ pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use lanes::BiCells;
 pub use lattice::exact_filter;
-pub use lifted::{Lifted, seen_circle_bound, side_of_seen_circle};
+pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
 pub use measures::Measures;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};

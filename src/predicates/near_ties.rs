@@ -237,7 +237,7 @@ fn near_ties_of_circles_are_those_of_long_integers() {
 }
 
 /// Points of an arc of any length, but for rounding.
-fn on_arc(rng: &mut Rng) -> [[f64; 2]; 4] {
+pub(super) fn on_arc(rng: &mut Rng) -> [[f64; 2]; 4] {
     let scale = 2f64.powi(rng.within(-260, 150) as i32);
     let (middle, half) = (7.0 * rng.unit(), 3.2 * 2f64.powi(-rng.within(0, 25) as i32));
     std::array::from_fn(|_| {
