@@ -599,7 +599,7 @@ fn the_centre_of_a_circle_is_a_hub() {
 
 #[test]
 fn the_centre_of_a_sphere_is_a_hub() {
-    for n in [66, 300, 1000] {
+    for n in [66, 300, 2000] {
         let rng = &mut Rng::new(n);
         let rim = (0..n).map(|_| on_sphere::<Space>(100.0, rng)).collect();
         hubs_come_and_go::<Space>("sphere", rim, &[[0.0; 3]]);

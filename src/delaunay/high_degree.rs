@@ -1,11 +1,12 @@
 //! Removal of a vertex of high degree: gift wrapping, which is quadratic in the degree, would be too slow.
 //!
 //! The cells that fill the hole are cells of the Delaunay triangulation of the link's sites: their spheres are empty
-//! of all sites but the removed one, so of those of the link. Triangulate the link, start behind each facet of the
-//! hole, and take every cell that is reached without crossing the hole's frontier.
+//! of all sites but the removed one, so of those of the link. Triangulate the link, find one cell behind a facet of the
+//! hole, and take every cell that is reached without crossing the hole's frontier. They are all, since the hole is
+//! connected, and so it is without its vertices and edges.
 
-use std::collections::HashMap;
-
+use super::facets::{ByCorners, facet_of};
+use super::remove::Hole;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
@@ -13,67 +14,116 @@ use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 
+/// What is across a facet of a new cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+enum Across {
+    /// A cell that stays.
+    Old(Facet),
+    /// Another new one: its place in their list, and the index of the facet there.
+    New(usize, usize),
+}
+
+/// New cells, and what is across their facets.
+type Filling<C> = Vec<(C, <C as Corners>::Of<Across>)>;
+
 impl<G: Dimension> Delaunay<G> {
     /// Fills the hole of the gathered star by the triangulation of its link. After an error nothing has changed.
     #[cold]
     pub(super) fn remove_high_degree(&mut self) -> Result<()> {
         self.link_sites += self.hole.sites.len() as u64;
-        let made = self.cells_of_link()?;
-        // Orientation is part of a facet seen from one side: the two sides have their sorted corners in common.
-        let mut sides: Vec<(G::Corners, Facet)> = Vec::new();
-        memory::reserve_exact(&mut sides, self.hole.link.len() + made.len() * G::Corners::N)?;
-        sides.extend(self.hole.link.iter().map(|gap| (sorted_without(gap.corners, gap.at), gap.out)));
-        self.reserve_record(made.len())?;
-        self.complex.reserve(made.len())?;
+        let filling = self.filling(&self.hole)?;
+        let mut slots = Vec::new();
+        memory::reserve_exact(&mut slots, filling.len())?;
+        self.reserve_record(filling.len())?;
+        self.complex.reserve(filling.len())?;
         self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
-        self.complex.reserve_rows(made.len())?;
+        self.complex.reserve_rows(filling.len())?;
         let star = std::mem::take(&mut self.hole.star);
         for &(c, _) in &star {
             self.complex.retire(c);
             self.complex.release(c);
         }
         self.hole.star = star;
-        for corners in made {
-            let cell = self.complex.create(corners);
+        slots.extend(filling.iter().map(|&(corners, _)| self.complex.create(corners)));
+        for (&cell, (corners, across)) in slots.iter().zip(&filling) {
             for i in 0..G::Corners::N {
-                sides.push((sorted_without(corners, i), Facet::new(cell, i)));
+                let other = match across[i] {
+                    Across::Old(facet) => facet,
+                    Across::New(k, at) => Facet::new(slots[k], at),
+                };
+                self.complex.glue(Facet::new(cell, i), other);
                 self.sites[corners[i]].cell = cell;
             }
-            self.recent = cell;
-            self.record([cell]);
         }
-        sides.sort_unstable();
-        for pair in sides.chunks_exact(2) {
-            debug_assert_eq!(pair[0].0, pair[1].0);
-            self.complex.glue(pair[0].1, pair[1].1);
-        }
-        debug_assert!(sides.len().is_multiple_of(2));
+        self.recent = slots[0];
+        self.record(slots);
         Ok(())
     }
 
-    /// Corners of the cells that fill the hole.
-    fn cells_of_link(&self) -> Result<Vec<G::Corners>> {
+    /// Cells that fill the hole.
+    fn filling(&self, hole: &Hole<G>) -> Result<Filling<G::Corners>> {
+        let (local, globals) = self.link_alone(&hole.sites)?;
+        if !local.has_cells() {
+            return Self::flat_filling(hole);
+        }
+        let corners_of = |c: Slot| map_corners(local.complex.cell(c).corners, |s| globals[s]);
+        let mut rim = ByCorners::<G::Corners, (Facet, bool)>::default();
+        memory::reserve_map(&mut rim, hole.link.len())?;
+        rim.extend(hole.link.iter().map(|gap| {
+            let (facet, is_odd) = facet_of(&gap.corners, gap.at);
+            (facet, (gap.out, is_odd))
+        }));
+        // The new cell sees the facet as the removed one did.
+        let is_inside = |c: Slot| {
+            let corners = corners_of(c);
+            (0..G::Corners::N).any(|i| {
+                let (facet, is_odd) = facet_of(&corners, i);
+                rim.get(&facet).is_some_and(|&(_, rim_is_odd)| rim_is_odd == is_odd)
+            })
+        };
+        let mut live = local.complex.live();
+        let first = live.find(|&c| is_inside(c)).expect("a cell behind each facet of the hole");
+        // The local cells inside, and the place of each among them.
+        let (mut inside, mut places) = (Vec::new(), Vec::new());
+        memory::reserve_exact(&mut places, local.complex.n_slots())?;
+        places.resize(local.complex.n_slots(), usize::MAX);
+        memory::push(&mut inside, first)?;
+        places[first.index()] = 0;
+        let mut filling = Vec::new();
+        while let Some(&c) = inside.get(filling.len()) {
+            let corners = corners_of(c);
+            let mut facets = Of::<G>::filled(Across::Old(Facet::NONE));
+            for i in 0..G::Corners::N {
+                if let Some(&(out, _)) = rim.get(&facet_of(&corners, i).0) {
+                    facets[i] = Across::Old(out);
+                    continue;
+                }
+                let across = local.complex.cell(c).neighbour(i);
+                let place = &mut places[across.cell().index()];
+                if *place == usize::MAX {
+                    *place = inside.len();
+                    memory::push(&mut inside, across.cell())?;
+                }
+                facets[i] = Across::New(*place, across.index());
+            }
+            memory::push(&mut filling, (corners, facets))?;
+        }
+        Ok(filling)
+    }
+
+    /// The triangulation of the link's sites, and the site of each of its own.
+    fn link_alone(&self, link: &[SiteId]) -> Result<(Self, Vec<SiteId>)> {
         let mut local = Delaunay::<G>::on(Threads::ONE)?;
-        local.reserve_sites(self.hole.sites.len())?;
+        local.reserve_sites(link.len())?;
         let mut by_id = Vec::new();
-        memory::reserve_exact(&mut by_id, self.hole.sites.len())?;
-        for &s in self.hole.sites.iter().filter(|&&s| s != INFINITE) {
+        memory::reserve_exact(&mut by_id, link.len())?;
+        for &s in link.iter().filter(|&&s| s != INFINITE) {
             local.add_site(self.site(s).point, self.site(s).id)?;
             by_id.push((self.site(s).id, s));
         }
         by_id.sort_unstable();
         local.sort_sites()?;
         local.rebuild(&mut |_| true)?;
-        let mut made = Vec::new();
-        if !local.has_cells() {
-            // The link is in one hyperplane: each finite facet of it is on the new hull.
-            let finite_facets =
-                self.hole.link.iter().filter(|g| g.at == Self::LAST || g.corners[Self::LAST] != INFINITE);
-            let ghosts = finite_facets.map(|g| g.corners.with(g.at, INFINITE).rotated_to_last(g.at));
-            memory::collect(&mut made, ghosts)?;
-            return Ok(made);
-        }
-        // The site of each local one.
         let mut globals = Vec::new();
         memory::reserve_exact(&mut globals, local.sites.len())?;
         globals.push(INFINITE);
@@ -81,70 +131,44 @@ impl<G: Dimension> Delaunay<G> {
             let at = by_id.binary_search_by_key(&site.id, |&(id, _)| id).expect("a site of the link");
             by_id[at].1
         }));
-        let global = |s: SiteId| globals[s];
-        let mut rim: HashMap<G::Corners, (G::Corners, usize)> = HashMap::new();
-        memory::reserve_map(&mut rim, self.hole.link.len())?;
-        rim.extend(
-            self.hole.link.iter().map(|gap| (sorted_without(gap.corners, gap.at), (gap.corners, gap.at))),
-        );
-        // The local cells inside, which are marked.
-        let mut inside = Vec::new();
-        for c in Slot::range(0..local.complex.n_slots()).filter(|&c| local.complex.is_live(c)) {
-            let corners = map_corners(local.complex.cell(c).corners, global);
-            let is_behind = |i: usize| {
-                rim.get(&sorted_without(corners, i)).is_some_and(|&(facing, at)| {
-                    // On the inner side the apex takes the removed site's place without a reflection.
-                    is_even(facing.with(at, corners[i]), corners)
-                })
-            };
-            if (0..G::Corners::N).any(is_behind) {
-                memory::push(&mut inside, c)?;
+        Ok((local, globals))
+    }
+
+    /// The same for a link in one hyperplane: each finite facet of it is on the new hull.
+    fn flat_filling(hole: &Hole<G>) -> Result<Filling<G::Corners>> {
+        let (mut open, mut filling) = (ByCorners::<G::Corners, Across>::default(), Vec::new());
+        memory::reserve_map(&mut open, G::Corners::N * hole.link.len())?;
+        memory::reserve_exact(&mut filling, hole.link.len())?;
+        for gap in &hole.link {
+            if gap.at != Self::LAST && gap.corners[Self::LAST] == INFINITE {
+                open.insert(facet_of(&gap.corners, gap.at).0, Across::Old(gap.out));
+            } else {
+                let ghost = gap.corners.with(gap.at, INFINITE).rotated_to_last(gap.at);
+                // Those that are next to ghosts come below.
+                filling.push((ghost, Of::<G>::filled(Across::Old(gap.out))));
             }
         }
-        for &c in &inside {
-            local.complex.set_mark(c, 1);
-        }
-        let mut next = 0;
-        while let Some(&c) = inside.get(next) {
-            next += 1;
-            let corners = map_corners(local.complex.cell(c).corners, global);
-            for i in 0..G::Corners::N {
-                let beyond = local.complex.cell(c).neighbour(i).cell();
-                if local.complex.mark(beyond) == 0 && !rim.contains_key(&sorted_without(corners, i)) {
-                    local.complex.set_mark(beyond, 1);
-                    memory::push(&mut inside, beyond)?;
+        for k in 0..filling.len() {
+            for i in 0..Self::LAST {
+                let Some(other) = open.insert(facet_of(&filling[k].0, i).0, Across::New(k, i)) else {
+                    continue;
+                };
+                filling[k].1[i] = other;
+                if let Across::New(of, at) = other {
+                    filling[of].1[at] = Across::New(k, i);
                 }
             }
         }
-        let corners_of = |&c: &Slot| map_corners(local.complex.cell(c).corners, global);
-        memory::collect(&mut made, inside.iter().map(corners_of))?;
-        Ok(made)
+        Ok(filling)
     }
 }
+
+/// Of each facet of a cell.
+type Of<G> = <<G as Dimension>::Corners as Corners>::Of<Across>;
 
 fn map_corners<C: Corners>(mut corners: C, f: impl Fn(SiteId) -> SiteId) -> C {
     for s in corners.as_mut() {
         *s = f(*s);
     }
     corners
-}
-
-/// The corners without the one at `i`, sorted; the freed entry is set to a value that no site has.
-fn sorted_without<C: Corners>(corners: C, i: usize) -> C {
-    let mut facet = corners.with(i, SiteId::NONE);
-    facet.as_mut().sort_unstable();
-    facet
-}
-
-/// Whether two orders of the same corners have the same orientation.
-fn is_even<C: Corners>(mut a: C, b: C) -> bool {
-    let mut even = true;
-    for i in 0..C::N {
-        if a[i] != b[i] {
-            let j = (i + 1..C::N).find(|&j| a[j] == b[i]).expect("the same corners");
-            a.as_mut().swap(i, j);
-            even = !even;
-        }
-    }
-    even
 }

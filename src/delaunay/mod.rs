@@ -42,6 +42,7 @@ mod certify;
 mod changes;
 mod copying;
 mod dimension;
+mod facets;
 mod failures;
 mod flat;
 mod flip;

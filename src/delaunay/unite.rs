@@ -28,9 +28,7 @@
 //! Cost: a search and an insertion for each site of the border, and a copy of the right cells, in which all
 //! threads of both parts take part.
 
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
-
+use super::facets::{ByCorners, facet_of};
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Site};
 use crate::complex::{Corners, Facet, INFINITE};
@@ -192,7 +190,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Glues the facets of the rim to their new neighbours, which are among the cells that were `made`, and
     /// takes out what fills the place of the cells behind the rim. All sites of the rim are from `first` on.
     fn close(&mut self, rim: &[Facet], made: &[Slot], first: SiteId) -> Result<()> {
-        let mut by_corners = HashMap::<G::Corners, (Facet, bool), BuildHasherDefault<Mix>>::default();
+        let mut by_corners = ByCorners::<G::Corners, (Facet, bool)>::default();
         memory::reserve_map(&mut by_corners, rim.len())?;
         for &facet in rim {
             let (corners, is_odd) = facet_of(&self.complex.cell(facet.cell()).corners, facet.index());
@@ -255,42 +253,5 @@ impl<G: Dimension> Delaunay<G> {
             self.complex.release(c);
         }
         Ok(())
-    }
-}
-
-/// The corners of a facet, ascending, and whether they are an odd permutation of the facet as its cell sees
-/// it.
-fn facet_of<C: Corners>(corners: &C, i: usize) -> (C, bool) {
-    let last = C::N - 1;
-    let mut facet = corners.rotated_to_last(i).with(last, SiteId::NONE);
-    let mut is_odd = false;
-    for end in (1..last).rev() {
-        for k in 0..end {
-            if facet[k] > facet[k + 1] {
-                facet.as_mut().swap(k, k + 1);
-                is_odd = !is_odd;
-            }
-        }
-    }
-    (facet, is_odd)
-}
-
-/// Hash of a facet: products and rotations are enough for indices.
-#[derive(Default)]
-struct Mix(u64);
-
-impl Hasher for Mix {
-    fn write(&mut self, bytes: &[u8]) {
-        for chunk in bytes.chunks(4) {
-            self.write_u32(chunk.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte)));
-        }
-    }
-
-    fn write_u32(&mut self, number: u32) {
-        self.0 = (self.0.rotate_left(26) ^ u64::from(number)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    }
-
-    fn finish(&self) -> u64 {
-        self.0 ^ self.0 >> 32
     }
 }
