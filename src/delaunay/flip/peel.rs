@@ -101,7 +101,6 @@ impl<G: Dimension> Delaunay<G> {
         if are_flat || second.is_some() && G::D == 2 {
             return Ok(false);
         }
-        drop(outer);
         let is_in_the_way = match second {
             None => {
                 let apex = cell.corners[i];

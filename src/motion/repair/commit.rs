@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! move all staged vertices
-//! rebuild if a sample of the cells foretells that this is faster
+//! rebuild if a sample of the cells foretells that this is faster; where few vertices have moved and nearly all around
+//!     them fails, take these back and place them one by one
 //! sweep: orientation of every cell, empty sphere of every facet, convexity of every ridge of the hull
 //! where a cell is inverted or a ridge is not convex: untangle them by flips; if that cannot be done,
 //!     take vertices back to their old places, one of each cell or ridge, until all are right
