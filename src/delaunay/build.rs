@@ -1,7 +1,7 @@
 //! All sites at once: the static triangulation.
 //!
 //! Sites along a Hilbert curve are inserted in rounds (see [`order`](super::order)), each by a walk from the site
-//! before it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean distance of
+//! before it to a cell that is in conflict with it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean distance of
 //! sites that are next to each other in storage tells when to sort again.
 
 use super::cavity::{Cavity, Insert};

@@ -7,7 +7,8 @@
 //! large for it: triangulations of few sites would spend half their time to clear the large one); a label is kept in
 //! the site's `cell` field, which the insertion overwrites anyway, and holds if the list of labels agrees.
 //!
-//! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept.
+//! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept. What can be known is
+//! the facet through which a cell of the zone was found: three others are left to look across.
 
 use super::cavity::{Cavity, Insert};
 use super::spheres::{Spheres, Table};

@@ -3,7 +3,11 @@
 //! A build along a curve tests the cells of one neighbourhood again and again. A cell's sphere, prepared once, makes
 //! each of these tests a few operations on one line of cache (see [`predicates::sphere`]). They are kept in a table of
 //! fixed size, each at its cell's slot modulo that; what is not there is prepared when it is asked for. The table is
-//! valid while sites do not move and every cell made is [`put`](Table::put) there.
+//! valid while sites do not move and every cell made is [`put`](Table::put) there: with AVX2
+//! [four at a time](Table::put_four), as all cells that an insertion makes have the new site in common.
+//!
+//! The walk to a new site asks, too: it may end in the first cell whose sphere has the site, as the zone can be found from
+//! any cell of it.
 //!
 //! Where the static bound leaves most tests uncertain, or many that a bound of the cell's own decides, a sphere is
 //! prepared with that bound, and tested against it at once: *by lengths*, those of the cell's edges. That takes more
