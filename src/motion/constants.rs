@@ -219,7 +219,7 @@ const PLANE: Constants = Constants {
     max_share_beyond: 0.125,
     sampled_vertices: 64,
     min_share_within: 0.8,
-    swept_per_placement: 20,
+    swept_per_placement: 15,
     max_rebuilds: 15,
     rebuilds_growth: 2,
     share_too_many: 0.5,
