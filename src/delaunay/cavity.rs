@@ -146,11 +146,9 @@ impl<G: Dimension> Delaunay<G> {
         let q = self.site(s).point;
         let Cavity { scratch, steps, .. } = &mut *cavity;
         let is_inside = |cell| BUILD && scratch.is_inside(&self.filter, cell, &q);
-        let start = self.walk_until(&self.filter, &q, near, steps, is_inside);
-        // What is inside of a sphere is not at its corners, nor at others.
-        if !is_inside(start)
-            && let Some(t) = self.corner_at(start, &q)
-        {
+        let (start, is_inside) = self.walk_until(&self.filter, &q, near, steps, is_inside);
+        // What is inside the sphere of a cell is at no site.
+        if !is_inside && let Some(t) = self.corner_at(start, &q) {
             return Ok(Insertion::Coincident(t));
         }
         G::Scratch::insert::<BUILD>(self, cavity, start, s)?;

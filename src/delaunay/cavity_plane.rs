@@ -131,12 +131,10 @@ fn dig<const BY_LENGTHS: bool>(
             let tip = Lifted::new(t.view().point(tip_site), q);
             let (right, left) = (edge.right.cross(&tip), tip.cross(&edge.left));
             let corners = [&edge.left, &edge.right, &tip];
-            let crosses = [-edge.cross, right, left];
-            let side = side_of_seen_circle(corners, crosses);
+            let side = side_of_seen_circle(corners, [-edge.cross, right, left]);
             let bound = if BY_LENGTHS { seen_circle_bound(corners) } else { t.filter.prepared };
             let is_in_zone = side > bound
-                || side >= -bound
-                    && is_in_uncertain_conflict(t, beyond, q, id, side, (corners.map(|&p| p), crosses));
+                || side >= -bound && is_in_uncertain_conflict(t, beyond, q, id, side, corners.map(|&p| p));
             is_in_zone.then(|| {
                 let [out_first, out_second] = [first, second].map(|i| cell.neighbour(i));
                 [
@@ -194,7 +192,7 @@ fn grow(
 /// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.
 const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
 
-/// After the first bound: by those of the corners and of their cross products, of what has been computed.
+/// After the first bound: by those of the corners, and of their cross products.
 #[cold]
 #[inline(never)]
 fn is_in_uncertain_conflict(
@@ -203,13 +201,12 @@ fn is_in_uncertain_conflict(
     q: &[f64; 2],
     id: VertexId,
     side: f64,
-    (corners, crosses): ([Lifted; 3], [f64; 3]),
+    corners: [Lifted; 3],
 ) -> bool {
     let corners = corners.each_ref();
     // Of lattices it is zero.
     let is_certain = side != 0.0
-        && (side.abs() > seen_circle_bound(corners)
-            || side.abs() > seen_circle_running_bound(corners, crosses));
+        && (side.abs() > seen_circle_bound(corners) || side.abs() > seen_circle_running_bound(corners));
     if is_certain {
         return side > 0.0;
     }

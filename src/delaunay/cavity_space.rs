@@ -1,16 +1,14 @@
 //! Conflict zones in space.
 //!
 //! New cells have the site first, and its rim facet's corners after it in an order that keeps the orientation and
-//! leaves a ghost corner last; so which facet of a new cell is which is known to the compiler. Each edge of the rim is
-//! seen once in each direction: the facet that sees it as `kl` meets the one that sees it as `lk`. The meeting place is
-//! a square table over local labels of the rim's sites (a small one on the stack until the first rim that is too
-//! large for it: triangulations of few sites would spend half their time to clear the large one); a label is kept in
-//! the site's `cell` field, which the insertion overwrites anyway, and holds if the list of labels agrees.
+//! leaves a ghost corner last; so which facet of a new cell is which is known to the compiler. How they are glued is the
+//! matter of [`meetings`](super::meetings).
 //!
-//! Which way a test or a label goes cannot be predicted, so both ways are written and one is kept. What can be known is
-//! the facet through which a cell of the zone was found: three others are left to look across.
+//! Which way a test goes cannot be predicted, so both ways are written and one is kept. What can be known is the facet
+//! through which a cell of the zone was found: three others are left to look across.
 
 use super::cavity::{Cavity, Insert};
+use super::meetings::{FEW_RIM, Meetings, Ridge, Rim, SMALL_RIM};
 use super::spheres::{Spheres, Table};
 use super::{Delaunay, Space};
 use crate::complex::{Facet, INFINITE};
@@ -19,25 +17,6 @@ use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::predicates::StaticFilter;
 use crate::simd::{Avx2, LANES};
-use std::hint::select_unpredictable;
-
-/// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
-const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
-const MAX_LABELS: usize = 64;
-const TABLE: usize = MAX_LABELS * MAX_LABELS;
-
-/// Rims up to this size go through a smaller table, which takes no memory of its own, until there is a larger one.
-const FEW_LABELS: usize = 16;
-const FEW_RIM: usize = 2 * (FEW_LABELS - 2);
-
-/// A facet of the rim.
-#[derive(Clone, Copy, Debug)]
-struct Rim {
-    /// Corners of the new cell.
-    corners: [SiteId; 4],
-    /// The facet seen from outside the zone.
-    out: Facet,
-}
 
 /// Mark of a cell that has been found in conflict with the site; of all others it is 0.
 pub(super) const IN_ZONE: u8 = 1;
@@ -77,12 +56,9 @@ impl Insert<Space> for Scratch {
     }
 
     fn memory_bytes(&self) -> usize {
-        let Meetings { table, labels, local } = &self.meetings;
         memory::bytes_of(&self.zone)
             + memory::bytes_of(&self.rim)
-            + memory::bytes_of(table)
-            + memory::bytes_of(labels)
-            + memory::bytes_of(local)
+            + self.meetings.memory_bytes()
             + self.spheres.memory_bytes()
     }
 
@@ -96,8 +72,8 @@ impl Insert<Space> for Scratch {
         let Cavity { cells, scratch, .. } = cavity;
         let mut ridges = Vec::new();
         let dug = match (BUILD, scratch.spheres.has_lengths) {
-            (true, true) => dig_by_lengths(t, scratch, start, s),
-            (true, false) => dig_by_filter(t, scratch, start, s),
+            (true, true) => dig_in_build::<true>(t, scratch, start, s),
+            (true, false) => dig_in_build::<false>(t, scratch, start, s),
             _ => dig::<false, false>(t, scratch, start, s),
         };
         if let Err(error) = dug.and_then(|()| reserve::<BUILD>(t, cells, &mut ridges, scratch)) {
@@ -121,17 +97,6 @@ impl Insert<Space> for Scratch {
         cavity.n_cells = n_rim;
         Ok(())
     }
-}
-
-/// Where the two facets of a ridge meet; without room until a rim is larger than [`FEW_RIM`].
-#[derive(Debug, Default)]
-struct Meetings {
-    /// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
-    table: Vec<Facet>,
-    /// The site of each label.
-    labels: Vec<SiteId>,
-    /// Labels of the last three corners of each new cell.
-    local: Vec<[u8; 4]>,
 }
 
 /// The corners with `s` in place of corner `i`, in an even order that has `s` first.
@@ -167,34 +132,24 @@ fn reserve<const BUILD: bool>(
     if n_rim > SMALL_RIM { memory::reserve_exact(ridges, 3 * n_rim) } else { Ok(()) }
 }
 
-/// As [`dig`], in a build with bounds by lengths.
-// Each on its own: inlined in the loop over all sites, both would be slower.
+/// As [`dig`], in a build.
+// On its own: inlined in the loop over all sites it would be slower.
 #[inline(never)]
-fn dig_by_lengths(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: Slot, s: SiteId) -> Result<()> {
+fn dig_in_build<const BY_LENGTHS: bool>(
+    t: &mut Delaunay<Space>,
+    scratch: &mut Scratch,
+    start: Slot,
+    s: SiteId,
+) -> Result<()> {
     match Avx2::new() {
         Some(avx2) => avx2.run_with(
             (t, scratch),
             start,
             s,
             #[inline(always)]
-            |(t, scratch), start, s| dig::<true, true>(t, scratch, start, s),
+            |(t, scratch), start, s| dig::<true, BY_LENGTHS>(t, scratch, start, s),
         ),
-        None => dig::<true, true>(t, scratch, start, s),
-    }
-}
-
-/// As [`dig`], in a build with the static bound.
-#[inline(never)]
-fn dig_by_filter(t: &mut Delaunay<Space>, scratch: &mut Scratch, start: Slot, s: SiteId) -> Result<()> {
-    match Avx2::new() {
-        Some(avx2) => avx2.run_with(
-            (t, scratch),
-            start,
-            s,
-            #[inline(always)]
-            |(t, scratch), start, s| dig::<true, false>(t, scratch, start, s),
-        ),
-        None => dig::<true, false>(t, scratch, start, s),
+        None => dig::<true, BY_LENGTHS>(t, scratch, start, s),
     }
 }
 
@@ -289,11 +244,8 @@ fn grow(
     if rim.len() < n_rim + 4 {
         let n = if n_rim == 0 { FEW_RIM } else { 2 * n_rim + 64 };
         if n > FEW_RIM {
-            // First, as whoever has room for such a rim has room for the meetings; the table last, as it stands for
-            // all.
-            memory::lengthen(&mut meetings.labels, MAX_LABELS, INFINITE)?;
-            memory::lengthen(&mut meetings.local, SMALL_RIM, [0; 4])?;
-            memory::lengthen(&mut meetings.table, TABLE, facet)?;
+            // First, as whoever has room for such a rim has room for the meetings.
+            meetings.make_room()?;
         }
         memory::lengthen(rim, n, Rim { corners: [INFINITE; 4], out: facet })?;
     }
@@ -313,32 +265,18 @@ fn glue<const BUILD: bool>(
 ) {
     let Scratch { rim, n_rim, spheres, meetings, .. } = scratch;
     let rim = &rim[..*n_rim];
-    if rim.len() > SMALL_RIM {
-        glue_sorted(t, rim, cells, ridges);
-    } else {
-        let Meetings { table, labels, local } = meetings;
-        // Of fixed lengths, so that the compiler sees masked indices in bounds.
-        match (table.as_mut_slice().try_into(), labels.as_mut_slice().try_into()) {
-            (Ok(table), Ok(labels)) => {
-                glue_by_table::<MAX_LABELS, TABLE>(t, rim, cells, table, labels, local)
-            }
-            _ => glue_few(t, rim, cells),
-        }
-    }
+    meetings.glue(t, rim, cells, ridges);
     if BUILD {
         if spheres.has_lengths {
-            return prepare_by_lengths(t, rim, cells, spheres);
+            prepare::<true>(t, rim, cells, spheres);
+        } else {
+            prepare::<false>(t, rim, cells, spheres);
         }
-        prepare::<false>(t, rim, cells, spheres);
     }
 }
 
+/// Prepares the spheres of the new cells.
 #[inline(never)]
-fn prepare_by_lengths(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
-    prepare::<true>(t, rim, cells, spheres);
-}
-
-#[inline(always)]
 fn prepare<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
     let spheres = spheres.table();
     match Avx2::new() {
@@ -387,76 +325,5 @@ fn prepare_in_lanes<const BY_LENGTHS: bool>(
                 rim.each_ref().map(|facet: &Rim| &facet.corners),
             );
         }
-    }
-}
-
-/// As the table of [`Meetings`], for a rim of [`FEW_RIM`] facets at most.
-#[cold]
-#[inline(never)]
-fn glue_few(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot]) {
-    let mut table = [Facet::new(Slot::new(0), 0); FEW_LABELS * FEW_LABELS];
-    let (mut labels, mut local) = ([INFINITE; FEW_LABELS], [[0; 4]; FEW_RIM]);
-    glue_by_table(t, rim, cells, &mut table, &mut labels, &mut local);
-}
-
-/// Glues by a table of `LABELS` times `LABELS` entries.
-#[inline(always)]
-fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
-    t: &mut Delaunay<Space>,
-    rim: &[Rim],
-    cells: &[Slot],
-    table: &mut [Facet; ENTRIES],
-    labels: &mut [SiteId; LABELS],
-    local: &mut [[u8; 4]],
-) {
-    let mut n_labels = 0;
-    for ((facet, &cell), local) in rim.iter().zip(cells).zip(local.iter_mut()) {
-        let mut label = |v: SiteId| {
-            let site = t.corner_mut(v);
-            let old = site.cell.get();
-            let is_known = (old < n_labels) & (labels[old as usize % LABELS] == v);
-            let label = select_unpredictable(is_known, old, n_labels);
-            labels[label as usize % LABELS] = v;
-            site.cell = Slot::new(label);
-            n_labels += !is_known as u32;
-            label as usize
-        };
-        let [_, k, l, m] = facet.corners;
-        let (k, l, m) = (label(k), label(l), label(m));
-        *local = [0, k as u8, l as u8, m as u8];
-        table[(l * LABELS + m) % ENTRIES] = Facet::new(cell, 1);
-        table[(m * LABELS + k) % ENTRIES] = Facet::new(cell, 2);
-        table[(k * LABELS + l) % ENTRIES] = Facet::new(cell, 3);
-    }
-    for ((facet, &cell), label) in rim.iter().zip(cells).zip(local.iter()) {
-        let [_, k, l, m] = label.map(usize::from);
-        let at = |from: usize, to: usize| table[(from * LABELS + to) % ENTRIES];
-        t.complex.put_glued(cell, facet.corners, [facet.out, at(m, l), at(k, m), at(l, k)]);
-        for i in 1..4 {
-            t.corner_mut(facet.corners[i]).cell = cell;
-        }
-    }
-}
-
-/// An edge of the rim, and a facet there.
-type Ridge = ([SiteId; 2], Facet);
-
-/// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room
-/// for all `ridges`.
-#[cold]
-fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], mut ridges: Vec<Ridge>) {
-    for (facet, &cell) in rim.iter().zip(cells) {
-        let v = facet.corners;
-        t.complex.put(cell, v);
-        t.complex.glue(Facet::new(cell, 0), facet.out);
-        for (i, k, l) in [(1, 2, 3), (2, 3, 1), (3, 1, 2)] {
-            ridges.push(([v[k].min(v[l]), v[k].max(v[l])], Facet::new(cell, i)));
-            t.sites[v[i]].cell = cell;
-        }
-    }
-    ridges.sort_unstable();
-    for pair in ridges.chunks_exact(2) {
-        debug_assert_eq!(pair[0].0, pair[1].0);
-        t.complex.glue(pair[0].1, pair[1].1);
     }
 }

@@ -6,7 +6,6 @@
 //! connected, and so it is without its vertices and edges.
 
 use super::facets::{ByCorners, facet_of};
-use super::remove::Hole;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
@@ -31,7 +30,7 @@ impl<G: Dimension> Delaunay<G> {
     #[cold]
     pub(super) fn remove_high_degree(&mut self) -> Result<()> {
         self.link_sites += self.hole.sites.len() as u64;
-        let filling = self.filling(&self.hole)?;
+        let filling = self.filling()?;
         let mut slots = Vec::new();
         memory::reserve_exact(&mut slots, filling.len())?;
         self.reserve_record(filling.len())?;
@@ -61,10 +60,11 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Cells that fill the hole.
-    fn filling(&self, hole: &Hole<G>) -> Result<Filling<G::Corners>> {
+    fn filling(&self) -> Result<Filling<G::Corners>> {
+        let hole = &self.hole;
         let (local, globals) = self.link_alone(&hole.sites)?;
         if !local.has_cells() {
-            return Self::flat_filling(hole);
+            return self.flat_filling();
         }
         let corners_of = |c: Slot| map_corners(local.complex.cell(c).corners, |s| globals[s]);
         let mut rim = ByCorners::<G::Corners, (Facet, bool)>::default();
@@ -135,16 +135,17 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// The same for a link in one hyperplane: each finite facet of it is on the new hull.
-    fn flat_filling(hole: &Hole<G>) -> Result<Filling<G::Corners>> {
+    fn flat_filling(&self) -> Result<Filling<G::Corners>> {
+        let link = &self.hole.link;
         let (mut open, mut filling) = (ByCorners::<G::Corners, Across>::default(), Vec::new());
-        memory::reserve_map(&mut open, G::Corners::N * hole.link.len())?;
-        memory::reserve_exact(&mut filling, hole.link.len())?;
-        for gap in &hole.link {
+        memory::reserve_map(&mut open, G::Corners::N * link.len())?;
+        memory::reserve_exact(&mut filling, link.len())?;
+        for gap in link {
             if gap.at != Self::LAST && gap.corners[Self::LAST] == INFINITE {
                 open.insert(facet_of(&gap.corners, gap.at).0, Across::Old(gap.out));
             } else {
                 let ghost = gap.corners.with(gap.at, INFINITE).rotated_to_last(gap.at);
-                // Those that are next to ghosts come below.
+                // What is across the other facets, other ghosts, is found below.
                 filling.push((ghost, Of::<G>::filled(Across::Old(gap.out))));
             }
         }

@@ -29,10 +29,10 @@ impl<G: Dimension> Delaunay<G> {
     /// Cell where a walk to `q` from the cell `start` ends. `f` must hold for `q`. Counts its steps.
     #[inline(always)]
     pub(super) fn walk(&self, f: &StaticFilter, q: &G::Point, start: Slot, steps: &mut u64) -> Slot {
-        self.walk_until(f, q, start, steps, |_| false)
+        self.walk_until(f, q, start, steps, |_| false).0
     }
 
-    /// As [`walk`](Self::walk), but a finite cell that is enough ends it, too.
+    /// As [`walk`](Self::walk), but a finite cell that is enough ends it, too; whether one has.
     #[inline(always)]
     pub(super) fn walk_until(
         &self,
@@ -41,7 +41,7 @@ impl<G: Dimension> Delaunay<G> {
         start: Slot,
         steps: &mut u64,
         is_enough: impl Fn(Slot) -> bool,
-    ) -> Slot {
+    ) -> (Slot, bool) {
         let n = G::Corners::N;
         let mut cell = start;
         if self.complex.cell(cell).is_ghost() {
@@ -50,7 +50,7 @@ impl<G: Dimension> Delaunay<G> {
         let mut entered = n;
         'cells: loop {
             if is_enough(cell) {
-                return cell;
+                return (cell, true);
             }
             let c = self.complex.cell(cell);
             for i in 0..n {
@@ -59,13 +59,13 @@ impl<G: Dimension> Delaunay<G> {
                     let next = c.neighbour(i);
                     cell = next.cell();
                     if self.complex.cell(cell).is_ghost() {
-                        return cell;
+                        return (cell, false);
                     }
                     entered = next.index();
                     continue 'cells;
                 }
             }
-            return cell;
+            return (cell, false);
         }
     }
 

@@ -50,6 +50,7 @@ mod high_degree;
 mod kernel;
 mod landmarks;
 mod locate;
+mod meetings;
 pub mod order;
 mod parallel;
 mod parts;

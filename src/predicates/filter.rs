@@ -62,16 +62,6 @@
 //! ([`insphere_bound_of_terms`]); second-order terms, and its own rounding, are less than 50 u of it, and left to
 //! [`ROUND_UP`]. Underflow adds what it adds to the bound by extents.
 //!
-//! # Running errors
-//!
-//! Points close to a circle, or to a line, make small cross products of long differences. The in-circle determinant of
-//! `plane.rs` is a difference of two products, each of a cross product C and a scalar product D of rounded differences.
-//! Let m be the sum of the magnitudes of the two products that C is the sum of, as computed. Each is off by at most 3 u
-//! of itself: for two differences and its own rounding. So C is off by at most e(C) = u (3 m + |C|), and D likewise. Their
-//! product is off by at most |C| e(D) + e(C) (|D| + e(D)) + u |C D|; that of two such products is
-//! [`incircle_running_bound`], second-order terms that are less than 10 u of it being left to [`ROUND_UP`]. Underflow adds
-//! what it adds to the bound by extents.
-//!
 //! # Rounding of the bounds
 //!
 //! The calculus adds and multiplies positive numbers only, fewer than 200 times, and evaluating a bound
@@ -314,37 +304,6 @@ pub(super) fn insphere_bound(extents: [f64; 3]) -> f64 {
 pub(super) fn insphere_bound_of_terms(magnitudes: f64, extents: [f64; 3]) -> f64 {
     let amplified = largest(extents).max(1.0);
     IN_SPHERE_TERMS * magnitudes + UNDERFLOW * (amplified * amplified * amplified)
-}
-
-/// A sum of two products, and what it is off in units of u (see *Running errors*).
-#[derive(Clone, Copy)]
-pub(super) struct Running {
-    magnitude: f64,
-    error: f64,
-}
-
-impl Running {
-    /// Of products of differences.
-    #[inline(always)]
-    pub(super) fn sum(first: f64, second: f64) -> Self {
-        let magnitude = (first + second).abs();
-        Running { magnitude, error: 3.0 * (first.abs() + second.abs()) + magnitude }
-    }
-
-    /// What the product is off, likewise.
-    #[inline(always)]
-    fn error_of_product(self, other: Self) -> f64 {
-        let of_factors = self.magnitude * other.error + self.error * (other.magnitude + UNIT * other.error);
-        of_factors + self.magnitude * other.magnitude
-    }
-}
-
-/// Bound of `incircle` for points of these extents, of which the determinant is a difference of two products.
-#[inline(always)]
-pub(super) fn incircle_running_bound(products: [[Running; 2]; 2], extents: [f64; 2]) -> f64 {
-    let amplified = largest(extents).max(1.0);
-    let [first, second] = products.map(|[c, d]| c.error_of_product(d));
-    UNIT * ROUND_UP * (first + second) + UNDERFLOW * (amplified * amplified)
 }
 
 /// Bound of a prepared circle of a triangle of this largest extent, for points no further than `reach` from

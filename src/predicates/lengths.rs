@@ -25,9 +25,6 @@
 
 use super::filter::{ROUND_UP, UNDERFLOW, UNIT};
 
-/// Bound of `side_of_seen_circle` by running errors / what is summed up for it, see `lifted.rs`.
-const LIFTED_RUNNING: f64 = UNIT * ROUND_UP;
-
 /// Bound of a prepared sphere / (L³ (|s|² + 3/5 L²)) for an edge's length L and the difference s of the point.
 const PREPARED_BY_LENGTHS: f64 = 17.0 * UNIT * PERMANENT_3D * 2.5 * ROUND_UP;
 
@@ -61,12 +58,6 @@ pub(super) fn prepared_bound_by_lengths(length: f64, squared_distance: f64) -> f
 #[inline(always)]
 pub(super) fn lifted_bound_by_lengths(square: f64) -> f64 {
     LIFTED_BY_LENGTHS * (square * square) + UNDERFLOW
-}
-
-/// Bound of `side_of_seen_circle` by running errors, in units of u, and the greatest of the corners' squared distances.
-#[inline(always)]
-pub(super) fn lifted_running_bound(errors: f64, square: f64) -> f64 {
-    LIFTED_RUNNING * errors + UNDERFLOW * square.max(1.0)
 }
 
 #[cfg(test)]

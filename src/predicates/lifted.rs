@@ -4,17 +4,11 @@
 //! `|u|² v×w + |v|² w×u + |w|² u×v`. A search of neighbouring triangles with one `q` meets every difference,
 //! every square and every cross product of an edge more than once: kept, they leave 16 operations to a test,
 //! of 25. The static bound is derived like those of the other determinants, for this operation order, and
-//! [`seen_circle_bound`] is that of the corners at hand, [`seen_circle_running_bound`] that of the values at hand; what
-//! they leave uncertain goes to [`incircle`](super::incircle).
-//!
-//! # Running errors
-//!
-//! Let C be a cross product and m the sum of the magnitudes of its two products, as computed: it is off by at most
-//! u (3 m + |C|), as in `filter.rs`. A square S is off by 4 u S, for two differences, a product and a sum. With its own
-//! rounding, S C is off by u S (3 m + 6 |C|), and the sum of three of these by what they are off together and by
-//! u S |C| of two of them. Second-order terms are less than 10 u of that, and left to the factor that rounds up.
+//! [`seen_circle_bound`] is that of the corners at hand, [`seen_circle_running_bound`] that of the values at hand
+//! (`running.rs`); what they leave uncertain goes to [`incircle`](super::incircle).
 
-use super::lengths::{lifted_bound_by_lengths, lifted_running_bound};
+use super::lengths::lifted_bound_by_lengths;
+use super::running::{Running, lifted_running_bound};
 use super::vectors::{dot, minor, minus};
 use crate::simd::Real;
 
@@ -57,12 +51,12 @@ pub fn seen_circle_bound([u, v, w]: [&Lifted; 3]) -> f64 {
 
 /// What the magnitude of [`side_of_seen_circle`] exceeds if it is certain, by the errors of what it is computed from.
 #[inline(always)]
-pub fn seen_circle_running_bound([u, v, w]: [&Lifted; 3], [uv, vw, wu]: [f64; 3]) -> f64 {
-    let errors = |Lifted { square, .. }: &Lifted, p: &Lifted, q: &Lifted, cross: f64| {
+pub fn seen_circle_running_bound([u, v, w]: [&Lifted; 3]) -> f64 {
+    let error = |opposite: &Lifted, p: &Lifted, q: &Lifted| {
         let ([x, y], [z, t]) = (p.difference, q.difference);
-        square * (3.0 * ((x * t).abs() + (y * z).abs()) + 7.0 * cross.abs())
+        Running::sum(x * t, -(y * z)).error_of_lifted(opposite.square)
     };
-    let errors = errors(u, v, w, vw) + errors(v, w, u, wu) + errors(w, u, v, uv);
+    let errors = error(u, v, w) + error(v, w, u) + error(w, u, v);
     lifted_running_bound(errors, Real::max(Real::max(u.square, v.square), w.square))
 }
 
@@ -123,7 +117,7 @@ mod tests {
             let [u, v, w] = &[a, b, c].map(|p| Lifted::new(p, q));
             let crosses = [u.cross(v), v.cross(w), w.cross(u)];
             let side = side_of_seen_circle([u, v, w], crosses);
-            let bound = seen_circle_running_bound([u, v, w], crosses);
+            let bound = seen_circle_running_bound([u, v, w]);
             if side.abs() > seen_circle_bound([u, v, w]) {
                 continue;
             }

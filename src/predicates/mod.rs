@@ -95,6 +95,7 @@ mod near_ties;
 mod path;
 mod perturbation;
 mod plane;
+mod running;
 mod separator;
 mod space;
 mod sphere;

@@ -1,11 +1,9 @@
 //! Predicates of the plane.
 
 use super::big::{self, has_room};
-use super::filter::{
-    Running, StaticFilter, extents, incircle_bound, incircle_running_bound, is_certain, largest,
-    orient2d_bound,
-};
+use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
+use super::running::{Running, incircle_running_bound};
 use super::two_heights::incircle_at_two_heights;
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;

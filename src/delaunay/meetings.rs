@@ -1,0 +1,146 @@
+//! The gluing of the cells that join a site to the rim of its zone in space.
+//!
+//! Each edge of the rim is seen once in each direction: the facet that sees it as `kl` meets the one that sees it as
+//! `lk`. The meeting place is a square table over local labels of the rim's sites (a small one on the stack until the
+//! first rim that is too large for it: triangulations of few sites would spend half their time to clear the large one);
+//! a label is kept in the site's `cell` field, which the insertion overwrites anyway, and holds if the list of labels
+//! agrees. Whether it does cannot be predicted, so both ways are written and one is kept.
+
+use std::hint::select_unpredictable;
+
+use super::{Delaunay, Space};
+use crate::complex::{Facet, INFINITE};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot};
+use crate::machine::memory;
+
+/// Rims up to this size go through the table: a rim of `m` facets has `m / 2 + 2` sites.
+pub(super) const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
+const MAX_LABELS: usize = 64;
+const TABLE: usize = MAX_LABELS * MAX_LABELS;
+
+/// Rims up to this size go through a smaller table, which takes no memory of its own, until there is a larger one.
+const FEW_LABELS: usize = 16;
+pub(super) const FEW_RIM: usize = 2 * (FEW_LABELS - 2);
+
+/// A facet of the rim.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rim {
+    /// Corners of the new cell.
+    pub(super) corners: [SiteId; 4],
+    /// The facet seen from outside the zone.
+    pub(super) out: Facet,
+}
+
+/// Where the two facets of a ridge meet; without room until a rim is larger than [`FEW_RIM`].
+#[derive(Debug, Default)]
+pub(super) struct Meetings {
+    /// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
+    table: Vec<Facet>,
+    /// The site of each label.
+    labels: Vec<SiteId>,
+    /// Labels of the last three corners of each new cell.
+    local: Vec<[u8; 4]>,
+}
+
+impl Meetings {
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.table) + memory::bytes_of(&self.labels) + memory::bytes_of(&self.local)
+    }
+
+    /// Makes room for rims of up to [`SMALL_RIM`] facets.
+    pub(super) fn make_room(&mut self) -> Result<()> {
+        memory::lengthen(&mut self.labels, MAX_LABELS, INFINITE)?;
+        memory::lengthen(&mut self.local, SMALL_RIM, [0; 4])?;
+        // Last, as its length stands for all.
+        memory::lengthen(&mut self.table, TABLE, Facet::new(Slot::new(0), 0))
+    }
+
+    /// Puts the new cells of a rim, which have their slots, and glues them. There must be room for all ridges of a rim
+    /// that is larger than [`SMALL_RIM`].
+    #[inline(always)]
+    pub(super) fn glue(&mut self, t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], ridges: Vec<Ridge>) {
+        if rim.len() > SMALL_RIM {
+            return glue_sorted(t, rim, cells, ridges);
+        }
+        let Meetings { table, labels, local } = self;
+        // Of fixed lengths, so that the compiler sees masked indices in bounds.
+        match (table.as_mut_slice().try_into(), labels.as_mut_slice().try_into()) {
+            (Ok(table), Ok(labels)) => {
+                glue_by_table::<MAX_LABELS, TABLE>(t, rim, cells, table, labels, local)
+            }
+            _ => glue_few(t, rim, cells),
+        }
+    }
+}
+
+/// As the table of [`Meetings`], for a rim of [`FEW_RIM`] facets at most.
+#[cold]
+#[inline(never)]
+fn glue_few(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot]) {
+    let mut table = [Facet::new(Slot::new(0), 0); FEW_LABELS * FEW_LABELS];
+    let (mut labels, mut local) = ([INFINITE; FEW_LABELS], [[0; 4]; FEW_RIM]);
+    glue_by_table(t, rim, cells, &mut table, &mut labels, &mut local);
+}
+
+/// Glues by a table of `LABELS` times `LABELS` entries.
+#[inline(always)]
+fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
+    t: &mut Delaunay<Space>,
+    rim: &[Rim],
+    cells: &[Slot],
+    table: &mut [Facet; ENTRIES],
+    labels: &mut [SiteId; LABELS],
+    local: &mut [[u8; 4]],
+) {
+    let mut n_labels = 0;
+    for ((facet, &cell), local) in rim.iter().zip(cells).zip(local.iter_mut()) {
+        let mut label = |v: SiteId| {
+            let site = t.corner_mut(v);
+            let old = site.cell.get();
+            let is_known = (old < n_labels) & (labels[old as usize % LABELS] == v);
+            let label = select_unpredictable(is_known, old, n_labels);
+            labels[label as usize % LABELS] = v;
+            site.cell = Slot::new(label);
+            n_labels += !is_known as u32;
+            label as usize
+        };
+        let [_, k, l, m] = facet.corners;
+        let (k, l, m) = (label(k), label(l), label(m));
+        *local = [0, k as u8, l as u8, m as u8];
+        table[(l * LABELS + m) % ENTRIES] = Facet::new(cell, 1);
+        table[(m * LABELS + k) % ENTRIES] = Facet::new(cell, 2);
+        table[(k * LABELS + l) % ENTRIES] = Facet::new(cell, 3);
+    }
+    for ((facet, &cell), label) in rim.iter().zip(cells).zip(local.iter()) {
+        let [_, k, l, m] = label.map(usize::from);
+        let at = |from: usize, to: usize| table[(from * LABELS + to) % ENTRIES];
+        t.complex.put_glued(cell, facet.corners, [facet.out, at(m, l), at(k, m), at(l, k)]);
+        for i in 1..4 {
+            t.corner_mut(facet.corners[i]).cell = cell;
+        }
+    }
+}
+
+/// An edge of the rim, and a facet there.
+pub(super) type Ridge = ([SiteId; 2], Facet);
+
+/// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room
+/// for all `ridges`.
+#[cold]
+fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], mut ridges: Vec<Ridge>) {
+    for (facet, &cell) in rim.iter().zip(cells) {
+        let v = facet.corners;
+        t.complex.put(cell, v);
+        t.complex.glue(Facet::new(cell, 0), facet.out);
+        for (i, k, l) in [(1, 2, 3), (2, 3, 1), (3, 1, 2)] {
+            ridges.push(([v[k].min(v[l]), v[k].max(v[l])], Facet::new(cell, i)));
+            t.sites[v[i]].cell = cell;
+        }
+    }
+    ridges.sort_unstable();
+    for pair in ridges.chunks_exact(2) {
+        debug_assert_eq!(pair[0].0, pair[1].0);
+        t.complex.glue(pair[0].1, pair[1].1);
+    }
+}
