@@ -18,9 +18,9 @@
 //! vertices where they are ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the
 //! one that moved farthest is taken back, so that a vertex that jumps across the domain goes first.
 //!
-//! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a twelfth of a rebuild in
-//! the plane and a fifteenth in space; a vertex taken back costs a placement, seven or eight vertices rebuilt (`make
-//! calibrate`).
+//! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a fourteenth of a rebuild in
+//! the plane and a nineteenth in space; a vertex taken back costs a placement, eight vertices rebuilt in the plane and
+//! ten in space (`make calibrate`).
 //! Where more break than is worth mending, the triangulation is rebuilt, at once where that is foreseen
 //! ([`foresight`](super::foresight)). The first repair after a build sorts
 //! the cells of a large triangulation. The moves of all vertices, the sweep and the flips are done by several
