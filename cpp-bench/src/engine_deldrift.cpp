@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// deldrift through its C interface: stage all positions, commit the timestamp.
+// deldrift through its C interface: commit all positions.
 #include "engine.hpp"
 #include "library.hpp"
 
@@ -35,15 +35,13 @@ public:
     }
 
     void advance(const double *positions) override {
-        stage(positions);
-        commit();
+        advance_all(positions, nullptr);
     }
 
     void advance_sequentially(const double *positions) override {
         if (rebuilds_) {
             deldrift_commit_report report;
-            require(deldrift_move_vertices(triangulation_, nullptr, positions, n_points_), "deldrift_move_vertices");
-            require(deldrift_commit_timestamp(triangulation_, &report), "deldrift_commit_timestamp");
+            advance_all(positions, &report);
             // Rebuilding and tolerance relocates one by one as soon as it has turned to tolerances.
             rebuilds_ = options_.algorithm == DELDRIFT_REBUILDING || report.rebuilds > 0;
             return;
@@ -103,6 +101,10 @@ protected:
     void commit() { require(deldrift_commit_timestamp(triangulation_, nullptr), "deldrift_commit_timestamp"); }
 
 private:
+    void advance_all(const double *positions, deldrift_commit_report *report) {
+        require(deldrift_commit_positions(triangulation_, positions, n_points_, report), "deldrift_commit_positions");
+    }
+
     /// The places that a program has of its own.
     void copy_positions() {
         std::size_t count = 0;
