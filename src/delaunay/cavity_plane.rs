@@ -205,9 +205,7 @@ fn is_in_uncertain_conflict(
 ) -> bool {
     let corners = corners.each_ref();
     // Of lattices it is zero.
-    let is_certain = side != 0.0
-        && (side.abs() > seen_circle_bound(corners) || side.abs() > seen_circle_running_bound(corners));
-    if is_certain {
+    if side != 0.0 && side.abs() > seen_circle_running_bound(corners) {
         return side > 0.0;
     }
     Plane::is_in_sphere(&t.filter, t.view(), &t.complex.cell(cell).corners, q, id)
