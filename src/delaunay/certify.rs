@@ -187,10 +187,28 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
-    /// Lists the ghost cells.
-    pub(crate) fn list_ghosts(&self, ghosts: &mut Vec<Slot>) -> Result<()> {
+    /// Lists the ghost cells: one, and all that are reached from it. (The ghost vertex need not know one while there are
+    /// flips; where cells are sorted the first ones are ghosts.)
+    pub(crate) fn list_ghosts(&mut self, ghosts: &mut Vec<Slot>) -> Result<()> {
         ghosts.clear();
-        memory::collect(ghosts, self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()))
+        memory::reserve(ghosts, self.complex.n_ghosts())?;
+        let complex = &mut self.complex;
+        let first = complex.live().find(|&c| complex.cell(c).is_ghost());
+        ghosts.extend(first.inspect(|&c| complex.set_mark(c, 1)));
+        let mut k = 0;
+        while let Some(&c) = ghosts.get(k) {
+            for i in 0..Self::LAST {
+                let across = complex.cell(c).neighbour(i).cell();
+                if complex.mark(across) == 0 {
+                    complex.set_mark(across, 1);
+                    ghosts.push(across);
+                }
+            }
+            k += 1;
+        }
+        debug_assert_eq!(ghosts.len(), complex.n_ghosts());
+        ghosts.iter().for_each(|&c| complex.set_mark(c, 0));
+        Ok(())
     }
 
     /// Checks the certificates of a bi-cell after the vertices have moved from where they were `before`, by id. Of

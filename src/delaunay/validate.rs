@@ -333,12 +333,18 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// How many of the ghosts' facets, all of which have `o` on their inner side, a ray from `o` that meets no ridge
-    /// crosses, and a point on it.
+    /// crosses, and a point on it. `o` must be in the box of the filter.
     ///
     /// Where the hull is a few roundings wide, its box may have no other aims than `o` and points behind ridges. Of
     /// those on the curve, each ridge is in the way of as many as there are dimensions at most, since it is in one
     /// hyperplane with `o`.
     fn crossings_of(&self, ghosts: impl Iterator<Item = Slot> + Clone, o: &G::Point) -> (usize, G::Point) {
+        let aim = aim_in::<G>(&self.lower, &self.upper, 0);
+        if self.is_covered(&aim)
+            && let Some(crossings) = self.crossings(&self.filter, ghosts.clone(), o, &aim)
+        {
+            return (crossings, aim);
+        }
         // The box of the hull: that of the filter may be far wider.
         let corners = ghosts.clone().map(|g| &self.complex.cell(g).corners.as_ref()[..Self::LAST]);
         let places = corners.flatten().map(|&s| &self.site(s).point);

@@ -196,7 +196,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether the hull of cells that have been untangled winds once. There is room for all suspects then.
-    fn check_untangled(&self, repair: &mut Repair) -> Result<bool> {
+    fn check_untangled(&mut self, repair: &mut Repair) -> Result<bool> {
         let Repair { failures, suspects, .. } = repair;
         memory::reserve(suspects, failures.facets.len())?;
         self.kernel.list_ghosts(&mut failures.ghosts)?;
@@ -212,7 +212,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether a convex hull winds once.
-    fn winds_once(&self, repair: &mut Repair) -> Result<bool> {
+    fn winds_once(&mut self, repair: &mut Repair) -> Result<bool> {
         let failures = &mut repair.failures;
         if !failures.may_wind_twice {
             return Ok(true);
