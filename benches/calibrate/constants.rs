@@ -42,7 +42,7 @@ pub struct Constant {
 }
 
 /// Inputs for those constants alone that no commit's counts tell of.
-const APART: [&str; 3] = ["read", "leap", "monitored"];
+const APART: [&str; 4] = ["read", "leap", "mixed", "monitored"];
 
 impl Constant {
     /// Other values than the present one.
@@ -181,11 +181,14 @@ fn thresholds_of(dimension: usize) -> Vec<Constant> {
         margin: Real,
         moves_per_fit: Whole,
         max_stride_ratio: AboveOne,
+        replaced_to_sort: Real,
+        replaced_to_sort_first: Real,
         relocations_per_call: Whole,
         rebuilt_per_edit: Whole,
     ] besides costs);
     let timed = |constant: Constant| match constant.name {
         "max_stride_ratio" => constant.timed_on(&["leap"]),
+        "replaced_to_sort" | "replaced_to_sort_first" => constant.timed_on(&["mixed"]),
         "relocations_per_call" => constant.timed_on(&["monitored"]),
         "moves_per_fit" => constant.timed_on(&["lloyd", "odt", "walk"]),
         _ => constant,

@@ -235,6 +235,12 @@ impl<G: Dimension> Inputs<'_, G> {
             let walk = walk::<G>(n, (0..self.commits(10)).map(|_| step)).read();
             self.add(format!("read {step}"), walk);
         }
+        // Cells are mixed by the first steps, and mended by slack or by repairs in the others.
+        for step in [1e-3, 1e-2] {
+            let mixing = (0..self.commits(60)).map(|_| 0.05);
+            let walk = walk::<G>(n, mixing.chain((0..self.commits(150)).map(|_| step)));
+            self.add(format!("mixed {step}"), walk);
+        }
     }
 }
 

@@ -283,14 +283,16 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Puts the cells in the order of the sites, so that what is near in space is near in memory for sweeps over all: a
-    /// build leaves them in the order of its insertion rounds. Once after each build; large sets gain, by half and
-    /// more, and several threads need it to have cells of their own.
+    /// build leaves them in the order of its insertion rounds, and what flips and placements make is where there is
+    /// room. Once after each build, and again when that many times as many cells as there are have been
+    /// [replaced](Self::is_disordered); large sets gain, by half and more, and several threads need it to have cells of
+    /// their own.
     ///
     /// Returns the new slot of each, [`Slot::NONE`] for free ones, unless they stay as they are.
-    pub(crate) fn sort_cells(&mut self) -> Result<Option<Vec<Slot>>> {
+    pub(crate) fn sort_cells(&mut self, replaced: f64) -> Result<Option<Vec<Slot>>> {
         let n_slots = self.complex.n_slots();
         let n_threads = self.flipping_threads(n_slots);
-        if self.is_sorted || n_slots < LARGE && n_threads == 1 {
+        if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && n_threads == 1 {
             return Ok(None);
         }
         let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_threads))?;
@@ -300,8 +302,14 @@ impl<G: Dimension> Delaunay<G> {
             }
         }
         self.recent = index[self.recent];
-        self.is_sorted = true;
+        (self.is_sorted, self.n_replaced) = (true, 0);
         Ok(Some(index))
+    }
+
+    /// Whether that many times as many cells as there are have been replaced since they were sorted, and order counts.
+    pub(crate) fn is_disordered(&self, replaced: f64) -> bool {
+        let n_slots = self.complex.n_slots();
+        n_slots >= LARGE && self.n_replaced as f64 > replaced * n_slots as f64
     }
 
     /// How many threads flip, for this number of cells.
@@ -342,6 +350,7 @@ impl<G: Dimension> Delaunay<G> {
             parts,
             flat,
             is_sorted: true,
+            n_replaced: 0,
             recent: index.get(self.recent.index()).copied().unwrap_or(Slot::new(0)),
             complex,
             certificates: self.certificates,

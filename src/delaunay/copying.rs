@@ -17,6 +17,7 @@ impl<G: Dimension> Delaunay<G> {
             upper: self.upper,
             flat: self.flat.copied()?,
             is_sorted: self.is_sorted,
+            n_replaced: self.n_replaced,
             recent: self.recent,
             certificates: self.certificates,
             link_sites: self.link_sites,

@@ -113,6 +113,8 @@ pub struct Delaunay<G: Dimension> {
     flat: Flat<G>,
     /// Whether the cells have been [sorted](Self::sort_cells) since the latest build.
     is_sorted: bool,
+    /// Slots that hold other cells than before, counted once for each change, since they were.
+    n_replaced: usize,
     /// A live cell, near the latest change.
     recent: Slot,
     landmarks: landmarks::Landmarks,
@@ -161,6 +163,7 @@ impl<G: Dimension> Delaunay<G> {
             upper: origin,
             flat: Flat::default(),
             is_sorted: false,
+            n_replaced: 0,
             recent: Slot::new(0),
             landmarks: Default::default(),
             cavity: Cavity::default(),

@@ -146,6 +146,7 @@ impl<G: Dimension> Delaunay<G> {
         self.log.is_on = false;
         self.log.sites.clear();
         self.log.cells = None;
+        self.n_replaced += self.complex.rows().len();
         self.complex.end_record();
     }
 }

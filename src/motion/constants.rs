@@ -160,6 +160,10 @@ pub struct Constants {
     /// Sites are sorted when the mean distance of those next to each other has become so much greater: with less, they
     /// are sorted without need; with more the walks take longer than to sort.
     pub max_stride_ratio: f64,
+    /// Cells are sorted again when that many times as many as there are have been replaced.
+    pub replaced_to_sort: f64,
+    /// The same before all tolerances are computed, which takes longer than to sort, and in order less.
+    pub replaced_to_sort_first: f64,
     /// Relocations between two calls of the monitor.
     pub relocations_per_call: usize,
     /// Vertices that are rebuilt in the time of a removal and an insertion: where more than one in this number is
@@ -247,6 +251,8 @@ const PLANE: Constants = Constants {
     margin: 1.0 / 16.0,
     moves_per_fit: 64,
     max_stride_ratio: 1.7,
+    replaced_to_sort: 2.0,
+    replaced_to_sort_first: 0.5,
     relocations_per_call: 256,
     rebuilt_per_edit: 8,
 };

@@ -15,6 +15,7 @@
 //! Memory is reserved before a change, so [`undo`](MovingTriangulation::undo) needs none, and cannot fail.
 
 use super::MovingTriangulation;
+use super::constants::constants;
 use super::transaction::{Counts, VertexBefore};
 use crate::delaunay::Dimension;
 use crate::error::Result;
@@ -66,7 +67,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.transaction.end();
         if self.transaction.wants_order() {
             // For speed alone: without the memory for it the cells stay as they are.
-            let _ = self.sort_cells();
+            let _ = self.sort_cells(constants::<G>().replaced_to_sort);
         }
     }
 

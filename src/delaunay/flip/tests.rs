@@ -14,7 +14,7 @@ fn moved<G: Dimension>(n: usize, threads: u32, size: f64) -> (Delaunay<G>, Vec<F
     let mut t = Delaunay::<G>::on(Threads::exactly(threads)).expect("room for it");
     t.add_sites(&points).expect("room for it");
     t.rebuild(&mut |_| true).expect("room for it");
-    t.sort_cells().expect("room for it");
+    t.sort_cells(f64::INFINITY).expect("room for it");
     let facets = move_sites(&mut t, |old| {
         let mut q = *old;
         (0..G::D).for_each(|k| q[k] += size * (2.0 * rng.unit() - 1.0));

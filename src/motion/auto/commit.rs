@@ -73,6 +73,10 @@ impl<G: Dimension> MovingTriangulation<G> {
                 if was_kept {
                     self.auto.weigh_slack::<G>(self.n_present, report);
                 }
+                if self.kernel.is_disordered(constants::<G>().replaced_to_sort_first) {
+                    // So that the next commit sorts the cells.
+                    self.regions.invalidate();
+                }
                 return Ok(ended);
             }
             self.auto.give_up::<G>(self.n_present, false);
@@ -138,5 +142,37 @@ impl<G: Dimension> MovingTriangulation<G> {
             // Without the memory for them all goes on as it did.
             let _ = self.prepare_regions(Filter::Tolerance, &mut CommitReport::default());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::delaunay::{Level, Space};
+    use crate::motion::constants::constants;
+    use crate::motion::{MovingTriangulation, Options};
+    use crate::random::Rng;
+
+    /// Cells are sorted again as flips and placements replace them, after repairs and before slacks are computed, and stay
+    /// those of the triangulation.
+    #[test]
+    fn cells_are_sorted_again() {
+        let rng = &mut Rng::new(1);
+        // More cells than a processor's own cache holds.
+        let (n, side) = (6_000, 18.0);
+        let mut now = vec![[0.0; 3]; n];
+        now.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
+        let mut t = MovingTriangulation::<Space>::new(&now, Options::default()).expect("room");
+        let first = constants::<Space>().replaced_to_sort_first;
+        let mut n_sorted = [0; 2];
+        let steps = [(0, 0.06, 60), (1, 1e-4, 20)];
+        for (phase, step) in steps.into_iter().flat_map(|(phase, step, n)| vec![(phase, step); n]) {
+            now.as_flattened_mut().iter_mut().for_each(|x| *x += step * (rng.unit() - 0.5));
+            let was_disordered = t.kernel.is_disordered(first);
+            let rebuilds = t.commit_positions(&now).expect("room").rebuilds;
+            let is_sorted = rebuilds == 0 && was_disordered && !t.kernel.is_disordered(first);
+            n_sorted[phase] += u32::from(is_sorted);
+        }
+        assert!(n_sorted[0] > 1 && n_sorted[1] == 1, "{n_sorted:?}");
+        assert_eq!(t.validate(Level::Delaunay), Ok(()));
     }
 }

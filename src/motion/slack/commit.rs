@@ -52,7 +52,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Slack) {
             self.stage_given(given)?;
-            self.sort_cells()?;
+            self.sort_cells(constants::<G>().replaced_to_sort_first)?;
             self.prepare_regions(Filter::Slack, report)?;
         }
         let mut repair = std::mem::take(&mut self.repair);

@@ -73,7 +73,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Watch) {
             self.stage_given(given)?;
-            self.sort_cells()?;
+            self.sort_cells(constants::<G>().replaced_to_sort_first)?;
             self.prepare_regions(Filter::Watch, report)?;
         }
         let most = (self.n_present as f64 * max_share_beyond) as usize;

@@ -188,7 +188,7 @@ fn undoing_goes_back_to_before_untangling_only() {
     let mut points = vec![[0.0; 3]; 3000];
     points.iter_mut().flatten().for_each(|x| *x = rng.unit());
     let mut t = built_on::<Space>(&points, 3);
-    t.sort_cells().expect("room for it");
+    t.sort_cells(f64::INFINITY).expect("room for it");
     let mut n_after_several = 0;
     for _ in 0..30 {
         points.iter_mut().flatten().for_each(|x| *x += 4e-4 * rng.unit());
@@ -204,7 +204,7 @@ fn undoing_goes_back_to_before_untangling_only() {
             n_after_several += usize::from(were_several);
         } else {
             t = built_on(&points, 3);
-            t.sort_cells().expect("room for it");
+            t.sort_cells(f64::INFINITY).expect("room for it");
         }
     }
     assert!(n_after_several > 3, "{n_after_several}");
