@@ -5,13 +5,15 @@
 //! as their boundary winds. They are the Delaunay triangulation if also no facet fails the empty-sphere test
 //! (Delaunay's lemma, ties broken by id).
 
+mod hull;
+
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::{Delaunay, Dimension, Failures};
 use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::Result;
-use crate::ids::{SiteId, Slot, VertexId};
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::threads;
 use crate::simd::{Avx2, LANES};
@@ -167,50 +169,6 @@ impl<G: Dimension> Delaunay<G> {
         Ok(true)
     }
 
-    /// Checks the ridges of the ghost cells that are open. Finite cells must be positive. `before` tells, by id, from
-    /// where a vertex has come, if it has moved.
-    pub(crate) fn check_ridges<'p>(
-        &self,
-        failures: &mut Failures,
-        before: impl Fn(VertexId) -> Option<&'p G::Point>,
-    ) -> Result<()> {
-        for g in failures.open_ghosts.drain(..) {
-            for ridge in (0..Self::LAST).map(|i| Facet::new(g, i)) {
-                if !self.is_convex(ridge) {
-                    memory::push(&mut failures.ridges, ridge)?;
-                } else {
-                    failures.may_wind_twice = failures.may_wind_twice
-                        || !self.stayed_positive(&self.simplex_at_hull(ridge), &before);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Lists the ghost cells: one, and all that are reached from it. (The ghost vertex need not know one while there are
-    /// flips; where cells are sorted the first ones are ghosts.)
-    pub(crate) fn list_ghosts(&mut self, ghosts: &mut Vec<Slot>) -> Result<()> {
-        ghosts.clear();
-        memory::reserve(ghosts, self.complex.n_ghosts())?;
-        let complex = &mut self.complex;
-        let first = complex.live().find(|&c| complex.cell(c).is_ghost());
-        ghosts.extend(first.inspect(|&c| complex.set_mark(c, 1)));
-        let mut k = 0;
-        while let Some(&c) = ghosts.get(k) {
-            for i in 0..Self::LAST {
-                let across = complex.cell(c).neighbour(i).cell();
-                if complex.mark(across) == 0 {
-                    complex.set_mark(across, 1);
-                    ghosts.push(across);
-                }
-            }
-            k += 1;
-        }
-        debug_assert_eq!(ghosts.len(), complex.n_ghosts());
-        ghosts.iter().for_each(|&c| complex.set_mark(c, 0));
-        Ok(())
-    }
-
     /// Checks the certificates of a bi-cell after the vertices have moved from where they were `before`, by id. Of
     /// finite cells: both are positive, and the facet passes the empty-sphere test. At the hull: the finite cell is
     /// positive, or the ridge is convex, and has been so all the way. Whether all is as it must be now.
@@ -321,26 +279,6 @@ impl<G: Dimension> Delaunay<G> {
         Ok(is_positive)
     }
 
-    /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way. Whether it is now.
-    fn check_ridge(&self, ridge: Facet, before: &[G::Point], failures: &mut Failures) -> Result<bool> {
-        let simplex = self.simplex_at_hull(ridge);
-        if self.stayed_positive(&simplex, |id| Some(&before[id])) {
-            return Ok(true);
-        }
-        // In a flat part of the hull the cell behind decides, so it must be positive.
-        let behind = self.complex.cell(ridge.cell()).neighbour(Self::LAST).cell();
-        if !self.check_orientation_of(behind, failures)? {
-            memory::push(&mut failures.open_ghosts, ridge.cell())?;
-            return Ok(false);
-        }
-        if !self.is_convex(ridge) {
-            memory::push(&mut failures.ridges, ridge)?;
-            return Ok(false);
-        }
-        failures.may_wind_twice = true;
-        Ok(true)
-    }
-
     /// Checks all certificates of these cells after a motion, like [`check_bicell`](Self::check_bicell).
     pub(crate) fn check_cells(
         &mut self,
@@ -372,43 +310,12 @@ impl<G: Dimension> Delaunay<G> {
         memory::collect(&mut failures.facets, facets.filter(|&facet| !self.is_locally_delaunay(facet)))
     }
 
-    /// The corners of the simplex whose orientation is the certificate of a facet with a ghost cell, at the hull or
-    /// between two ghosts.
-    pub(crate) fn simplex_at_hull(&self, facet: Facet) -> G::Corners {
-        let (c, i) = (facet.cell(), facet.index());
-        let cell = self.complex.cell(c);
-        if !cell.is_ghost() {
-            cell.corners
-        } else if i == Self::LAST {
-            self.complex.cell(cell.neighbour(i).cell()).corners
-        } else {
-            // Across a ridge of the hull the other facet's apex is on the inner side.
-            cell.corners.with(Self::LAST, self.complex.apex(cell.neighbour(i))).reflected(Self::LAST)
-        }
-    }
-
     /// Whether none of these sites, of which one may be the ghost vertex, has moved.
     fn are_at_rest(&self, sites: &[SiteId], before: &[G::Point]) -> bool {
         sites.iter().filter(|&&s| s != INFINITE).all(|&s| {
             let site = self.site(s);
             site.point == before[site.id]
         })
-    }
-
-    /// Whether a simplex that is not negative now has not become so on the way from where its vertices were before: it
-    /// was certainly positive all the way, or nothing has moved.
-    fn stayed_positive<'p>(
-        &self,
-        corners: &G::Corners,
-        before: impl Fn(VertexId) -> Option<&'p G::Point>,
-    ) -> bool {
-        let (mut old, mut new) = ([&self.sites[0].point; 4], [&self.sites[0].point; 4]);
-        for (k, &s) in corners.as_ref().iter().enumerate() {
-            let site = self.site(s);
-            (old[k], new[k]) = (before(site.id).unwrap_or(&site.point), &site.point);
-        }
-        let (old, new) = (&old[..G::Corners::N], &new[..G::Corners::N]);
-        old == new || G::stays_positive(old, new)
     }
 
     /// Checks the cells of the star of a site; all its facets may fail.
@@ -435,22 +342,6 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether a finite cell is positively oriented.
     pub(crate) fn is_positive(&self, cell: Slot) -> bool {
         G::orientation(&self.filter, self.view(), &self.complex.cell(cell).corners) > 0.0
-    }
-
-    /// Whether the hull is convex or flat at the ridge that is this facet of a ghost cell, and not folded. The finite
-    /// cells there must be positive.
-    pub(crate) fn is_convex(&self, ridge: Facet) -> bool {
-        let ghost = self.complex.cell(ridge.cell());
-        let apex = self.place(self.complex.apex(ghost.neighbour(ridge.index())));
-        let beyond = G::orientation_with(&self.filter, self.view(), &ghost.corners, Self::LAST, apex);
-        if beyond != 0.0 {
-            return beyond < 0.0;
-        }
-        // In a hyperplane, the vertices next to the ridge must be on both sides of it: of one through the cell behind.
-        let behind = &self.complex.cell(ghost.neighbour(Self::LAST).cell()).corners;
-        let own = (0..G::Corners::N).find(|&i| behind[i] == ghost.corners[ridge.index()]);
-        let own = own.expect("the cell behind a ghost has its finite corners");
-        G::orientation_with(&self.filter, self.view(), behind, own, apex) < 0.0
     }
 }
 
