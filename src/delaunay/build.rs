@@ -284,9 +284,8 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Puts the cells in the order of the sites, so that what is near in space is near in memory for sweeps over all: a
     /// build leaves them in the order of its insertion rounds, and what flips and placements make is where there is
-    /// room. Once after each build, and again when that many times as many cells as there are have been
-    /// [replaced](Self::is_disordered); large sets gain, by half and more, and several threads need it to have cells of
-    /// their own.
+    /// room. Once after each build, and again when they are [disordered](Self::is_disordered); large sets gain, by half
+    /// and more, and several threads need it to have cells of their own.
     ///
     /// Returns the new slot of each, [`Slot::NONE`] for free ones, unless they stay as they are.
     pub(crate) fn sort_cells(&mut self, replaced: f64) -> Result<Option<Vec<Slot>>> {
@@ -306,7 +305,8 @@ impl<G: Dimension> Delaunay<G> {
         Ok(Some(index))
     }
 
-    /// Whether that many times as many cells as there are have been replaced since they were sorted, and order counts.
+    /// Whether the number of cells replaced since they were sorted exceeds `replaced` times the number of slots, in a
+    /// set so large that order counts.
     pub(crate) fn is_disordered(&self, replaced: f64) -> bool {
         let n_slots = self.complex.n_slots();
         n_slots >= LARGE && self.n_replaced as f64 > replaced * n_slots as f64
@@ -350,7 +350,6 @@ impl<G: Dimension> Delaunay<G> {
             parts,
             flat,
             is_sorted: true,
-            n_replaced: 0,
             recent: index.get(self.recent.index()).copied().unwrap_or(Slot::new(0)),
             complex,
             certificates: self.certificates,

@@ -113,7 +113,7 @@ pub struct Delaunay<G: Dimension> {
     flat: Flat<G>,
     /// Whether the cells have been [sorted](Self::sort_cells) since the latest build.
     is_sorted: bool,
-    /// Slots that hold other cells than before, counted once for each change, since they were.
+    /// How many slots have got other cells since they were sorted, counted once in each change.
     n_replaced: usize,
     /// A live cell, near the latest change.
     recent: Slot,

@@ -160,9 +160,10 @@ pub struct Constants {
     /// Sites are sorted when the mean distance of those next to each other has become so much greater: with less, they
     /// are sorted without need; with more the walks take longer than to sort.
     pub max_stride_ratio: f64,
-    /// Cells are sorted again when that many times as many as there are have been replaced.
+    /// After a repair, cells are sorted again if this many times as many as there are have been replaced.
     pub replaced_to_sort: f64,
-    /// The same before all tolerances are computed, which takes longer than to sort, and in order less.
+    /// The same where the tolerances of all bi-cells are about to be computed: that takes several times as long as
+    /// sorting, and less where cells are sorted.
     pub replaced_to_sort_first: f64,
     /// Relocations between two calls of the monitor.
     pub relocations_per_call: usize,

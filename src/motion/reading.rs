@@ -44,8 +44,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.views.cells_mut(&self.kernel)?.track_commit()
     }
 
-    /// Puts the cells in the order of the sites, unless they are so but for those replaced since, at most that many
-    /// times as many as there are; the arrays follow.
+    /// Puts the cells in the order of the sites, and the arrays follow. Sorted cells stay as they are until `replaced`
+    /// times as many as there are have been replaced.
     pub(super) fn sort_cells(&mut self, replaced: f64) -> Result<()> {
         if let Some(index) = self.kernel.sort_cells(replaced)? {
             self.views.renumber_slots(&index);

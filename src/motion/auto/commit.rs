@@ -149,11 +149,12 @@ impl<G: Dimension> MovingTriangulation<G> {
 mod tests {
     use crate::delaunay::{Level, Space};
     use crate::motion::constants::constants;
+    use crate::motion::regions::Filter;
     use crate::motion::{MovingTriangulation, Options};
     use crate::random::Rng;
 
-    /// Cells are sorted again as flips and placements replace them, after repairs and before slacks are computed, and stay
-    /// those of the triangulation.
+    /// Cells are sorted again as flips, placements and insertions replace them: after repairs, before slacks are computed
+    /// and while they are kept. They stay those of the triangulation.
     #[test]
     fn cells_are_sorted_again() {
         let rng = &mut Rng::new(1);
@@ -163,16 +164,22 @@ mod tests {
         now.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
         let mut t = MovingTriangulation::<Space>::new(&now, Options::default()).expect("room");
         let first = constants::<Space>().replaced_to_sort_first;
-        let mut n_sorted = [0; 2];
-        let steps = [(0, 0.06, 60), (1, 1e-4, 20)];
-        for (phase, step) in steps.into_iter().flat_map(|(phase, step, n)| vec![(phase, step); n]) {
-            now.as_flattened_mut().iter_mut().for_each(|x| *x += step * (rng.unit() - 0.5));
-            let was_disordered = t.kernel.is_disordered(first);
-            let rebuilds = t.commit_positions(&now).expect("room").rebuilds;
-            let is_sorted = rebuilds == 0 && was_disordered && !t.kernel.is_disordered(first);
-            n_sorted[phase] += u32::from(is_sorted);
+        for (step, n_commits, is_slack) in [(0.06, 60, false), (1e-4, 20, true), (1e-4, 3, true)] {
+            let mut n_sorted = 0;
+            for _ in 0..n_commits {
+                now.as_flattened_mut().iter_mut().for_each(|x| *x += step * (rng.unit() - 0.5));
+                let was_disordered = t.kernel.is_disordered(first);
+                let rebuilds = t.commit_positions(&now).expect("room").rebuilds;
+                n_sorted += u32::from(rebuilds == 0 && was_disordered && !t.kernel.is_disordered(first));
+            }
+            assert_eq!(t.regions.kept_for() == Some(Filter::Slack), is_slack);
+            assert!(if is_slack { n_sorted == 1 } else { n_sorted > 1 }, "{n_sorted} of {n_commits}");
+            assert_eq!(t.validate(Level::Delaunay), Ok(()));
+            while is_slack && !t.kernel.is_disordered(first) {
+                let place = [(); 3].map(|()| side * rng.unit());
+                t.insert_vertex(&place).expect("room");
+                now.push(place);
+            }
         }
-        assert!(n_sorted[0] > 1 && n_sorted[1] == 1, "{n_sorted:?}");
-        assert_eq!(t.validate(Level::Delaunay), Ok(()));
     }
 }
