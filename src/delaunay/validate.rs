@@ -310,16 +310,18 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Whether the hull, of which these are all ghost cells and which is convex at every ridge, winds once around a
-    /// point inside a cell; `false` also if every cell is so thin that no double lies inside.
+    /// Whether the hull, which is convex at every ridge, winds once around a point inside a cell; `false` also if these
+    /// are not all ghost cells, or if every cell is so thin that no double lies inside.
     pub(crate) fn winds_once(&self, ghosts: &[Slot]) -> bool {
-        self.inner_point().is_some_and(|o| {
-            let is_inside = |&g: &Slot| {
-                let corners = &self.complex.cell(g).corners;
-                G::orientation_with(&self.filter, self.view(), corners, Self::LAST, &o) < 0.0
-            };
-            ghosts.iter().all(is_inside) && self.crossings_of(ghosts.iter().copied(), &o).0 == 1
-        })
+        let are_all = ghosts.len() == self.complex.n_ghosts();
+        are_all
+            && self.inner_point().is_some_and(|o| {
+                let is_inside = |&g: &Slot| {
+                    let corners = &self.complex.cell(g).corners;
+                    G::orientation_with(&self.filter, self.view(), corners, Self::LAST, &o) < 0.0
+                };
+                ghosts.iter().all(is_inside) && self.crossings_of(ghosts.iter().copied(), &o).0 == 1
+            })
     }
 
     /// A ray from `o` crosses exactly one hull facet.
