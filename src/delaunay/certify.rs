@@ -320,7 +320,12 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Checks the cells of the star of a site; all its facets may fail.
     pub(crate) fn check_star(&mut self, s: SiteId, failures: &mut Failures) -> Result<()> {
-        self.gather_star(s)?;
+        self.check_star_from(self.sites[s].cell, s, failures)
+    }
+
+    /// The same, where a cell of the star is known, as the site need not know one while there are flips.
+    pub(super) fn check_star_from(&mut self, first: Slot, s: SiteId, failures: &mut Failures) -> Result<()> {
+        self.gather_star_from(first, s)?;
         for &(c, at) in self.gathered_star() {
             let cell = self.complex.cell(c);
             if cell.is_ghost() {

@@ -89,8 +89,13 @@ impl<G: Dimension> Delaunay<G> {
     /// Collects the star of a site and its link. What a relocation reads next is asked for on the way: the sites of the
     /// link and those beyond its facets.
     pub(crate) fn gather_star(&mut self, s: SiteId) -> Result<()> {
+        self.gather_star_from(self.sites[s].cell, s)
+    }
+
+    /// The same, where a cell of the star is known, as the site need not know one while there are flips.
+    pub(super) fn gather_star_from(&mut self, first: Slot, s: SiteId) -> Result<()> {
         self.around.clear();
-        list_star(&self.complex, self.sites[s].cell, s, &mut self.around, |_| {})?;
+        list_star(&self.complex, first, s, &mut self.around, |_| {})?;
         self.prefetch_around(s, &self.around);
         let is_far = self.is_far();
         let Hole { star, link, .. } = &mut self.hole;

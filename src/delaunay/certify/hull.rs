@@ -9,14 +9,14 @@ use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
 
 impl<G: Dimension> Delaunay<G> {
-    /// Checks the ridges of the ghost cells that are open. Finite cells must be positive. `before` tells, by id, from
-    /// where a vertex has come, if it has moved.
+    /// Checks the ridges of the ghost cells that are open; what is listed may be none any more, where flips have been
+    /// undone. Finite cells must be positive. `before` tells, by id, from where a vertex has come, if it has moved.
     pub(crate) fn check_ridges<'p>(
         &self,
         failures: &mut Failures,
         before: impl Fn(VertexId) -> Option<&'p G::Point>,
     ) -> Result<()> {
-        for g in failures.open_ghosts.drain(..) {
+        for g in failures.open_ghosts.drain(..).filter(|&g| self.is_ghost(g)) {
             for ridge in (0..Self::LAST).map(|i| Facet::new(g, i)) {
                 if !self.is_convex(ridge) {
                     memory::push(&mut failures.ridges, ridge)?;

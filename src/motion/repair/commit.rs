@@ -5,8 +5,9 @@
 //! rebuild if a sample of the cells foretells that this is faster; where few vertices have moved and nearly all around
 //!     them fails, take these back and place them one by one
 //! sweep: orientation of every cell, empty sphere of every facet, convexity of every ridge of the hull
-//! where a cell is inverted or a ridge is not convex: untangle them by flips; if that cannot be done,
-//!     take vertices back to their old places, one of each cell or ridge, until all are right
+//! where a cell is inverted or a ridge is not convex: untangle them by flips, and take a vertex back to its old place where
+//!     a cell cannot be flipped; if that cannot be done, undo the flips, and take vertices back, one of each cell or
+//!     ridge, until all are right
 //! flip until no facet fails, and triangulate small cavities where flips are stuck
 //! if some still are, undo all flips, take a vertex of each back, and again
 //! place the vertices that were taken back, one by one
@@ -27,18 +28,18 @@
 //! several threads, all else by one.
 
 use super::Repair;
-use super::scratch::At;
+use super::places::At;
 use crate::complex::{Corners, INFINITE};
-use crate::delaunay::{CERTIFICATES_PER_EXACT, Dimension};
+use crate::delaunay::{CERTIFICATES_PER_EXACT, Delaunay, Dimension};
 use crate::error::{Error, Result};
-use crate::ids::{SiteId, VertexId};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::attempt::{Mending, Prospect};
 use crate::motion::constants::constants;
 use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
-use crate::predicates::{exact_calls, squared_distance};
+use crate::predicates::exact_calls;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there
@@ -69,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         repair.failures.is_sweep_due = true;
         let mended = begun.and_then(|()| {
-            if repair.n_new == 0 {
+            if repair.places.n_new == 0 {
                 // No vertex of the cells has moved.
                 self.settle(&mut repair);
                 report.moved = 0;
@@ -102,7 +103,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let mended = self.mend_failures(repair, report);
         self.settle(repair);
-        report.moved = repair.n_new as u64;
+        report.moved = repair.places.n_new as u64;
         mended
     }
 
@@ -130,9 +131,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             + CERTIFICATES_PER_EXACT * exact_of_rebuild;
         for round in 0..constants.max_rounds {
             repair.suspects.clear();
-            is_triangulation = is_triangulation || round == 0 && self.untangle(repair)?;
+            is_triangulation = is_triangulation || round == 0 && self.untangle(repair, most)?;
             if !is_triangulation {
-                let is_mended = self.is_worth_placing(repair)
+                let is_worth = self.is_worth_placing(repair);
+                self.check_taken_back(repair)?;
+                let is_mended = is_worth
                     && self.take_back_failed(repair, most)? == Prospect::Mendable
                     && self.winds_once(repair)?;
                 if !is_mended {
@@ -174,8 +177,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         repair.failures.facets.len() as f64 <= constants::<G>().max_failing * n_cells
     }
 
-    /// Makes the cells a triangulation by flips alone, if that can be done; what has failed is listed as before.
-    fn untangle(&mut self, repair: &mut Repair) -> Result<bool> {
+    /// Makes the cells a triangulation by flips, if that can be done with at most this number of vertices taken back; what
+    /// has failed is listed as before.
+    fn untangle(&mut self, repair: &mut Repair, most_back: usize) -> Result<bool> {
         if repair.failures.cells.is_empty() {
             self.check_ridges(repair)?;
             if repair.failures.ridges.is_empty() {
@@ -184,7 +188,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         // Where it can be done it takes less on lattices, of which small ones have the larger share of flat cells.
         let most = 2 * self.kernel.n_certificates();
-        if !self.kernel.untangle(&repair.failures, &mut repair.suspects, most)? {
+        let Self { kernel, staging, .. } = self;
+        let Repair { failures, suspects, places, .. } = repair;
+        let first = places.queue.len();
+        let mut take_back = |kernel: &mut Delaunay<G>, c: Slot| {
+            let corners = kernel.complex().cell(c).corners;
+            let s = places.farthest(kernel, staging, corners.as_ref()).filter(|_| places.n_old < most_back);
+            s.map_or(Ok(()), |s| places.take_back(kernel, staging, s)).map(|()| s)
+        };
+        let is_done = kernel.untangle(failures, suspects, most, &mut take_back);
+        places.unchecked = first..places.queue.len();
+        if !is_done? {
             return Ok(false);
         }
         let checked = self.check_untangled(repair);
@@ -206,7 +220,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn check_ridges(&self, repair: &mut Repair) -> Result<()> {
-        let (at, before) = (&repair.at, self.staging.positions());
+        let (at, before) = (&repair.places.at, self.staging.positions());
         let before = |id: VertexId| (at[id] != At::Old).then(|| &before[id]);
         self.kernel.check_ridges(&mut repair.failures, before)
     }
@@ -225,21 +239,19 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Notes the vertices that have been moved: of a whole staging all, `moved` of which have gone to another place.
     fn begin_moves(&mut self, repair: &mut Repair, moved: u64) -> Result<()> {
-        repair.at.clear();
-        memory::reserve(&mut repair.at, self.site_of.len())?;
-        repair.queue.clear();
-        (repair.n_new, repair.n_old, repair.exact) = (0, 0, 0);
-        (repair.share_failing, repair.was_foreseen) = (0.0, false);
+        repair.places.begin(self.site_of.len())?;
+        (repair.exact, repair.share_failing, repair.was_foreseen) = (0, 0.0, false);
+        let places = &mut repair.places;
         if self.staging.is_whole() {
-            repair.at.resize(self.site_of.len(), At::New);
-            repair.n_new = moved as usize;
+            places.at.resize(self.site_of.len(), At::New);
+            places.n_new = moved as usize;
             return Ok(());
         }
-        repair.at.resize(self.site_of.len(), At::Rest);
+        places.at.resize(self.site_of.len(), At::Rest);
         for &v in &self.staging.vertices()[..self.staging.applied()] {
             if self.kernel.site(self.site_of[v]).point != self.staging.positions()[v] {
-                repair.at[v] = At::New;
-                repair.n_new += 1;
+                places.at[v] = At::New;
+                places.n_new += 1;
             }
         }
         Ok(())
@@ -249,7 +261,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_staged(&mut self, repair: &mut Repair) -> Result<()> {
         self.begin_moves(repair, 0)?;
         // At shared places there are the hidden vertices, and no more representatives than these.
-        memory::reserve(&mut repair.queue, self.staging.vertices().len().min(2 * self.hidden.count()))?;
+        let places = &mut repair.places;
+        memory::reserve(&mut places.queue, self.staging.vertices().len().min(2 * self.hidden.count()))?;
         // As in the test for tolerances: sites are asked for in advance, as they are in another order than the
         // vertices.
         let (site_of, applied) = (&self.site_of[..], self.staging.applied());
@@ -263,9 +276,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let s = site_of[v];
             if self.hidden.is_followed(sites[s].id) {
-                repair.at[v] = At::Old;
-                repair.queue.push(v);
-                repair.n_old += 1;
+                places.at[v] = At::Old;
+                places.queue.push(v);
+                places.n_old += 1;
                 continue;
             }
             let p = &mut positions[v];
@@ -276,8 +289,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             let point = &mut sites[s].point;
             if point != p {
                 std::mem::swap(point, p);
-                repair.at[v] = At::New;
-                repair.n_new += 1;
+                places.at[v] = At::New;
+                places.n_new += 1;
             }
         }
         self.kernel.cover(&lower, &upper);
@@ -295,7 +308,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let s = self.farthest(repair, corners.as_ref()).expect("old places have positive cells");
                 repair.failures.cells.push(c);
                 self.take_back(repair, s)?;
-                if repair.n_old > most {
+                if repair.places.n_old > most {
                     return Ok(Prospect::TooMuch);
                 }
             }
@@ -317,7 +330,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let s = self.farthest(repair, &corners).expect("old places have a convex hull");
                 repair.failures.ridges.push(ridge);
                 self.take_back(repair, s)?;
-                if repair.n_old > most {
+                if repair.places.n_old > most {
                     return Ok(Prospect::TooMuch);
                 }
                 if !repair.failures.cells.is_empty() {
@@ -329,35 +342,21 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Of these sites, the one that has moved farthest and is at its new place.
     fn farthest(&self, repair: &Repair, sites: &[SiteId]) -> Option<SiteId> {
-        let displacement = |s: SiteId| {
-            let site = self.kernel.site(s);
-            let other = &self.staging.positions()[site.id];
-            let is_new = repair.at[site.id] == At::New && site.point != *other;
-            is_new.then(|| squared_distance(&site.point, other))
-        };
-        let finite = sites.iter().filter(|&&s| s != INFINITE);
-        let with_displacement = finite.filter_map(|&s| displacement(s).map(|d| (d, s)));
-        with_displacement.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
+        repair.places.farthest(&self.kernel, &self.staging, sites)
     }
 
     /// Takes all vertices back, so that the cells are those before.
     fn take_all_back(&mut self, repair: &mut Repair) -> Result<()> {
-        self.reserve_queue(repair, repair.n_new)?;
+        let Repair { places, .. } = repair;
+        places.reserve(&mut self.staging, places.n_new)?;
         for v in VertexId::range(0..self.site_of.len()) {
-            if repair.at[v] == At::New && self.exchange_position(v) {
-                repair.at[v] = At::Old;
-                repair.queue.push(v);
+            if places.at[v] == At::New && self.exchange_position(v) {
+                places.at[v] = At::Old;
+                places.queue.push(v);
             }
         }
-        repair.n_old += std::mem::take(&mut repair.n_new);
+        places.n_old += std::mem::take(&mut places.n_new);
         Ok(())
-    }
-
-    /// Has room for so many more vertices in the queue. It has to fit where the staged vertices are listed, too.
-    fn reserve_queue(&mut self, repair: &mut Repair, more: usize) -> Result<()> {
-        memory::reserve(&mut repair.queue, more)?;
-        let listed = self.staging.vertices_mut();
-        memory::reserve(listed, (repair.queue.len() + more).saturating_sub(listed.len()))
     }
 
     /// How many vertices of a whole staging, all applied, have gone to another place.
@@ -369,14 +368,17 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Takes a vertex back to its old place, and looks at its star.
     fn take_back(&mut self, repair: &mut Repair, s: SiteId) -> Result<()> {
-        self.reserve_queue(repair, 1)?;
-        let v = self.kernel.site(s).id;
-        self.exchange_position(v);
-        repair.at[v] = At::Old;
-        repair.queue.push(v);
-        repair.n_new -= 1;
-        repair.n_old += 1;
+        repair.places.take_back(&mut self.kernel, &mut self.staging, s)?;
         self.kernel.check_star(s, &mut repair.failures)
+    }
+
+    /// Looks at the stars of the vertices that were taken back while cells were exchanged, once that has been undone.
+    fn check_taken_back(&mut self, repair: &mut Repair) -> Result<()> {
+        let Repair { places, failures, .. } = repair;
+        for k in std::mem::take(&mut places.unchecked) {
+            self.kernel.check_star(self.site_of[places.queue[k]], failures)?;
+        }
+        Ok(())
     }
 
     /// Lists a vertex of each facet where flips are stuck.
@@ -391,13 +393,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             let mut corners = [INFINITE; 5];
             corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
             corners[4] = complex.apex(across);
-            let is_listed = |&s: &SiteId| s != INFINITE && repair.at[self.kernel.site(s).id] == At::Listed;
+            let is_listed =
+                |&s: &SiteId| s != INFINITE && repair.places.at[self.kernel.site(s).id] == At::Listed;
             if corners.iter().any(is_listed) {
                 continue;
             }
             if let Some(s) = self.farthest(repair, &corners) {
                 repair.sites.push(s);
-                repair.at[self.kernel.site(s).id] = At::Listed;
+                repair.places.at[self.kernel.site(s).id] = At::Listed;
             }
         }
         Ok(())
@@ -418,11 +421,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         let vertices = self.staging.vertices_mut();
         if is_whole {
             vertices.clear();
-        } else if repair.n_old > 0 {
-            vertices.retain(|&v| repair.at[v] != At::Old);
+        } else if repair.places.n_old > 0 {
+            vertices.retain(|&v| repair.places.at[v] != At::Old);
         }
         let applied = vertices.len();
-        vertices.append(&mut repair.queue);
+        vertices.append(&mut repair.places.queue);
         self.staging.set_applied(applied);
         self.order_queue_by_site();
     }

@@ -94,7 +94,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// What to do about these findings.
     fn prospect(&mut self, found: Findings, repair: &Repair) -> Prospect {
         let constants = constants::<G>();
-        let (n, n_moved) = (self.n_present as f64, repair.n_new as f64);
+        let (n, n_moved) = (self.n_present as f64, repair.places.n_new as f64);
         let n_cells = self.kernel.complex().n_finite() as f64;
         if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
             return Prospect::TooMuch;

@@ -2,6 +2,7 @@
 
 mod commit;
 mod foresight;
+mod places;
 mod scratch;
 
 pub(super) use foresight::Budget;

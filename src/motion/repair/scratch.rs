@@ -1,21 +1,10 @@
 //! Memory of repairs.
 
+use super::places::Places;
 use crate::complex::Facet;
 use crate::delaunay::Failures;
-use crate::ids::{SiteId, Slot, VertexId};
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
-
-/// Where a vertex is while a commit is under way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum At {
-    /// It has not moved.
-    Rest,
-    New,
-    /// As `New`, but listed to be taken back.
-    Listed,
-    /// Taken back, or never moved because it shares its place: to be placed.
-    Old,
-}
 
 /// Scratch memory of repairs.
 #[derive(Debug, Default)]
@@ -25,10 +14,7 @@ pub(in crate::motion) struct Repair {
     pub(super) touched: Vec<Slot>,
     pub(super) suspects: Vec<Facet>,
     pub(super) stuck: Vec<Facet>,
-    /// By vertex id.
-    pub(super) at: Vec<At>,
-    pub(super) n_new: usize,
-    pub(super) n_old: usize,
+    pub(super) places: Places,
     /// Exact evaluations of the sweep.
     pub(super) exact: u64,
     /// Failures for each finite cell with which to rebuild, where that is known better than by what random points do.
@@ -39,8 +25,6 @@ pub(in crate::motion) struct Repair {
     pub(super) was_foreseen: bool,
     /// Sites to be taken back.
     pub(super) sites: Vec<SiteId>,
-    /// Vertices to be placed.
-    pub(super) queue: Vec<VertexId>,
 }
 
 impl Repair {
@@ -86,8 +70,7 @@ impl Repair {
             + memory::bytes_of(&self.touched)
             + memory::bytes_of(&self.suspects)
             + memory::bytes_of(&self.stuck)
-            + memory::bytes_of(&self.at)
+            + self.places.memory_bytes()
             + memory::bytes_of(&self.sites)
-            + memory::bytes_of(&self.queue)
     }
 }

@@ -67,11 +67,15 @@ fn is_untangled<G: Dimension>(t: &Delaunay<G>) -> bool {
     t.complex.live().all(is_right)
 }
 
+fn take_none_back<G: Dimension>(_: &mut Delaunay<G>, _: Slot) -> Result<Option<SiteId>> {
+    Ok(None)
+}
+
 /// Untangles, undoes that, does it again, and flips; whether it could be done. If not, nothing has changed.
-fn mends<G: Dimension>(t: &mut Delaunay<G>, failures: &Failures) -> bool {
+fn mends<G: Dimension>(t: &mut Delaunay<G>, failures: &mut Failures) -> bool {
     let before = contents(t);
     let mut suspects = Vec::new();
-    let is_done = t.untangle(failures, &mut suspects, u64::MAX).expect("room for it");
+    let is_done = t.untangle(failures, &mut suspects, u64::MAX, &mut take_none_back).expect("room for it");
     if is_done {
         assert!(is_untangled(t));
         assert_eq!(t.complex.n_ghosts(), n_ghosts_counted(t));
@@ -82,7 +86,7 @@ fn mends<G: Dimension>(t: &mut Delaunay<G>, failures: &Failures) -> bool {
         return false;
     }
     suspects.clear();
-    assert_eq!(t.untangle(failures, &mut suspects, u64::MAX), Ok(true));
+    assert_eq!(t.untangle(failures, &mut suspects, u64::MAX, &mut take_none_back), Ok(true));
     suspects.extend_from_slice(&failures.facets);
     let mut stuck = Vec::new();
     t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").expect("no limit");
@@ -101,12 +105,12 @@ fn sheared_lattices<G: Dimension>(side: usize, n_steps: usize) -> [usize; 2] {
         for p in &mut points {
             p[0] += 0.001 * p[1];
         }
-        let failures = move_all(&mut t, &points);
+        let mut failures = move_all(&mut t, &points);
         if is_untangled(&t) {
             continue;
         }
         n_tangled[usize::from(failures.cells.is_empty())] += 1;
-        assert!(mends(&mut t, &failures), "not untangled");
+        assert!(mends(&mut t, &mut failures), "not untangled");
     }
     n_tangled
 }
@@ -134,11 +138,11 @@ fn random_points<G: Dimension>(n: usize, sizes: [f64; 2]) {
             points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
             let mut t = built::<G>(&points);
             points.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] += size * (rng.unit() - 0.5)));
-            let failures = move_all(&mut t, &points);
+            let mut failures = move_all(&mut t, &points);
             if !is_untangled(&t) {
                 let before = t.certificates();
                 n_tangled += 1;
-                n_mended += usize::from(mends(&mut t, &failures));
+                n_mended += usize::from(mends(&mut t, &mut failures));
                 assert!(!is_large || t.certificates() - before < 20 * n as u64);
             }
         }
@@ -160,6 +164,71 @@ fn tetrahedra_are_untangled() {
     random_points::<Space>(300, [0.003, 0.5]);
 }
 
+/// Where vertices of cells that cannot be exchanged are taken back, nearly all can be untangled; what is left where it
+/// cannot is the cells from before.
+fn vertices_are_taken_back<G: Dimension>(n: usize, size: f64) {
+    let rng = &mut Rng::new(4);
+    let (mut n_tangled, mut n_mended, mut n_back) = (0, 0, 0);
+    for _ in 0..40 {
+        let mut old = vec![G::Point::default(); n];
+        old.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] = rng.unit()));
+        let mut t = built::<G>(&old);
+        let mut new = old.clone();
+        new.iter_mut().for_each(|p| (0..G::D).for_each(|k| p[k] += size * (rng.unit() - 0.5)));
+        let mut failures = move_all(&mut t, &new);
+        let mut suspects = Vec::new();
+        if is_untangled(&t)
+            || t.untangle(&mut failures, &mut suspects, u64::MAX, &mut take_none_back) == Ok(true)
+        {
+            continue;
+        }
+        n_tangled += 1;
+        let before = contents(&t);
+        let n_listed = failures.cells.len();
+        let mut take_back = |t: &mut Delaunay<G>, c: Slot| {
+            let corners = t.complex.cell(c).corners;
+            let is_new = |&&s: &&SiteId| t.site(s).point != old[t.site(s).id.index()];
+            let s = corners.as_ref().iter().find(is_new).copied();
+            if let Some(s) = s {
+                n_back += 1;
+                let place = old[t.site(s).id.index()];
+                t.set_point(s, place);
+            }
+            Ok(s)
+        };
+        let is_done =
+            t.untangle(&mut failures, &mut suspects, u64::MAX, &mut take_back).expect("room for it");
+        assert_eq!(failures.cells.len(), n_listed);
+        if !is_done {
+            assert!(contents(&t) == before, "what is undone leaves a trace");
+            continue;
+        }
+        n_mended += 1;
+        assert!(is_untangled(&t));
+        suspects.extend_from_slice(&failures.facets);
+        let mut stuck = Vec::new();
+        t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").expect("no limit");
+        if stuck.is_empty() {
+            t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+        } else {
+            t.undo_flips();
+            assert!(contents(&t) == before, "what is undone leaves a trace");
+        }
+    }
+    assert!(n_tangled > 20 && 10 * n_mended > 7 * n_tangled, "{n_mended} of {n_tangled}");
+    assert!(n_back > n_tangled && n_back < n_tangled * n / 10, "{n_back} vertices");
+}
+
+#[test]
+fn vertices_of_triangles_are_taken_back() {
+    vertices_are_taken_back::<Plane>(300, 0.02);
+}
+
+#[test]
+fn vertices_of_tetrahedra_are_taken_back() {
+    vertices_are_taken_back::<Space>(300, 0.02);
+}
+
 /// Not more certificates are evaluated than allowed, but for those of one cell.
 #[test]
 fn untangling_ends_where_it_takes_too_much() {
@@ -168,9 +237,11 @@ fn untangling_ends_where_it_takes_too_much() {
     for _ in 0..8 {
         let mut t = built::<Space>(&points);
         points.iter_mut().for_each(|p| p[0] += 0.001 * p[1]);
-        let failures = move_all(&mut t, &points);
+        let mut failures = move_all(&mut t, &points);
         let before = (contents(&t), t.certificates());
-        if !is_untangled(&t) && t.untangle(&failures, &mut Vec::new(), 50) == Ok(false) {
+        if !is_untangled(&t)
+            && t.untangle(&mut failures, &mut Vec::new(), 50, &mut take_none_back) == Ok(false)
+        {
             n_ended += 1;
             assert!(t.certificates() - before.1 < 150, "{}", t.certificates() - before.1);
             assert!(contents(&t) == before.0);
@@ -192,7 +263,7 @@ fn undoing_goes_back_to_before_untangling_only() {
     let mut n_after_several = 0;
     for _ in 0..30 {
         points.iter_mut().flatten().for_each(|x| *x += 4e-4 * rng.unit());
-        let failures = move_all(&mut t, &points);
+        let mut failures = move_all(&mut t, &points);
         if is_untangled(&t) {
             let (mut suspects, mut stuck) = (failures.facets, Vec::new());
             t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").expect("no limit");
@@ -200,7 +271,7 @@ fn undoing_goes_back_to_before_untangling_only() {
             continue;
         }
         let were_several = t.flips.were_several;
-        if mends(&mut t, &failures) {
+        if mends(&mut t, &mut failures) {
             n_after_several += usize::from(were_several);
         } else {
             t = built_on(&points, 3);
@@ -218,8 +289,8 @@ fn dents_that_are_stuck_are_filled_in_another_order() {
         let mut points = lattice::<Space>(20, &mut Rng::new(seed));
         let mut t = built::<Space>(&points);
         points.iter_mut().for_each(|p| p[0] += 0.001 * p[1]);
-        let failures = move_all(&mut t, &points);
-        n_mended += usize::from(mends(&mut t, &failures));
+        let mut failures = move_all(&mut t, &points);
+        n_mended += usize::from(mends(&mut t, &mut failures));
     }
     assert!(n_mended > 8, "{n_mended}");
 }
@@ -249,10 +320,11 @@ fn peeling_below_a_polygon_ends_in_time() {
         for p in &mut points[CORNERS..CORNERS + n_below - 1] {
             p[2] += 1e-11 * rng.unit().powi(3) * (rng.unit() - 0.5);
         }
-        let failures = move_all(&mut t, &points);
+        let mut failures = move_all(&mut t, &points);
         let (before, most) = (contents(&t), t.n_certificates() / 2);
         let start = t.certificates();
-        let is_done = t.untangle(&failures, &mut Vec::new(), most).expect("room for it");
+        let is_done =
+            t.untangle(&mut failures, &mut Vec::new(), most, &mut take_none_back).expect("room for it");
         let spent = t.certificates() - start;
         assert!(spent < most + CORNERS as u64, "seed {seed}: {spent} of {most}");
         assert!(!is_done && spent > most, "seed {seed}: {spent} of {most}");

@@ -1,0 +1,93 @@
+//! Where vertices are while a repair is under way: at their new places, or taken back to the old ones, to be placed.
+
+use std::ops::Range;
+
+use crate::complex::INFINITE;
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+use crate::motion::staging::Staging;
+use crate::predicates::squared_distance;
+
+/// Where a vertex is while a commit is under way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum At {
+    /// It has not moved.
+    Rest,
+    New,
+    /// As `New`, but listed to be taken back.
+    Listed,
+    /// Taken back, or never moved because it shares its place: to be placed.
+    Old,
+}
+
+/// Where all vertices are.
+#[derive(Debug, Default)]
+pub(super) struct Places {
+    /// By vertex id.
+    pub(super) at: Vec<At>,
+    pub(super) n_new: usize,
+    pub(super) n_old: usize,
+    /// Vertices to be placed.
+    pub(super) queue: Vec<VertexId>,
+    /// Of the queue, those taken back while cells were exchanged: if that is undone, nothing is known of their stars.
+    pub(super) unchecked: Range<usize>,
+}
+
+impl Places {
+    /// Forgets everything; has room for this number of vertices.
+    pub(super) fn begin(&mut self, n: usize) -> Result<()> {
+        self.at.clear();
+        self.queue.clear();
+        (self.n_new, self.n_old, self.unchecked) = (0, 0, 0..0);
+        memory::reserve(&mut self.at, n)
+    }
+
+    /// Of these sites, the one that has moved farthest and is at its new place.
+    pub(super) fn farthest<G: Dimension>(
+        &self,
+        kernel: &Delaunay<G>,
+        staging: &Staging<G>,
+        sites: &[SiteId],
+    ) -> Option<SiteId> {
+        let displacement = |s: SiteId| {
+            let site = kernel.site(s);
+            let other = &staging.positions()[site.id];
+            let is_new = self.at[site.id] == At::New && site.point != *other;
+            is_new.then(|| squared_distance(&site.point, other))
+        };
+        let finite = sites.iter().filter(|&&s| s != INFINITE);
+        let with_displacement = finite.filter_map(|&s| displacement(s).map(|d| (d, s)));
+        with_displacement.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, s)| s)
+    }
+
+    /// Takes a vertex back to its old place.
+    pub(super) fn take_back<G: Dimension>(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        staging: &mut Staging<G>,
+        s: SiteId,
+    ) -> Result<()> {
+        self.reserve(staging, 1)?;
+        let site = *kernel.site(s);
+        let old = std::mem::replace(&mut staging.positions_mut()[site.id], site.point);
+        kernel.set_point(s, old);
+        self.at[site.id] = At::Old;
+        self.queue.push(site.id);
+        self.n_new -= 1;
+        self.n_old += 1;
+        Ok(())
+    }
+
+    /// Makes room for this number of vertices more in the queue. It has to fit where the staged vertices are listed, too.
+    pub(super) fn reserve<G: Dimension>(&mut self, staging: &mut Staging<G>, more: usize) -> Result<()> {
+        memory::reserve(&mut self.queue, more)?;
+        let listed = staging.vertices_mut();
+        memory::reserve(listed, (self.queue.len() + more).saturating_sub(listed.len()))
+    }
+
+    pub(super) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.at) + memory::bytes_of(&self.queue)
+    }
+}
