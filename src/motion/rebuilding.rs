@@ -11,7 +11,7 @@ use std::cell::Cell;
 use super::constants::constants;
 use super::hidden::Hidden;
 use super::moving::differ;
-use super::staging::Given;
+use super::staging::{Given, Staging};
 use super::{CoincidencePolicy, CommitReport, MovingTriangulation};
 use crate::delaunay::{Delaunay, Dimension, Merge, Site};
 use crate::error::{Error, Result};
@@ -231,13 +231,21 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.
     pub(super) fn exchange_position(&mut self, vertex: VertexId) -> bool {
-        let s = self.site_of[vertex];
-        let staged = &mut self.staging.positions_mut()[vertex];
-        let old = self.kernel.site(s).point;
-        let new = std::mem::replace(staged, old);
-        self.kernel.set_point(s, new);
-        old != new
+        exchange_position_of(&mut self.kernel, &mut self.staging, self.site_of[vertex], vertex)
     }
+}
+
+/// Exchanges the position of a site with the one staged for its vertex; whether they differ.
+pub(super) fn exchange_position_of<G: Dimension>(
+    kernel: &mut Delaunay<G>,
+    staging: &mut Staging<G>,
+    s: SiteId,
+    vertex: VertexId,
+) -> bool {
+    let old = kernel.site(s).point;
+    let new = std::mem::replace(&mut staging.positions_mut()[vertex], old);
+    kernel.set_point(s, new);
+    old != new
 }
 
 #[cfg(test)]

@@ -15,12 +15,12 @@
 //! An exchange is a flip, done for another reason: of two cells for three or three for two in space, two for two in the
 //! plane. A new ghost cell counts as positive if a point within all is on the inner side of its facet.
 //!
-//! A vertex taken back has to be placed afterwards; but for that, each inverted cell would cost such a placement: of 10,000
-//! random points that move by up to a tenth of a spacing 600 cells are inverted, and 180 of them cannot be exchanged.
+//! A vertex that is taken back has to be placed later, which takes twenty times as long as an exchange. If nothing were
+//! exchanged, a vertex of nearly every inverted cell would have to be.
 //!
 //! Every step comes to an end: no vertex is taken back twice, exchanges leave fewer cells that are not positive, peeling
-//! fewer finite ones, and exchanges of ghosts more volume in the hull. In the end all cells are positive and the hull is convex at every ridge,
-//! or all is undone. How often the hull winds is not asked here.
+//! fewer finite ones, and exchanges of ghosts more volume in the hull. In the end all cells are positive and the hull is
+//! convex at every ridge, or all exchanges are undone. How often the hull winds is not asked here.
 //!
 //! Cost: half a microsecond for an exchange. What it spares is a placement of every vertex taken back. (For a cubic
 //! lattice of 10,648 vertices, sheared by 0.001 in each timestamp, `deldrift_bench --targets --target shear_grid` has 1.2
@@ -33,7 +33,8 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
-/// It ends when at first more than this number of cells, and one in `HARD_SHARE`, cannot be exchanged and are not flat: where vertices go farther than cells are thick, hardly any can be exchanged.
+/// It ends when more than this number of cells, and one in `HARD_SHARE`, are left that are not flat before any vertex is
+/// taken back: where vertices go farther than cells are thick, hardly any can be exchanged.
 const HARD: usize = 8;
 const HARD_SHARE: usize = 2;
 
@@ -63,14 +64,14 @@ pub(super) struct Untangling<G: Dimension> {
     slots: Vec<Slot>,
 }
 
-/// What has become of cells that were not positive.
+/// What has become of cells that were not positive, when no more of them can be exchanged.
 enum Turned {
     /// None is left.
     All,
     /// Some of those left, all of which are listed, are not flat.
     Stuck,
-    /// Too few could be exchanged, or it took too much.
-    TooFew,
+    /// All those left are flat, or too many are not, or it took too many certificates.
+    Hopeless,
 }
 
 /// Takes a vertex of a cell back to where it was before a motion, and tells which one; `None` if there is none to be taken
@@ -161,7 +162,7 @@ impl<G: Dimension> Delaunay<G> {
         while let Some(inner) = self.deep_point() {
             match self.turn_cells(untangling, &inner, most_hard)? {
                 Turned::All => return self.fill_dents(untangling, failures, &inner),
-                Turned::TooFew => break,
+                Turned::Hopeless => break,
                 Turned::Stuck => {}
             }
             if !self.take_hard_back(untangling, failures, take_back)? {
@@ -177,15 +178,15 @@ impl<G: Dimension> Delaunay<G> {
         self.complex.finite().filter(|&c| !self.is_flat(c)).find_map(|c| self.point_inside(c))
     }
 
-    /// Takes a vertex back of each listed cell that is not positive, and not flat; lists cells that are not positive then.
-    /// Whether there was one of each such cell, and of at least one.
+    /// Takes a vertex back of each listed cell that is neither positive nor flat, of which there is one; lists the cells that
+    /// are not positive then. Whether each had one to be taken back.
     fn take_hard_back(
         &mut self,
         untangling: &mut Untangling<G>,
         failures: &mut Failures,
         take_back: TakeBack<'_, G>,
     ) -> Result<bool> {
-        let (n_listed, mut is_one_back) = (failures.cells.len(), false);
+        let n_listed = failures.cells.len();
         for k in 0..untangling.cells.len() {
             let c = untangling.cells[k];
             if self.is_positive(c) || self.is_flat(c) {
@@ -193,11 +194,10 @@ impl<G: Dimension> Delaunay<G> {
             }
             let Some(s) = take_back(self, c)? else { return Ok(false) };
             self.check_star_from(c, s, failures)?;
-            is_one_back = true;
         }
         memory::append(&mut untangling.cells, &failures.cells[n_listed..])?;
         failures.cells.truncate(n_listed);
-        Ok(is_one_back)
+        Ok(true)
     }
 
     /// Exchanges cells that are not positive, of which those listed are all, while any can be; lists those left.
@@ -222,7 +222,7 @@ impl<G: Dimension> Delaunay<G> {
                 n_left += 1;
                 n_hard += usize::from(!self.is_flat(c));
                 if n_hard > most_hard || untangling.is_exhausted() {
-                    return Ok(Turned::TooFew);
+                    return Ok(Turned::Hopeless);
                 }
             }
             untangling.cells.truncate(n_left);
@@ -230,13 +230,12 @@ impl<G: Dimension> Delaunay<G> {
                 return Ok(Turned::All);
             }
             if untangling.flips.n_flips == before {
-                let are_peeled = n_hard == 0 && self.peel(untangling)?;
-                return Ok(if are_peeled {
-                    Turned::All
-                } else if n_hard == 0 {
-                    Turned::TooFew
-                } else {
+                return Ok(if n_hard > 0 {
                     Turned::Stuck
+                } else if self.peel(untangling)? {
+                    Turned::All
+                } else {
+                    Turned::Hopeless
                 });
             }
         }

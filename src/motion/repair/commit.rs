@@ -133,9 +133,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             repair.suspects.clear();
             is_triangulation = is_triangulation || round == 0 && self.untangle(repair, most)?;
             if !is_triangulation {
-                let is_worth = self.is_worth_placing(repair);
-                self.check_taken_back(repair)?;
-                let is_mended = is_worth
+                let is_mended = self.is_worth_placing(repair)
                     && self.take_back_failed(repair, most)? == Prospect::Mendable
                     && self.winds_once(repair)?;
                 if !is_mended {
@@ -193,7 +191,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let first = places.queue.len();
         let mut take_back = |kernel: &mut Delaunay<G>, c: Slot| {
             let corners = kernel.complex().cell(c).corners;
-            let s = places.farthest(kernel, staging, corners.as_ref()).filter(|_| places.n_old < most_back);
+            let s =
+                places.farthest(kernel, staging, corners.as_ref()).filter(|_| places.queue.len() < most_back);
             s.map_or(Ok(()), |s| places.take_back(kernel, staging, s)).map(|()| s)
         };
         let is_done = kernel.untangle(failures, suspects, most, &mut take_back);
@@ -278,7 +277,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             if self.hidden.is_followed(sites[s].id) {
                 places.at[v] = At::Old;
                 places.queue.push(v);
-                places.n_old += 1;
                 continue;
             }
             let p = &mut positions[v];
@@ -299,6 +297,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Takes vertices back until every cell is positive and the hull convex; too much if more than `most` are back.
     fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
+        self.check_taken_back(repair)?;
         loop {
             while let Some(c) = repair.failures.cells.pop() {
                 if self.kernel.is_positive(c) {
@@ -308,7 +307,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let s = self.farthest(repair, corners.as_ref()).expect("old places have positive cells");
                 repair.failures.cells.push(c);
                 self.take_back(repair, s)?;
-                if repair.places.n_old > most {
+                if repair.places.queue.len() > most {
                     return Ok(Prospect::TooMuch);
                 }
             }
@@ -330,7 +329,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let s = self.farthest(repair, &corners).expect("old places have a convex hull");
                 repair.failures.ridges.push(ridge);
                 self.take_back(repair, s)?;
-                if repair.places.n_old > most {
+                if repair.places.queue.len() > most {
                     return Ok(Prospect::TooMuch);
                 }
                 if !repair.failures.cells.is_empty() {
@@ -355,7 +354,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 places.queue.push(v);
             }
         }
-        places.n_old += std::mem::take(&mut places.n_new);
+        places.n_new = 0;
         Ok(())
     }
 
@@ -421,7 +420,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let vertices = self.staging.vertices_mut();
         if is_whole {
             vertices.clear();
-        } else if repair.places.n_old > 0 {
+        } else if !repair.places.queue.is_empty() {
             vertices.retain(|&v| repair.places.at[v] != At::Old);
         }
         let applied = vertices.len();

@@ -7,6 +7,7 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
+use crate::motion::rebuilding::exchange_position_of;
 use crate::motion::staging::Staging;
 use crate::predicates::squared_distance;
 
@@ -28,8 +29,7 @@ pub(super) struct Places {
     /// By vertex id.
     pub(super) at: Vec<At>,
     pub(super) n_new: usize,
-    pub(super) n_old: usize,
-    /// Vertices to be placed.
+    /// Those at their old places, to be placed.
     pub(super) queue: Vec<VertexId>,
     /// Of the queue, those taken back while cells were exchanged: if that is undone, nothing is known of their stars.
     pub(super) unchecked: Range<usize>,
@@ -40,7 +40,7 @@ impl Places {
     pub(super) fn begin(&mut self, n: usize) -> Result<()> {
         self.at.clear();
         self.queue.clear();
-        (self.n_new, self.n_old, self.unchecked) = (0, 0, 0..0);
+        (self.n_new, self.unchecked) = (0, 0..0);
         memory::reserve(&mut self.at, n)
     }
 
@@ -70,13 +70,11 @@ impl Places {
         s: SiteId,
     ) -> Result<()> {
         self.reserve(staging, 1)?;
-        let site = *kernel.site(s);
-        let old = std::mem::replace(&mut staging.positions_mut()[site.id], site.point);
-        kernel.set_point(s, old);
-        self.at[site.id] = At::Old;
-        self.queue.push(site.id);
+        let v = kernel.site(s).id;
+        exchange_position_of(kernel, staging, s, v);
+        self.at[v] = At::Old;
+        self.queue.push(v);
         self.n_new -= 1;
-        self.n_old += 1;
         Ok(())
     }
 
