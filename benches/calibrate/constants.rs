@@ -164,6 +164,7 @@ fn thresholds_of(dimension: usize) -> Vec<Constant> {
         failures_per_moved: Real,
         certified_per_vertex: Whole,
         max_rounds: Whole,
+        max_untanglings: Whole,
         max_failing: Real,
         max_failing_of_small: Real,
         max_failing_of_large: Real,

@@ -50,6 +50,10 @@ const FACETS_PER_DENT: usize = 4;
 const ATTEMPTS: u32 = 8;
 const FILLED_PER_STUCK: u64 = 16;
 
+/// No vertices are taken back for the ridges that are stuck then if these are more than one for this number of cells that
+/// were not positive, and `HARD`: so it is on the sides of lattices, from which placing takes too long.
+const CELLS_PER_STUCK: usize = 32;
+
 /// What has been exchanged, and scratch memory.
 #[derive(Debug)]
 pub(super) struct Untangling<G: Dimension> {
@@ -74,9 +78,9 @@ enum Turned {
     Hopeless,
 }
 
-/// Takes a vertex of a cell back to where it was before a motion, and tells which one; `None` if there is none to be taken
-/// back, or too many have been.
-pub(crate) type TakeBack<'f, G> = &'f mut dyn FnMut(&mut Delaunay<G>, Slot) -> Result<Option<SiteId>>;
+/// Takes one of these vertices back to where it was before a motion, and tells which one; `None` if there is none to be
+/// taken back, or too many have been.
+pub(crate) type TakeBack<'f, G> = &'f mut dyn FnMut(&mut Delaunay<G>, &[SiteId]) -> Result<Option<SiteId>>;
 
 impl<G: Dimension> Default for Untangling<G> {
     fn default() -> Self {
@@ -161,7 +165,14 @@ impl<G: Dimension> Delaunay<G> {
         let mut most_hard = HARD + untangling.cells.len() / HARD_SHARE;
         while let Some(inner) = self.deep_point() {
             match self.turn_cells(untangling, &inner, most_hard)? {
-                Turned::All => return self.fill_dents(untangling, failures, &inner),
+                Turned::All => {
+                    let are_filled = self.fill_dents(untangling, failures, &inner)?;
+                    if !are_filled && untangling.stuck.len() <= HARD + failures.cells.len() / CELLS_PER_STUCK
+                    {
+                        self.take_dents_back(untangling, take_back)?;
+                    }
+                    return Ok(are_filled);
+                }
                 Turned::Hopeless => break,
                 Turned::Stuck => {}
             }
@@ -192,12 +203,26 @@ impl<G: Dimension> Delaunay<G> {
             if self.is_positive(c) || self.is_flat(c) {
                 continue;
             }
-            let Some(s) = take_back(self, c)? else { return Ok(false) };
+            let corners = self.complex.cell(c).corners;
+            let Some(s) = take_back(self, corners.as_ref())? else { return Ok(false) };
             self.check_star_from(c, s, failures)?;
         }
         memory::append(&mut untangling.cells, &failures.cells[n_listed..])?;
         failures.cells.truncate(n_listed);
         Ok(true)
+    }
+
+    /// Takes a vertex back at each ridge that is stuck. Their stars are not looked at: what has been exchanged is going to
+    /// be undone.
+    fn take_dents_back(&mut self, untangling: &Untangling<G>, take_back: TakeBack<'_, G>) -> Result<()> {
+        for &ridge in &untangling.stuck {
+            if self.is_ghost(ridge.cell()) && !self.is_convex(ridge) {
+                let ghost = self.complex.cell(ridge.cell());
+                let apex = self.complex.apex(ghost.neighbour(ridge.index()));
+                take_back(self, ghost.corners.with(Self::LAST, apex).as_ref())?;
+            }
+        }
+        Ok(())
     }
 
     /// Exchanges cells that are not positive, of which those listed are all, while any can be; lists those left.

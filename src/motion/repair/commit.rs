@@ -32,7 +32,7 @@ use super::places::At;
 use crate::complex::{Corners, INFINITE};
 use crate::delaunay::{CERTIFICATES_PER_EXACT, Delaunay, Dimension};
 use crate::error::{Error, Result};
-use crate::ids::{SiteId, Slot, VertexId};
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::attempt::{Mending, Prospect};
@@ -186,13 +186,29 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         // Where it can be done it takes less on lattices, of which small ones have the larger share of flat cells.
         let most = 2 * self.kernel.n_certificates();
+        let before = self.kernel.certificates();
+        for _ in 0..constants::<G>().max_untanglings {
+            let n_back = repair.places.queue.len();
+            if self.untangle_once(repair, most, most_back)? {
+                return Ok(true);
+            }
+            // With those back from the start, other cells are exchanged.
+            let is_hopeless = repair.places.queue.len() == n_back;
+            if is_hopeless || self.kernel.certificates() - before > most / 2 {
+                break;
+            }
+            self.check_taken_back(repair)?;
+        }
+        Ok(false)
+    }
+
+    /// As [`untangle`](Self::untangle), from the cells as they are, in at most `most` certificates.
+    fn untangle_once(&mut self, repair: &mut Repair, most: u64, most_back: usize) -> Result<bool> {
         let Self { kernel, staging, .. } = self;
         let Repair { failures, suspects, places, .. } = repair;
         let first = places.queue.len();
-        let mut take_back = |kernel: &mut Delaunay<G>, c: Slot| {
-            let corners = kernel.complex().cell(c).corners;
-            let s =
-                places.farthest(kernel, staging, corners.as_ref()).filter(|_| places.queue.len() < most_back);
+        let mut take_back = |kernel: &mut Delaunay<G>, sites: &[SiteId]| {
+            let s = places.farthest(kernel, staging, sites).filter(|_| places.queue.len() < most_back);
             s.map_or(Ok(()), |s| places.take_back(kernel, staging, s)).map(|()| s)
         };
         let is_done = kernel.untangle(failures, suspects, most, &mut take_back);
