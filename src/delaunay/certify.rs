@@ -10,6 +10,7 @@ mod hull;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use super::uncertain::Doubts;
 use super::{Delaunay, Dimension, Failures};
 use crate::complex::{Cell, Corners, Facet, INFINITE};
 use crate::error::Result;
@@ -88,23 +89,26 @@ impl<G: Dimension> Delaunay<G> {
         n_failed: &AtomicUsize,
     ) -> Result<()> {
         let mut swept = Ok(());
-        self.visit_uncertain(Slot::range(range), |c| match self.sweep_cell(c, before, failures) {
-            Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
-            Err(error) => {
-                swept = Err(error);
-                false
+        self.visit_uncertain(Slot::range(range), |c, doubts| {
+            match self.sweep_cell(c, doubts, before, failures) {
+                Ok(holds) => holds || n_failed.fetch_add(1, Relaxed) < most,
+                Err(error) => {
+                    swept = Err(error);
+                    false
+                }
             }
         });
         swept
     }
 
-    /// Calls `visit` with each of these cells that is a ghost or does not surely hold, until it returns `false`.
+    /// Calls `visit` with each of these cells that is a ghost or does not surely hold, and with what does not, until it
+    /// returns `false`.
     /// Free ones are skipped. Ghosts come in the order of the list, and so do finite cells.
     #[inline(always)]
     pub(super) fn visit_uncertain(
         &self,
         cells: impl Iterator<Item = Slot> + Clone,
-        visit: impl FnMut(Slot) -> bool,
+        visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
         let Some(avx2) = Avx2::new() else { return self.visit_uncertain_singly(cells, visit) };
         if self.complex.n_slots() * size_of::<Cell<G::Corners>>() > SWEPT_CACHE_BYTES {
@@ -130,21 +134,22 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn visit_uncertain_singly(
         &self,
         mut cells: impl Iterator<Item = Slot>,
-        mut visit: impl FnMut(Slot) -> bool,
+        mut visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
         cells.all(|c| {
             let is_ghost = self.complex.cell(c).is_ghost();
-            self.complex.is_free(c) || !is_ghost && G::cell_holds(self, c) || visit(c)
+            self.complex.is_free(c) || !is_ghost && G::cell_holds(self, c) || visit(c, Doubts::ALL)
         });
     }
 
     /// Lists a ghost cell, or what of a finite cell fails: `false` if it is not positively oriented. Its facets
-    /// to cells of higher slots are left to those.
+    /// to cells of higher slots are left to those. What is not in doubt holds.
     #[cold]
     #[inline(never)]
     pub(super) fn sweep_cell(
         &self,
         c: Slot,
+        doubts: Doubts,
         before: Option<&[G::Point]>,
         failures: &mut Failures,
     ) -> Result<bool> {
@@ -154,12 +159,13 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(true);
         }
         let is_at_rest = before.is_some_and(|before| self.are_at_rest(cell.corners.as_ref(), before));
-        if !is_at_rest && !self.is_positive(c) {
+        if doubts.concern_orientation() && !is_at_rest && !self.is_positive(c) {
             memory::push(&mut failures.cells, c)?;
             return Ok(false);
         }
         let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
-        let lower = facets.filter(|&facet| cell.neighbour(facet.index()).cell() < c);
+        let doubtful = facets.filter(|facet| doubts.concern_facet(facet.index()));
+        let lower = doubtful.filter(|&facet| cell.neighbour(facet.index()).cell() < c);
         let failing = lower.filter(|&facet| {
             let apex = self.complex.apex(cell.neighbour(facet.index()));
             let is_as_it_was = is_at_rest && before.is_some_and(|before| self.are_at_rest(&[apex], before));
@@ -287,12 +293,12 @@ impl<G: Dimension> Delaunay<G> {
         failures: &mut Failures,
     ) -> Result<()> {
         let mut checked = Ok(());
-        self.visit_uncertain(cells.iter().copied(), |c| {
+        self.visit_uncertain(cells.iter().copied(), |c, doubts| {
             checked = if self.complex.cell(c).is_ghost() {
                 let mut ridges = (0..Self::LAST).map(|i| Facet::new(c, i));
                 ridges.try_for_each(|ridge| self.check_ridge(ridge, before, failures).map(|_| ()))
             } else {
-                self.check_cell_exactly(c, failures)
+                self.check_cell_exactly(c, doubts, failures)
             };
             checked.is_ok()
         });
@@ -302,11 +308,11 @@ impl<G: Dimension> Delaunay<G> {
 
     #[cold]
     #[inline(never)]
-    fn check_cell_exactly(&self, c: Slot, failures: &mut Failures) -> Result<()> {
-        if !self.is_positive(c) {
+    fn check_cell_exactly(&self, c: Slot, doubts: Doubts, failures: &mut Failures) -> Result<()> {
+        if doubts.concern_orientation() && !self.is_positive(c) {
             return memory::push(&mut failures.cells, c);
         }
-        let facets = (0..G::Corners::N).map(|i| Facet::new(c, i));
+        let facets = (0..G::Corners::N).filter(|&i| doubts.concern_facet(i)).map(|i| Facet::new(c, i));
         memory::collect(&mut failures.facets, facets.filter(|&facet| !self.is_locally_delaunay(facet)))
     }
 

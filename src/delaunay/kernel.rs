@@ -9,6 +9,7 @@ use super::cavity::Insert;
 use super::dimension::Dimension;
 use super::flip::{Flipper, Flips};
 use super::site::{Site, Sites};
+use super::uncertain::Held;
 use crate::complex::{Corners, Facet, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::StaticFilter;
@@ -72,14 +73,13 @@ pub trait Kernel<G: Dimension> {
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<G>, cell: Slot) -> bool;
 
-    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets: one bit each. By
-    /// bounds of the cells' own, if they have these, and by the static ones, which are looser.
+    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets.
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         t: &Delaunay<G>,
         cells: &[Slot; LANES],
         apexes: [&[SiteId; LANES]; 4],
-    ) -> [u32; 2];
+    ) -> Held;
 
     /// Of several cells, each with a site: whether that surely is outside the cell's sphere, one bit each.
     fn are_outside(

@@ -134,7 +134,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether all certificates of the gathered star hold, without ghosts or doubt; then it is recorded.
     fn star_surely_holds(&mut self) -> bool {
         let mut holds = true;
-        self.visit_uncertain(self.hole.star.iter().map(|&(c, _)| c), |_| {
+        self.visit_uncertain(self.hole.star.iter().map(|&(c, _)| c), |_, _| {
             holds = false;
             false
         });

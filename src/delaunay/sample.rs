@@ -49,9 +49,9 @@ impl<G: Dimension> Delaunay<G> {
         let runs = (0..n_runs).map(|k| k * distance);
         let cells = runs.flat_map(|first| Slot::range(first..first + RUN));
         let mut sampled = Ok(());
-        self.visit_uncertain(cells, |c| {
+        self.visit_uncertain(cells, |c, doubts| {
             if !self.complex.cell(c).is_ghost() {
-                sampled = self.sweep_cell(c, before, failures).map(|_| ());
+                sampled = self.sweep_cell(c, doubts, before, failures).map(|_| ());
             }
             sampled.is_ok()
         });

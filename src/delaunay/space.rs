@@ -4,7 +4,7 @@ use super::dimension::Space;
 use super::flip::{Flipper, Flips};
 use super::kernel::Kernel;
 use super::site::{Site, Sites};
-use super::uncertain::{apexes_beyond, corners_at};
+use super::uncertain::{Held, apexes_beyond, corners_at};
 use super::{Delaunay, cavity_space};
 use crate::complex::{Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
@@ -89,24 +89,26 @@ impl Kernel<Space> for Space {
         t: &Delaunay<Space>,
         cells: &[Slot; LANES],
         apexes: [&[SiteId; LANES]; 4],
-    ) -> [u32; 2] {
+    ) -> Held {
         let [a, b, c, d] = corners(avx2, t.view(), cells.map(|c| t.complex.cell(c).corners));
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let own = OwnBounds3d::new(&a, &b, &c, &d);
         let mut hold_for_all = avx2.splat(t.filter.orient).is_less(sphere[3]);
-        let mut hold = if HAVE_OWN_BOUNDS { own.volume().is_less(sphere[3]) } else { hold_for_all };
-        for apexes in apexes {
+        let are_positive = if HAVE_OWN_BOUNDS { own.volume().is_less(sphere[3]) } else { hold_for_all };
+        let mut facets = [are_positive; 4];
+        for (facet, apexes) in facets.iter_mut().zip(apexes) {
             let q = places(avx2, t.view(), *apexes);
             let side = predicates::side_of_sphere(&sphere, &a, &q);
             let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
-            hold_for_all = hold_for_all & (side.is_less(avx2.splat(-t.filter.prepared)) | is_none);
-            hold = if HAVE_OWN_BOUNDS {
-                hold & (side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none)
+            let hold = side.is_less(avx2.splat(-t.filter.prepared)) | is_none;
+            hold_for_all = hold_for_all & hold;
+            *facet = if HAVE_OWN_BOUNDS {
+                side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none
             } else {
-                hold_for_all
+                hold
             };
         }
-        [hold.bits(), hold_for_all.bits()]
+        Held { positive: are_positive, facets, by_static_bounds: hold_for_all }
     }
 
     #[inline(always)]

@@ -13,10 +13,59 @@ use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::simd::{ALL, Avx2, LANES};
+use crate::simd::{ALL, Avx2, LANES, Lanes};
 
 /// Most cells of a block.
 const BLOCK: usize = 64;
+
+/// What surely holds of some cells, by bounds of the cells' own if they have these.
+#[derive(Clone, Copy)]
+pub struct Held {
+    /// They are positively oriented.
+    pub positive: Lanes,
+    /// The site beyond the facet opposite a corner is outside the sphere; anything of corners that are not there.
+    pub facets: [Lanes; 4],
+    /// All of this, by the static bounds, which are looser.
+    pub by_static_bounds: Lanes,
+}
+
+impl Held {
+    /// Of which cells all holds.
+    #[inline(always)]
+    fn all<G: Dimension>(&self) -> u32 {
+        self.facets[..G::Corners::N].iter().fold(self.positive, |all, &facet| all & facet).bits()
+    }
+
+    /// What does not surely hold of one of them.
+    #[inline(always)]
+    fn doubts(&self, lane: u32) -> Doubts {
+        let doubt = |of: Lanes, at: usize| ((!of.bits() >> lane & 1) as u8) << at;
+        let facets = self.facets.iter().enumerate().map(|(i, &facet)| doubt(facet, i));
+        Doubts(doubt(self.positive, Doubts::ORIENTATION) | facets.sum::<u8>())
+    }
+}
+
+/// Certificates of a cell that do not surely hold.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Doubts(u8);
+
+impl Doubts {
+    const ORIENTATION: usize = 4;
+    /// Nothing is known.
+    pub(super) const ALL: Doubts = Doubts(0x1f);
+
+    /// Whether the cell may not be positively oriented.
+    #[inline(always)]
+    pub(super) fn concern_orientation(self) -> bool {
+        self.concern_facet(Self::ORIENTATION)
+    }
+
+    /// Whether the site beyond the facet opposite a corner may be inside the sphere.
+    #[inline(always)]
+    pub(super) fn concern_facet(self, i: usize) -> bool {
+        self.0 >> i & 1 == 1
+    }
+}
 
 /// Finite cells, by lane.
 struct Block {
@@ -44,7 +93,7 @@ impl<G: Dimension> Delaunay<G> {
         &self,
         avx2: Avx2,
         mut cells: impl Iterator<Item = Slot> + Clone,
-        mut visit: impl FnMut(Slot) -> bool,
+        mut visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
         let mut ahead = cells.clone().skip(AHEAD);
         let mut block = Block::new();
@@ -61,7 +110,7 @@ impl<G: Dimension> Delaunay<G> {
                     continue;
                 }
                 if cell.is_ghost() {
-                    if !visit(c) {
+                    if !visit(c, Doubts::ALL) {
                         return;
                     }
                     continue;
@@ -85,16 +134,17 @@ impl<G: Dimension> Delaunay<G> {
             let mut n_hold = 0;
             for k in 0..block.n.div_ceil(LANES) {
                 let apexes = block.apexes.each_ref().map(|a| &a[k]);
-                let [hold, hold_for_all] = if has_own_bounds {
+                let held = if has_own_bounds {
                     G::cells_hold::<true>(avx2, self, &block.cells[k], apexes)
                 } else {
                     G::cells_hold::<false>(avx2, self, &block.cells[k], apexes)
                 };
-                n_hold += hold_for_all.count_ones() as usize;
+                n_hold += held.by_static_bounds.bits().count_ones() as usize;
                 let n = (block.n - k * LANES).min(LANES);
-                let mut open = !hold & (ALL >> (LANES - n));
+                let mut open = !held.all::<G>() & (ALL >> (LANES - n));
                 while open != 0 {
-                    if !visit(block.cells[k][open.trailing_zeros() as usize]) {
+                    let lane = open.trailing_zeros();
+                    if !visit(block.cells[k][lane as usize], held.doubts(lane)) {
                         return;
                     }
                     open &= open - 1;
@@ -170,11 +220,11 @@ mod tests {
     /// What is found in the cells that this visits.
     fn failures<G: Dimension>(
         t: &Delaunay<G>,
-        visit_uncertain: impl FnOnce(&mut dyn FnMut(Slot) -> bool),
+        visit_uncertain: impl FnOnce(&mut dyn FnMut(Slot, Doubts) -> bool),
     ) -> (Vec<Slot>, Vec<Facet>, Vec<Slot>) {
         let mut failures = Failures::default();
-        visit_uncertain(&mut |c| {
-            t.sweep_cell(c, None, &mut failures).expect("room for it");
+        visit_uncertain(&mut |c, doubts| {
+            t.sweep_cell(c, doubts, None, &mut failures).expect("room for it");
             true
         });
         (failures.cells, failures.facets, failures.ghosts)
@@ -183,7 +233,7 @@ mod tests {
     /// Returns how many of each have failed, and how many cells there were to look at.
     fn agree<G: Dimension>(t: &Delaunay<G>, context: &str) -> [usize; 3] {
         let all = Slot::range(0..t.complex.n_slots());
-        let expected = failures(t, |visit| t.complex.live().for_each(|c| assert!(visit(c))));
+        let expected = failures(t, |visit| t.complex.live().for_each(|c| assert!(visit(c, Doubts::ALL))));
         let found = failures(t, |visit| t.visit_uncertain_singly(all.clone(), visit));
         assert_eq!(found, expected, "{context}, singly");
         let Some(avx2) = Avx2::new() else { return [0; 3] };
@@ -194,7 +244,7 @@ mod tests {
             failures(t, |visit| avx2.run(|| t.visit_uncertain_in_lanes::<true>(avx2, all.clone(), visit)));
         assert_eq!(found, expected, "{context}, far");
         let mut n_open = 0;
-        let count = |_| {
+        let count = |_, _| {
             n_open += 1;
             true
         };
@@ -363,7 +413,7 @@ mod tests {
         for most in [1, 2, 5, 100] {
             let mut n = 0;
             let all = Slot::range(0..t.complex.n_slots());
-            t.visit_uncertain(all, |_| {
+            t.visit_uncertain(all, |_, _| {
                 n += 1;
                 n < most
             });

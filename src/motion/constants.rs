@@ -237,7 +237,7 @@ const PLANE: Constants = Constants {
     failures_per_moved: f64::INFINITY,
     certified_per_vertex: 8,
     max_rounds: 8,
-    max_untanglings: 6,
+    max_untanglings: 4,
     max_failing: 0.3,
     max_failing_of_small: 0.3,
     max_failing_of_large: 0.3,
