@@ -369,6 +369,29 @@ fn auto_looks_again_after_a_rebuild() {
     assert_eq!(reports.iter().map(|report| report.rebuilds).collect::<Vec<_>>(), [1, 0]);
 }
 
+/// The flat sides of a body that begins to bend are dented all over, once: that commit is rebuilt, and no other. (As by
+/// the Lagrangian motion that Mmg ships with its examples.)
+#[test]
+fn auto_repairs_after_flat_sides_have_bent() {
+    let rng = &mut Rng::new(51);
+    let mut now: Vec<_> = (0..3000).map(|_| point::<Space>(|_| 12.0 * rng.unit())).collect();
+    for p in now.iter_mut().take(900) {
+        p[rng.below(3)] = *rng.pick(&[0.0, 12.0]);
+    }
+    let options = Options { algorithm: Algorithm::Auto, threads: 1, ..Options::default() };
+    let mut t = MovingTriangulation::<Space>::new(&now, options).expect("a build");
+    let mut rebuilds = Vec::new();
+    let first = now.clone();
+    for step in 1..7 {
+        let bent = |p: &Point<Space>, k: usize| p[k] + 1e-3 * f64::from(step) * (p[(k + 1) % 3] + p[k]).sin();
+        now = first.iter().map(|p| [0, 1, 2].map(|k| bent(p, k))).collect();
+        rebuilds.push(t.commit_positions(&now).expect("a commit").rebuilds);
+    }
+    assert_eq!(rebuilds, [1, 0, 0, 0, 0, 0]);
+    let positions: Vec<_> = now.into_iter().map(Some).collect();
+    assert_same_cells(&cell_set(&t), &fresh_cells::<Space>(&positions), || "a bent body".into());
+}
+
 /// Vertices on flat parts of the hull, which take as long as a rebuild each, are not placed to the end.
 #[test]
 fn placing_is_given_up_where_it_would_take_too_long() {

@@ -65,6 +65,12 @@ impl Repair {
         self.was_foreseen
     }
 
+    /// Whether the hull was not convex when the repair was given up. Flat sides that bend are dented all over once, and
+    /// that says nothing of facets that fail.
+    pub(in crate::motion) fn is_dented(&self) -> bool {
+        !self.failures.ridges.is_empty()
+    }
+
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
         self.failures.memory_bytes()
             + memory::bytes_of(&self.touched)
