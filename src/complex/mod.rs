@@ -298,25 +298,24 @@ impl<C: Corners> Complex<C> {
     pub(crate) fn start(&mut self, corners: C) -> Result<()> {
         self.reserve(C::N + 1)?;
         let last = C::N - 1;
-        let mut cells = [Slot::NONE; 5];
-        cells[0] = self.create(corners);
+        // Where the ghost cell beyond facet `i` has corner `k` of the cell. The ghost vertex comes in for corner `i`, and
+        // changes places with the last one; if it is the last one, two others do, as the order must be even.
+        let place = |i: usize, k: usize| match (i == last, k) {
+            (true, 0 | 1) => 1 - k,
+            (false, k) if k == last => i,
+            _ => k,
+        };
+        let cell = self.create(corners);
+        let mut ghosts = [Slot::NONE; 4];
         for i in 0..C::N {
-            let mut ghost = corners.with(i, INFINITE);
-            if i == last {
-                ghost.as_mut().swap(0, 1);
-            } else {
-                ghost.as_mut().swap(i, last);
+            let mut ghost = C::filled(INFINITE);
+            for k in (0..C::N).filter(|&k| k != i) {
+                ghost.as_mut()[place(i, k)] = corners[k];
             }
-            cells[1 + i] = self.create(ghost);
-        }
-        for k in 0..=C::N {
-            let a = cells[k];
-            for &b in &cells[..k] {
-                let differs = |x: Slot, y: Slot| {
-                    (0..C::N).find(|&i| !self.cell(y).corners.as_ref().contains(&self.cell(x).corners[i]))
-                };
-                let (i, j) = (differs(a, b).expect("distinct cells"), differs(b, a).expect("distinct cells"));
-                self.glue(Facet::new(a, i), Facet::new(b, j));
+            ghosts[i] = self.create(ghost);
+            self.glue(Facet::new(cell, i), Facet::new(ghosts[i], last));
+            for k in 0..i {
+                self.glue(Facet::new(ghosts[i], place(i, k)), Facet::new(ghosts[k], place(k, i)));
             }
         }
         Ok(())
