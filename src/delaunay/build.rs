@@ -5,7 +5,7 @@
 //! sites that are next to each other in storage tells when to sort again.
 
 use super::cavity::{Cavity, Insert};
-use super::order::in_rounds;
+use super::order::{SHORT_RUN, in_rounds};
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
@@ -54,16 +54,23 @@ impl<G: Dimension> Delaunay<G> {
     /// its point for id, and with the sign of zeros made positive. [`rebuild`](Self::rebuild) must follow.
     pub fn add_sites(&mut self, points: &[G::Point]) -> Result<()> {
         let n = points.len();
+        let site = |item: u32| {
+            let mut point = points[item as usize];
+            for axis in 0..G::D {
+                point[axis] += 0.0;
+            }
+            Site::new(point, VertexId::new(item))
+        };
+        // As they would come out of the sorting.
+        if n <= SHORT_RUN {
+            self.reserve_sites(n)?;
+            self.sites.extend((0..n as u32).map(site));
+            return Ok(());
+        }
         let (parts, sorted) = self.in_parts(0..n as u32, n, |i| &points[i as usize])?;
         self.reserve_sites(n)?;
         for keyed in &sorted {
-            memory::extend(&mut self.sites, keyed, sorted.len(), |k| {
-                let mut point = points[k.item() as usize];
-                for axis in 0..G::D {
-                    point[axis] += 0.0;
-                }
-                Site::new(point, VertexId::new(k.item()))
-            })?;
+            memory::extend(&mut self.sites, keyed, sorted.len(), |k| site(k.item()))?;
         }
         self.parts = parts;
         Ok(())

@@ -9,6 +9,8 @@
 //! uneven densities have, are sorted again in their own bounding box, so that clusters within clusters are still
 //! visited along a curve.
 
+use std::ops::Deref;
+
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::SiteId;
@@ -70,7 +72,7 @@ pub fn hilbert_order<'p, G: Dimension>(
 }
 
 /// This number of items, and runs of one key up to this length, stay unsorted: a walk through them is short anyway.
-const SHORT_RUN: usize = 8;
+pub const SHORT_RUN: usize = 8;
 
 /// The items have the same key and are ascending; `spare` is as long, or there are [`MAX_COMPARED`] of them.
 fn sort_in_box<'p, G: Dimension>(
@@ -284,10 +286,34 @@ fn spread_3(x: u32) -> u32 {
     (x | x << 2) & 0x0924_9249
 }
 
+/// Sites in the order of their insertion; of a [short run](SHORT_RUN) without memory of its own.
+pub struct Rounds {
+    few: [SiteId; SHORT_RUN],
+    n_few: usize,
+    many: Vec<SiteId>,
+}
+
+impl Deref for Rounds {
+    type Target = [SiteId];
+
+    fn deref(&self) -> &[SiteId] {
+        if self.many.is_empty() { &self.few[..self.n_few] } else { &self.many }
+    }
+}
+
 /// Splits `sites`, which is in storage order, into rounds, each `2^D` times as large as the one before in the mean;
-/// the order within a round stays.
-pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> Result<Vec<SiteId>> {
+/// the order within a round stays. A short run is a single round.
+pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> Result<Rounds> {
     const ROUNDS: usize = 16;
+    let mut rounds = Rounds { few: [SiteId::NONE; SHORT_RUN], n_few: 0, many: Vec::new() };
+    let mut rest = sites.clone();
+    for (few, s) in rounds.few.iter_mut().zip(&mut rest) {
+        *few = s;
+        rounds.n_few += 1;
+    }
+    if rounds.n_few < SHORT_RUN || rest.next().is_none() {
+        return Ok(rounds);
+    }
     let round = |s: SiteId| {
         let hash = u64::from(s.get()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let hash = (hash ^ hash >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -301,15 +327,15 @@ pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> R
     for r in 0..ROUNDS {
         starts[r + 1] += starts[r];
     }
-    let mut order = Vec::new();
-    memory::reserve_exact(&mut order, starts[ROUNDS])?;
+    let order = &mut rounds.many;
+    memory::reserve_exact(order, starts[ROUNDS])?;
     order.resize(starts[ROUNDS], SiteId::NONE);
     for s in sites {
         let at = &mut starts[round(s)];
         order[*at] = s;
         *at += 1;
     }
-    Ok(order)
+    Ok(rounds)
 }
 
 #[cfg(test)]
@@ -422,10 +448,15 @@ mod tests {
     #[test]
     fn rounds_are_a_permutation() {
         let order = in_rounds::<Space>(SiteId::range(5..5000)).expect("room for it");
-        let mut seen = order.clone();
+        let mut seen = order.to_vec();
         seen.sort_unstable();
         assert!(seen.into_iter().eq(SiteId::range(5..5000)));
         let falls = order.windows(2).filter(|w| w[1] < w[0]).count();
         assert!((1..16).contains(&falls), "{falls} rounds");
+        for n in 0..SHORT_RUN + 3 {
+            let mut order = in_rounds::<Plane>(SiteId::range(1..n + 1)).expect("room for it").to_vec();
+            order.sort_unstable();
+            assert!(order.into_iter().eq(SiteId::range(1..n + 1)), "{n}");
+        }
     }
 }
