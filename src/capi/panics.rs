@@ -37,7 +37,7 @@ struct Scene<G: Dimension> {
 
 impl<G: Dimension> Scene<G> {
     /// A triangulation that has made a commit and has moves staged for the next one.
-    fn new(kernel: fn(Box<MovingTriangulation<G>>) -> Kernel, options: Options) -> Self {
+    fn new(kernel: fn(MovingTriangulation<G>) -> Kernel, options: Options) -> Self {
         let n = if options.threads > 1 { 800 } else { 60 };
         let left = Arc::new(AtomicUsize::new(usize::MAX));
         let counter = left.clone();
@@ -46,7 +46,7 @@ impl<G: Dimension> Scene<G> {
             true
         });
         let options = Options { monitor: Some(monitor), ..options };
-        let made = MovingTriangulation::new_boxed(&points::<G>(n, 3), options).expect("points in range");
+        let made = MovingTriangulation::new(&points::<G>(n, 3), options).expect("points in range");
         let mut out = MaybeUninit::uninit();
         // SAFETY: NULL stands for the defaults, which have no callbacks.
         let defaults = unsafe { deldrift_options::read(null()) }.expect("defaults are in order");
@@ -87,7 +87,7 @@ impl<G: Dimension> Scene<G> {
 
 /// How many panics there were, one in each of as many commits.
 fn panics_of<G: Dimension>(
-    kernel: fn(Box<MovingTriangulation<G>>) -> Kernel,
+    kernel: fn(MovingTriangulation<G>) -> Kernel,
     algorithm: Algorithm,
     threads: u32,
 ) -> usize {

@@ -41,8 +41,8 @@ pub unsafe extern "C" fn deldrift_clone(
             let monitor = callbacks.monitor()?;
             // No call below this one on the stack is changing it, and none of another thread by contract.
             let kernel = match &*handle.kernel() {
-                Kernel::Plane(t) => Kernel::Plane(memory::boxed(t.try_clone(monitor)?)?),
-                Kernel::Space(t) => Kernel::Space(memory::boxed(t.try_clone(monitor)?)?),
+                Kernel::Plane(t) => Kernel::Plane(t.try_clone(monitor)?),
+                Kernel::Space(t) => Kernel::Space(t.try_clone(monitor)?),
             };
             hand_out(out, kernel, callbacks)
         })
@@ -146,9 +146,9 @@ fn load(
     let options = options.convert()?;
     let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
     let kernel = if saved.dimension() == 2 {
-        Kernel::Plane(memory::boxed(MovingTriangulation::load(&saved, options).map_err(failed)?)?)
+        Kernel::Plane(MovingTriangulation::load(&saved, options).map_err(failed)?)
     } else {
-        Kernel::Space(memory::boxed(MovingTriangulation::load(&saved, options).map_err(failed)?)?)
+        Kernel::Space(MovingTriangulation::load(&saved, options).map_err(failed)?)
     };
     hand_out(out, kernel, callbacks)
 }

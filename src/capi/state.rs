@@ -68,9 +68,7 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
     bytes: *mut usize,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
-    unsafe {
-        tell!(t, bytes, t => size_of::<deldrift_triangulation>() + size_of_val(&**t) + t.memory_bytes())
-    }
+    unsafe { tell!(t, bytes, t => size_of::<deldrift_triangulation>() + t.memory_bytes()) }
 }
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.

@@ -26,8 +26,8 @@ pub struct deldrift_triangulation {
 
 /// The library's triangulation, in its dimension.
 pub(super) enum Kernel {
-    Plane(Box<MovingTriangulation<Plane>>),
-    Space(Box<MovingTriangulation<Space>>),
+    Plane(MovingTriangulation<Plane>),
+    Space(MovingTriangulation<Space>),
 }
 
 /// Evaluates an expression on a [`Kernel`]'s triangulation, once for each dimension.
@@ -53,6 +53,7 @@ macro_rules! tell {
 pub(super) use tell;
 
 impl deldrift_triangulation {
+    #[inline(always)]
     fn new(kernel: Kernel, callbacks: Callbacks) -> Self {
         Self {
             kernel: UnsafeCell::new(kernel),
@@ -60,6 +61,15 @@ impl deldrift_triangulation {
             is_changing: AtomicBool::new(false),
             is_poisoned: AtomicBool::new(false),
         }
+    }
+
+    /// One that is to be built: in memory of its own, and made there.
+    #[inline(always)]
+    fn unbuilt(kernel: impl FnOnce() -> Kernel, callbacks: Callbacks) -> Result<Box<Self>, Error> {
+        memory::boxed_by(
+            #[inline(always)]
+            || Self::new(kernel(), callbacks),
+        )
     }
 
     pub(super) fn kernel(&self) -> *mut Kernel {
@@ -146,8 +156,37 @@ pub unsafe extern "C" fn deldrift_create(
     unsafe {
         fence::enter(|| {
             let out = pointers::output("out", out)?;
-            let (kernel, callbacks) = Kernel::new(dimension, positions, count, options)?;
-            hand_out(out, kernel, callbacks)
+            let is_plane = match dimension {
+                2 => true,
+                3 => false,
+                given => return Err(Failure::Dimension { given }),
+            };
+            let options = deldrift_options::read(options)?;
+            let callbacks = options.callbacks();
+            let options = options.convert()?;
+            // Looked at here as well, lest an absurd count becomes the length of a slice.
+            if count > MAX_VERTICES {
+                return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
+            }
+            let mut made = if is_plane {
+                deldrift_triangulation::unbuilt(
+                    #[inline(always)]
+                    || Kernel::Plane(MovingTriangulation::unbuilt(options)),
+                    callbacks,
+                )?
+            } else {
+                deldrift_triangulation::unbuilt(
+                    #[inline(always)]
+                    || Kernel::Space(MovingTriangulation::unbuilt(options)),
+                    callbacks,
+                )?
+            };
+            match made.kernel.get_mut() {
+                Kernel::Plane(t) => t.build_first(points::<Plane>("positions", positions, count)?)?,
+                Kernel::Space(t) => t.build_first(points::<Space>("positions", positions, count)?)?,
+            }
+            out.write(Box::into_raw(made));
+            Ok(())
         })
     }
 }
@@ -160,47 +199,6 @@ pub(super) fn hand_out(
 ) -> Result<(), Failure> {
     out.write(Box::into_raw(memory::boxed(deldrift_triangulation::new(kernel, callbacks))?));
     Ok(())
-}
-
-impl Kernel {
-    /// Creates the triangulation of a dimension.
-    ///
-    /// # Safety
-    /// As for [`deldrift_create`].
-    unsafe fn new(
-        dimension: u32,
-        positions: *const f64,
-        count: usize,
-        options: *const deldrift_options,
-    ) -> Result<(Self, Callbacks), Failure> {
-        let is_plane = match dimension {
-            2 => true,
-            3 => false,
-            given => return Err(Failure::Dimension { given }),
-        };
-        // SAFETY: the caller's promise.
-        let options = unsafe { deldrift_options::read(options) }?;
-        let (callbacks, options) = (options.callbacks(), options.convert()?);
-        // Looked at here as well, lest an absurd count becomes the length of a slice.
-        if count > MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: count, limit: MAX_VERTICES }.into());
-        }
-        // SAFETY: the caller's promise.
-        let kernel = unsafe {
-            if is_plane {
-                Kernel::Plane(MovingTriangulation::new_boxed(
-                    points::<Plane>("positions", positions, count)?,
-                    options,
-                )?)
-            } else {
-                Kernel::Space(MovingTriangulation::new_boxed(
-                    points::<Space>("positions", positions, count)?,
-                    options,
-                )?)
-            }
-        };
-        Ok((kernel, callbacks))
-    }
 }
 
 /// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.

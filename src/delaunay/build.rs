@@ -50,8 +50,9 @@ fn gap_after<G: Dimension>(n_threads: usize) -> usize {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Adds a site for each of the points to a triangulation without any: along a Hilbert curve, each with the index of
-    /// its point for id, and with the sign of zeros made positive. [`rebuild`](Self::rebuild) must follow.
+    /// Adds a site for each of the points to a triangulation without any, be it an [empty](Self::empty_on) one: along a
+    /// Hilbert curve, each with the index of its point for id, and with the sign of zeros made positive.
+    /// [`rebuild`](Self::rebuild) must follow.
     pub fn add_sites(&mut self, points: &[G::Point]) -> Result<()> {
         let n = points.len();
         let site = |item: u32| {
@@ -63,12 +64,12 @@ impl<G: Dimension> Delaunay<G> {
         };
         // As they would come out of the sorting.
         if n <= SHORT_RUN {
-            self.reserve_sites(n)?;
+            self.begin_sites(n)?;
             self.sites.extend((0..n as u32).map(site));
             return Ok(());
         }
         let (parts, sorted) = self.in_parts(0..n as u32, n, |i| &points[i as usize])?;
-        self.reserve_sites(n)?;
+        self.begin_sites(n)?;
         for keyed in &sorted {
             memory::extend(&mut self.sites, keyed, sorted.len(), |k| site(k.item()))?;
         }

@@ -150,8 +150,9 @@ impl<G: Dimension> Delaunay<G> {
         Self::empty_on(Threads::ONE)
     }
 
+    /// The same, to use several threads. Inlined, it is made where it is going to be: it has some kilobytes.
     #[inline(always)]
-    fn empty_on(threads: Threads) -> Self {
+    pub(crate) fn empty_on(threads: Threads) -> Self {
         let origin = G::Point::default();
         Delaunay {
             sites: Vec::new(),
@@ -180,9 +181,19 @@ impl<G: Dimension> Delaunay<G> {
 
     /// A triangulation without sites that uses several threads.
     pub(crate) fn on(threads: Threads) -> Result<Self> {
-        let mut sites = Vec::new();
-        memory::push(&mut sites, Site::new(G::Point::default(), GHOST))?;
-        Ok(Delaunay { sites, ..Delaunay::empty_on(threads) })
+        let mut t = Self::empty_on(threads);
+        t.begin_sites(0)?;
+        Ok(t)
+    }
+
+    /// Makes room for the first `n` sites, and puts the placeholder before them unless it is there.
+    fn begin_sites(&mut self, n: usize) -> Result<()> {
+        if !self.sites.is_empty() {
+            return self.reserve_sites(n);
+        }
+        self.reserve_sites(n + 1)?;
+        self.sites.push(Site::new(G::Point::default(), GHOST));
+        Ok(())
     }
 
     /// The cells.

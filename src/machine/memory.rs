@@ -75,6 +75,12 @@ pub(crate) fn push<T>(array: &mut Vec<T>, entry: T) -> Result<()> {
 
 /// A value in memory of its own.
 pub(crate) fn boxed<T>(value: T) -> Result<Box<T>> {
+    boxed_by(|| value)
+}
+
+/// A value in memory of its own, which is made once there is the memory, and there if the compiler can.
+#[inline(always)]
+pub(crate) fn boxed_by<T>(make: impl FnOnce() -> T) -> Result<Box<T>> {
     let layout = std::alloc::Layout::new::<T>();
     assert!(layout.size() > 0);
     // SAFETY: the layout is not empty; the memory is written before it becomes a box, which frees it as it was
@@ -84,7 +90,7 @@ pub(crate) fn boxed<T>(value: T) -> Result<Box<T>> {
         if place.is_null() {
             return Err(Error::OutOfMemory { bytes: layout.size() });
         }
-        place.write(value);
+        place.write(make());
         Ok(Box::from_raw(place))
     }
 }

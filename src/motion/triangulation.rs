@@ -57,31 +57,22 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`], [`Error::Cancelled`], [`Error::Coincident`] if the options reject that.
     pub fn new(positions: &[G::Point], options: Options) -> Result<Self> {
-        let mut t = Self::without_sites(positions.len(), options)?;
+        let mut t = Self::unbuilt(options);
         t.build_first(positions)?;
         Ok(t)
     }
 
-    /// The same in a box from the beginning: a triangulation has some kilobytes, and to move one takes longer than to
-    /// build one of a few points.
-    pub(crate) fn new_boxed(positions: &[G::Point], options: Options) -> Result<Box<Self>> {
-        let mut t = memory::boxed(Self::without_sites(positions.len(), options)?)?;
-        t.build_first(positions)?;
-        Ok(t)
-    }
-
-    /// A triangulation of which nothing is known but the number of vertices that it will have.
+    /// A triangulation that is to be [built](Self::build_first). Inlined, it is made where it is going to be: it has some
+    /// kilobytes, and to move them takes longer than to build one of a few points.
     #[inline(always)]
-    fn without_sites(n_vertices: usize, options: Options) -> Result<Self> {
-        if n_vertices > MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: n_vertices, limit: MAX_VERTICES });
-        }
-        let kernel = Delaunay::on(Threads::at_most(options.threads))?;
-        Ok(Self::of_parts(kernel, Vec::new(), Hidden::default(), n_vertices, options))
+    pub(crate) fn unbuilt(options: Options) -> Self {
+        let kernel = Delaunay::empty_on(Threads::at_most(options.threads));
+        Self::of_parts(kernel, Vec::new(), Hidden::default(), 0, options)
     }
 
     /// A triangulation of which nothing is known but the kernel, the site of each id, and which of the `n_present`
     /// vertices are hidden.
+    #[inline(always)]
     pub(super) fn of_parts(
         kernel: Delaunay<G>,
         site_of: Vec<SiteId>,
@@ -90,7 +81,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         options: Options,
     ) -> Self {
         MovingTriangulation {
-            sorted_stride: kernel.mean_stride(),
+            sorted_stride: 0.0,
             kernel,
             site_of,
             hidden,
@@ -140,12 +131,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Makes the sites and builds the cells for the first time.
-    fn build_first(&mut self, positions: &[G::Point]) -> Result<()> {
+    /// Makes the sites and builds the cells for the first time. After an error the triangulation can only be dropped.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub(crate) fn build_first(&mut self, positions: &[G::Point]) -> Result<()> {
+        if positions.len() > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
+        }
         // Without a branch for each, several at a time are looked at.
         if !G::Point::flattened(positions).iter().fold(true, |are_good, &x| are_good & is_in_range(x)) {
             return Err(first_bad::<G>(positions));
         }
+        self.n_present = positions.len();
         self.kernel.add_sites(positions)?;
         memory::reserve_exact(&mut self.site_of, positions.len())?;
         self.site_of.resize(positions.len(), SiteId::NONE);

@@ -127,6 +127,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         drop(representatives);
         let cells = Cells::of_rows(corners, neighbours, kernel.complex().n_slots())?;
         let mut t = MovingTriangulation::of_parts(kernel, site_of, hidden, n_present, options);
+        t.sorted_stride = t.kernel.mean_stride();
         t.reject_coincidence()?;
         t.views.show(cells)?;
         t.statistics = header.statistics;
