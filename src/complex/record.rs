@@ -134,10 +134,9 @@ impl<C: Corners> Complex<C> {
         }
     }
 
-    /// Notes cells that are about to be replaced, and makes sure that all of them can be released.
+    /// Notes cells that are about to be replaced.
     #[inline(always)]
     pub(crate) fn note_all(&mut self, cells: impl ExactSizeIterator<Item = Slot>) -> Result<()> {
-        self.reserve_free(cells.len())?;
         if self.record.is_on {
             self.reserve_rows(cells.len())?;
             cells.for_each(|c| self.note(c));

@@ -154,9 +154,10 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<Vec<(SiteId, SiteId)>> {
         self.complex.clear();
         self.is_sorted = false;
-        // Poisson points have 2 cells per site in the plane and 6.77 in space; hulls and rounds need a little more.
-        let more = (4 * n).min(64);
-        self.complex.reserve(n * if G::D == 2 { 2 } else { 7 } + more)?;
+        // In the plane there are not quite 2 cells per site. In space Poisson points have 6.77, hulls and rounds need a
+        // little more, and a few sites never have as many.
+        let most = if G::D == 2 { 2 * n } else { (n + 1).saturating_mul(n.saturating_sub(2)) / 2 };
+        self.complex.reserve(most.min(7 * n + (4 * n).min(64)))?;
         for site in &mut self.sites {
             site.cell = Slot::NONE;
         }
@@ -246,7 +247,7 @@ impl<G: Dimension> Delaunay<G> {
                 continue;
             }
             match self.insert_into_cells::<BUILD>(cavity, s, self.recent)? {
-                Insertion::New => self.record(cavity.made().iter().copied()),
+                Insertion::New => self.record(cavity.scratch.made()),
                 Insertion::Coincident(t) => memory::push(&mut coincident, (s, t))?,
                 Insertion::Spans => unreachable!("there are cells"),
             }

@@ -52,22 +52,17 @@ pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
     /// Bytes held.
     fn memory_bytes(&self) -> usize;
 
-    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site. Lists
-    /// the new cells in `cavity`. After an error nothing has changed.
-    fn insert<const BUILD: bool>(
-        t: &mut Delaunay<G>,
-        cavity: &mut Cavity<G>,
-        start: Slot,
-        s: SiteId,
-    ) -> Result<()>;
+    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site. Returns
+    /// one of the new cells. After an error nothing has changed.
+    fn insert<const BUILD: bool>(&mut self, t: &mut Delaunay<G>, start: Slot, s: SiteId) -> Result<Slot>;
+
+    /// The cells made by the last insertion.
+    fn made(&self) -> impl ExactSizeIterator<Item = Slot> + '_;
 }
 
-/// Scratch memory of insertions.
+/// Insertions, and the scratch memory for them.
 #[derive(Debug)]
 pub struct Cavity<G: Dimension> {
-    /// Room for a list of cells; the first `n_cells` were made by the last insertion.
-    pub(super) cells: Vec<Slot>,
-    pub(super) n_cells: usize,
     pub(super) scratch: G::Scratch,
     /// Cells crossed by the walks so far.
     pub(super) steps: u64,
@@ -75,18 +70,7 @@ pub struct Cavity<G: Dimension> {
 
 impl<G: Dimension> Default for Cavity<G> {
     fn default() -> Self {
-        Cavity { cells: Vec::new(), n_cells: 0, scratch: G::Scratch::default(), steps: 0 }
-    }
-}
-
-impl<G: Dimension> Cavity<G> {
-    pub(super) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.cells) + self.scratch.memory_bytes()
-    }
-
-    /// The cells made by the last insertion.
-    pub(super) fn made(&self) -> &[Slot] {
-        &self.cells[..self.n_cells]
+        Cavity { scratch: G::Scratch::default(), steps: 0 }
     }
 }
 
@@ -103,7 +87,7 @@ impl<G: Dimension> Delaunay<G> {
             let mut cavity = std::mem::take(&mut self.cavity);
             let inserted = self.insert_into_cells::<false>(&mut cavity, s, near);
             if inserted == Ok(Insertion::New) {
-                self.record(cavity.made().iter().copied());
+                self.record(cavity.scratch.made());
             }
             self.cavity = cavity;
             inserted
@@ -144,16 +128,16 @@ impl<G: Dimension> Delaunay<G> {
         near: Slot,
     ) -> Result<Insertion> {
         let q = self.site(s).point;
-        let Cavity { scratch, steps, .. } = &mut *cavity;
+        let Cavity { scratch, steps } = cavity;
         let is_inside = |cell| BUILD && scratch.is_inside(&self.filter, cell, &q);
         let (start, is_inside) = self.walk_until(&self.filter, &q, near, steps, is_inside);
         // What is inside the sphere of a cell is at no site.
         if !is_inside && let Some(t) = self.corner_at(start, &q) {
             return Ok(Insertion::Coincident(t));
         }
-        G::Scratch::insert::<BUILD>(self, cavity, start, s)?;
-        self.recent = cavity.cells[0];
-        self.sites[s].cell = cavity.cells[0];
+        let made = scratch.insert::<BUILD>(self, start, s)?;
+        self.recent = made;
+        self.sites[s].cell = made;
         Ok(Insertion::New)
     }
 }

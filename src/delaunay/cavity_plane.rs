@@ -10,7 +10,7 @@
 
 #![allow(unsafe_code)]
 
-use super::cavity::{Cavity, Insert};
+use super::cavity::Insert;
 use super::kernel::Kernel;
 use super::{Delaunay, Plane};
 use crate::complex::{Facet, INFINITE};
@@ -19,15 +19,26 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::predicates::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
 
-/// Scratch memory, written without a check of the bounds (they cost 10 % of a build): as long as the room for cells.
+/// Scratch memory, written without a check of the bounds (they cost 10 % of a build).
 #[derive(Debug, Default)]
 pub struct Scratch {
     /// Whether this build tests by lengths (see [`seen_circle_bound`]): the static bound would leave most tests uncertain.
     has_lengths: bool,
-    /// Edges where the walk through the zone turned right, to be taken up when it comes back.
+    /// Edges where the walk through the zone turned right, to be taken up when it comes back: as long as `rows`.
     turns: Vec<Edge>,
-    /// The rim counter-clockwise: the start of each edge, and the edge seen from outside the zone.
-    rim: Vec<(SiteId, Facet)>,
+    /// Cells and rim side by side; the first `n_made` rows were made by the last insertion.
+    rows: Vec<Row>,
+    n_made: usize,
+}
+
+/// A cell of the zone, then a new cell in its place or one more, and an edge of the rim, which is counter-clockwise.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    cell: Slot,
+    /// Where the edge starts.
+    start: SiteId,
+    /// The edge seen from outside the zone.
+    out: Facet,
 }
 
 impl Insert<Plane> for Scratch {
@@ -37,37 +48,38 @@ impl Insert<Plane> for Scratch {
     }
 
     fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.turns) + memory::bytes_of(&self.rim)
+        memory::bytes_of(&self.turns) + memory::bytes_of(&self.rows)
     }
 
     #[inline(always)]
-    fn insert<const BUILD: bool>(
-        t: &mut Delaunay<Plane>,
-        cavity: &mut Cavity<Plane>,
-        start: Slot,
-        s: SiteId,
-    ) -> Result<()> {
+    fn insert<const BUILD: bool>(&mut self, t: &mut Delaunay<Plane>, start: Slot, s: SiteId) -> Result<Slot> {
         // A polygon has two edges more than triangles.
         t.complex.reserve(2)?;
-        let zone = match BUILD && cavity.scratch.has_lengths {
-            true => dig::<true>(t, cavity, start, s)?,
-            false => dig::<false>(t, cavity, start, s)?,
+        let zone = match BUILD && self.has_lengths {
+            true => dig::<true>(t, self, start, s)?,
+            false => dig::<false>(t, self, start, s)?,
         };
-        t.reserve_record(zone.n_cells + 2)?;
+        let n_made = zone.n_cells + 2;
+        t.reserve_record(n_made)?;
         if !BUILD {
-            t.complex.note_all(cavity.cells[..zone.n_cells].iter().copied())?;
+            t.complex.note_all(self.rows[..zone.n_cells].iter().map(|row| row.cell))?;
             t.complex.reserve_rows(2)?;
         }
-        for k in zone.n_cells..zone.n_cells + 2 {
-            cavity.cells[k] = t.complex.create_blank();
+        for row in &mut self.rows[zone.n_cells..n_made] {
+            row.cell = t.complex.create_blank();
         }
-        cavity.n_cells = zone.n_cells + 2;
-        fill(t, cavity, s);
+        self.n_made = n_made;
+        let made = &self.rows[..n_made];
+        fill(t, made, s);
         if zone.n_ghosts > 0 {
             t.complex.retire_ghosts(zone.n_ghosts);
-            put_ghosts(t, cavity, s);
+            put_ghosts(t, made, s);
         }
-        Ok(())
+        Ok(made[0].cell)
+    }
+
+    fn made(&self) -> impl ExactSizeIterator<Item = Slot> + '_ {
+        self.rows[..self.n_made].iter().map(|row| row.cell)
     }
 }
 
@@ -106,17 +118,17 @@ impl Edge {
 #[inline(never)]
 fn dig<const BY_LENGTHS: bool>(
     t: &Delaunay<Plane>,
-    cavity: &mut Cavity<Plane>,
+    scratch: &mut Scratch,
     start: Slot,
     s: SiteId,
 ) -> Result<Zone> {
     let (q, id) = (&t.site(s).point, t.site(s).id);
     let mut n_ghosts = t.complex.cell(start).is_ghost() as usize;
     let (mut n_cells, mut n_turns, mut n_rim) = (1, 2, 0);
-    make_room(cavity, n_cells)?;
-    cavity.cells[0] = start;
-    cavity.scratch.turns[0] = Edge::of(t, start, 1, q);
-    cavity.scratch.turns[1] = Edge::of(t, start, 0, q);
+    make_room(scratch, n_cells)?;
+    scratch.rows[0].cell = start;
+    scratch.turns[0] = Edge::of(t, start, 1, q);
+    scratch.turns[1] = Edge::of(t, start, 0, q);
     let mut edge = Edge::of(t, start, 2, q);
     loop {
         let beyond = edge.out.cell();
@@ -144,49 +156,46 @@ fn dig<const BY_LENGTHS: bool>(
             })
         };
         if let Some([next, turn]) = behind {
-            make_room(cavity, n_cells + 1)?;
+            make_room(scratch, n_cells + 1)?;
             // SAFETY: there is room for one more cell, and for as many turns as cells and one more.
             unsafe {
-                *cavity.cells.get_unchecked_mut(n_cells) = beyond;
-                *cavity.scratch.turns.get_unchecked_mut(n_turns) = turn;
+                scratch.rows.get_unchecked_mut(n_cells).cell = beyond;
+                *scratch.turns.get_unchecked_mut(n_turns) = turn;
             }
             n_cells += 1;
             n_turns += 1;
             edge = next;
         } else {
             // SAFETY: the rim so far and the turns to come are at most two more than the cells, which is the room made.
-            *unsafe { cavity.scratch.rim.get_unchecked_mut(n_rim) } = (edge.start, edge.out);
+            let row = unsafe { scratch.rows.get_unchecked_mut(n_rim) };
+            (row.start, row.out) = (edge.start, edge.out);
             n_rim += 1;
             if n_turns == 0 {
                 return Ok(Zone { n_cells, n_ghosts });
             }
             n_turns -= 1;
             // SAFETY: below the turns written.
-            edge = *unsafe { cavity.scratch.turns.get_unchecked(n_turns) };
+            edge = *unsafe { scratch.turns.get_unchecked(n_turns) };
         }
     }
 }
 
 /// Makes room for a zone of `n_cells` cells: its rim has two edges more, and at most as many turns.
 #[inline(always)]
-fn make_room(cavity: &mut Cavity<Plane>, n_cells: usize) -> Result<()> {
-    if cavity.cells.len() < n_cells + 2 { grow(cavity, n_cells) } else { Ok(()) }
+fn make_room(scratch: &mut Scratch, n_cells: usize) -> Result<()> {
+    if scratch.rows.len() < n_cells + 2 { grow(scratch, n_cells) } else { Ok(()) }
 }
 
 #[cold]
 #[inline(never)]
-fn grow(
-    Cavity { cells, scratch: Scratch { turns, rim, .. }, .. }: &mut Cavity<Plane>,
-    n_cells: usize,
-) -> Result<()> {
+fn grow(Scratch { turns, rows, .. }: &mut Scratch, n_cells: usize) -> Result<()> {
     // Little at first, as the first insertion of all has to write it.
-    let room = 2 * n_cells + 14;
+    let room = 2 * n_cells + 10;
     let facet = Facet::new(Slot::new(0), 0);
     let seen = Lifted::new(&[0.0; 2], &[0.0; 2]);
-    memory::lengthen(rim, room, (INFINITE, facet))?;
     memory::lengthen(turns, room, Edge { out: facet, start: INFINITE, right: seen, left: seen, cross: 0.0 })?;
-    // Last, as its length stands for all.
-    memory::lengthen(cells, room, Slot::new(0))
+    // Last, as its length stands for both.
+    memory::lengthen(rows, room, Row { cell: Slot::new(0), start: INFINITE, out: facet })
 }
 
 /// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.
@@ -214,35 +223,30 @@ fn is_in_uncertain_conflict(
 /// Joins each edge of the rim to the site; the new triangles turn around it, so each is glued to the one before and to
 /// the one after it.
 #[inline(always)]
-fn fill(t: &mut Delaunay<Plane>, cavity: &mut Cavity<Plane>, s: SiteId) {
-    let (cells, rim) = (cavity.made(), &cavity.scratch.rim[..cavity.n_cells]);
-    let (mut before, mut cell, mut start, mut out) = (cells[cells.len() - 1], cells[0], rim[0].0, rim[0].1);
-    let mut put = |after: Slot, next: (SiteId, Facet)| {
-        let neighbours = [out, Facet::new(after, 2), Facet::new(before, 1)];
-        t.complex.put_glued(cell, [s, start, next.0], neighbours);
-        t.corner_mut(start).cell = cell;
-        (before, cell) = (cell, after);
-        (start, out) = next;
+fn fill(t: &mut Delaunay<Plane>, made: &[Row], s: SiteId) {
+    let (mut before, mut row) = (made[made.len() - 1].cell, made[0]);
+    let mut put = |next: Row| {
+        let neighbours = [row.out, Facet::new(next.cell, 2), Facet::new(before, 1)];
+        t.complex.put_glued(row.cell, [s, row.start, next.start], neighbours);
+        t.corner_mut(row.start).cell = row.cell;
+        (before, row) = (row.cell, next);
     };
-    for (&after, &next) in cells[1..].iter().zip(&rim[1..]) {
-        put(after, next);
+    for &next in &made[1..] {
+        put(next);
     }
-    put(cells[0], rim[0]);
+    put(made[0]);
 }
 
 /// Turns the triangle that starts at the ghost vertex, so that this comes last, and counts both ghosts.
 #[cold]
 #[inline(never)]
-fn put_ghosts(t: &mut Delaunay<Plane>, cavity: &Cavity<Plane>, s: SiteId) {
-    let (cells, rim) = (cavity.made(), &cavity.scratch.rim[..cavity.n_cells]);
-    let n = rim.len();
-    let k = rim
-        .iter()
-        .position(|&(start, _)| start == INFINITE)
-        .expect("ghosts in the zone have the ghost vertex");
-    let (before, cell, after) = (cells[(k + n - 1) % n], cells[k], cells[(k + 1) % n]);
-    t.complex.put(cell, [rim[(k + 1) % n].0, s, INFINITE]);
-    t.complex.glue(Facet::new(cell, 0), Facet::new(before, 1));
-    t.complex.glue(Facet::new(cell, 1), rim[k].1);
-    t.complex.glue(Facet::new(cell, 2), Facet::new(after, 2));
+fn put_ghosts(t: &mut Delaunay<Plane>, made: &[Row], s: SiteId) {
+    let n = made.len();
+    let k =
+        made.iter().position(|row| row.start == INFINITE).expect("ghosts in the zone have the ghost vertex");
+    let (before, row, after) = (made[(k + n - 1) % n], made[k], made[(k + 1) % n]);
+    t.complex.put(row.cell, [after.start, s, INFINITE]);
+    t.complex.glue(Facet::new(row.cell, 0), Facet::new(before.cell, 1));
+    t.complex.glue(Facet::new(row.cell, 1), row.out);
+    t.complex.glue(Facet::new(row.cell, 2), Facet::new(after.cell, 2));
 }

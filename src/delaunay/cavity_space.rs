@@ -7,11 +7,13 @@
 //! Which way a test goes cannot be predicted, so both ways are written and one is kept. What can be known is the facet
 //! through which a cell of the zone was found: three others are left to look across.
 
-use super::cavity::{Cavity, Insert};
-use super::meetings::{FEW_RIM, Meetings, Ridge, Rim, SMALL_RIM};
+#![allow(unsafe_code)]
+
+use super::cavity::Insert;
+use super::meetings::{FEW_RIM, Meetings, Ridge, Row, SMALL_RIM};
 use super::spheres::{Spheres, Table};
 use super::{Delaunay, Space};
-use crate::complex::{Facet, INFINITE};
+use crate::complex::Facet;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -24,14 +26,12 @@ pub(super) const IN_ZONE: u8 = 1;
 /// Scratch memory.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    /// Cells in conflict, each by the facet through which it was found: the first `n_zone` entries. The rest is room to
-    /// write before it is known whether to keep it.
-    zone: Vec<Facet>,
+    /// Two lists side by side: the first `n_zone` rows have the cells in conflict, the first `n_rim` the rim's facets.
+    /// The rest is room to write before it is known whether to keep it.
+    rows: Vec<Row>,
     n_zone: usize,
     /// How many of them are ghosts.
     n_ghosts: usize,
-    /// Likewise, the rim's facets.
-    rim: Vec<Rim>,
     n_rim: usize,
     meetings: Meetings,
     pub(super) spheres: Spheres,
@@ -56,46 +56,42 @@ impl Insert<Space> for Scratch {
     }
 
     fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.zone)
-            + memory::bytes_of(&self.rim)
-            + self.meetings.memory_bytes()
-            + self.spheres.memory_bytes()
+        memory::bytes_of(&self.rows) + self.meetings.memory_bytes() + self.spheres.memory_bytes()
     }
 
     #[inline(always)]
-    fn insert<const BUILD: bool>(
-        t: &mut Delaunay<Space>,
-        cavity: &mut Cavity<Space>,
-        start: Slot,
-        s: SiteId,
-    ) -> Result<()> {
-        let Cavity { cells, scratch, .. } = cavity;
+    fn insert<const BUILD: bool>(&mut self, t: &mut Delaunay<Space>, start: Slot, s: SiteId) -> Result<Slot> {
         let mut ridges = Vec::new();
-        let dug = match (BUILD, scratch.spheres.has_lengths) {
-            (true, true) => dig_in_build::<true>(t, scratch, start, s),
-            (true, false) => dig_in_build::<false>(t, scratch, start, s),
-            _ => dig::<false, false>(t, scratch, start, s),
+        let dug = match (BUILD, self.spheres.has_lengths) {
+            (true, true) => dig_in_build::<true>(t, self, start, s),
+            (true, false) => dig_in_build::<false>(t, self, start, s),
+            _ => dig::<false, false>(t, self, start, s),
         };
-        if let Err(error) = dug.and_then(|()| reserve::<BUILD>(t, cells, &mut ridges, scratch)) {
-            for found in &scratch.zone[..scratch.n_zone] {
-                t.complex.set_mark(found.cell(), 0);
+        if let Err(error) = dug.and_then(|()| reserve::<BUILD>(t, &mut ridges, self)) {
+            for row in &self.rows[..self.n_zone] {
+                t.complex.set_mark(row.found.cell(), 0);
             }
             return Err(error);
         }
-        let (zone, n_rim) = (&scratch.zone[..scratch.n_zone], scratch.n_rim);
-        t.complex.retire_ghosts(scratch.n_ghosts);
+        let (n_zone, n_rim) = (self.n_zone, self.n_rim);
+        t.complex.retire_ghosts(self.n_ghosts);
         // The k-th rim facet gets the k-th cell of the zone, whose memory is at hand, then free ones.
-        let reused = zone.len().min(n_rim);
-        for found in &zone[reused..] {
-            t.complex.release(found.cell());
+        let reused = n_zone.min(n_rim);
+        for row in &self.rows[reused..n_zone] {
+            t.complex.release(row.found.cell());
         }
-        cells.extend(zone[..reused].iter().map(|found| found.cell()));
-        for _ in reused..n_rim {
-            cells.push(t.complex.create_blank());
+        for row in &mut self.rows[..reused] {
+            row.cell = row.found.cell();
         }
-        glue::<BUILD>(t, cells, scratch, ridges);
-        cavity.n_cells = n_rim;
-        Ok(())
+        for row in &mut self.rows[reused..n_rim] {
+            row.cell = t.complex.create_blank();
+        }
+        glue::<BUILD>(t, self, ridges);
+        Ok(self.rows[0].cell)
+    }
+
+    fn made(&self) -> impl ExactSizeIterator<Item = Slot> + '_ {
+        self.rows[..self.n_rim].iter().map(|row| row.cell)
     }
 }
 
@@ -114,22 +110,19 @@ fn joined([a, b, c, d]: [SiteId; 4], i: usize, s: SiteId) -> [SiteId; 4] {
 #[inline(always)]
 fn reserve<const BUILD: bool>(
     t: &mut Delaunay<Space>,
-    cells: &mut Vec<Slot>,
     ridges: &mut Vec<Ridge>,
     scratch: &Scratch,
 ) -> Result<()> {
-    let n_rim = scratch.n_rim;
-    t.complex.reserve(n_rim)?;
-    if BUILD {
-        t.complex.reserve_free(scratch.n_zone)?;
-    } else {
-        t.complex.note_all(scratch.zone[..scratch.n_zone].iter().map(|found| found.cell()))?;
-        t.complex.reserve_rows(n_rim)?;
+    let Scratch { rows, n_zone, n_rim, .. } = scratch;
+    let n_created = n_rim.saturating_sub(*n_zone);
+    t.complex.reserve(n_created)?;
+    t.complex.reserve_free(n_zone.saturating_sub(*n_rim))?;
+    if !BUILD {
+        t.complex.note_all(rows[..*n_zone].iter().map(|row| row.found.cell()))?;
+        t.complex.reserve_rows(n_created)?;
     }
-    t.reserve_record(n_rim)?;
-    cells.clear();
-    memory::reserve(cells, n_rim)?;
-    if n_rim > SMALL_RIM { memory::reserve_exact(ridges, 3 * n_rim) } else { Ok(()) }
+    t.reserve_record(*n_rim)?;
+    if *n_rim > SMALL_RIM { memory::reserve_exact(ridges, 3 * n_rim) } else { Ok(()) }
 }
 
 /// As [`dig`], in a build.
@@ -162,12 +155,12 @@ fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
     s: SiteId,
 ) -> Result<()> {
     scratch.n_zone = 0;
-    let Scratch { zone, rim, spheres, meetings, .. } = scratch;
+    let Scratch { rows, spheres, meetings, .. } = scratch;
     let mut spheres = spheres.table();
     let (q, id) = (&{ t.site(s).point }, t.site(s).id);
     let (mut next, mut n_zone, mut n_rim, mut n_ghosts) = (0, 1, 0, 0);
-    make_room(zone, rim, meetings, [n_zone, n_rim])?;
-    zone[0] = Facet::new(start, 0);
+    make_room(rows, meetings, n_zone)?;
+    rows[0].found = Facet::new(start, 0);
     t.complex.set_mark(start, IN_ZONE);
     // With the corners of the new cell if the neighbour is not in the zone.
     macro_rules! look_across {
@@ -186,8 +179,13 @@ fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
                 t.complex.prefetch_marks(t.complex.cell(out.cell()));
             }
             t.complex.set_mark(out.cell(), in_zone);
-            zone[n_zone] = out;
-            rim[n_rim] = Rim { corners: $corners, out };
+            debug_assert!(n_zone.max(n_rim) < rows.len());
+            // SAFETY: there is room for all neighbours of the cell, each of which adds a row at most.
+            unsafe {
+                rows.get_unchecked_mut(n_zone).found = out;
+                let row = rows.get_unchecked_mut(n_rim);
+                (row.corners, row.out) = ($corners, out);
+            }
             n_zone += usize::from(in_zone & !known);
             n_rim += usize::from(in_zone ^ IN_ZONE);
         };
@@ -195,12 +193,12 @@ fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
     let cell = *t.complex.cell(start);
     look_across!(cell.neighbour(0), joined(cell.corners, 0, s));
     while next < n_zone {
-        if let Err(error) = make_room(zone, rim, meetings, [n_zone, n_rim]) {
+        if let Err(error) = make_room(rows, meetings, n_zone.max(n_rim)) {
             scratch.n_zone = n_zone;
             return Err(error);
         }
         // Through which facet the cell was found: it has been looked across.
-        let (cell, from) = (*t.complex.cell(zone[next].cell()), zone[next].index());
+        let (cell, from) = (*t.complex.cell(rows[next].found.cell()), rows[next].found.index());
         next += 1;
         if cell.is_ghost() {
             n_ghosts += 1;
@@ -221,84 +219,57 @@ fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
     Ok(())
 }
 
-/// Makes room for the four neighbours of a cell.
+/// Makes room for the four neighbours of a cell after `n` rows.
 #[inline(always)]
-fn make_room(
-    zone: &mut Vec<Facet>,
-    rim: &mut Vec<Rim>,
-    meetings: &mut Meetings,
-    n: [usize; 2],
-) -> Result<()> {
-    if zone.len() < n[0] + 4 || rim.len() < n[1] + 4 { grow(zone, rim, meetings, n) } else { Ok(()) }
+fn make_room(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<()> {
+    if rows.len() < n + 4 { grow(rows, meetings, n) } else { Ok(()) }
 }
 
 #[cold]
 #[inline(never)]
-fn grow(
-    zone: &mut Vec<Facet>,
-    rim: &mut Vec<Rim>,
-    meetings: &mut Meetings,
-    [n_zone, n_rim]: [usize; 2],
-) -> Result<()> {
-    let facet = Facet::new(Slot::new(0), 0);
-    if rim.len() < n_rim + 4 {
-        let n = if n_rim == 0 { FEW_RIM } else { 2 * n_rim + 64 };
-        if n > FEW_RIM {
-            // First, as whoever has room for such a rim has room for the meetings.
-            meetings.make_room()?;
-        }
-        memory::lengthen(rim, n, Rim { corners: [INFINITE; 4], out: facet })?;
+fn grow(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<()> {
+    let room = if rows.is_empty() { FEW_RIM } else { 2 * n + 64 };
+    if room > FEW_RIM {
+        // First, as whoever has room for such a rim has room for the meetings.
+        meetings.make_room()?;
     }
-    if zone.len() < n_zone + 4 {
-        memory::lengthen(zone, 2 * n_zone + 30, facet)?;
-    }
-    Ok(())
+    memory::lengthen(rows, room, Row::blank())
 }
 
 /// Makes the new cells and glues them.
 #[inline(always)]
-fn glue<const BUILD: bool>(
-    t: &mut Delaunay<Space>,
-    cells: &[Slot],
-    scratch: &mut Scratch,
-    ridges: Vec<Ridge>,
-) {
-    let Scratch { rim, n_rim, spheres, meetings, .. } = scratch;
-    let rim = &rim[..*n_rim];
-    meetings.glue(t, rim, cells, ridges);
+fn glue<const BUILD: bool>(t: &mut Delaunay<Space>, scratch: &mut Scratch, ridges: Vec<Ridge>) {
+    let Scratch { rows, n_rim, spheres, meetings, .. } = scratch;
+    let rim = &mut rows[..*n_rim];
+    meetings.glue(t, rim, ridges);
     if BUILD {
         if spheres.has_lengths {
-            prepare::<true>(t, rim, cells, spheres);
+            prepare::<true>(t, rim, spheres);
         } else {
-            prepare::<false>(t, rim, cells, spheres);
+            prepare::<false>(t, rim, spheres);
         }
     }
 }
 
 /// Prepares the spheres of the new cells.
 #[inline(never)]
-fn prepare<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Rim], cells: &[Slot], spheres: &mut Spheres) {
+fn prepare<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Row], spheres: &mut Spheres) {
     let spheres = spheres.table();
     match Avx2::new() {
         Some(avx2) => avx2.run_with(
             (t, avx2),
-            (rim, cells),
+            rim,
             spheres,
             #[inline(always)]
-            |(t, avx2), (rim, cells), spheres| prepare_in_lanes::<BY_LENGTHS>(avx2, t, rim, cells, spheres),
+            |(t, avx2), rim, spheres| prepare_in_lanes::<BY_LENGTHS>(avx2, t, rim, spheres),
         ),
-        None => prepare_each::<BY_LENGTHS>(t, rim, cells, spheres),
+        None => prepare_each::<BY_LENGTHS>(t, rim, spheres),
     }
 }
 
-fn prepare_each<const BY_LENGTHS: bool>(
-    t: &Delaunay<Space>,
-    rim: &[Rim],
-    cells: &[Slot],
-    mut spheres: Table,
-) {
-    for (facet, &cell) in rim.iter().zip(cells) {
-        spheres.put::<BY_LENGTHS>(t, cell, &facet.corners);
+fn prepare_each<const BY_LENGTHS: bool>(t: &Delaunay<Space>, rim: &[Row], mut spheres: Table) {
+    for row in rim {
+        spheres.put::<BY_LENGTHS>(t, row.cell, &row.corners);
     }
 }
 
@@ -307,23 +278,17 @@ fn prepare_each<const BY_LENGTHS: bool>(
 fn prepare_in_lanes<const BY_LENGTHS: bool>(
     avx2: Avx2,
     t: &Delaunay<Space>,
-    rim: &[Rim],
-    cells: &[Slot],
+    rim: &[Row],
     mut spheres: Table,
 ) {
     let last = rim.len() - LANES;
     let s = t.view().point(rim[0].corners[0]);
     for begin in (0..rim.len()).step_by(LANES) {
         let begin = begin.min(last);
-        let (rim, cells) = (&rim[begin..], &cells[begin..]);
-        if let (Some(rim), Some(cells)) = (rim.first_chunk(), cells.first_chunk()) {
-            spheres.put_four::<BY_LENGTHS>(
-                avx2,
-                t,
-                s,
-                cells,
-                rim.each_ref().map(|facet: &Rim| &facet.corners),
-            );
+        if let Some(four) = rim[begin..].first_chunk() {
+            let four: [&Row; LANES] = four.each_ref();
+            let cells = four.map(|row| row.cell);
+            spheres.put_four::<BY_LENGTHS>(avx2, t, s, &cells, four.map(|row| &row.corners));
         }
     }
 }

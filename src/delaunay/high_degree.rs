@@ -35,6 +35,7 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(&mut slots, filling.len())?;
         self.reserve_record(filling.len())?;
         self.complex.reserve(filling.len())?;
+        self.complex.reserve_free(self.hole.star.len())?;
         self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
         self.complex.reserve_rows(filling.len())?;
         let star = std::mem::take(&mut self.hole.star);

@@ -23,13 +23,28 @@ const TABLE: usize = MAX_LABELS * MAX_LABELS;
 const FEW_LABELS: usize = 16;
 pub(super) const FEW_RIM: usize = 2 * (FEW_LABELS - 2);
 
-/// A facet of the rim.
+/// A facet of the rim, the cell that joins it to the site, and beside it, where that is no matter of the facet, a cell of
+/// the zone.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rim {
+pub(super) struct Row {
     /// Corners of the new cell.
     pub(super) corners: [SiteId; 4],
     /// The facet seen from outside the zone.
     pub(super) out: Facet,
+    /// Slot of the new cell.
+    pub(super) cell: Slot,
+    /// Labels of its last three corners.
+    local: [u8; 4],
+    /// A cell of the zone, by the facet through which it was found.
+    pub(super) found: Facet,
+}
+
+impl Row {
+    /// What is to be written over.
+    pub(super) fn blank() -> Self {
+        let facet = Facet::new(Slot::new(0), 0);
+        Row { corners: [INFINITE; 4], out: facet, cell: Slot::new(0), local: [0; 4], found: facet }
+    }
 }
 
 /// Where the two facets of a ridge meet; without room until a rim is larger than [`FEW_RIM`].
@@ -39,19 +54,16 @@ pub(super) struct Meetings {
     table: Vec<Facet>,
     /// The site of each label.
     labels: Vec<SiteId>,
-    /// Labels of the last three corners of each new cell.
-    local: Vec<[u8; 4]>,
 }
 
 impl Meetings {
     pub(super) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.table) + memory::bytes_of(&self.labels) + memory::bytes_of(&self.local)
+        memory::bytes_of(&self.table) + memory::bytes_of(&self.labels)
     }
 
     /// Makes room for rims of up to [`SMALL_RIM`] facets.
     pub(super) fn make_room(&mut self) -> Result<()> {
         memory::lengthen(&mut self.labels, MAX_LABELS, INFINITE)?;
-        memory::lengthen(&mut self.local, SMALL_RIM, [0; 4])?;
         // Last, as its length stands for all.
         memory::lengthen(&mut self.table, TABLE, Facet::new(Slot::new(0), 0))
     }
@@ -59,17 +71,15 @@ impl Meetings {
     /// Puts the new cells of a rim, which have their slots, and glues them. There must be room for all ridges of a rim
     /// that is larger than [`SMALL_RIM`].
     #[inline(always)]
-    pub(super) fn glue(&mut self, t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], ridges: Vec<Ridge>) {
+    pub(super) fn glue(&mut self, t: &mut Delaunay<Space>, rim: &mut [Row], ridges: Vec<Ridge>) {
         if rim.len() > SMALL_RIM {
-            return glue_sorted(t, rim, cells, ridges);
+            return glue_sorted(t, rim, ridges);
         }
-        let Meetings { table, labels, local } = self;
+        let Meetings { table, labels } = self;
         // Of fixed lengths, so that the compiler sees masked indices in bounds.
         match (table.as_mut_slice().try_into(), labels.as_mut_slice().try_into()) {
-            (Ok(table), Ok(labels)) => {
-                glue_by_table::<MAX_LABELS, TABLE>(t, rim, cells, table, labels, local)
-            }
-            _ => glue_few(t, rim, cells),
+            (Ok(table), Ok(labels)) => glue_by_table::<MAX_LABELS, TABLE>(t, rim, table, labels),
+            _ => glue_few(t, rim),
         }
     }
 }
@@ -77,24 +87,22 @@ impl Meetings {
 /// As the table of [`Meetings`], for a rim of [`FEW_RIM`] facets at most.
 #[cold]
 #[inline(never)]
-fn glue_few(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot]) {
+fn glue_few(t: &mut Delaunay<Space>, rim: &mut [Row]) {
     let mut table = [Facet::new(Slot::new(0), 0); FEW_LABELS * FEW_LABELS];
-    let (mut labels, mut local) = ([INFINITE; FEW_LABELS], [[0; 4]; FEW_RIM]);
-    glue_by_table(t, rim, cells, &mut table, &mut labels, &mut local);
+    glue_by_table(t, rim, &mut table, &mut [INFINITE; FEW_LABELS]);
 }
 
 /// Glues by a table of `LABELS` times `LABELS` entries.
 #[inline(always)]
 fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
     t: &mut Delaunay<Space>,
-    rim: &[Rim],
-    cells: &[Slot],
+    rim: &mut [Row],
     table: &mut [Facet; ENTRIES],
     labels: &mut [SiteId; LABELS],
-    local: &mut [[u8; 4]],
 ) {
     let mut n_labels = 0;
-    for ((facet, &cell), local) in rim.iter().zip(cells).zip(local.iter_mut()) {
+    for row in rim.iter_mut() {
+        let cell = row.cell;
         let mut label = |v: SiteId| {
             let site = t.corner_mut(v);
             let old = site.cell.get();
@@ -105,19 +113,19 @@ fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
             n_labels += !is_known as u32;
             label as usize
         };
-        let [_, k, l, m] = facet.corners;
+        let [_, k, l, m] = row.corners;
         let (k, l, m) = (label(k), label(l), label(m));
-        *local = [0, k as u8, l as u8, m as u8];
+        row.local = [0, k as u8, l as u8, m as u8];
         table[(l * LABELS + m) % ENTRIES] = Facet::new(cell, 1);
         table[(m * LABELS + k) % ENTRIES] = Facet::new(cell, 2);
         table[(k * LABELS + l) % ENTRIES] = Facet::new(cell, 3);
     }
-    for ((facet, &cell), label) in rim.iter().zip(cells).zip(local.iter()) {
-        let [_, k, l, m] = label.map(usize::from);
+    for row in rim.iter() {
+        let (cell, [_, k, l, m]) = (row.cell, row.local.map(usize::from));
         let at = |from: usize, to: usize| table[(from * LABELS + to) % ENTRIES];
-        t.complex.put_glued(cell, facet.corners, [facet.out, at(m, l), at(k, m), at(l, k)]);
+        t.complex.put_glued(cell, row.corners, [row.out, at(m, l), at(k, m), at(l, k)]);
         for i in 1..4 {
-            t.corner_mut(facet.corners[i]).cell = cell;
+            t.corner_mut(row.corners[i]).cell = cell;
         }
     }
 }
@@ -128,11 +136,11 @@ pub(super) type Ridge = ([SiteId; 2], Facet);
 /// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room
 /// for all `ridges`.
 #[cold]
-fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Rim], cells: &[Slot], mut ridges: Vec<Ridge>) {
-    for (facet, &cell) in rim.iter().zip(cells) {
-        let v = facet.corners;
+fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Row], mut ridges: Vec<Ridge>) {
+    for row in rim {
+        let (cell, v) = (row.cell, row.corners);
         t.complex.put(cell, v);
-        t.complex.glue(Facet::new(cell, 0), facet.out);
+        t.complex.glue(Facet::new(cell, 0), row.out);
         for (i, k, l) in [(1, 2, 3), (2, 3, 1), (3, 1, 2)] {
             ridges.push(([v[k].min(v[l]), v[k].max(v[l])], Facet::new(cell, i)));
             t.sites[v[i]].cell = cell;

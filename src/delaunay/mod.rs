@@ -90,7 +90,7 @@ use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::machine::threads::Threads;
 use crate::predicates::StaticFilter;
-use cavity::Cavity;
+use cavity::{Cavity, Insert};
 use flat::Flat;
 use flip::AllFlips;
 use parts::Parts;
@@ -452,7 +452,7 @@ impl<G: Dimension> Delaunay<G> {
             + self.complex.memory_bytes()
             + self.flat.memory_bytes()
             + self.landmarks.memory_bytes()
-            + self.cavity.memory_bytes()
+            + self.cavity.scratch.memory_bytes()
             + self.hole.memory_bytes()
             + self.around.memory_bytes()
             + self.flips.memory_bytes()

@@ -194,6 +194,7 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve(&mut self.hole.made_at, n)?;
         self.reserve_record(n)?;
         self.complex.reserve(n)?;
+        self.complex.reserve_free(self.hole.star.len())?;
         self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
         self.complex.reserve_rows(n)
     }
