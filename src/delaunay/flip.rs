@@ -109,7 +109,7 @@ impl<G: Dimension> Delaunay<G> {
         stuck: &mut Vec<Facet>,
         most: u64,
     ) -> Result<Option<u64>> {
-        let mut flips = std::mem::take(&mut self.flips);
+        let mut flips = memory::take_made(&mut self.flips)?;
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
         // Unless the cells are sorted nearly all flips would need those of several threads.
@@ -118,17 +118,17 @@ impl<G: Dimension> Delaunay<G> {
         let done = self.flip_listed(&mut flips, n_threads, most, WhenStuck::Fill);
         std::mem::swap(&mut flips.own.suspects, suspects);
         std::mem::swap(&mut flips.own.stuck, stuck);
-        self.flips = flips;
+        self.flips = Some(flips);
         done
     }
 
     /// Flips from the facets of the gathered star outwards, until no facet fails; `None`, and no change, if flips are
     /// stuck.
     pub(super) fn flip_star(&mut self) -> Result<Option<u64>> {
-        let mut flips = std::mem::take(&mut self.flips);
+        let mut flips = memory::take_made(&mut self.flips)?;
         let done = self.flip_star_with(&mut flips);
         let is_stuck = !flips.own.stuck.is_empty();
-        self.flips = flips;
+        self.flips = Some(flips);
         let done = done?.filter(|_| !is_stuck);
         if done.is_none() {
             self.undo_flips();
@@ -306,9 +306,10 @@ impl<G: Dimension> Delaunay<G> {
     /// Takes the flips of the last [`flip_all`](Self::flip_all) back, and those of [`untangle`](Self::untangle) before it
     /// or after it.
     pub(crate) fn undo_flips(&mut self) {
-        let mut flips = std::mem::take(&mut self.flips);
-        self.take_back(&mut flips);
-        self.flips = flips;
+        if let Some(mut flips) = self.flips.take() {
+            self.take_back(&mut flips);
+            self.flips = Some(flips);
+        }
     }
 
     fn take_back(&mut self, flips: &mut AllFlips<G>) {

@@ -120,9 +120,10 @@ pub struct Delaunay<G: Dimension> {
     landmarks: landmarks::Landmarks,
     cavity: Cavity<G>,
     hole: Hole<G>,
-    /// The cells of the star gathered last.
-    around: IndexSet<Slot>,
-    flips: AllFlips<G>,
+    /// The cells of the star gathered last, once there was one.
+    around: Option<Box<IndexSet<Slot>>>,
+    /// Once there were any.
+    flips: Option<Box<AllFlips<G>>>,
     log: undo::Log<G>,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
     changed: Option<Vec<Slot>>,
@@ -169,8 +170,8 @@ impl<G: Dimension> Delaunay<G> {
             landmarks: Default::default(),
             cavity: Cavity::default(),
             hole: Hole::default(),
-            around: IndexSet::new(),
-            flips: AllFlips::default(),
+            around: None,
+            flips: None,
             log: undo::Log::default(),
             changed: None,
             certificates: 0,
@@ -454,8 +455,8 @@ impl<G: Dimension> Delaunay<G> {
             + self.landmarks.memory_bytes()
             + self.cavity.scratch.memory_bytes()
             + self.hole.memory_bytes()
-            + self.around.memory_bytes()
-            + self.flips.memory_bytes()
+            + memory::bytes_of_made(&self.around, IndexSet::memory_bytes)
+            + memory::bytes_of_made(&self.flips, AllFlips::memory_bytes)
             + self.log.memory_bytes()
             + self.changed.as_ref().map_or(0, memory::bytes_of)
     }

@@ -12,7 +12,7 @@
 //! Invariant: the complex is not touched before the whole filling is known.
 
 use super::locate::list_star;
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Dimension, IndexSet};
 use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -94,17 +94,24 @@ impl<G: Dimension> Delaunay<G> {
 
     /// The same, where a cell of the star is known, as the site need not know one while there are flips.
     pub(super) fn gather_star_from(&mut self, first: Slot, s: SiteId) -> Result<()> {
-        self.around.clear();
-        list_star(&self.complex, first, s, &mut self.around, |_| {})?;
-        self.prefetch_around(s, &self.around);
+        let mut around = memory::take_made(&mut self.around)?;
+        let gathered = self.gather_star_into(&mut around, first, s);
+        self.around = Some(around);
+        gathered
+    }
+
+    fn gather_star_into(&mut self, around: &mut IndexSet<Slot>, first: Slot, s: SiteId) -> Result<()> {
+        around.clear();
+        list_star(&self.complex, first, s, around, |_| {})?;
+        self.prefetch_around(s, around);
         let is_far = self.is_far();
         let Hole { star, link, .. } = &mut self.hole;
         star.clear();
         link.clear();
-        memory::reserve(star, self.around.as_slice().len())?;
-        memory::reserve(link, self.around.as_slice().len())?;
+        memory::reserve(star, around.as_slice().len())?;
+        memory::reserve(link, around.as_slice().len())?;
         let (complex, sites) = (&self.complex, &self.sites);
-        star.extend(self.around.as_slice().iter().map(|&c| (c, complex.cell(c).index_of(s) as u8)));
+        star.extend(around.as_slice().iter().map(|&c| (c, complex.cell(c).index_of(s) as u8)));
         link.extend(star.iter().map(|&(c, at)| {
             let (corners, at) = (complex.cell(c).corners, usize::from(at));
             Gap { corners, at, out: complex.cell(c).neighbour(at) }

@@ -33,6 +33,12 @@ fn place_of(index: impl Id) -> usize {
     usize::from((index.get().wrapping_mul(GOLDEN) >> 24) as u8)
 }
 
+impl<I: Id> Default for IndexSet<I> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<I: Id> IndexSet<I> {
     pub(crate) fn new() -> Self {
         IndexSet {

@@ -95,6 +95,27 @@ pub(crate) fn boxed_by<T>(make: impl FnOnce() -> T) -> Result<Box<T>> {
     }
 }
 
+/// A value that has its memory from when it is first asked for.
+#[inline(always)]
+pub(crate) fn made<T: Default>(place: &mut Option<Box<T>>) -> Result<&mut T> {
+    let made = take_made(place)?;
+    Ok(place.insert(made))
+}
+
+/// As [`made`], out of its place: to be put back there.
+#[inline(always)]
+pub(crate) fn take_made<T: Default>(place: &mut Option<Box<T>>) -> Result<Box<T>> {
+    match place.take() {
+        Some(made) => Ok(made),
+        None => boxed_by(T::default),
+    }
+}
+
+/// Bytes of a value that may not be [`made`] yet, with those that it holds.
+pub(crate) fn bytes_of_made<T>(place: &Option<Box<T>>, held: impl FnOnce(&T) -> usize) -> usize {
+    place.as_deref().map_or(0, |made| size_of::<T>() + held(made))
+}
+
 /// Bytes of an array's memory.
 pub(crate) fn bytes_of<T>(array: &Vec<T>) -> usize {
     array.capacity() * size_of::<T>()

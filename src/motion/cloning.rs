@@ -1,8 +1,6 @@
 //! A second triangulation like the first.
 
-use super::changes::Taken;
 use super::options::Monitor;
-use super::repair::Repair;
 use super::transaction::Transaction;
 use super::{MovingTriangulation, Options};
 use crate::delaunay::Dimension;
@@ -30,7 +28,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             edits: self.edits.copied()?,
             regions: self.regions.copied()?,
             switching: self.switching.clone(),
-            repair: Repair::default(),
+            repair: None,
             auto: self.auto.clone(),
             options: Options { algorithm, threads, coincidence, track_changes, switching, monitor },
             statistics: self.statistics,
@@ -38,7 +36,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             sorted_stride: self.sorted_stride,
             transaction: Transaction::default(),
             views: self.views.copied(&self.kernel)?,
-            taken: Taken::default(),
+            taken: None,
             takes_changes: self.takes_changes,
         })
     }

@@ -13,9 +13,7 @@
 //! lasts, the memory of a second triangulation.
 
 use super::MovingTriangulation;
-use super::changes::Taken;
 use super::regions::Regions;
-use super::repair::Repair;
 use super::transaction::Transaction;
 use crate::delaunay::Dimension;
 use crate::error::Result;
@@ -49,8 +47,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let stride = kernel.mean_stride();
         self.adopt(kernel, hidden, stride);
         self.find_sites();
-        (self.regions, self.repair) = (Regions::default(), Repair::default());
-        (self.transaction, self.taken) = (Transaction::default(), Taken::default());
+        (self.regions, self.repair) = (Regions::default(), None);
+        (self.transaction, self.taken) = (Transaction::default(), None);
         Ok(ids)
     }
 

@@ -3,6 +3,8 @@
 use std::cmp::Ordering;
 
 use super::cells::Cells;
+use super::changes::Taken;
+use super::repair::Repair;
 use super::staging::check_position;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::complex::INFINITE;
@@ -307,11 +309,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             + self.options.monitor.as_ref().map_or(0, |monitor| size_of_val(&**monitor))
             + self.staging.memory_bytes()
             + self.regions.memory_bytes()
-            + self.repair.memory_bytes()
+            + memory::bytes_of_made(&self.repair, Repair::memory_bytes)
             + self.edits.memory_bytes()
             + self.hidden.memory_bytes()
             + self.transaction.memory_bytes()
             + self.views.memory_bytes()
-            + self.taken.memory_bytes()
+            + memory::bytes_of_made(&self.taken, Taken::memory_bytes)
     }
 }

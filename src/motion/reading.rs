@@ -2,11 +2,12 @@
 
 use super::MovingTriangulation;
 use super::cells::Cells;
-use super::changes::Changes;
+use super::changes::{Changes, Taken};
 use super::views::CellsView;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, VertexId};
+use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The finite cells and their neighbours.
@@ -62,12 +63,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
     pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
         let cells = self.views.cells_mut(&self.kernel)?;
-        cells.take(&mut self.taken, self.site_of.len())?;
-        self.list_visibilities()?;
+        cells.take(memory::made(&mut self.taken)?, self.site_of.len())?;
+        let mut taken = memory::take_made(&mut self.taken)?;
+        let listed = self.list_visibilities(&mut taken);
+        let taken = self.taken.insert(taken);
+        listed?;
         self.views.visibilities().truncate(0);
         self.takes_changes = true;
         self.views.cells_mut(&self.kernel).expect("they are up to date").end_taking();
-        Ok(self.taken.changes())
+        Ok(taken.changes())
     }
 
     /// Notes that a vertex is about to be hidden or shown, if the program takes changes.
@@ -79,23 +83,23 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Lists the vertices that have been hidden or shown; at the first call all that are hidden.
-    fn list_visibilities(&mut self) -> Result<()> {
+    fn list_visibilities(&mut self, taken: &mut Taken<G::Vertices>) -> Result<()> {
         if !self.takes_changes {
-            self.taken.reserve_vertices(self.hidden.count())?;
+            taken.reserve_vertices(self.hidden.count())?;
             for v in VertexId::range(0..self.site_of.len()) {
                 if self.is_present(v) {
-                    self.taken.list_vertex(v, false, self.is_hidden(v));
+                    taken.list_vertex(v, false, self.is_hidden(v));
                 }
             }
             return Ok(());
         }
-        self.taken.reserve_vertices(self.views.visibilities().len())?;
+        taken.reserve_vertices(self.views.visibilities().len())?;
         self.views.visibilities().keep_first();
         for (vertex, was_hidden) in self.views.visibilities().iter() {
             let s = self.site_of[vertex];
             if s != SiteId::NONE {
                 let is_hidden = self.kernel.site(s).id != vertex;
-                self.taken.list_vertex(vertex, was_hidden, is_hidden);
+                taken.list_vertex(vertex, was_hidden, is_hidden);
             }
         }
         Ok(())

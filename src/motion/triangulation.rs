@@ -35,7 +35,8 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(super) edits: Edits<G>,
     pub(super) regions: Regions<G>,
     pub(super) switching: Switching,
-    pub(super) repair: Repair,
+    /// Once there was one.
+    pub(super) repair: Option<Box<Repair>>,
     pub(super) auto: Auto,
     pub(super) options: Options,
     pub(super) statistics: CommitReport,
@@ -46,7 +47,7 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(super) transaction: Transaction<G>,
     pub(super) views: Views<G>,
     /// The changes taken last, and whether any ever were.
-    pub(super) taken: Taken<G::Vertices>,
+    pub(super) taken: Option<Box<Taken<G::Vertices>>>,
     pub(super) takes_changes: bool,
 }
 
@@ -90,14 +91,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             edits: Edits::default(),
             regions: Regions::default(),
             switching: Switching::default(),
-            repair: Repair::default(),
+            repair: None,
             auto: Auto::default(),
             options,
             statistics: CommitReport::default(),
             n_moved: 0,
             transaction: Transaction::default(),
             views: Views::default(),
-            taken: Taken::default(),
+            taken: None,
             takes_changes: false,
         }
     }

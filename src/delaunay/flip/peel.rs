@@ -104,9 +104,10 @@ impl<G: Dimension> Delaunay<G> {
         let is_in_the_way = match second {
             None => {
                 let apex = cell.corners[i];
-                self.around.clear();
-                list_star(&self.complex, c, apex, &mut self.around, |_| {})?;
-                let star = self.around.as_slice();
+                let around = memory::made(&mut self.around)?;
+                around.clear();
+                list_star(&self.complex, c, apex, around, |_| {})?;
+                let star = around.as_slice();
                 untangling.flips.certificates += (star.len() / SEEN_PER_CERTIFICATE) as u64;
                 star.iter().any(|&c| self.complex.cell(c).is_ghost())
             }

@@ -56,7 +56,8 @@ fn threads_flip<G: Dimension>(size: f64) {
             t.flip_all(&mut suspects, &mut stuck, u64::MAX).expect("room for it").expect("no limit");
         assert_eq!(stuck, []);
         t.validate(Level::Delaunay).expect("a Delaunay triangulation");
-        let parts: Vec<u64> = t.flips.parts.iter().map(|part| part.n_flips).collect();
+        let flips = t.flips.as_ref().expect("there were some");
+        let parts: Vec<u64> = flips.parts.iter().map(|part| part.n_flips).collect();
         assert_eq!(parts.len(), threads as usize);
         assert!(parts.iter().all(|&n| n > 0), "{parts:?}");
         assert!(2 * parts.iter().sum::<u64>() > n_flips, "{parts:?} of {n_flips}");
@@ -101,10 +102,10 @@ fn diagonals_change_in_space() {
         assert!(t.sweep(&mut failures, usize::MAX, None).expect("room for it") && failures.cells.is_empty());
         t.check_ridges(&mut failures, |_| None).expect("room for it");
         assert_eq!((failures.facets.len(), &failures.ridges[..]), (sides.len(), &[][..]));
-        let mut flips = AllFlips::default();
+        let mut flips = Box::new(AllFlips::default());
         flips.own.suspects.clone_from(&failures.facets);
         t.flip_as_far_as_possible(&mut flips, 1, u64::MAX, WhenStuck::Leave).expect("room for it");
-        t.flips = flips;
+        t.flips = Some(flips);
         t.undo_flips();
         t.validate(Level::Embedding).expect("cells as they were");
         assert!(t.complex.cells().iter().map(|cell| cell.corners).take(before.len()).eq(before));
@@ -131,14 +132,14 @@ fn flips_come_back() {
             (corners.collect::<Vec<_>>(), neighbours.collect::<Vec<_>>())
         };
         let (before, free) = (places(&t), t.complex.free_cells().to_vec());
-        let mut flips = std::mem::take(&mut t.flips);
+        let mut flips = memory::take_made(&mut t.flips).expect("room for it");
         flips.own.suspects.append(&mut suspects);
         t.flip_as_far_as_possible(&mut flips, threads as usize, u64::MAX, WhenStuck::Leave)
             .expect("room for it");
         let n_flips =
             flips.own.journal.len() + flips.parts.iter().map(|part| part.journal.len()).sum::<usize>();
         assert!(n_flips > 100, "{n_flips}");
-        t.flips = flips;
+        t.flips = Some(flips);
         assert_ne!(places(&t), before);
         // One thread has had to make room.
         assert!(threads > 1 || t.complex.n_slots() > before.0.len());

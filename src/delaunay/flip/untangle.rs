@@ -121,7 +121,7 @@ impl<G: Dimension> Delaunay<G> {
         most: u64,
         take_back: TakeBack<'_, G>,
     ) -> Result<bool> {
-        let mut flips = std::mem::take(&mut self.flips);
+        let mut flips = memory::take_made(&mut self.flips)?;
         // Undoing must not go back to before flips that have been kept.
         flips.were_several = false;
         let untangling = &mut flips.untangling;
@@ -141,7 +141,7 @@ impl<G: Dimension> Delaunay<G> {
             failures.facets.truncate(n_failing.1);
             self.take_untangling_back(untangling);
         }
-        self.flips = flips;
+        self.flips = Some(flips);
         done
     }
 

@@ -3,6 +3,7 @@
 use super::choice::Scope;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::machine::memory;
 use crate::motion::attempt::Attempt;
 use crate::motion::constants::{Constants, constants};
 use crate::motion::regions::Filter;
@@ -40,13 +41,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         {
             return Ok(());
         }
-        self.repair.set_limit(self.auto.limit());
+        memory::made(&mut self.repair)?.set_limit(self.auto.limit());
         let repaired = self.commit_by_repair(given, report);
-        self.repair.set_limit(None);
-        repaired?;
         let evaluations = [before, self.evaluations()];
+        let repair = memory::made(&mut self.repair)?;
+        repair.set_limit(None);
+        repaired?;
         let n_swept = self.kernel.n_certificates();
-        self.auto.learn::<G>(self.n_present, n_swept, report, &self.repair, evaluations);
+        self.auto.learn::<G>(self.n_present, n_swept, report, repair, evaluations);
         Ok(())
     }
 

@@ -35,16 +35,10 @@ struct Ridge {
 }
 
 /// Lists of one place after the other.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Natural {
     zone: IndexSet<Slot>,
     ridges: Vec<Ridge>,
-}
-
-impl Default for Natural {
-    fn default() -> Self {
-        Natural { zone: IndexSet::new(), ridges: Vec::new() }
-    }
 }
 
 impl Natural {

@@ -117,9 +117,9 @@ impl<G: Dimension> Kept<G> {
 /// The regions of one filter, if any are kept.
 #[derive(Debug)]
 pub(super) struct Regions<G: Dimension> {
-    kept: Option<Kept<G>>,
+    kept: Option<Box<Kept<G>>>,
     /// Regions that are no longer valid: their memory serves the next ones for the same filter.
-    spare: Option<Kept<G>>,
+    spare: Option<Box<Kept<G>>>,
     /// The kernel's record of changed cells, or its memory.
     changed: Vec<Slot>,
     /// Vertices that have been relocated during the change under way.
@@ -135,13 +135,14 @@ impl<G: Dimension> Default for Regions<G> {
 impl<G: Dimension> Regions<G> {
     /// A copy of what is kept.
     pub(super) fn copied(&self) -> Result<Self> {
-        Ok(Regions { kept: self.kept.as_ref().map(Kept::copied).transpose()?, ..Regions::default() })
+        let kept = self.kept.as_deref().map(|kept| memory::boxed(kept.copied()?)).transpose()?;
+        Ok(Regions { kept, ..Regions::default() })
     }
 
     /// The filter that regions are kept for.
     #[inline(always)]
     pub(super) fn kept_for(&self) -> Option<Filter> {
-        self.kept.as_ref().map(Kept::filter)
+        self.kept.as_deref().map(Kept::filter)
     }
 
     /// The report's pre-computations, for a filter; returns the number of bi-cells computed. `other_positions` as for a
@@ -155,7 +156,7 @@ impl<G: Dimension> Regions<G> {
     ) -> Result<u64> {
         self.invalidate();
         let spare = self.spare.take().filter(|spare| spare.filter() == filter);
-        let mut kept = spare.unwrap_or_else(|| Kept::empty(filter));
+        let mut kept = spare.map_or_else(|| memory::boxed(Kept::empty(filter)), Ok)?;
         let n = kept.store_mut().prepare(kernel, n_ids, other_positions)?;
         self.kept = Some(kept);
         Ok(n)
@@ -178,7 +179,7 @@ impl<G: Dimension> Regions<G> {
         s: SiteId,
         p: &G::Point,
     ) -> Option<Admission> {
-        match &self.kept {
+        match self.kept.as_deref() {
             Some(Kept::Tolerance(tolerances)) => {
                 tolerances.fixed()[vertex].holds(p).then_some(Admission::WithinTolerance)
             }
@@ -191,7 +192,7 @@ impl<G: Dimension> Regions<G> {
     /// Fixed positions and tolerances by vertex id, of the tolerance algorithm or of watching.
     #[inline(always)]
     pub(super) fn fixed(&self) -> &[Fixed<G>] {
-        match &self.kept {
+        match self.kept.as_deref() {
             Some(Kept::Tolerance(tolerances)) => tolerances.fixed(),
             Some(Kept::Watching(watching)) => watching.fixed(),
             Some(Kept::SafeRegion(_) | Kept::Slack(_)) | None => &[],
@@ -201,22 +202,22 @@ impl<G: Dimension> Regions<G> {
     /// Those of the tolerance algorithm.
     #[inline(always)]
     pub(super) fn tolerances(&self) -> Option<&Tolerances<G>> {
-        if let Some(Kept::Tolerance(tolerances)) = &self.kept { Some(tolerances) } else { None }
+        if let Some(Kept::Tolerance(tolerances)) = self.kept.as_deref() { Some(tolerances) } else { None }
     }
 
     /// Those of watching.
     pub(super) fn watching(&mut self) -> Option<&mut Watching<G>> {
-        if let Some(Kept::Watching(watching)) = &mut self.kept { Some(watching) } else { None }
+        if let Some(Kept::Watching(watching)) = self.kept.as_deref_mut() { Some(watching) } else { None }
     }
 
     /// About how many bi-cells are watched.
     pub(super) fn n_watched(&self) -> usize {
-        if let Some(Kept::Watching(watching)) = &self.kept { watching.n_watched() } else { 0 }
+        if let Some(Kept::Watching(watching)) = self.kept.as_deref() { watching.n_watched() } else { 0 }
     }
 
     /// Those of slack.
     pub(super) fn slacks(&mut self) -> Option<&mut Slacks<G>> {
-        if let Some(Kept::Slack(slacks)) = &mut self.kept { Some(slacks) } else { None }
+        if let Some(Kept::Slack(slacks)) = self.kept.as_deref_mut() { Some(slacks) } else { None }
     }
 
     /// Makes the kernel's static filter as sharp as what the regions, if any are kept, may let pass allows.
@@ -240,7 +241,7 @@ impl<G: Dimension> Regions<G> {
 
     /// A change begins, during which no regions are kept. Returns those that can [follow](Self::follow) it, and
     /// memory for the record of cells that this takes.
-    fn begin_change(&mut self) -> Option<(Kept<G>, Vec<Slot>)> {
+    fn begin_change(&mut self) -> Option<(Box<Kept<G>>, Vec<Slot>)> {
         self.relocated.clear();
         let kept = self.kept.take()?;
         Some((kept, std::mem::take(&mut self.changed)))
@@ -255,7 +256,7 @@ impl<G: Dimension> Regions<G> {
     /// bi-cells.
     fn follow(
         &mut self,
-        mut kept: Kept<G>,
+        mut kept: Box<Kept<G>>,
         mut changed: Vec<Slot>,
         relocated: Vec<VertexId>,
         kernel: &mut Delaunay<G>,
@@ -277,13 +278,14 @@ impl<G: Dimension> Regions<G> {
     }
 
     /// What was kept when a change began cannot follow it.
-    fn give_up(&mut self, kept: Kept<G>) {
+    fn give_up(&mut self, kept: Box<Kept<G>>) {
         self.spare = Some(kept);
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        let stores = [&self.kept, &self.spare].into_iter().flatten();
-        stores.map(|kept| kept.store().memory_bytes()).sum::<usize>()
+        let bytes_of = |kept| memory::bytes_of_made(kept, |kept: &Kept<G>| kept.store().memory_bytes());
+        bytes_of(&self.kept)
+            + bytes_of(&self.spare)
             + memory::bytes_of(&self.changed)
             + memory::bytes_of(&self.relocated)
     }

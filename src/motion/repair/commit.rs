@@ -59,7 +59,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         self.regions.invalidate();
         let accepted = report.moved;
-        let mut repair = std::mem::take(&mut self.repair);
+        let mut repair = memory::take_made(&mut self.repair)?;
         let begun = if are_all {
             // By slack they may have moved.
             let moved =
@@ -80,7 +80,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         });
         report.unchanged += report.moved.saturating_sub(accepted);
         let exact = repair.exact;
-        self.repair = repair;
+        self.repair = Some(repair);
         if mended? == Mending::TooMuch {
             return self.commit_by_rebuilding(self.staging.applied(), report);
         }

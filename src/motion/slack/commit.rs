@@ -21,6 +21,7 @@
 use super::slacks::Expired;
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::machine::memory;
 use crate::motion::attempt::Attempt;
 use crate::motion::constants::constants;
 use crate::motion::moving::Motion;
@@ -55,9 +56,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.sort_cells(constants::<G>().replaced_to_sort_first)?;
             self.prepare_regions(Filter::Slack, report)?;
         }
-        let mut repair = std::mem::take(&mut self.repair);
+        let mut repair = memory::take_made(&mut self.repair)?;
         let done = self.move_check_and_mend(&mut repair, given, report);
-        self.repair = repair;
+        self.repair = Some(repair);
         done
     }
 

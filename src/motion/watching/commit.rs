@@ -84,9 +84,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n_beyond = self.staging.vertices().len();
         report.within_tolerance += (self.n_present - n_beyond) as u64;
         if n_beyond + self.regions.n_watched() > 0 {
-            let mut repair = std::mem::take(&mut self.repair);
+            let mut repair = memory::take_made(&mut self.repair)?;
             let done = self.check_and_mend(&mut repair, report);
-            self.repair = repair;
+            self.repair = Some(repair);
             done?;
         }
         Ok(Attempt::Committed)
