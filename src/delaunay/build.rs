@@ -257,6 +257,9 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Drops the sites that found others at their places, and gives those the lowest id.
     fn merge(&mut self, coincident: Vec<(SiteId, SiteId)>) -> Result<Vec<Merge>> {
+        if coincident.is_empty() {
+            return Ok(Vec::new());
+        }
         // All are dropped first: a change of id may have to look at every live site.
         let (mut ids, mut merges) = (Vec::new(), Vec::new());
         memory::collect(&mut ids, coincident.iter().map(|&(s, _)| self.site(s).id))?;
@@ -375,9 +378,13 @@ impl<G: Dimension> Delaunay<G> {
         let sites = &self.sites[1..];
         let step = (sites.len() / STRIDES).max(1);
         let (mut sum, mut n) = (0.0, 0.0);
-        for pair in sites.windows(2).step_by(step).filter(|pair| pair.iter().all(Site::is_live)) {
-            sum += distance_above(&pair[0].point, &pair[1].point);
-            n += 1.0;
+        let mut rest = sites;
+        while let [first, second, ..] = rest {
+            if first.is_live() && second.is_live() {
+                sum += distance_above(&first.point, &second.point);
+                n += 1.0;
+            }
+            rest = rest.get(step..).unwrap_or_default();
         }
         if n > 0.0 { sum / n } else { 0.0 }
     }

@@ -67,8 +67,13 @@ impl<G: Dimension> Flat<G> {
         })
     }
 
+    #[inline(always)]
     pub(super) fn clear(&mut self) {
-        *self = Flat::default();
+        // Otherwise there is no memory to give up; a new map would draw random numbers.
+        if self.places.capacity() > 0 {
+            self.places = HashMap::new();
+        }
+        self.basis.n = 0;
     }
 
     /// A copy.
@@ -150,8 +155,8 @@ impl<G: Dimension> Delaunay<G> {
         for s in self.live_sites().filter(|&s| s != except) {
             flat.enter(s, &self.site(s).point)?;
         }
+        self.give_up_cells()?;
         self.flat = flat;
-        self.give_up_cells();
         self.changed = None;
         self.sites[1..].iter_mut().for_each(|site| site.cell = Slot::NONE);
         self.find_flat_basis(except);

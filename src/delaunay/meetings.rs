@@ -49,23 +49,31 @@ impl Row {
 
 /// Where the two facets of a ridge meet; without room until a rim is larger than [`FEW_RIM`].
 #[derive(Debug, Default)]
-pub(super) struct Meetings {
+pub(super) struct Meetings(Option<Box<Room>>);
+
+#[derive(Debug)]
+struct Room {
     /// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
-    table: Vec<Facet>,
+    table: [Facet; TABLE],
     /// The site of each label.
-    labels: Vec<SiteId>,
+    labels: [SiteId; MAX_LABELS],
+}
+
+impl Default for Room {
+    #[inline(always)]
+    fn default() -> Self {
+        Room { table: [Facet::new(Slot::new(0), 0); TABLE], labels: [INFINITE; MAX_LABELS] }
+    }
 }
 
 impl Meetings {
     pub(super) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.table) + memory::bytes_of(&self.labels)
+        memory::bytes_of_made(&self.0, |_| 0)
     }
 
     /// Makes room for rims of up to [`SMALL_RIM`] facets.
     pub(super) fn make_room(&mut self) -> Result<()> {
-        memory::lengthen(&mut self.labels, MAX_LABELS, INFINITE)?;
-        // Last, as its length stands for all.
-        memory::lengthen(&mut self.table, TABLE, Facet::new(Slot::new(0), 0))
+        memory::made(&mut self.0).map(|_| ())
     }
 
     /// Puts the new cells of a rim, which have their slots, and glues them. There must be room for all ridges of a rim
@@ -75,11 +83,9 @@ impl Meetings {
         if rim.len() > SMALL_RIM {
             return glue_sorted(t, rim, ridges);
         }
-        let Meetings { table, labels } = self;
-        // Of fixed lengths, so that the compiler sees masked indices in bounds.
-        match (table.as_mut_slice().try_into(), labels.as_mut_slice().try_into()) {
-            (Ok(table), Ok(labels)) => glue_by_table::<MAX_LABELS, TABLE>(t, rim, table, labels),
-            _ => glue_few(t, rim),
+        match &mut self.0 {
+            Some(room) => glue_by_table(t, rim, &mut room.table, &mut room.labels),
+            None => glue_few(t, rim),
         }
     }
 }

@@ -27,8 +27,9 @@ where
     for p in points {
         let (lower, upper) = corners.get_or_insert((*p, *p));
         for k in 0..G::D {
-            lower[k] = lower[k].min(p[k]);
-            upper[k] = upper[k].max(p[k]);
+            // The minimum and the maximum of finite numbers, in an operation each.
+            lower[k] = if p[k] < lower[k] { p[k] } else { lower[k] };
+            upper[k] = if upper[k] < p[k] { p[k] } else { upper[k] };
         }
     }
     corners

@@ -36,7 +36,7 @@ pub(super) struct Log<G: Dimension> {
     upper: G::Point,
     sites: Vec<Logged<G>>,
     /// The cells, where the change has given up all of them.
-    cells: Option<Complex<G::Corners>>,
+    cells: Option<Box<Complex<G::Corners>>>,
 }
 
 impl<G: Dimension> Default for Log<G> {
@@ -87,12 +87,15 @@ impl<G: Dimension> Delaunay<G> {
         memory::push(&mut self.log.sites, Logged { s, before: self.sites[s], has_place })
     }
 
-    /// Gives up all cells, which are kept only for `undo`.
-    pub(super) fn give_up_cells(&mut self) {
-        let cells = std::mem::take(&mut self.complex);
+    /// Gives up all cells, which are kept only for `undo`. After an error they are still there.
+    pub(super) fn give_up_cells(&mut self) -> Result<()> {
         if self.log.is_on && self.log.cells.is_none() {
-            self.log.cells = Some(cells);
+            let kept = memory::made(&mut self.log.cells)?;
+            std::mem::swap(kept, &mut self.complex);
+        } else {
+            self.complex = Complex::default();
         }
+        Ok(())
     }
 
     /// Whether the change has given up all cells.
@@ -105,7 +108,7 @@ impl<G: Dimension> Delaunay<G> {
         let all_cells = self.log.cells.take();
         let gave_up = all_cells.is_some();
         if let Some(cells) = all_cells {
-            self.complex = cells;
+            self.complex = *cells;
             self.flat = Flat::default();
         }
         self.complex.undo_record();
