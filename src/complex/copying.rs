@@ -9,7 +9,7 @@ impl<C: Corners> Complex<C> {
     /// A copy, without room for more cells. No record must be kept.
     pub(crate) fn copied(&self) -> Result<Self> {
         debug_assert!(!self.is_recording());
-        let cells = memory::copy_of(&self.cells)?;
+        let cells = self.cells.copied()?;
         let mut marks = Vec::new();
         memory::reserve_exact(&mut marks, cells.capacity())?;
         marks.resize(cells.len(), 0);

@@ -93,7 +93,7 @@ impl<C: Corners> Complex<C> {
         self.reserve(self.free.len() + n)?;
         self.reserve_free(n + rows)?;
         let first = self.cells.len();
-        self.cells.resize(first + n, Cell::free());
+        self.cells.lengthen(first + n, Cell::free());
         self.marks.resize(first + n, 0);
         self.free.splice(0..0, Slot::range(first..first + n));
         Ok(())

@@ -35,6 +35,7 @@ pub use record::Row;
 
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
+use crate::machine::aligned::Aligned;
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use record::Record;
@@ -47,7 +48,7 @@ pub const MAX_CELLS: usize = (1 << 30) - 4096;
 /// A set of cells, glued along facets.
 #[derive(Debug)]
 pub struct Complex<C: Corners> {
-    cells: Vec<Cell<C>>,
+    cells: Aligned<Cell<C>>,
     /// One byte per cell for the traversals of the layers above; 0 between them.
     marks: Vec<u8>,
     free: Vec<Slot>,
@@ -58,7 +59,7 @@ pub struct Complex<C: Corners> {
 impl<C: Corners> Default for Complex<C> {
     fn default() -> Self {
         Complex {
-            cells: Vec::new(),
+            cells: Aligned::new(),
             marks: Vec::new(),
             free: Vec::new(),
             n_ghosts: 0,
@@ -71,7 +72,7 @@ impl<C: Corners> Complex<C> {
     /// Removes all cells; keeps the memory.
     pub(crate) fn clear(&mut self) {
         debug_assert!(!self.is_recording(), "who may want the cells back keeps them");
-        self.cells.clear();
+        self.cells.truncate(0);
         self.marks.clear();
         self.free.clear();
         self.n_ghosts = 0;
@@ -212,7 +213,7 @@ impl<C: Corners> Complex<C> {
         if self.is_recording() {
             self.cover(room)?;
         }
-        memory::reserve_exact(&mut self.cells, more)?;
+        self.cells.reserve_exact(more)?;
         debug_assert!(self.cells.capacity() <= self.marks.capacity());
         Ok(())
     }
@@ -347,7 +348,7 @@ impl<C: Corners> Complex<C> {
         let room = self.cells.capacity().max(n + other.cells.len());
         let more_marks = room - self.marks.len();
         memory::reserve_exact(&mut self.marks, more_marks)?;
-        memory::extend(&mut self.cells, &other.cells, n_threads, shifted)?;
+        self.cells.extend(&other.cells, n_threads, shifted)?;
         debug_assert!(self.cells.capacity() <= self.marks.capacity());
         self.marks.resize(self.cells.len(), 0);
         self.free.extend(other.free.iter().map(|&c| moved(c)));
@@ -357,7 +358,7 @@ impl<C: Corners> Complex<C> {
 
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
-        self.cells.capacity() * size_of::<Cell<C>>()
+        self.cells.memory_bytes()
             + self.marks.capacity()
             + self.free.capacity() * 4
             + self.record.memory_bytes()

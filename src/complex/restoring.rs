@@ -10,6 +10,7 @@ use super::{Cell, Complex, Corners, Facet, INFINITE, MAX_CELLS};
 use crate::damage::{Damage, LoadError};
 use crate::error::Error;
 use crate::ids::{CellId, SiteId, Slot};
+use crate::machine::aligned::Aligned;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 
@@ -75,8 +76,8 @@ impl<C: Corners> Complex<C> {
         if n + n_ghosts > MAX_CELLS {
             return Err(Error::TooManyCells { limit: MAX_CELLS }.into());
         }
-        let (mut cells, mut marks) = (Vec::new(), Vec::new());
-        memory::reserve_exact(&mut cells, n + n_ghosts)?;
+        let (mut cells, mut marks) = (Aligned::new(), Vec::new());
+        cells.reserve_exact(n + n_ghosts)?;
         memory::reserve_exact(&mut marks, cells.capacity())?;
         for corners in corners {
             cells.push(Cell { corners: corners?, ..Cell::free() });

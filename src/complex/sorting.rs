@@ -4,6 +4,7 @@ use super::record::Record;
 use super::{Cell, Complex, Corners, Facet, MAX_CELLS};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
+use crate::machine::aligned::Aligned;
 use crate::machine::memory;
 
 /// The free slots among those of `n_live` sorted cells: one after every `gap_after` of them.
@@ -54,7 +55,7 @@ impl<C: Corners> Complex<C> {
         n_sites: usize,
         gap_after: usize,
         name: impl Fn(SiteId) -> SiteId,
-    ) -> Result<(Vec<Cell<C>>, Vec<Slot>)> {
+    ) -> Result<(Aligned<Cell<C>>, Vec<Slot>)> {
         let lowest = |cell: &Cell<C>| {
             cell.corners.as_ref().iter().map(|&s| name(s)).fold(SiteId::NONE, SiteId::min).index()
         };
@@ -63,10 +64,10 @@ impl<C: Corners> Complex<C> {
         if n_slots > MAX_CELLS {
             return Err(Error::TooManyCells { limit: MAX_CELLS });
         }
-        let (mut starts, mut index, mut sorted) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut starts, mut index, mut sorted) = (Vec::new(), Vec::new(), Aligned::new());
         memory::reserve_exact(&mut starts, n_sites + 1)?;
         memory::reserve_exact(&mut index, self.cells.len())?;
-        memory::reserve_exact(&mut sorted, n_slots + n_live / 64)?;
+        sorted.reserve_exact(n_slots + n_live / 64)?;
         starts.resize(n_sites + 1, 0u32);
         for cell in self.cells.iter().filter(|cell| !cell.is_free()) {
             starts[lowest(cell) + 1] += 1;
@@ -83,7 +84,7 @@ impl<C: Corners> Complex<C> {
             let rank = *at - 1;
             Slot::at(rank as usize + rank as usize / gap_after)
         }));
-        sorted.resize(n_slots, Cell::free());
+        sorted.lengthen(n_slots, Cell::free());
         for (cell, &to) in self.cells.iter().zip(&index) {
             if to == Slot::NONE {
                 continue;

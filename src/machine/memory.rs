@@ -21,14 +21,15 @@ const LARGE: usize = 4 << 20;
 #[inline(never)]
 pub(crate) fn reserve_exact<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve_exact(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })?;
-    advise_if_large(array);
+    advise_if_large(array.as_mut_ptr().cast(), bytes_of(array));
     Ok(())
 }
 
+/// Asks for large pages where an array is large.
 #[inline(always)]
-fn advise_if_large<T>(array: &mut Vec<T>) {
-    if bytes_of(array) >= LARGE {
-        advise_large_pages(array.as_mut_ptr().cast(), bytes_of(array));
+pub(super) fn advise_if_large(start: *mut u8, bytes: usize) {
+    if bytes >= LARGE {
+        advise_large_pages(start, bytes);
     }
 }
 
@@ -42,7 +43,7 @@ pub(crate) fn reserve<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
 #[inline(never)]
 fn grow<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     array.try_reserve(more).map_err(|_| Error::OutOfMemory { bytes: more * size_of::<T>() })?;
-    advise_if_large(array);
+    advise_if_large(array.as_mut_ptr().cast(), bytes_of(array));
     Ok(())
 }
 
@@ -202,7 +203,7 @@ pub(crate) fn overwrite<T: Sync, U: Copy + Send>(
 }
 
 /// Writes every entry of `to`, which is as long as `from`.
-fn write<T: Sync, U: Copy + Send>(
+pub(super) fn write<T: Sync, U: Copy + Send>(
     from: &[T],
     to: &mut [MaybeUninit<U>],
     n_threads: usize,

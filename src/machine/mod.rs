@@ -2,6 +2,7 @@
 //!
 //! It uses [`simd`](crate::simd) and [`error`](crate::error) alone: all else is above.
 
+pub(crate) mod aligned;
 pub mod memory;
 #[cfg(unix)]
 mod pool;

@@ -46,6 +46,7 @@ fn is_mutual<C: Corners>(complex: &Complex<C>) -> bool {
 fn a_2_2_flip_done_twice_more_swaps_back() {
     let mut complex = Complex::<[SiteId; 3]>::default();
     complex.start(sites([1, 2, 3])).unwrap();
+    complex.reserve(2).unwrap();
     let first = Slot::new(0);
     // Split the cell at 4 by hand: three cells around it.
     let outs: Vec<Facet> = (0..3).map(|i| complex.cell(first).neighbour(i)).collect();
@@ -94,6 +95,7 @@ fn boundary(complex: &Complex<[SiteId; 4]>, facets: [Facet; 6]) -> Vec<Vec<SiteI
 fn flips_in_space_come_back() {
     let mut complex = Complex::<[SiteId; 4]>::default();
     complex.start(sites([1, 2, 3, 4])).unwrap();
+    complex.reserve(3).unwrap();
     let first = Slot::new(0);
     // Split the cell at 5 by hand: four cells around it.
     let outs: Vec<Facet> = (0..4).map(|i| complex.cell(first).neighbour(i)).collect();
@@ -203,6 +205,7 @@ fn cavities_get_more_cells_than_they_had() {
 fn two_tetrahedra() -> (Complex<[SiteId; 4]>, Facet) {
     let mut complex = Complex::<[SiteId; 4]>::default();
     complex.start(sites([1, 2, 3, 4])).unwrap();
+    complex.reserve(3).unwrap();
     // A ghost becomes a finite cell with a new corner, by hand, with a ghost on each of its other facets.
     let ghost = Slot::new(1);
     let mut finite = complex.cell(ghost).corners;
