@@ -23,6 +23,9 @@ use crate::simd::{Avx2, LANES};
 /// Mark of a cell that has been found in conflict with the site; of all others it is 0.
 pub(super) const IN_ZONE: u8 = 1;
 
+/// Rows at first: those of an insertion into a few cells.
+const FIRST_ROOM: usize = 12;
+
 /// Scratch memory.
 #[derive(Debug, Default)]
 pub struct Scratch {
@@ -228,7 +231,9 @@ fn make_room(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<(
 #[cold]
 #[inline(never)]
 fn grow(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<()> {
-    let room = if rows.is_empty() { FEW_RIM } else { 2 * n + 64 };
+    // Little at first, as the first insertion of all has to write it.
+    let enough = [FIRST_ROOM, FEW_RIM].into_iter().find(|&room| n + 4 <= room);
+    let room = enough.unwrap_or(2 * n + 64);
     if room > FEW_RIM {
         // First, as whoever has room for such a rim has room for the meetings.
         meetings.make_room()?;

@@ -14,10 +14,17 @@ use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
 /// Places and basis; empty while there are cells.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Flat<G: Dimension> {
     places: HashMap<[u64; 3], SiteId>,
     pub(super) basis: Basis<G>,
+}
+
+impl<G: Dimension> Default for Flat<G> {
+    #[inline(always)]
+    fn default() -> Self {
+        Flat { places: HashMap::new(), basis: Basis::default() }
+    }
 }
 
 /// Affinely independent sites, `D + 1` at most.
@@ -29,6 +36,7 @@ pub(super) struct Basis<G: Dimension> {
 }
 
 impl<G: Dimension> Default for Basis<G> {
+    #[inline(always)]
     fn default() -> Self {
         Basis { n: 0, sites: [INFINITE; 4], points: [G::Point::default(); 4] }
     }
