@@ -6,7 +6,7 @@
 
 #![allow(unsafe_code)]
 
-use std::alloc::{Layout, alloc, dealloc};
+use std::alloc::{Layout, alloc, dealloc, realloc};
 use std::fmt::{self, Debug};
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut};
@@ -70,34 +70,35 @@ impl<T: Copy> Aligned<T> {
         let no_room = Error::OutOfMemory { bytes: more.saturating_mul(size_of::<T>()) };
         let Some(capacity) = self.n.checked_add(more) else { return Err(no_room) };
         let Some(layout) = Self::layout(capacity) else { return Err(no_room) };
-        // SAFETY: the layout is not empty, as neither `more` nor an entry is.
-        let memory = unsafe { alloc(layout) };
+        // SAFETY: the layout is not empty, as neither `more` nor an entry is; what there is was asked for like that.
+        let memory = unsafe {
+            match Self::layout(self.capacity).filter(|_| self.capacity > 0) {
+                Some(old) => realloc(self.memory(), old, layout.size()),
+                None => alloc(layout),
+            }
+        };
         if memory.is_null() {
             return Err(no_room);
         }
         let skipped = memory.align_offset(align_of::<T>());
         debug_assert!(skipped <= Self::MORE);
-        // SAFETY: there are that many bytes before the entries, for all of which there is room behind them; the entries
-        // so far are elsewhere.
+        // SAFETY: there are that many bytes before the entries, for all of which there is room behind them. What was
+        // there has been moved with the memory, and is as far from its beginning as it was.
         let start = unsafe {
             let start = memory.add(skipped).cast::<T>();
-            ptr::copy_nonoverlapping(self.start.as_ptr(), start, self.n);
+            if skipped != self.skipped {
+                ptr::copy(memory.add(self.skipped), start.cast(), self.n * size_of::<T>());
+            }
             NonNull::new_unchecked(start)
         };
-        self.free();
         (self.start, self.capacity, self.skipped) = (start, capacity, skipped);
         memory::advise_if_large(start.as_ptr().cast(), capacity * size_of::<T>());
         Ok(())
     }
 
-    /// Gives the memory back.
-    fn free(&mut self) {
-        if self.capacity > 0
-            && let Some(layout) = Self::layout(self.capacity)
-        {
-            // SAFETY: this is where the memory began, and its layout.
-            unsafe { dealloc(self.start.as_ptr().cast::<u8>().sub(self.skipped), layout) };
-        }
+    /// Where the memory begins.
+    fn memory(&self) -> *mut u8 {
+        self.start.as_ptr().cast::<u8>().wrapping_sub(self.skipped)
     }
 
     /// Appends an entry, for which there must be room.
@@ -158,7 +159,12 @@ impl<T: Copy + Sync + Send> Aligned<T> {
 impl<T: Copy> Drop for Aligned<T> {
     #[inline(always)]
     fn drop(&mut self) {
-        self.free();
+        if self.capacity > 0
+            && let Some(layout) = Self::layout(self.capacity)
+        {
+            // SAFETY: this is where the memory begins, and its layout.
+            unsafe { dealloc(self.memory(), layout) };
+        }
     }
 }
 

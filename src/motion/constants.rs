@@ -281,7 +281,7 @@ const SPACE: Constants = Constants {
     failures_per_placement: 12,
     failures_per_moved: 5.0,
     certified_per_vertex: 80,
-    max_failing: 0.36,
+    max_failing: 0.3,
     max_failing_of_small: 0.7,
     max_failing_of_large: 0.03,
     exact_per_swept: 2.0,
