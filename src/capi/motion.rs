@@ -293,9 +293,22 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
                 point_for(t, "position", position).is_ok_and(|p| t.relocate_within_tolerance(id, p))
             })
         });
-        if is_done {
-            return deldrift_status::DELDRIFT_OK;
-        }
+        if is_done { deldrift_status::DELDRIFT_OK } else { relocate_in_fence(t, id, position) }
+    }
+}
+
+/// The long way of [`deldrift_relocate_vertex`], kept out of the short one's registers.
+///
+/// # Safety
+/// The header's conditions on pointers.
+#[inline(never)]
+unsafe fn relocate_in_fence(
+    t: *mut deldrift_triangulation,
+    id: VertexId,
+    position: *const f64,
+) -> deldrift_status {
+    // SAFETY: the caller's promise.
+    unsafe {
         fence::change(t, |kernel| {
             in_its_dimension!(kernel, t => {
                 let position = point_for(t, "position", position)?;

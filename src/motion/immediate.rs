@@ -148,15 +148,15 @@ impl<G: Dimension> MovingTriangulation<G> {
             && !self.staging.is_staged(vertex)
             && (self.hidden.count() == 0 || s != SiteId::NONE && !self.is_shared(s))
             && self.kernel.is_covered(&q)
-            && !(is_auto && self.is_round_ending());
+            && (!is_auto || self.may_count_within());
         // A removed vertex has no site.
         let Some(site) = self.kernel.sites_mut().get_mut(s.index()).filter(|_| may_move) else {
             return false;
         };
         let old = std::mem::replace(&mut site.point, q);
-        let moved = u64::from(differ::<G>(&old, &q));
-        self.statistics.moved += moved;
-        self.statistics.within_tolerance += moved;
+        let moved = differ::<G>(&old, &q);
+        self.statistics.moved += u64::from(moved);
+        self.statistics.within_tolerance += u64::from(moved);
         if is_auto {
             self.count_within(moved);
         }

@@ -50,6 +50,10 @@ pub(in crate::motion) struct Auto {
     relocated: u64,
     within: u64,
     unchanged: u64,
+    /// Of relocations within tolerance that are counted in short, how many may still come before the last one of the
+    /// round, and how many might have since they were entered into the counts above.
+    left: u64,
+    granted: u64,
 }
 
 /// What immediate relocations of a round have done.
@@ -152,18 +156,31 @@ impl Auto {
         self.wait = self.next_wait;
     }
 
-    /// Whether a round of `round` relocations ends with this number of further ones.
+    /// Whether the next relocation within tolerance may be counted in short: not the last one of a round.
     #[inline(always)]
-    pub(super) fn is_round_ending(&self, more: u64, round: u64) -> bool {
-        self.relocated + more >= round
+    pub(super) fn may_count_within(&self) -> bool {
+        self.left > 0
     }
 
-    /// Counts immediate relocations within tolerance, none of them the last of its round.
+    /// Counts a relocation within tolerance in short, or none.
     #[inline(always)]
-    pub(super) fn count_within(&mut self, relocated: u64) {
-        self.relocated += relocated;
-        self.within += relocated;
-        self.unchanged += relocated;
+    pub(super) fn count_within(&mut self, relocated: bool) {
+        self.left -= u64::from(relocated);
+    }
+
+    /// From now on relocations within tolerance may be counted in short, in a round of `round`.
+    pub(super) fn grant(&mut self, round: u64) {
+        self.left = round.saturating_sub(self.relocated + 1);
+        self.granted = self.left;
+    }
+
+    /// Enters those counted in short.
+    fn enter_within(&mut self) {
+        let counted = self.granted - self.left;
+        self.granted = self.left;
+        self.relocated += counted;
+        self.within += counted;
+        self.unchanged += counted;
     }
 
     /// Notes whether the commit relocates few vertices, one after the other.
@@ -182,11 +199,11 @@ impl Auto {
         round: u64,
         done: &CommitReport,
     ) -> Option<Round> {
-        let is_last = self.is_round_ending(done.moved, round);
+        self.enter_within();
         self.relocated += done.moved;
         self.within += done.within_tolerance;
         self.unchanged += done.within_tolerance + done.unchanged;
-        if !is_last {
+        if self.relocated < round {
             return None;
         }
         let least = constants::<G>().min_share_of_round * self.relocated as f64;

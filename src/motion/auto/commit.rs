@@ -1,6 +1,6 @@
 //! One commit, by the algorithm chosen for it.
 
-use super::choice::Scope;
+use super::choice::{Round, Scope};
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
@@ -101,7 +101,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Relocations in a round.
-    #[inline(always)]
     fn round(&self, is_kept: bool) -> u64 {
         let constants = constants::<G>();
         let all = self.n_present as f64;
@@ -109,15 +108,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         round.max(f64::from(constants.sampled_vertices)) as u64
     }
 
-    /// Whether the next relocation, while tolerances are kept, is the last of its round.
+    /// Whether auto may count the next relocation, if that is within tolerance, in short.
     #[inline(always)]
-    pub(in crate::motion) fn is_round_ending(&self) -> bool {
-        self.auto.is_round_ending(1, self.round(true))
+    pub(in crate::motion) fn may_count_within(&self) -> bool {
+        self.auto.may_count_within()
     }
 
-    /// Counts immediate relocations within tolerance, none of them the last of its round.
+    /// Counts an immediate relocation within tolerance in short, or none.
     #[inline(always)]
-    pub(in crate::motion) fn count_within(&mut self, relocated: u64) {
+    pub(in crate::motion) fn count_within(&mut self, relocated: bool) {
         self.auto.count_within(relocated);
     }
 
@@ -132,9 +131,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn follow_relocations(&mut self, done: &CommitReport) {
         let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
         let round = self.round(is_kept);
-        let Some(ended) = self.auto.count_relocations::<G>(round, done) else {
-            return;
-        };
+        if let Some(ended) = self.auto.count_relocations::<G>(round, done) {
+            self.follow_round(is_kept, ended);
+        }
+        if self.regions.kept_for() == Some(Filter::Tolerance) {
+            self.auto.grant(self.round(true));
+        }
+    }
+
+    /// Decides after a round.
+    fn follow_round(&mut self, is_kept: bool, ended: Round) {
         if is_kept {
             if !ended.are_most_within {
                 self.regions.invalidate();
