@@ -1,7 +1,7 @@
 # deldrift: `make help` lists what there is. Needed are Rust, make and a C compiler; on Debian the rest is
 # installed where it is missing, as root or through sudo.
 
-# quick (bench within three minutes on two cores, report within ten) or full (report within two hours)
+# quick (bench within three minutes on two cores, report within ten) or full (report within half an hour)
 PRESET ?= quick
 PREFIX ?= /usr/local
 # Further arguments of cpp-bench/run, as in: make bench ARGS="--series positions.npy",

@@ -124,7 +124,7 @@ private:
     void add_efforts() {
         add("--preset", "NAME", preset_,
             "how much to do. quick: within three minutes, with --report ten; full: 1,000 timestamps,\n"
-            "with --report within two hours; smoke: just enough to see that everything runs")
+            "with --report within half an hour; smoke: just enough to see that everything runs")
             ->check(CLI::IsMember(presets));
         add_number("--repeat", n_repeats_, 1, "time everything so many times and take medians");
         add_number("--timestamps", n_timestamps_, 1, "of the generated series, instead of the preset's");

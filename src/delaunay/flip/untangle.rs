@@ -10,7 +10,12 @@
 //! if some are left: take flat cells at the hull away until none is (peel)
 //! where the hull is not convex: exchange ghost cells, which adds a positive cell under them; again, in another order,
 //!     where that is stuck
+//! if ridges are stuck in every order: take a vertex of each back
 //! ```
+//!
+//! An exchange may leave a cell that is not positive of vertices that have all been taken back, and ridges that are stuck
+//! cannot be mended there and then. All exchanges are undone in these cases, and the caller begins again: with the
+//! vertices back from the start fewer cells are not positive, and other exchanges are made.
 //!
 //! An exchange is a flip, done for another reason: of two cells for three or three for two in space, two for two in the
 //! plane. A new ghost cell counts as positive if a point within all is on the inner side of its facet.

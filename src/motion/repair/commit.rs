@@ -6,14 +6,14 @@
 //!     them fails, take these back and place them one by one
 //! sweep: orientation of every cell, empty sphere of every facet, convexity of every ridge of the hull
 //! where a cell is inverted or a ridge is not convex: untangle them by flips, and take a vertex back to its old place where
-//!     a cell cannot be flipped; if that cannot be done, undo the flips, and take vertices back, one of each cell or
-//!     ridge, until all are right
+//!     a cell or a ridge cannot be flipped; if that does not make all right, undo the flips, and again with these vertices
+//!     back; if it never does, take vertices back, one of each cell or ridge, until all are right
 //! flip until no facet fails, and triangulate small cavities where flips are stuck
 //! if some still are, undo all flips, take a vertex of each back, and again
 //! place the vertices that were taken back, one by one
 //! ```
 //!
-//! Untangling is tried once, and undone where flips are stuck after it. Where it fails and many facets fail, all is
+//! Where flips are stuck after it, untangling is undone and not tried any more. Where it fails and many facets fail, all is
 //! rebuilt: flips would be stuck among what is placed. Invariant: with every vertex taken back all is as
 //! before the commit, so taking back comes to an end; and when it has, the cells are the Delaunay triangulation of the
 //! vertices where they are ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the
