@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 // How often to fork while another thread is in calls. Not at all under the address sanitizer: its allocator does not
@@ -16,6 +17,15 @@ enum { FORKS = 0 };
 #else
 enum { FORKS = 5 };
 #endif
+
+// For the same reason the library's own threads are given time to fall asleep: when a call returns, one of them may still
+// be about to free what it was given.
+static void let_threads_sleep(void) {
+#ifdef __SANITIZE_ADDRESS__
+    struct timespec tenth = {0, 100000000};
+    nanosleep(&tenth, NULL);
+#endif
+}
 
 enum { COUNT = 2000, THREADS = 3 };
 
@@ -47,6 +57,7 @@ static void work(deldrift_triangulation *t, uint32_t dimension, double *position
 // `are_others` tells whether other threads are in calls: what these have allocated is nobody's in the new process,
 // which then ends without looking for leaks.
 static void in_new_process(deldrift_triangulation *t, uint32_t dimension, double *positions, bool are_others) {
+    let_threads_sleep();
     pid_t child = fork();
     CHECK(child >= 0);
     if (child == 0) {
