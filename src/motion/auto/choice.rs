@@ -50,8 +50,8 @@ pub(in crate::motion) struct Auto {
     relocated: u64,
     within: u64,
     unchanged: u64,
-    /// Of relocations within tolerance that are counted in short, how many may still come before the last one of the
-    /// round, and how many might have since they were entered into the counts above.
+    /// While tolerances are kept, a relocation within tolerance only lowers `left`: how many may still come before the
+    /// last one of the round. `granted` is what that was when those before were entered into the counts above.
     left: u64,
     granted: u64,
 }
@@ -156,25 +156,25 @@ impl Auto {
         self.wait = self.next_wait;
     }
 
-    /// Whether the next relocation within tolerance may be counted in short: not the last one of a round.
+    /// Whether the next relocation within tolerance is surely not the last one of its round.
     #[inline(always)]
     pub(super) fn may_count_within(&self) -> bool {
         self.left > 0
     }
 
-    /// Counts a relocation within tolerance in short, or none.
+    /// Counts a relocation within tolerance that is not the last one of its round, if there was one.
     #[inline(always)]
     pub(super) fn count_within(&mut self, relocated: bool) {
         self.left -= u64::from(relocated);
     }
 
-    /// From now on relocations within tolerance may be counted in short, in a round of `round`.
+    /// Tolerances are kept: a round has `round` relocations from now on.
     pub(super) fn grant(&mut self, round: u64) {
         self.left = round.saturating_sub(self.relocated + 1);
         self.granted = self.left;
     }
 
-    /// Enters those counted in short.
+    /// Enters the relocations that have only lowered `left`.
     fn enter_within(&mut self) {
         let counted = self.granted - self.left;
         self.granted = self.left;

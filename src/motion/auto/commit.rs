@@ -108,13 +108,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         round.max(f64::from(constants.sampled_vertices)) as u64
     }
 
-    /// Whether auto may count the next relocation, if that is within tolerance, in short.
+    /// Whether the next relocation within tolerance is surely not the last one of its round.
     #[inline(always)]
     pub(in crate::motion) fn may_count_within(&self) -> bool {
         self.auto.may_count_within()
     }
 
-    /// Counts an immediate relocation within tolerance in short, or none.
+    /// Counts an immediate relocation within tolerance that is not the last one of its round, if there was one.
     #[inline(always)]
     pub(in crate::motion) fn count_within(&mut self, relocated: bool) {
         self.auto.count_within(relocated);
