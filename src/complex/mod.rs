@@ -257,15 +257,25 @@ impl<C: Corners> Complex<C> {
         self.set_mark(cell, 0);
     }
 
-    /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to
-    /// set, except for the facet opposite corner 0.
+    /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to set.
     #[inline(always)]
-    pub(crate) fn put_glued(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
+    pub(crate) fn put_whole(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
         self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
         *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
         self.set_mark(cell, 0);
-        let out = neighbours[0];
-        self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, 0);
+    }
+
+    /// The same, and the neighbour's side opposite corner 0.
+    #[inline(always)]
+    pub(crate) fn put_glued(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
+        self.put_whole(cell, corners, neighbours);
+        self.set_neighbour(neighbours[0], Facet::new(cell, 0));
+    }
+
+    /// Sets one side of a gluing.
+    #[inline(always)]
+    pub(crate) fn set_neighbour(&mut self, of: Facet, neighbour: Facet) {
+        self.cell_mut(of.cell()).neighbours[of.index()] = neighbour;
     }
 
     /// Takes a cell out of the count of ghosts before [`put`](Self::put) or [`release`](Self::release).
@@ -291,8 +301,8 @@ impl<C: Corners> Complex<C> {
     /// Glues two facets.
     #[inline(always)]
     pub(crate) fn glue(&mut self, a: Facet, b: Facet) {
-        self.cell_mut(a.cell()).neighbours[a.index()] = b;
-        self.cell_mut(b.cell()).neighbours[b.index()] = a;
+        self.set_neighbour(a, b);
+        self.set_neighbour(b, a);
     }
 
     /// Creates a single cell and the ghost cells around it.

@@ -139,8 +139,8 @@ impl<G: Dimension> Delaunay<G> {
     fn flip_star_with(&mut self, flips: &mut AllFlips<G>) -> Result<Option<u64>> {
         let Flips { suspects, .. } = &mut flips.own;
         suspects.clear();
-        memory::reserve(suspects, self.hole.star.len() * G::Corners::N)?;
-        for &(c, at) in &self.hole.star {
+        memory::reserve(suspects, self.star.len() * G::Corners::N)?;
+        for &(c, at) in &self.star {
             let cell = self.complex.cell(c);
             // Those within the star once.
             let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();

@@ -6,6 +6,7 @@
 //! connected, and so it is without its vertices and edges.
 
 use super::facets::{ByCorners, facet_of};
+use super::remove::{Gap, Hole};
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
@@ -28,22 +29,20 @@ type Filling<C> = Vec<(C, <C as Corners>::Of<Across>)>;
 impl<G: Dimension> Delaunay<G> {
     /// Fills the hole of the gathered star by the triangulation of its link. After an error nothing has changed.
     #[cold]
-    pub(super) fn remove_high_degree(&mut self) -> Result<()> {
-        self.link_sites += self.hole.sites.len() as u64;
-        let filling = self.filling()?;
+    pub(super) fn remove_high_degree(&mut self, hole: &Hole<G>) -> Result<()> {
+        self.link_sites += hole.sites.len() as u64;
+        let filling = self.filling(hole)?;
         let mut slots = Vec::new();
         memory::reserve_exact(&mut slots, filling.len())?;
         self.reserve_record(filling.len())?;
         self.complex.reserve(filling.len())?;
-        self.complex.reserve_free(self.hole.star.len())?;
-        self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
+        self.complex.reserve_free(self.star.len())?;
+        self.complex.note_all(self.star.iter().map(|&(c, _)| c))?;
         self.complex.reserve_rows(filling.len())?;
-        let star = std::mem::take(&mut self.hole.star);
-        for &(c, _) in &star {
+        for &(c, _) in &self.star {
             self.complex.retire(c);
             self.complex.release(c);
         }
-        self.hole.star = star;
         slots.extend(filling.iter().map(|&(corners, _)| self.complex.create(corners)));
         for (&cell, (corners, across)) in slots.iter().zip(&filling) {
             for i in 0..G::Corners::N {
@@ -61,11 +60,10 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Cells that fill the hole.
-    fn filling(&self) -> Result<Filling<G::Corners>> {
-        let hole = &self.hole;
+    fn filling(&self, hole: &Hole<G>) -> Result<Filling<G::Corners>> {
         let (local, globals) = self.link_alone(&hole.sites)?;
         if !local.has_cells() {
-            return self.flat_filling();
+            return self.flat_filling(&hole.link);
         }
         let corners_of = |c: Slot| map_corners(local.complex.cell(c).corners, |s| globals[s]);
         let mut rim = ByCorners::<G::Corners, (Facet, bool)>::default();
@@ -136,8 +134,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// The same for a link in one hyperplane: each finite facet of it is on the new hull.
-    fn flat_filling(&self) -> Result<Filling<G::Corners>> {
-        let link = &self.hole.link;
+    fn flat_filling(&self, link: &[Gap<G::Corners>]) -> Result<Filling<G::Corners>> {
         let (mut open, mut filling) = (ByCorners::<G::Corners, Across>::default(), Vec::new());
         memory::reserve_map(&mut open, G::Corners::N * link.len())?;
         memory::reserve_exact(&mut filling, link.len())?;

@@ -73,11 +73,11 @@ pub trait Kernel<G: Dimension> {
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<G>, cell: Slot) -> bool;
 
-    /// As [`cell_holds`](Self::cell_holds), of several cells with these sites beyond their facets.
+    /// As [`cell_holds`](Self::cell_holds), of several cells with these corners and these sites beyond their facets.
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         t: &Delaunay<G>,
-        cells: &[Slot; LANES],
+        cells: [G::Corners; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held;
 

@@ -13,7 +13,7 @@
 //! | `parts`, `parallel`, `unite` | the same on several threads |
 //! | `locate`, `landmarks` | the walk, and where it begins |
 //! | `cavity`, `cavity_plane`, `cavity_space` | insertion: dig the conflict zone, fill it |
-//! | `remove` | removal: fill the star by gift wrapping |
+//! | `remove`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
 //! | `flip` | flips, on several threads, and undoing them |
@@ -68,6 +68,7 @@ mod uncertain;
 mod undo;
 mod unite;
 mod validate;
+mod wrapping;
 
 pub use build::Merge;
 pub use cavity::Insertion;
@@ -95,6 +96,7 @@ use flat::Flat;
 use flip::AllFlips;
 use parts::Parts;
 use remove::Hole;
+use wrapping::Wrapping;
 
 /// What the ghost vertex has for an id.
 const GHOST: VertexId = VertexId::new(0);
@@ -119,7 +121,12 @@ pub struct Delaunay<G: Dimension> {
     recent: Slot,
     landmarks: landmarks::Landmarks,
     cavity: Cavity<G>,
-    hole: Hole<G>,
+    /// The star gathered last: its cells, and the index of the site in each.
+    star: Vec<(Slot, u8)>,
+    /// Once a star has been gathered.
+    hole: Option<Box<Hole<G>>>,
+    /// Once a site has been removed.
+    wrapping: Option<Box<Wrapping>>,
     /// The cells of the star gathered last, once there was one.
     around: Option<Box<IndexSet<Slot>>>,
     /// Once there were any.
@@ -169,7 +176,9 @@ impl<G: Dimension> Delaunay<G> {
             recent: Slot::new(0),
             landmarks: Default::default(),
             cavity: Cavity::default(),
-            hole: Hole::default(),
+            star: Vec::new(),
+            hole: None,
+            wrapping: None,
             around: None,
             flips: None,
             log: undo::Log::default(),
@@ -454,7 +463,9 @@ impl<G: Dimension> Delaunay<G> {
             + self.flat.memory_bytes()
             + self.landmarks.memory_bytes()
             + self.cavity.scratch.memory_bytes()
-            + self.hole.memory_bytes()
+            + memory::bytes_of(&self.star)
+            + memory::bytes_of_made(&self.hole, Hole::memory_bytes)
+            + memory::bytes_of_made(&self.wrapping, |_| 0)
             + memory::bytes_of_made(&self.around, IndexSet::memory_bytes)
             + memory::bytes_of_made(&self.flips, AllFlips::memory_bytes)
             + self.log.memory_bytes()

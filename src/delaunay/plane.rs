@@ -86,10 +86,10 @@ impl Kernel<Plane> for Plane {
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         t: &Delaunay<Plane>,
-        cells: &[Slot; LANES],
+        cells: [[SiteId; 3]; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held {
-        let [a, b, c] = corners(avx2, t.view(), cells.map(|c| t.complex.cell(c).corners));
+        let [a, b, c] = corners(avx2, t.view(), cells);
         let circle = predicates::circle(&a, &b, &c);
         let own = OwnBounds2d::new(&a, &b, &c);
         let mut hold_for_all = avx2.splat(t.filter.orient).is_less(circle[2]);

@@ -55,7 +55,7 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<Relocation> {
         self.cover(q, q);
         self.gather_star(s)?;
-        self.reserve_record(self.hole.star.len())?;
+        self.reserve_record(self.star.len())?;
         if let Some(done) = self.relocate_in_place(s, q, id, shortcut)? {
             return Ok(done);
         }
@@ -81,8 +81,8 @@ impl<G: Dimension> Delaunay<G> {
         }
         // Where the sites of the star stay, its vertices do not: who follows the cells has to know.
         self.gather_star(s)?;
-        self.complex.reserve_free(self.hole.star.len())?;
-        self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
+        self.complex.reserve_free(self.star.len())?;
+        self.complex.note_all(self.star.iter().map(|&(c, _)| c))?;
         let q = self.site(s).point;
         self.relocate_site(s, &q, id, Shortcut::Certificates)?;
         Ok(())
@@ -128,18 +128,18 @@ impl<G: Dimension> Delaunay<G> {
     /// Enters the gathered star into the record of changes, where there is room for it.
     fn record_star(&mut self) {
         if let Some(changed) = &mut self.changed {
-            changed.extend(self.hole.star.iter().map(|&(c, _)| c));
+            changed.extend(self.star.iter().map(|&(c, _)| c));
         }
     }
 
     /// Whether all certificates of the gathered star hold, without ghosts or doubt; then it is recorded.
     fn star_surely_holds(&mut self) -> bool {
         let mut holds = true;
-        self.visit_uncertain(self.hole.star.iter().map(|&(c, _)| c), |_, _| {
+        self.visit_uncertain(self.star.iter().map(|&(c, _)| c), |_, _| {
             holds = false;
             false
         });
-        self.certificates += (self.hole.star.len() * (G::D + 3) / 2) as u64;
+        self.certificates += (self.star.len() * (G::D + 3) / 2) as u64;
         if holds {
             self.record_star();
         }
@@ -148,7 +148,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether every finite cell of the gathered star is positively oriented.
     fn star_is_positive(&mut self) -> bool {
-        for &(c, _) in &self.hole.star {
+        for &(c, _) in &self.star {
             self.certificates += 1;
             if !self.complex.cell(c).is_ghost() && !self.is_positive(c) {
                 return false;
@@ -159,7 +159,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether the hull is convex at every ridge of the gathered star's ghost cells. The finite ones must be positive.
     fn star_is_convex(&self) -> bool {
-        let ghosts = self.hole.star.iter().filter(|&&(c, _)| self.complex.cell(c).is_ghost());
+        let ghosts = self.star.iter().filter(|&&(c, _)| self.complex.cell(c).is_ghost());
         ghosts
             .flat_map(|&(c, _)| (0..Self::LAST).map(move |i| Facet::new(c, i)))
             .all(|ridge| self.is_convex(ridge))
@@ -167,7 +167,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether every bi-cell of the gathered star passes the empty-sphere test; each facet within is tested once.
     fn star_is_delaunay(&mut self) -> bool {
-        for &(c, at) in &self.hole.star {
+        for &(c, at) in &self.star {
             if self.complex.cell(c).is_ghost() {
                 continue;
             }

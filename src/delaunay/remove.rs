@@ -6,6 +6,9 @@
 //! side lies on the new convex hull and gets a ghost cell. Facets that hold the ghost vertex are never wrapped: each
 //! is met by the ghost cell of a finite facet.
 //!
+//! That is how it is done where signs have to be exact. Mostly they need not be: then the filling is found in doubles, four
+//! sites at a time, and certified as a whole ([`wrapping`](super::wrapping)).
+//!
 //! Cost: with `k` link sites, about `2k` cells in space and `k` in the plane, each after at most `k` in-sphere
 //! tests. For a vertex of high degree ([`MAX_LINK`] sites and more) `high_degree` triangulates the link instead.
 //!
@@ -31,11 +34,9 @@ pub(super) struct Gap<C> {
     pub(super) out: Facet,
 }
 
-/// Scratch memory of removals and of star checks.
+/// Scratch memory of removals.
 #[derive(Debug)]
 pub(super) struct Hole<G: Dimension> {
-    /// Cells of the star and the index of the site in each.
-    pub(super) star: Vec<(Slot, u8)>,
     /// The frontier at first: the link, seen from outside.
     pub(super) link: Vec<Gap<G::Corners>>,
     /// Sites of the link, the ghost vertex included.
@@ -43,14 +44,13 @@ pub(super) struct Hole<G: Dimension> {
     open: Vec<(u64, Gap<G::Corners>)>,
     open_ghost: Vec<(u64, Facet)>,
     /// New cells, and the gluing of their facets: a facet whose slot counts from `NEW` is that of one of them.
-    made: Vec<(G::Corners, FacetsOf<G>)>,
+    pub(super) made: Vec<(G::Corners, FacetsOf<G>)>,
     made_at: Vec<Slot>,
 }
 
 impl<G: Dimension> Default for Hole<G> {
     fn default() -> Self {
         Hole {
-            star: Vec::new(),
             link: Vec::new(),
             sites: Vec::new(),
             open: Vec::new(),
@@ -63,8 +63,7 @@ impl<G: Dimension> Default for Hole<G> {
 
 impl<G: Dimension> Hole<G> {
     pub(super) fn memory_bytes(&self) -> usize {
-        memory::bytes_of(&self.star)
-            + memory::bytes_of(&self.link)
+        memory::bytes_of(&self.link)
             + memory::bytes_of(&self.sites)
             + memory::bytes_of(&self.open)
             + memory::bytes_of(&self.open_ghost)
@@ -77,11 +76,11 @@ impl<G: Dimension> Hole<G> {
 type FacetsOf<G> = <<G as Dimension>::Corners as Corners>::Of<Facet>;
 
 /// Slots from here on stand for the cells of `made`, which are not in the complex yet.
-const NEW: usize = MAX_CELLS;
+pub(super) const NEW: usize = MAX_CELLS;
 
 /// Which one of `made` a facet is of, if it is of one.
 #[inline(always)]
-fn new_of(facet: Facet) -> Option<usize> {
+pub(super) fn new_of(facet: Facet) -> Option<usize> {
     facet.cell().index().checked_sub(NEW)
 }
 
@@ -105,7 +104,8 @@ impl<G: Dimension> Delaunay<G> {
         list_star(&self.complex, first, s, around, |_| {})?;
         self.prefetch_around(s, around);
         let is_far = self.is_far();
-        let Hole { star, link, .. } = &mut self.hole;
+        let link = &mut memory::made(&mut self.hole)?.link;
+        let star = &mut self.star;
         star.clear();
         link.clear();
         memory::reserve(star, around.as_slice().len())?;
@@ -126,18 +126,17 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Cells of the star gathered last, and the index of its site in each.
     pub(crate) fn gathered_star(&self) -> &[(Slot, u8)] {
-        &self.hole.star
+        &self.star
     }
 
     /// Lists the link's sites. Each gets its position in the list as a label, kept in its `cell` field.
-    fn label_link(&mut self) -> Result<()> {
-        let hole = &mut self.hole;
+    pub(super) fn label_link(&mut self, hole: &mut Hole<G>) -> Result<()> {
         hole.sites.clear();
         // The link is a sphere: in the plane it has as many sites as facets, in space two more than half as many.
         memory::reserve(&mut hole.sites, hole.link.len())?;
         for gap in &hole.link {
             for i in (0..G::Corners::N).filter(|&i| i != gap.at) {
-                let site = &mut self.sites[gap.corners[i]];
+                let site = self.corner_mut(gap.corners[i]);
                 let l = site.cell.index();
                 if l >= hole.sites.len() || hole.sites[l] != gap.corners[i] {
                     site.cell = Slot::at(hole.sites.len());
@@ -149,8 +148,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Gives the link's sites, whose `cell` fields hold labels, a cell of the star again.
-    fn restore_link_cells(&mut self) {
-        for &(c, at) in &self.hole.star {
+    pub(super) fn restore_link_cells(&mut self) {
+        for &(c, at) in &self.star {
             let corners = self.complex.cell(c).corners;
             for i in (0..G::Corners::N).filter(|&i| i != at as usize) {
                 self.sites[corners[i]].cell = c;
@@ -177,45 +176,52 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Removes the site whose star has been gathered from the cells; the site stays live.
     pub(super) fn remove_gathered(&mut self, s: SiteId) -> Result<()> {
-        self.label_link()?;
-        if self.hole.sites.len() > MAX_LINK {
+        let mut hole = memory::take_made(&mut self.hole)?;
+        let removed = self.remove_and_fill(s, &mut hole);
+        self.hole = Some(hole);
+        removed
+    }
+
+    #[inline(always)]
+    fn remove_and_fill(&mut self, s: SiteId, hole: &mut Hole<G>) -> Result<()> {
+        self.label_link(hole)?;
+        if hole.sites.len() > MAX_LINK {
             self.restore_link_cells();
-            return self.remove_high_degree();
+            return self.remove_high_degree(hole);
         }
-        if let Err(error) = self.wrap().and_then(|()| self.reserve_filling()) {
+        let filled = self.wrap_in_lanes(s, hole).and_then(|is_wrapped| {
+            if !is_wrapped {
+                self.wrap(hole)?;
+            }
+            self.reserve_filling(hole)
+        });
+        if let Err(error) = filled {
             self.restore_link_cells();
             return Err(error);
         }
-        self.replace_star();
+        self.replace_star(hole);
         if let Some(changed) = &mut self.changed {
-            changed.extend_from_slice(&self.hole.made_at);
+            changed.extend_from_slice(&hole.made_at);
         }
         self.sites[s].cell = Slot::NONE;
         Ok(())
     }
 
     /// Makes sure that the cells of the hole can be replaced.
-    fn reserve_filling(&mut self) -> Result<()> {
-        let n = self.hole.made.len();
-        self.hole.made_at.clear();
-        memory::reserve(&mut self.hole.made_at, n)?;
+    fn reserve_filling(&mut self, hole: &mut Hole<G>) -> Result<()> {
+        let n = hole.made.len();
+        hole.made_at.clear();
+        memory::reserve(&mut hole.made_at, n)?;
         self.reserve_record(n)?;
         self.complex.reserve(n)?;
-        self.complex.reserve_free(self.hole.star.len())?;
-        self.complex.note_all(self.hole.star.iter().map(|&(c, _)| c))?;
+        self.complex.reserve_free(self.star.len())?;
+        self.complex.note_all(self.star.iter().map(|&(c, _)| c))?;
         self.complex.reserve_rows(n)
     }
 
     /// Finds the cells that fill the hole.
-    fn wrap(&mut self) -> Result<()> {
-        let mut hole = std::mem::take(&mut self.hole);
-        let wrapped = self.wrap_hole(&mut hole);
-        self.hole = hole;
-        wrapped
-    }
-
-    #[inline(always)]
-    fn wrap_hole(&self, hole: &mut Hole<G>) -> Result<()> {
+    #[inline(never)]
+    pub(super) fn wrap(&self, hole: &mut Hole<G>) -> Result<()> {
         hole.open.clear();
         hole.open_ghost.clear();
         hole.made.clear();
@@ -302,37 +308,29 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Puts the cells of `made`, for which there is room, in the place of the star.
-    fn replace_star(&mut self) {
-        let mut hole = std::mem::take(&mut self.hole);
-        hole.made_at.clear();
-        for &(c, _) in &hole.star {
-            self.complex.retire(c);
+    #[inline(always)]
+    fn replace_star(&mut self, hole: &mut Hole<G>) {
+        let Self { complex, star, .. } = self;
+        for &(c, _) in &*star {
+            complex.retire(c);
         }
-        for &(c, _) in hole.star.iter().skip(hole.made.len()) {
-            self.complex.release(c);
+        for &(c, _) in star.iter().skip(hole.made.len()) {
+            complex.release(c);
         }
-        for (k, (corners, _)) in hole.made.iter().enumerate() {
-            let cell = match hole.star.get(k) {
-                Some(&(c, _)) => {
-                    self.complex.put(c, *corners);
-                    c
+        hole.made_at.extend(star.iter().take(hole.made.len()).map(|&(c, _)| c));
+        hole.made_at.extend((star.len()..hole.made.len()).map(|_| complex.create_blank()));
+        for (&cell, &(corners, mut neighbours)) in hole.made_at.iter().zip(&hole.made) {
+            for (i, facet) in neighbours.as_mut().iter_mut().enumerate() {
+                match new_of(*facet) {
+                    Some(new) => *facet = Facet::new(hole.made_at[new], facet.index()),
+                    None => self.complex.set_neighbour(*facet, Facet::new(cell, i)),
                 }
-                None => self.complex.create(*corners),
-            };
-            hole.made_at.push(cell);
-        }
-        for (&cell, (corners, neighbours)) in hole.made_at.iter().zip(&hole.made) {
-            for i in 0..G::Corners::N {
-                let facet = neighbours[i];
-                let across = match new_of(facet) {
-                    Some(new) => Facet::new(hole.made_at[new], facet.index()),
-                    None => facet,
-                };
-                self.complex.glue(Facet::new(cell, i), across);
-                self.sites[corners[i]].cell = cell;
+            }
+            self.complex.put_whole(cell, corners, neighbours);
+            for &corner in corners.as_ref() {
+                self.corner_mut(corner).cell = cell;
             }
         }
         self.recent = hole.made_at[0];
-        self.hole = hole;
     }
 }

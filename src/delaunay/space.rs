@@ -87,10 +87,10 @@ impl Kernel<Space> for Space {
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         t: &Delaunay<Space>,
-        cells: &[Slot; LANES],
+        cells: [[SiteId; 4]; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held {
-        let [a, b, c, d] = corners(avx2, t.view(), cells.map(|c| t.complex.cell(c).corners));
+        let [a, b, c, d] = corners(avx2, t.view(), cells);
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let own = OwnBounds3d::new(&a, &b, &c, &d);
         let mut hold_for_all = avx2.splat(t.filter.orient).is_less(sphere[3]);

@@ -42,7 +42,9 @@ impl<G: Dimension> Delaunay<G> {
     /// Gives all scratch memory to another kernel.
     pub(crate) fn give_scratch_to(&mut self, other: &mut Self) {
         other.cavity = std::mem::take(&mut self.cavity);
-        other.hole = std::mem::take(&mut self.hole);
+        other.star = std::mem::take(&mut self.star);
+        other.hole = self.hole.take();
+        other.wrapping = self.wrapping.take();
         other.flips = std::mem::take(&mut self.flips);
         // Most sites keep their indices, and any site will do.
         other.landmarks = std::mem::take(&mut self.landmarks);

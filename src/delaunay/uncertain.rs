@@ -32,7 +32,7 @@ pub struct Held {
 impl Held {
     /// Of which cells all holds.
     #[inline(always)]
-    fn all<G: Dimension>(&self) -> u32 {
+    pub(super) fn all<G: Dimension>(&self) -> u32 {
         self.facets[..G::Corners::N].iter().fold(self.positive, |all, &facet| all & facet).bits()
     }
 
@@ -134,10 +134,11 @@ impl<G: Dimension> Delaunay<G> {
             let mut n_hold = 0;
             for k in 0..block.n.div_ceil(LANES) {
                 let apexes = block.apexes.each_ref().map(|a| &a[k]);
+                let corners = block.cells[k].map(|c| self.complex.cell(c).corners);
                 let held = if has_own_bounds {
-                    G::cells_hold::<true>(avx2, self, &block.cells[k], apexes)
+                    G::cells_hold::<true>(avx2, self, corners, apexes)
                 } else {
-                    G::cells_hold::<false>(avx2, self, &block.cells[k], apexes)
+                    G::cells_hold::<false>(avx2, self, corners, apexes)
                 };
                 n_hold += held.by_static_bounds.bits().count_ones() as usize;
                 let n = (block.n - k * LANES).min(LANES);

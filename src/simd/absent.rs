@@ -42,6 +42,10 @@ impl Avx2 {
         match self.0 {}
     }
 
+    pub fn mask(self, _: u32) -> Lanes {
+        match self.0 {}
+    }
+
     pub fn are_equal(self, _: &[u32; LANES], _: u32) -> Lanes {
         match self.0 {}
     }

@@ -66,6 +66,24 @@ impl Avx2 {
         [ac.even_with_even(bd), ac.odd_with_odd(bd)]
     }
 
+    /// A mask of the lanes that have a bit in `bits`, which has no others.
+    #[inline(always)]
+    pub fn mask(self, bits: u32) -> Lanes {
+        const MASKS: [[u64; LANES]; 1 << LANES] = {
+            let mut masks = [[0; LANES]; 1 << LANES];
+            let mut at = 0;
+            while at < LANES << LANES {
+                masks[at / LANES][at % LANES] =
+                    if (at / LANES) >> (at % LANES) & 1 == 1 { u64::MAX } else { 0 };
+                at += 1;
+            }
+            masks
+        };
+        let mask = &MASKS[bits as usize];
+        // SAFETY: AVX2 is there by the token; the address is that of four numbers.
+        Lanes(unsafe { _mm256_loadu_pd(mask.as_ptr().cast()) })
+    }
+
     /// A mask of the numbers that are equal to `y`.
     #[inline(always)]
     pub fn are_equal(self, x: &[u32; LANES], y: u32) -> Lanes {
