@@ -77,8 +77,8 @@ pub struct Constants {
     pub min_share_within: f64,
 
     // Auto: other algorithms.
-    /// Vertices that are swept in the time of a placement: where fewer than one in this number is staged, these are
-    /// placed.
+    /// Vertices that are swept in the time of a placement: where fewer than one in this number is staged, or has moved,
+    /// these are placed.
     pub swept_per_placement: usize,
     /// Most commits rebuilt without trying to repair.
     pub max_rebuilds: u32,
@@ -95,8 +95,7 @@ pub struct Constants {
     pub shorter_rounds: f64,
 
     // Repair.
-    /// Rebuild when more than one vertex in this number would have to be placed. (A placement costs less in the plane,
-    /// next to a vertex rebuilt, and flips are never stuck there.)
+    /// Rebuild when more than one vertex in this number would have to be placed after a sweep.
     pub rebuilt_per_placement: usize,
     /// A vertex taken back mends about this number of failures: where a sweep finds more than all that may be taken
     /// back mend, it ends at once.
@@ -232,9 +231,9 @@ const PLANE: Constants = Constants {
     share_too_many: 0.5,
     min_share_of_round: 0.85,
     shorter_rounds: 8.0,
-    rebuilt_per_placement: 8,
+    rebuilt_per_placement: 12,
     failures_per_placement: 3,
-    failures_per_moved: f64::INFINITY,
+    failures_per_moved: 3.5,
     certified_per_vertex: 8,
     max_rounds: 8,
     max_untanglings: 4,
@@ -277,7 +276,7 @@ const SPACE: Constants = Constants {
     vertices_per_change: 250.0,
     vertices_per_change_to_watch: 8000.0,
     max_imbalance: 4.0,
-    rebuilt_per_placement: 10,
+    rebuilt_per_placement: 13,
     failures_per_placement: 12,
     failures_per_moved: 5.0,
     certified_per_vertex: 80,

@@ -65,6 +65,11 @@ pub(super) struct Round {
     pub(super) are_most_unchanged: bool,
 }
 
+/// Whether so few vertices have moved, of `n`, that they are placed one by one.
+fn have_few_moved<G: Dimension>(n: usize, report: &CommitReport) -> bool {
+    report.moved * (constants::<G>().swept_per_placement as u64) < n as u64
+}
+
 impl Auto {
     /// Which certificates a commit checks.
     pub(super) fn scope(&self) -> Scope {
@@ -118,7 +123,12 @@ impl Auto {
     /// Weighs what slack has cost, for `n` vertices, against a sweep.
     pub(super) fn weigh_slack<G: Dimension>(&mut self, n: usize, report: &CommitReport) {
         let costs = &constants::<G>().costs;
-        let spared = costs.sweep - costs.slack.unwrap_or_default();
+        if report.moved == 0 {
+            return;
+        }
+        // Few that move are placed without a sweep.
+        let sweep = if have_few_moved::<G>(n, report) { 0.0 } else { costs.sweep };
+        let spared = sweep - costs.slack.unwrap_or_default();
         self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared);
         let vertices_per_used_up = constants::<G>().vertices_per_used_up_to_watch;
         if self.wait == 0 && report.tolerances * vertices_per_used_up < n as u64 {
@@ -258,6 +268,10 @@ impl Auto {
         evaluations: [Evaluations; 2],
     ) {
         let constants = constants::<G>();
+        if report.moved == 0 {
+            // That tells nothing about what will.
+            return;
+        }
         self.follow_changes::<G>(report);
         let [before, after] = evaluations;
         if report.rebuilds > 0 && repair.was_foreseen() {
@@ -288,8 +302,11 @@ impl Auto {
         let may_try = self.wait == 0 || constants.rarer_changes * self.changes < self.changes_at_stop;
         if may_try && self.changes * constants.vertices_per_change <= n as f64 {
             let are_changes_rare = self.changes * constants.vertices_per_change_to_watch <= n as f64;
-            let skips_slack = constants.costs.slack.is_none() || are_changes_rare;
-            self.scope = if skips_slack { Scope::Watched } else { Scope::Slack };
+            if constants.costs.slack.is_none() || are_changes_rare {
+                self.scope = Scope::Watched;
+            } else if !have_few_moved::<G>(n, report) {
+                self.scope = Scope::Slack;
+            }
         }
     }
 }

@@ -2,9 +2,11 @@
 //!
 //! ```text
 //! move all staged vertices
-//! rebuild if a sample of the cells foretells that this is faster; where few vertices have moved and nearly all around
+//! where few vertices have moved, take these back and place them one by one; no sweep
+//! rebuild if a sample of the cells foretells that this is faster; where some vertices have moved and nearly all around
 //!     them fails, take these back and place them one by one
 //! sweep: orientation of every cell, empty sphere of every facet, convexity of every ridge of the hull
+//! take vertices of inverted cells back that have gone farther than the cell reaches
 //! where a cell is inverted or a ridge is not convex: untangle them by flips, and take a vertex back to its old place where
 //!     a cell or a ridge cannot be flipped; if that does not make all right, undo the flips, and again with these vertices
 //!     back; if it never does, take vertices back, one of each cell or ridge, until all are right
@@ -20,8 +22,7 @@
 //! one that moved farthest is taken back, so that a vertex that jumps across the domain goes first.
 //!
 //! Cost (`examples/tolerance_share`, 10,000 points): a sweep, moves included, is a fourteenth of a rebuild in
-//! the plane and a nineteenth in space; a vertex taken back costs a placement, eight vertices rebuilt in the plane and
-//! ten in space (`make calibrate`).
+//! the plane and a nineteenth in space; a vertex taken back costs a placement, some eight vertices rebuilt.
 //! Where more break than is worth mending, the triangulation is rebuilt, at once where that is foreseen
 //! ([`foresight`](super::foresight)). The first repair after a build sorts the cells of a large triangulation, and so
 //! does another when twice as many have been replaced. The moves of all vertices, the sweep and the flips are done by
@@ -29,7 +30,6 @@
 
 use super::Repair;
 use super::places::At;
-use crate::complex::{Corners, INFINITE};
 use crate::delaunay::{CERTIFICATES_PER_EXACT, Delaunay, Dimension};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
@@ -110,6 +110,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
         let most = self.n_present / constants.rebuilt_per_placement;
+        if repair.failures.is_sweep_due
+            && repair.places.n_new * constants.swept_per_placement < self.n_present
+        {
+            self.take_all_back(repair)?;
+            return Ok(Mending::Mended);
+        }
         if repair.failures.is_sweep_due {
             match self.sweep(repair, constants.failures_per_placement * most)? {
                 Prospect::Mendable => {}
@@ -120,7 +126,6 @@ impl<G: Dimension> MovingTriangulation<G> {
                 Prospect::TooMuch => return Ok(Mending::TooMuch),
             }
         }
-        let mut is_triangulation = repair.failures.is_triangulation();
         if !self.monitor(0.5) {
             return Err(Error::Cancelled);
         }
@@ -129,11 +134,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         let most_spent = self.spent()
             + constants.certified_per_vertex * self.n_present as u64
             + CERTIFICATES_PER_EXACT * exact_of_rebuild;
+        // All facets of a star that is taken back are listed.
+        let n_failing = repair.failures.facets.len();
+        if self.take_leapers_back(repair, most)? == Prospect::TooMuch {
+            return Ok(Mending::TooMuch);
+        }
+        let mut is_triangulation = repair.failures.is_triangulation();
         for round in 0..constants.max_rounds {
             repair.suspects.clear();
             is_triangulation = is_triangulation || round == 0 && self.untangle(repair, most)?;
             if !is_triangulation {
-                let is_mended = self.is_worth_placing(repair)
+                let is_mended = self.is_worth_placing(n_failing)
                     && self.take_back_failed(repair, most)? == Prospect::Mendable
                     && self.winds_once(repair)?;
                 if !is_mended {
@@ -170,9 +181,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether so few facets fail that vertices may be taken back, and placed, besides.
-    fn is_worth_placing(&self, repair: &Repair) -> bool {
+    fn is_worth_placing(&self, n_failing: usize) -> bool {
         let n_cells = self.kernel.complex().n_finite() as f64;
-        repair.failures.facets.len() as f64 <= constants::<G>().max_failing * n_cells
+        n_failing as f64 <= constants::<G>().max_failing * n_cells
     }
 
     /// Makes the cells a triangulation by flips, if that can be done with at most this number of vertices taken back; what
@@ -234,7 +245,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(winds_once)
     }
 
-    fn check_ridges(&self, repair: &mut Repair) -> Result<()> {
+    pub(super) fn check_ridges(&self, repair: &mut Repair) -> Result<()> {
         let (at, before) = (&repair.places.at, self.staging.positions());
         let before = |id: VertexId| (at[id] != At::Old).then(|| &before[id]);
         self.kernel.check_ridges(&mut repair.failures, before)
@@ -311,122 +322,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Takes vertices back until every cell is positive and the hull convex; too much if more than `most` are back.
-    fn take_back_failed(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
-        self.check_taken_back(repair)?;
-        loop {
-            while let Some(c) = repair.failures.cells.pop() {
-                if self.kernel.is_positive(c) {
-                    continue;
-                }
-                let corners = self.kernel.complex().cell(c).corners;
-                let s = self.farthest(repair, corners.as_ref()).expect("old places have positive cells");
-                repair.failures.cells.push(c);
-                self.take_back(repair, s)?;
-                if repair.places.queue.len() > most {
-                    return Ok(Prospect::TooMuch);
-                }
-            }
-            self.check_ridges(repair)?;
-            if repair.failures.ridges.is_empty() {
-                return Ok(Prospect::Mendable);
-            }
-            while let Some(ridge) = repair.failures.ridges.pop() {
-                if self.kernel.is_convex(ridge) {
-                    continue;
-                }
-                let complex = self.kernel.complex();
-                let across = complex.cell(ridge.cell()).neighbour(ridge.index());
-                let behind = complex.cell(ridge.cell()).neighbour(G::D).cell();
-                // The last corner of a ghost cell is the ghost vertex. The cell behind decides ties.
-                let mut corners = [INFINITE; 5];
-                corners[..G::Corners::N].copy_from_slice(complex.cell(behind).corners.as_ref());
-                corners[4] = complex.apex(across);
-                let s = self.farthest(repair, &corners).expect("old places have a convex hull");
-                repair.failures.ridges.push(ridge);
-                self.take_back(repair, s)?;
-                if repair.places.queue.len() > most {
-                    return Ok(Prospect::TooMuch);
-                }
-                if !repair.failures.cells.is_empty() {
-                    break;
-                }
-            }
-        }
-    }
-
-    /// Of these sites, the one that has moved farthest and is at its new place.
-    fn farthest(&self, repair: &Repair, sites: &[SiteId]) -> Option<SiteId> {
-        repair.places.farthest(&self.kernel, &self.staging, sites)
-    }
-
-    /// Takes all vertices back, so that the cells are those before.
-    fn take_all_back(&mut self, repair: &mut Repair) -> Result<()> {
-        let Repair { places, .. } = repair;
-        places.reserve(&mut self.staging, places.n_new)?;
-        for v in VertexId::range(0..self.site_of.len()) {
-            if places.at[v] == At::New && self.exchange_position(v) {
-                places.at[v] = At::Old;
-                places.queue.push(v);
-            }
-        }
-        places.n_new = 0;
-        Ok(())
-    }
-
     /// How many vertices of a whole staging, all applied, have gone to another place.
     fn n_moved(&self) -> u64 {
         let before = self.staging.positions();
         let has_moved = |&v: &VertexId| self.kernel.site(self.site_of[v]).point != before[v];
         VertexId::range(0..self.site_of.len()).filter(has_moved).count() as u64
-    }
-
-    /// Takes a vertex back to its old place, and looks at its star.
-    fn take_back(&mut self, repair: &mut Repair, s: SiteId) -> Result<()> {
-        repair.places.take_back(&mut self.kernel, &mut self.staging, s)?;
-        self.kernel.check_star(s, &mut repair.failures)
-    }
-
-    /// Looks at the stars of the vertices that were taken back while cells were exchanged, once that has been undone.
-    fn check_taken_back(&mut self, repair: &mut Repair) -> Result<()> {
-        let Repair { places, failures, .. } = repair;
-        for k in std::mem::take(&mut places.unchecked) {
-            self.kernel.check_star(self.site_of[places.queue[k]], failures)?;
-        }
-        Ok(())
-    }
-
-    /// Lists a vertex of each facet where flips are stuck.
-    fn list_stuck(&mut self, repair: &mut Repair) -> Result<()> {
-        repair.sites.clear();
-        memory::reserve(&mut repair.sites, repair.stuck.len())?;
-        for k in 0..repair.stuck.len() {
-            let facet = repair.stuck[k];
-            let complex = self.kernel.complex();
-            debug_assert!(!complex.is_free(facet.cell()), "what is stuck is of a cell that is there");
-            let across = complex.cell(facet.cell()).neighbour(facet.index());
-            let mut corners = [INFINITE; 5];
-            corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
-            corners[4] = complex.apex(across);
-            let is_listed =
-                |&s: &SiteId| s != INFINITE && repair.places.at[self.kernel.site(s).id] == At::Listed;
-            if corners.iter().any(is_listed) {
-                continue;
-            }
-            if let Some(s) = self.farthest(repair, &corners) {
-                repair.sites.push(s);
-                repair.places.at[self.kernel.site(s).id] = At::Listed;
-            }
-        }
-        Ok(())
-    }
-
-    /// Takes the listed vertices back.
-    fn take_back_listed(&mut self, repair: &mut Repair) -> Result<()> {
-        let sites = std::mem::take(&mut repair.sites);
-        let taken = sites.iter().try_for_each(|&s| self.take_back(repair, s));
-        repair.sites = sites;
-        taken
     }
 
     /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed. There

@@ -14,8 +14,8 @@
 //! the certificates of a cluster again and again: then a repair takes longer when one facet in seventy fails. So some
 //! clusters are gathered.
 //!
-//! Where few vertices leave a lattice all of their facets fail, ten and more for each. Most of these vertices would have
-//! to be placed in the end: they are placed at once.
+//! Where some vertices leave a lattice, or leap, nearly all of their facets fail. Most of these vertices would have to be
+//! placed in the end: they are placed at once.
 //!
 //! A vertex on a flat part of the hull may have a star of slivers with all others there. How long it takes to place
 //! some of these is known only from the first ones.

@@ -4,6 +4,7 @@ mod commit;
 mod foresight;
 mod places;
 mod scratch;
+mod taking_back;
 
 pub(super) use foresight::Budget;
 pub(super) use scratch::Repair;
