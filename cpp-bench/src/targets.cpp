@@ -57,6 +57,10 @@ constexpr double leaving_shear = 1e-3;
 constexpr std::size_t n_left = 10;
 constexpr double wanted_at_first = 1 / 1.3;
 
+/// Shares of the vertices that leap anywhere in each timestamp, while all others rest, or move by so many spacings.
+constexpr double leaping_shares[] = {0.001, 0.01, 0.1};
+constexpr double moving_others = 1e-3;
+
 /// From where points go to a random place close by.
 enum class From { where_they_began, where_they_were };
 
@@ -75,6 +79,27 @@ Series moving_points(const std::string &name, unsigned dimension, std::size_t n_
         const std::size_t centre =
             from == From::where_they_began ? at % series.frame_length() : at - series.frame_length();
         for (unsigned axis = 0; axis < dimension; ++axis) place[axis] += series.positions[centre + axis];
+    }
+    return series;
+}
+
+/// Random points at unit density of which some leap after the warm-up.
+Series leaping_points(const std::string &name, unsigned dimension, std::size_t n_points, double share, bool others_move,
+                      std::uint64_t seed) {
+    const double step = others_move ? moving_others : 0;
+    const std::size_t last = n_warm + n_left;
+    Series series = moving_points(name, dimension, n_points, From::where_they_were, step, last, seed);
+    const double side = std::pow(static_cast<double>(n_points), 1.0 / dimension);
+    Random random(seed + 2);
+    std::vector<double> by(series.frame_length(), 0);
+    for (std::size_t at = (n_warm + 1) * series.frame_length(); at < series.positions.size(); at += dimension) {
+        const bool leaps = random.unit() < share;
+        for (unsigned axis = 0; axis < dimension; ++axis) {
+            double &moved = by[(at + axis) % series.frame_length()];
+            double &coordinate = series.positions[at + axis];
+            if (leaps) moved = side * random.unit() - coordinate;
+            coordinate += moved;
+        }
     }
     return series;
 }
@@ -208,6 +233,9 @@ public:
                 if (sizes_.has(leap_name(displacement))) leap(dimension, displacement);
             for (std::size_t i = 0; i < std::size(drifts); ++i)
                 if (sizes_.has(drift_name(drifts[i]))) drift(dimension, drifts[i], wanted_of_drifts[i]);
+            for (const double share : leaping_shares)
+                for (const bool others_move : {false, true})
+                    if (sizes_.has(leaping_name(share, others_move))) leap_by_share(dimension, share, others_move);
             for (const PointSet &set : point_sets())
                 if (set.dimension == dimension && is_left(set))
                     for (const char *way : {"tenth", "shear"})
@@ -308,10 +336,20 @@ private:
         add(name.c_str(), series, done[0], done[1], wanted);
     }
 
+    void leap_by_share(unsigned dimension, double share, bool others_move) {
+        const std::string name = leaping_name(share, others_move);
+        add_beside_best(name,
+                        leaping_points(name, dimension, sizes_.n_relocated, share, others_move, seed_));
+    }
+
     void leave(const PointSet &set, const std::string &way) {
-        const std::size_t last = n_warm + n_left;
         const std::string name = left_name(way, set);
-        const Series series = left_points(name, set, sizes_.n_relocated, way == "shear", seed_);
+        add_beside_best(name, left_points(name, set, sizes_.n_relocated, way == "shear", seed_));
+    }
+
+    /// Auto beside the best of the algorithms that it chooses from.
+    void add_beside_best(const std::string &name, const Series &series) {
+        const std::size_t last = n_warm + n_left;
         auto done = replay(series,
                            {entrant("deldrift/rebuilding", 1, last), entrant("deldrift/repair", 1, last),
                             entrant("deldrift/placement_flips", 1, last), entrant("deldrift/auto", 1, last)},
@@ -337,6 +375,9 @@ private:
     }
     static std::string left_name(const std::string &way, const PointSet &set) {
         return fmt::format("{}_{}", way, set.name);
+    }
+    static std::string leaping_name(double share, bool others_move) {
+        return fmt::format("leaping_{:g}{}", share, others_move ? "_moving" : "");
     }
     static std::string drift_name(double displacement) { return fmt::format("drift_{:g}", displacement); }
 

@@ -300,13 +300,12 @@ impl Auto {
         self.wait = self.wait.saturating_sub(1);
         // Also before the wait is over if changes have become much rarer.
         let may_try = self.wait == 0 || constants.rarer_changes * self.changes < self.changes_at_stop;
-        if may_try && self.changes * constants.vertices_per_change <= n as f64 {
+        // Few that move and change cells take less time without tolerances.
+        let are_placed = have_few_moved::<G>(n, report) && report.flips + report.placements > 0;
+        if may_try && !are_placed && self.changes * constants.vertices_per_change <= n as f64 {
             let are_changes_rare = self.changes * constants.vertices_per_change_to_watch <= n as f64;
-            if constants.costs.slack.is_none() || are_changes_rare {
-                self.scope = Scope::Watched;
-            } else if !have_few_moved::<G>(n, report) {
-                self.scope = Scope::Slack;
-            }
+            let skips_slack = constants.costs.slack.is_none() || are_changes_rare;
+            self.scope = if skips_slack { Scope::Watched } else { Scope::Slack };
         }
     }
 }
