@@ -4,8 +4,8 @@
 //! is nearer. In between, some vertices are at their new and some at their old positions: two may meet that are never
 //! at the same place at a timestamp; they share a site for that while.
 //!
-//! **Threads.** One does it all. Four fifths of a placement in space find out what will change, and change nothing:
-//! the walk, the zone, what fills the hole. In a prototype, which is not kept, two threads found this out ahead, for
+//! **Threads.** One does it all. Most of a placement in space finds out what will change, and changes nothing: the walk,
+//! the zone, what fills the hole. In a prototype, which is not kept, two threads found this out ahead, for
 //! batches of vertices far from each other, and one made the changes after each batch. They were 1.3 times as fast in
 //! space where vertices leap anywhere, and no faster where they jump by half a spacing; in the plane 1.15 and 0.8
 //! times (300,000 points, `examples/thread_scaling`). The shares alone would allow 1.6 times in space: the rest
