@@ -217,7 +217,7 @@ enum deldrift_algorithm
     /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 4,
     /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report
-    /// slower than that in 68 of 74 rows.
+    /// slower than that in 59 of 74 rows.
     DELDRIFT_COMPARE_PLACEMENT = 16,
     /// For comparison: as DELDRIFT_TOLERANCE, with a larger region for each vertex: inside the delimiters of the
     /// facets it is on, outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not

@@ -127,7 +127,7 @@ macro_rules! for_algorithms {
         }
 
         /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report
-        /// slower than that in 68 of 74 rows.
+        /// slower than that in 59 of 74 rows.
         Placement = 16 {
             name: "placement",
             purpose: Comparison,

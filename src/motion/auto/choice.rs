@@ -284,7 +284,7 @@ impl Auto {
             self.last_rebuilds = more.min(constants.max_rebuilds);
             if repair.was_foreseen() {
                 self.refusals = self.refusals.saturating_sub(1);
-            } else if report.rebuilds == 0 || !repair.is_dented() {
+            } else if repair.share_failing() > 0.0 && (report.rebuilds == 0 || !repair.is_dented()) {
                 self.too_many_failing = constants.share_too_many * repair.share_failing();
                 let more = constants.rebuilds_growth * self.last_refusals + 1;
                 self.last_refusals = more.min(constants.max_rebuilds);
