@@ -20,6 +20,7 @@
 //! | `undo` | undoing any change |
 //! | `changes` | a record of the cells made or moved |
 //! | `successor` | a kernel to be built beside another one |
+//! | `covering` | the static filter, and the box for which it holds |
 //! | `copying`, `restoring` | a copy of a kernel; one of cells that are known, all of them checked |
 //! | `certify`, `uncertain`, `failures` | all certificates at once |
 //! | `sample` | those of a few cells |
@@ -41,6 +42,7 @@ mod cavity_space;
 mod certify;
 mod changes;
 mod copying;
+mod covering;
 mod dimension;
 mod facets;
 mod failures;
@@ -321,72 +323,6 @@ impl<G: Dimension> Delaunay<G> {
     /// How many threads a call may use.
     pub(crate) fn threads(&self) -> Threads {
         self.threads
-    }
-
-    /// The static filter.
-    pub(crate) fn filter(&self) -> &StaticFilter {
-        &self.filter
-    }
-
-    /// Least coordinates of the points for which the static filter is valid.
-    pub fn lower(&self) -> G::Point {
-        self.lower
-    }
-
-    /// Greatest coordinates of the points for which the static filter is valid.
-    pub fn upper(&self) -> G::Point {
-        self.upper
-    }
-
-    /// Makes the static filter valid for points in a box.
-    pub fn cover(&mut self, lower: &G::Point, upper: &G::Point) {
-        let mut grown = false;
-        for k in 0..G::D {
-            if lower[k] < self.lower[k] {
-                self.lower[k] = lower[k];
-                grown = true;
-            }
-            if upper[k] > self.upper[k] {
-                self.upper[k] = upper[k];
-                grown = true;
-            }
-        }
-        if grown {
-            self.filter = G::filter(&self.lower, &self.upper);
-        }
-    }
-
-    /// Whether the static filter is valid for a point.
-    #[inline(always)]
-    pub(crate) fn is_covered(&self, p: &G::Point) -> bool {
-        let mut is_covered = true;
-        for k in 0..G::D {
-            is_covered &= (self.lower[k] <= p[k]) & (p[k] <= self.upper[k]);
-        }
-        is_covered
-    }
-
-    /// As [`cover`](Self::cover), for points up to `distance` off the box.
-    pub(crate) fn cover_around(&mut self, lower: &G::Point, upper: &G::Point, distance: f64) {
-        let (mut lower, mut upper) = (*lower, *upper);
-        for axis in 0..G::D {
-            lower[axis] = (lower[axis] - distance).next_down();
-            upper[axis] = (upper[axis] + distance).next_up();
-        }
-        self.cover(&lower, &upper);
-    }
-
-    /// Makes the static filter as sharp as the places of the live sites allow, and, while there is a change that may be
-    /// undone, those where they were before. Returns the box of the live sites.
-    pub fn tighten_filter(&mut self) -> (G::Point, G::Point) {
-        let places = self.sites[1..].iter().filter(|s| s.is_live()).map(|s| &s.point);
-        let (lower, upper) = order::bounding_box::<G>(places).unwrap_or_default();
-        (self.lower, self.upper) = (lower, upper);
-        self.filter = G::filter(&lower, &upper);
-        if let Some((lower, upper)) = self.box_before() {
-            self.cover(&lower, &upper);
-        }
-        (lower, upper)
     }
 
     /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
