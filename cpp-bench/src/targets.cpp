@@ -91,6 +91,7 @@ Series leaping_points(const std::string &name, unsigned dimension, std::size_t n
     Series series = moving_points(name, dimension, n_points, From::where_they_were, step, last, seed);
     const double side = std::pow(static_cast<double>(n_points), 1.0 / dimension);
     Random random(seed + 2);
+    // How far the leaps so far have taken each point off its walk.
     std::vector<double> by(series.frame_length(), 0);
     for (std::size_t at = (n_warm + 1) * series.frame_length(); at < series.positions.size(); at += dimension) {
         const bool leaps = random.unit() < share;

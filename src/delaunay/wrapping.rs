@@ -20,8 +20,8 @@
 //! frontier is wrapped by exact signs.
 //!
 //! Cost: for `k` sites of the link `2k` passes over `k / 4` lanes in space, and `k` in the plane, and the certificates that
-//! a sweep evaluates for as many cells. A removal takes half the instructions in space that it takes by exact signs, and
-//! three quarters in the plane (10,000 random points).
+//! a sweep evaluates for as many cells. (`examples/tolerance_share` times removals with insertions; with `DELDRIFT_SCALAR`
+//! set they are done by exact signs.)
 
 use super::remove::{Hole, NEW, new_of};
 use super::{Delaunay, Dimension};
@@ -29,13 +29,14 @@ use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
+use crate::predicates::{cross, dot, minus};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 /// Most sites of a link.
 const MOST_SITES: usize = 32;
 /// Most new cells.
 const MOST_CELLS: usize = 64;
-/// Most facets of the frontier, those of new cells included: their numbers, and one more for none, are bytes.
+/// Most facets of the frontier at a time: a byte holds the number of one, or that there is none.
 const MOST_OPEN: usize = 255;
 /// Sets of three sites, of which facets have two or three.
 const SETS: usize = MOST_SITES * (MOST_SITES - 1) * (MOST_SITES - 2) / 6;
@@ -60,8 +61,8 @@ const CLOSED: u16 = u16::MAX;
 /// Scratch memory.
 #[derive(Debug)]
 pub(super) struct Wrapping {
-    /// The sites of the link as seen from the one removed, and the squares of their distances; and all that by axis.
-    seen: [[f64; 4]; MOST_SITES],
+    /// The sites of the link as seen from the one removed; and that by axis, followed by the squares of their distances.
+    seen: [[f64; 3]; MOST_SITES],
     by_axis: [[f64; MOST_SITES]; 4],
     /// Of the new cells: `u` and then `e`.
     floors: [[f64; 4]; MOST_CELLS],
@@ -78,7 +79,7 @@ impl Default for Wrapping {
     fn default() -> Self {
         let none = Open { labels: [0; 3], is_odd: false, set: CLOSED, out: Facet::NONE };
         Wrapping {
-            seen: [[0.0; 4]; MOST_SITES],
+            seen: [[0.0; 3]; MOST_SITES],
             by_axis: [[0.0; MOST_SITES]; 4],
             floors: [[0.0; 4]; MOST_CELLS],
             open: [none; MOST_OPEN],
@@ -149,15 +150,13 @@ impl Wrapping {
         let origin = t.view().point(s);
         for (label, &site) in sites.iter().enumerate().take(MOST_SITES) {
             let p = t.view().point(site);
-            let mut seen = [0.0; 4];
+            let mut seen = [0.0; 3];
             for axis in 0..G::D {
                 seen[axis] = p[axis] - origin[axis];
+                self.by_axis[axis][label] = seen[axis];
             }
-            seen[3] = dot(&seen, &seen);
             self.seen[label] = seen;
-            for (all, x) in self.by_axis.iter_mut().zip(seen) {
-                all[label] = x;
-            }
+            self.by_axis[3][label] = dot(&seen, &seen);
         }
     }
 
@@ -264,15 +263,21 @@ impl Wrapping {
         // The plane of the facet, on which `normal · (x, y, z) + offset` is zero.
         let [a_seen, b_seen] = [seen(a), seen(b)];
         let normal = if G::D == 2 {
-            [a_seen[1] - b_seen[1], b_seen[0] - a_seen[0], 0.0, 0.0]
+            [a_seen[1] - b_seen[1], b_seen[0] - a_seen[0], 0.0]
         } else {
             cross(&minus(b_seen, a_seen), &minus(seen(c), a_seen))
         };
         let offset = -dot(&normal, a_seen);
         let floor = match new_of(open.out) {
             Some(outer) => self.floors[outer % MOST_CELLS],
-            None if G::D == 2 => floor_of_edge(a_seen, b_seen, offset),
-            None => floor_of_triangle(a_seen, b_seen, seen(c), offset),
+            None => {
+                let square = |label: u8| self.by_axis[3][usize::from(label) % MOST_SITES];
+                if G::D == 2 {
+                    floor_of_edge(a_seen, b_seen, [square(a), square(b)], offset)
+                } else {
+                    floor_of_triangle(a_seen, b_seen, seen(c), [square(a), square(b), square(c)], offset)
+                }
+            }
         };
         let mut left = !0 >> (MOST_SITES - n_sites);
         left &= !(1 << a | 1 << b);
@@ -314,22 +319,28 @@ impl Wrapping {
     }
 }
 
-/// The hyperplane through the lifted ends of an edge and through the origin, which is `offset` off the edge along its
-/// normal.
+/// The hyperplane through the lifted ends of an edge, at these squares of their distances, and through the origin, which
+/// is `offset` off the edge along its normal.
 #[inline(always)]
-fn floor_of_edge(a: &[f64; 4], b: &[f64; 4], offset: f64) -> [f64; 4] {
+fn floor_of_edge(a: &[f64; 3], b: &[f64; 3], [aa, bb]: [f64; 2], offset: f64) -> [f64; 4] {
     let factor = 1.0 / offset;
-    [factor * (a[3] * b[1] - b[3] * a[1]), factor * (b[3] * a[0] - a[3] * b[0]), 0.0, 0.0]
+    [factor * (aa * b[1] - bb * a[1]), factor * (bb * a[0] - aa * b[0]), 0.0, 0.0]
 }
 
 /// The same of a triangle.
 #[inline(always)]
-fn floor_of_triangle(a: &[f64; 4], b: &[f64; 4], c: &[f64; 4], offset: f64) -> [f64; 4] {
+fn floor_of_triangle(
+    a: &[f64; 3],
+    b: &[f64; 3],
+    c: &[f64; 3],
+    [aa, bb, cc]: [f64; 3],
+    offset: f64,
+) -> [f64; 4] {
     let (bc, ca, ab) = (cross(b, c), cross(c, a), cross(a, b));
     let factor = -1.0 / offset;
     let mut floor = [0.0; 4];
     for axis in 0..3 {
-        floor[axis] = factor * (a[3] * bc[axis] + b[3] * ca[axis] + c[3] * ab[axis]);
+        floor[axis] = factor * (aa * bc[axis] + bb * ca[axis] + cc * ab[axis]);
     }
     floor
 }
@@ -392,23 +403,6 @@ fn are_certain<G: Dimension>(avx2: Avx2, t: &Delaunay<G>, hole: &Hole<G>) -> boo
         }
     }
     true
-}
-
-// Of the first three numbers; the fourth one of a difference or a product is 0.
-
-#[inline(always)]
-fn minus(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2], 0.0]
-}
-
-#[inline(always)]
-fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-fn cross(a: &[f64; 4], b: &[f64; 4]) -> [f64; 4] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.0]
 }
 
 #[cfg(test)]

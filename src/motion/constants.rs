@@ -173,6 +173,13 @@ pub struct Constants {
     pub rebuilt_per_edit: usize,
 }
 
+impl Constants {
+    /// Whether so few of `n` vertices are staged, or have moved, that they are placed one by one.
+    pub(super) fn are_few(&self, some: usize, n: usize) -> bool {
+        some * self.swept_per_placement < n
+    }
+}
+
 /// The constants of reading cells, the same in both dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct Reading {

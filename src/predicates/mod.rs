@@ -137,6 +137,7 @@ pub use tolerance::{
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
     tolerances2d,
 };
+pub(crate) use vectors::{cross, dot, minus};
 
 /// Largest magnitude of an accepted coordinate.
 pub const MAX_MAGNITUDE: f64 = 1e57;

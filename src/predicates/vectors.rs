@@ -15,7 +15,7 @@ const fn is_dimension(d: usize) -> bool {
 
 /// `p` − `q`.
 #[inline(always)]
-pub(super) fn minus<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> [T; D] {
+pub(crate) fn minus<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> [T; D] {
     const { assert!(is_dimension(D)) };
     let mut difference = *p;
     (difference[0], difference[1]) = (p[0] - q[0], p[1] - q[1]);
@@ -39,7 +39,7 @@ pub(super) fn plus<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> [T; D] {
 
 /// `p`₀ `q`₀ + `p`₁ `q`₁ + `p`₂ `q`₂, from left to right.
 #[inline(always)]
-pub(super) fn dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
+pub(crate) fn dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
     const { assert!(is_dimension(D)) };
     let sum = p[0] * q[0] + p[1] * q[1];
     if D == 3 { sum + p[2] * q[2] } else { sum }
@@ -53,7 +53,7 @@ pub(super) fn minor<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
 
 /// The cross product of space, each component like [`minor`].
 #[inline(always)]
-pub(super) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
+pub(crate) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 

@@ -65,11 +65,6 @@ pub(super) struct Round {
     pub(super) are_most_unchanged: bool,
 }
 
-/// Whether so few vertices have moved, of `n`, that they are placed one by one.
-fn have_few_moved<G: Dimension>(n: usize, report: &CommitReport) -> bool {
-    report.moved * (constants::<G>().swept_per_placement as u64) < n as u64
-}
-
 impl Auto {
     /// Which certificates a commit checks.
     pub(super) fn scope(&self) -> Scope {
@@ -124,10 +119,11 @@ impl Auto {
     pub(super) fn weigh_slack<G: Dimension>(&mut self, n: usize, report: &CommitReport) {
         let costs = &constants::<G>().costs;
         if report.moved == 0 {
+            // At rest slack neither spares nor costs much.
             return;
         }
         // Few that move are placed without a sweep.
-        let sweep = if have_few_moved::<G>(n, report) { 0.0 } else { costs.sweep };
+        let sweep = if constants::<G>().are_few(report.moved as usize, n) { 0.0 } else { costs.sweep };
         let spared = sweep - costs.slack.unwrap_or_default();
         self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared);
         let vertices_per_used_up = constants::<G>().vertices_per_used_up_to_watch;
@@ -269,7 +265,7 @@ impl Auto {
     ) {
         let constants = constants::<G>();
         if report.moved == 0 {
-            // That tells nothing about what will.
+            // Vertices at rest tell nothing about how they will move.
             return;
         }
         self.follow_changes::<G>(report);
@@ -301,7 +297,7 @@ impl Auto {
         // Also before the wait is over if changes have become much rarer.
         let may_try = self.wait == 0 || constants.rarer_changes * self.changes < self.changes_at_stop;
         // Few that move and change cells take less time without tolerances.
-        let are_placed = have_few_moved::<G>(n, report) && report.flips + report.placements > 0;
+        let are_placed = constants.are_few(report.moved as usize, n) && report.flips + report.placements > 0;
         if may_try && !are_placed && self.changes * constants.vertices_per_change <= n as f64 {
             let are_changes_rare = self.changes * constants.vertices_per_change_to_watch <= n as f64;
             let skips_slack = constants.costs.slack.is_none() || are_changes_rare;

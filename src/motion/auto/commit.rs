@@ -16,7 +16,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         given: &mut Given<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let is_of_few = self.staging.count() * constants::<G>().swept_per_placement < self.n_present;
+        let is_of_few = constants::<G>().are_few(self.staging.count(), self.n_present);
         self.auto.note_few(is_of_few);
         if !self.kernel.has_cells() {
             return self.rebuild_given(given, report);

@@ -110,9 +110,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
         let most = self.n_present / constants.rebuilt_per_placement;
-        if repair.failures.is_sweep_due
-            && repair.places.n_new * constants.swept_per_placement < self.n_present
-        {
+        if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.n_present) {
             self.take_all_back(repair)?;
             return Ok(Mending::Mended);
         }
