@@ -362,6 +362,7 @@ impl<G: Dimension> Delaunay<G> {
             parts,
             flat,
             is_sorted: true,
+            relocated: SiteId::NONE,
             recent: index.get(self.recent.index()).copied().unwrap_or(Slot::new(0)),
             complex,
             certificates: self.certificates,

@@ -19,6 +19,7 @@ impl<G: Dimension> Delaunay<G> {
             is_sorted: self.is_sorted,
             n_replaced: self.n_replaced,
             recent: self.recent,
+            relocated: self.relocated,
             certificates: self.certificates,
             link_sites: self.link_sites,
             ..Delaunay::empty_on(self.threads)

@@ -42,6 +42,9 @@ const SAMPLE: usize = 1 << 10;
 /// Rows of a journal for which the memory is always kept.
 const KEPT: usize = 1 << 14;
 
+/// A larger one is given back when it has this number of times the rows that were needed.
+const HELD_PER_NEEDED: usize = 4;
+
 /// Least number of free cells made at once where there are none.
 const ROOM: usize = 16;
 
@@ -206,10 +209,11 @@ impl<G: Dimension> Delaunay<G> {
                 return Ok(());
             }
         }
-        let own = &mut flips.own;
+        let (own, are_sites_far) = (&mut flips.own, self.is_far());
         loop {
             let sites = Sites::new(&self.sites);
-            Flipper { filter: &self.filter, sites, cells: &mut self.complex.whole() }.flip_all(own);
+            let cells = &mut self.complex.whole();
+            Flipper { filter: &self.filter, sites, cells, are_sites_far }.flip_all(own);
             if own.has_failed {
                 return Err(Error::OutOfMemory { bytes: own.journal.len() * size_of::<Row<G::Corners>>() });
             }
@@ -252,9 +256,9 @@ impl<G: Dimension> Delaunay<G> {
                 memory::push(&mut part.suspects, facet)?;
             }
         }
-        let (sites, filter) = (Sites::new(&self.sites), &self.filter);
+        let (sites, filter, are_sites_far) = (Sites::new(&self.sites), &self.filter, self.is_far());
         self.complex.divided(&starts, parts, |_, cells, part| {
-            Flipper { filter, sites, cells }.flip_all(part);
+            Flipper { filter, sites, cells, are_sites_far }.flip_all(part);
         })?;
         suspects.clear();
         for part in parts {
@@ -296,11 +300,12 @@ impl<G: Dimension> Delaunay<G> {
                 self.recent = c;
             }
         }
-        flips.journal.clear();
-        // Keep the memory for a lively timestamp, not for one that changes everything.
-        if flips.journal.capacity() > self.sites.len().max(KEPT) {
+        // Keep the memory while timestamps change much, not after one that has changed everything.
+        let (needed, held) = (flips.journal.len(), flips.journal.capacity());
+        if held > self.sites.len().max(KEPT) && held > HELD_PER_NEEDED * needed {
             flips.journal = Vec::new();
         }
+        flips.journal.clear();
     }
 
     /// Takes the flips of the last [`flip_all`](Self::flip_all) back, and those of [`untangle`](Self::untangle) before it

@@ -22,6 +22,7 @@ use super::{Delaunay, Dimension, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
+use crate::predicates::squared_distance;
 
 /// A tree is made once walks have crossed one cell for this number of sites, beyond [`LONG_WALK`] each: that takes
 /// about as long as making it.
@@ -35,6 +36,9 @@ const LONG_WALK: u64 = 40;
 
 /// A goal no farther than this number of edges is reached in a few steps.
 const SHORT_IN_EDGES: f64 = 2.0;
+
+/// A place more than this number of edges from a site is away from it: some fifty sites are nearer in the plane.
+const AWAY_IN_EDGES: f64 = 4.0;
 
 /// Fewer sites need no landmarks.
 const MIN_SITES: usize = 256;
@@ -57,6 +61,10 @@ struct Tree {
     leaves: Vec<AtomicU32>,
 }
 
+fn is_in_cells<G: Dimension>(site: &Site<G>) -> bool {
+    site.is_live() && site.cell != Slot::NONE
+}
+
 /// A coordinate with an axis in its lowest two bits.
 fn split(x: f64, axis: usize) -> f64 {
     f64::from_bits(x.to_bits() & !3 | axis as u64)
@@ -74,7 +82,6 @@ impl Tree {
         // Sites are stored in the order of their places along a curve, so every k-th is a sample as dense as they are.
         let mut items = Vec::new();
         memory::reserve_exact(&mut items, n_leaves)?;
-        let is_in_cells = |site: &Site<G>| site.is_live() && site.cell != Slot::NONE;
         let picked = (0..n_leaves).map(|k| 1 + (k as u64 * (n - 1) as u64 / n_leaves as u64) as usize);
         items.extend(picked.filter(|&s| is_in_cells(&sites[s])).map(|s| (sites[s].point, SiteId::at(s))));
         let Some(&last) = items.last() else {
@@ -179,22 +186,39 @@ impl<G: Dimension> Delaunay<G> {
     /// A cell from which a walk to `q` is short: `near`, or one at a landmark if that is nearer.
     #[inline(always)]
     pub(super) fn cell_towards(&self, q: &G::Point, near: Slot) -> Slot {
-        let between =
-            |p: &G::Point, q: &G::Point| (0..G::D).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>();
         // The last corner of a ghost cell is the ghost vertex.
         let [p, other] = [0, 1].map(|i| self.place(self.complex.cell(near).corners[i]));
-        let to_near = between(p, q);
+        let to_near = squared_distance(p, q);
         // Then the walk is shorter than the way down the tree.
-        if to_near <= SHORT_IN_EDGES * SHORT_IN_EDGES * between(p, other) {
+        if to_near <= SHORT_IN_EDGES * SHORT_IN_EDGES * squared_distance(p, other) {
             return near;
         }
         let s = self.landmarks.near::<G>(q);
         match self.sites.get(s.index()) {
-            Some(site) if site.is_live() && site.cell != Slot::NONE && between(&site.point, q) < to_near => {
-                site.cell
-            }
+            Some(site) if is_in_cells(site) && squared_distance(&site.point, q) < to_near => site.cell,
             _ => near,
         }
+    }
+
+    /// The next walk to `q` begins at a site, which may have gone, if that is nearer than `near`, where it would begin.
+    #[inline(always)]
+    pub(super) fn begin_at_nearer(&mut self, q: &G::Point, near: &G::Point, s: SiteId) {
+        if let Some(site) = self.sites.get(s.index()).filter(|site| is_in_cells(site))
+            && squared_distance(&site.point, q) < squared_distance(near, q)
+        {
+            self.recent = site.cell;
+        }
+    }
+
+    /// Whether a place is so far from a site that is in cells that others are between them.
+    pub(crate) fn is_away(&self, s: SiteId, q: &G::Point) -> bool {
+        let site = self.site(s);
+        if self.complex.is_free(site.cell) {
+            return false;
+        }
+        // The last corner of a ghost cell is the ghost vertex.
+        let [p, other] = [0, 1].map(|i| self.place(self.complex.cell(site.cell).corners[i]));
+        squared_distance(&site.point, q) > AWAY_IN_EDGES * AWAY_IN_EDGES * squared_distance(p, other)
     }
 
     /// Enters a walk to `q` that has ended in `cell` after `steps` steps.

@@ -6,11 +6,14 @@
 //! ghost cell whose facet has the point strictly beyond it.
 
 use super::{Delaunay, Dimension, IndexSet};
-use crate::complex::{Complex, Corners};
+use crate::complex::{Cell, Complex, Corners};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
-use crate::machine::prefetch::{CACHE_BYTES, prefetch};
+use crate::machine::prefetch::{ALL_CACHES_BYTES, CACHE_BYTES, prefetch};
 use crate::predicates::StaticFilter;
+
+/// Cells between those of which one thing and the next are asked for.
+const STEP: usize = 6;
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,6 +128,11 @@ impl<G: Dimension> Delaunay<G> {
         size_of_val(&*self.sites) > CACHE_BYTES
     }
 
+    /// Whether sites and cells are too many for any cache.
+    pub(crate) fn is_in_memory(&self) -> bool {
+        self.complex.n_slots() * size_of::<Cell<G::Corners>>() + size_of_val(&*self.sites) > ALL_CACHES_BYTES
+    }
+
     /// Asks for what a relocation of a site reads first, besides its star: the sites of the link and the cells beyond
     /// it.
     #[inline(always)]
@@ -159,6 +167,35 @@ impl<G: Dimension> Delaunay<G> {
                     self.complex.prefetch_neighbours(first.neighbour(i).cell());
                 }
             }
+        }
+    }
+
+    /// Asks for what an exchange of the listed cells after the `k`-th one will read: the cells, their neighbours, and the
+    /// corners of both.
+    #[inline(always)]
+    pub(super) fn prefetch_around_cells(&self, cells: &[Slot], k: usize) {
+        if let Some(&c) = cells.get(k + 3 * STEP) {
+            self.complex.prefetch(c);
+        }
+        if let Some(&c) = cells.get(k + 2 * STEP) {
+            self.complex.prefetch_neighbours(c);
+            self.prefetch_corners(c);
+        }
+        if let Some(&c) = cells.get(k + STEP)
+            && !self.complex.is_free(c)
+        {
+            let cell = self.complex.cell(c);
+            for i in 0..G::Corners::N {
+                prefetch(&self.sites, self.complex.apex(cell.neighbour(i)).index());
+            }
+        }
+    }
+
+    /// Asks for the corners of a cell.
+    #[inline(always)]
+    pub(crate) fn prefetch_corners(&self, c: Slot) {
+        for &corner in self.complex.cell(c).corners.as_ref() {
+            prefetch(&self.sites, corner.index());
         }
     }
 

@@ -121,6 +121,8 @@ pub struct Delaunay<G: Dimension> {
     n_replaced: usize,
     /// A live cell, near the latest change.
     recent: Slot,
+    /// The site relocated last; a hint: it may have gone.
+    relocated: SiteId,
     landmarks: landmarks::Landmarks,
     cavity: Cavity<G>,
     /// The star gathered last: its cells, and the index of the site in each.
@@ -176,6 +178,7 @@ impl<G: Dimension> Delaunay<G> {
             is_sorted: false,
             n_replaced: 0,
             recent: Slot::new(0),
+            relocated: SiteId::NONE,
             landmarks: Default::default(),
             cavity: Cavity::default(),
             star: Vec::new(),

@@ -64,7 +64,9 @@ impl<G: Dimension> Delaunay<G> {
         if self.complex.n_finite() == 0 {
             self.become_flat(s)?;
         }
-        self.sites[s] = Site::new(*q, id);
+        let old = std::mem::replace(&mut self.sites[s], Site::new(*q, id)).point;
+        self.begin_at_nearer(q, &old, self.relocated);
+        self.relocated = s;
         match self.insert_site_anywhere(s)? {
             Insertion::New => Ok(Relocation::Placed),
             Insertion::Coincident(t) => Ok(Relocation::Coincident(t)),

@@ -7,6 +7,7 @@
 
 use crate::delaunay::{Dimension, Space};
 use crate::ids::{SiteId, Slot, VertexId};
+use crate::machine::prefetch::prefetch;
 
 /// A place and the vertex that represents it. Index 0 is a placeholder for the ghost vertex.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +57,12 @@ impl<'s, G: Dimension> Sites<'s, G> {
     #[inline(always)]
     pub fn points(self, v: &G::Corners) -> [&'s G::Point; 4] {
         [0, 1, 2, G::D].map(|i| self.point(v[i]))
+    }
+
+    /// Asks for a site.
+    #[inline(always)]
+    pub(super) fn prefetch(self, s: SiteId) {
+        prefetch(self.0, s.index());
     }
 
     /// The vertex id of a corner.

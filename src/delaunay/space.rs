@@ -171,7 +171,7 @@ impl Kernel<Space> for Space {
 
     /// Flips if that makes positive cells.
     fn flip(
-        Flipper { filter, sites, cells }: &mut Flipper<Space>,
+        Flipper { filter, sites, cells, .. }: &mut Flipper<Space>,
         face: Facet,
         flips: &mut Flips<Space>,
     ) -> Result<(), Obstacle> {

@@ -112,19 +112,23 @@ pub struct Constants {
     /// Times that cells are untangled, each time with more vertices taken back before.
     pub max_untanglings: usize,
 
-    /// Rebuild when more facets fail than this number for each finite cell. Measured with random points, uniform and
-    /// in clusters, in steps of 0.01 to 0.6 spacings: with so many, repair and rebuild take as long. In the plane flips
-    /// are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
+    /// Rebuild when more facets fail than this number for each finite cell, of which more than a few are inverted.
+    /// Measured with random points, uniform and in clusters, in steps of 0.01 to 0.6 spacings.
     pub max_failing: f64,
     /// The same where hardly a cell is inverted, or ties are, and the clusters of cells that hang together by what fails
-    /// are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back.
+    /// are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back. In the plane
+    /// flips are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
     pub max_failing_of_small: f64,
-    /// The same where clusters are large. Measured with spheres, spheres within each other and cylinders.
+    /// Once leaping vertices are back, a cell that is inverted still counts as this number of failing facets, unless there
+    /// are ties: the larger part is untangled, and for the others a vertex is placed. With more than the number above
+    /// repair and rebuild take as long.
+    pub failing_for_inverted: f64,
+    /// The same where the clusters of cells that hang together by what fails are large. Measured with spheres, spheres
+    /// within each other and cylinders.
     pub max_failing_of_large: f64,
     /// A cluster of this number of cells is large.
     pub cells_of_large: f64,
-    /// Hardly a cell is inverted where so many times as many facets fail, and more. (A random point is taken back for
-    /// every other inverted cell, and placing it costs as much as two dozen failing facets.)
+    /// Hardly a cell is inverted where so many times as many facets fail, and more.
     pub failing_per_inverted: f64,
     /// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random
     /// points need none, those of a sheared lattice about one.)
@@ -133,6 +137,9 @@ pub struct Constants {
     pub sample_margin: f64,
     /// Exact evaluations of a rebuild for each one of a sweep, measured with sheared lattices.
     pub exact_per_swept: f64,
+    /// Where sites and cells are more than a cache holds, repair and placement take this number of times as long, beside
+    /// rebuilding, which reads them in order.
+    pub slower_in_memory: f64,
     /// Placing vertices is given up where, by what is counted, those left would cost more than this number of rebuilds.
     /// (Among ties in space placing takes several times as long as the counts tell.)
     pub max_placing: f64,
@@ -244,14 +251,16 @@ const PLANE: Constants = Constants {
     certified_per_vertex: 8,
     max_rounds: 8,
     max_untanglings: 4,
-    max_failing: 0.3,
+    max_failing: 0.25,
     max_failing_of_small: 0.3,
     max_failing_of_large: 0.3,
     cells_of_large: 7.0,
+    failing_for_inverted: 3.0,
     failing_per_inverted: 80.0,
     exact_of_ties: 0.1,
     sample_margin: 1.25,
     exact_per_swept: 4.0,
+    slower_in_memory: 1.5,
     max_placing: 2.0,
     min_share_spent: 1.0 / 16.0,
     max_share_beyond_alone: 0.25,
@@ -287,8 +296,9 @@ const SPACE: Constants = Constants {
     failures_per_placement: 12,
     failures_per_moved: 5.0,
     certified_per_vertex: 80,
-    max_failing: 0.3,
+    max_failing: 0.36,
     max_failing_of_small: 0.7,
+    failing_for_inverted: 22.0,
     max_failing_of_large: 0.03,
     exact_per_swept: 2.0,
     max_placing: 1.0,

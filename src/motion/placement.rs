@@ -1,8 +1,11 @@
 //! *Placement* (report, section 3.1), with the improvements for small displacements of section 3.2.
 //!
-//! Vertices are relocated one at a time, in storage order, each by a walk from its old place, or from a landmark if one
-//! is nearer. In between, some vertices are at their new and some at their old positions: two may meet that are never
-//! at the same place at a timestamp; they share a site for that while.
+//! Vertices are relocated one at a time, each by a walk from its old place, from the vertex placed before it, or from a
+//! landmark, whichever is nearest: in storage order, or, where many go far away, in that of their goals along a Hilbert
+//! curve, so that what an insertion reads has been read by the one before. (One in twenty of a million vertices that go
+//! anywhere take half the time so in the plane, and three quarters in space.) In between, some vertices are at their new
+//! and some at their old positions: two may meet that are never at the same place at a timestamp; they share a site for
+//! that while.
 //!
 //! **Threads.** One does it all. Most of a placement in space finds out what will change, and changes nothing: the walk,
 //! the zone, what fills the hole. In a prototype, which is not kept, two threads found this out ahead, for
@@ -17,10 +20,18 @@ use super::constants::constants;
 use super::repair::Budget;
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
+use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
+
+/// Vertices looked at to find out whether many go far away, ...
+const SAMPLE: usize = 64;
+
+/// ... which they do if more than one in this number does.
+const AWAY_SHARE: usize = 4;
 
 /// Where a vertex has been placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,7 +69,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// a sweep with `exact` exact evaluations, or none.
     pub(super) fn place_staged_within_budget(&mut self, exact: u64, report: &mut CommitReport) -> Result<()> {
         let left = self.staging.vertices().len() - self.staging.applied();
-        let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report);
+        let slowdown = self.slowdown();
+        let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report, slowdown);
         self.place_staged(report, |t, v, new, report| {
             let placed = t.relocate(v, new, Shortcut::Flips, report)?;
             Ok(if budget.is_exceeded::<G>(t.evaluations(), report) { Placed::NeedBuild } else { placed })
@@ -69,7 +81,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.stage_given(given)?;
         self.staging.list()?;
         self.regions.invalidate();
-        self.order_queue_by_site();
+        self.order_queue();
         Ok(())
     }
 
@@ -176,6 +188,38 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(Placed::InCells)
     }
 
+    /// Puts the staged vertices that are not applied yet, and have sites of their own, in the order in which to relocate
+    /// them: that of their goals along a Hilbert curve if many go far away and the caches do not hold all; that of
+    /// storage otherwise, and where there is no memory for the other.
+    pub(super) fn order_queue(&mut self) {
+        if !self.goals_are_away() || self.order_queue_by_goal().is_err() {
+            self.order_queue_by_site();
+        }
+    }
+
+    /// Whether many of the staged vertices that are not applied yet go far away, which shows in a sample.
+    fn goals_are_away(&self) -> bool {
+        let queue = &self.staging.vertices()[self.staging.applied()..];
+        if !self.kernel.is_far() || !self.kernel.has_cells() || queue.len() < SAMPLE {
+            return false;
+        }
+        let is_away = |&&v: &&VertexId| self.kernel.is_away(self.site_of[v], &self.staging.positions()[v]);
+        let sample = queue.iter().step_by(queue.len() / SAMPLE);
+        sample.filter(is_away).count() >= SAMPLE / AWAY_SHARE
+    }
+
+    fn order_queue_by_goal(&mut self) -> Result<()> {
+        let applied = self.staging.applied();
+        let (positions, vertices) = self.staging.parts_mut();
+        let queue = &mut vertices[applied..];
+        let mut keyed = Vec::new();
+        memory::reserve_exact(&mut keyed, queue.len())?;
+        keyed.extend(queue.iter().map(|v| Keyed::new(v.get())));
+        let keyed = hilbert_order::<G>(keyed, |v| &positions[VertexId::new(v)])?;
+        queue.iter_mut().zip(&keyed).for_each(|(v, k)| *v = VertexId::new(k.item()));
+        Ok(())
+    }
+
     /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one
     /// before.
     pub(super) fn order_queue_by_site(&mut self) {
@@ -191,5 +235,61 @@ impl<G: Dimension> MovingTriangulation<G> {
         queue.iter_mut().for_each(|v| *v = site_of[*v as usize].get());
         queue.sort_unstable();
         queue.iter_mut().for_each(|s| *s = kernel.site(SiteId::new(*s)).id.get());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::delaunay::{Dimension, Level, Plane, Space};
+    use crate::ids::{SiteId, VertexId};
+    use crate::motion::{Algorithm, MovingTriangulation, Options};
+    use crate::predicates::squared_distance;
+    use crate::random::Rng;
+
+    /// Of more vertices than a cache near the processor holds some go anywhere, or only to near places. Returns the queue's
+    /// sites, and how far one goal is from the next in the mean, in units of the box.
+    fn queue_of_some<G: Dimension>(reach: f64) -> (Vec<SiteId>, f64) {
+        let rng = &mut Rng::new(1);
+        let n = 50_000;
+        let mut points = vec![G::Point::default(); n];
+        points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = rng.unit()));
+        let options = Options { algorithm: Algorithm::PlacementFlips, ..Options::default() };
+        let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
+        assert!(t.kernel.is_far());
+        for (v, p) in VertexId::range(0..n).zip(&points).step_by(29) {
+            let mut goal = *p;
+            (0..G::D).for_each(|axis| goal[axis] += reach * (rng.unit() - p[axis]));
+            t.move_vertices(&[v], &[goal]).expect("a good place");
+        }
+        t.order_queue();
+        let goals: Vec<_> =
+            t.staging.vertices().iter().map(|&v| (t.site_of[v], t.staging.positions()[v])).collect();
+        let between = |w: &[(SiteId, G::Point)]| squared_distance(&w[0].1, &w[1].1).sqrt();
+        let mean = goals.windows(2).map(between).sum::<f64>() / goals.len() as f64;
+        t.commit_timestamp().expect("room");
+        assert_eq!(t.validate(Level::Delaunay), Ok(()));
+        let mut listed: Vec<_> = goals.iter().map(|&(s, _)| s).collect();
+        let queue = listed.clone();
+        listed.sort_unstable();
+        listed.dedup();
+        assert_eq!(listed.len(), n.div_ceil(29));
+        (queue, mean)
+    }
+
+    fn leapers_are_placed_in_the_order_of_their_goals<G: Dimension>() {
+        let (queue, mean) = queue_of_some::<G>(1.0);
+        assert!(!queue.is_sorted() && mean < 0.12, "{mean}");
+        let (queue, _) = queue_of_some::<G>(1e-3);
+        assert!(queue.is_sorted());
+    }
+
+    #[test]
+    fn leapers_are_placed_in_the_order_of_their_goals_in_the_plane() {
+        leapers_are_placed_in_the_order_of_their_goals::<Plane>();
+    }
+
+    #[test]
+    fn leapers_are_placed_in_the_order_of_their_goals_in_space() {
+        leapers_are_placed_in_the_order_of_their_goals::<Space>();
     }
 }

@@ -14,6 +14,8 @@ pub struct Flipper<'t, 's, G: Dimension> {
     pub(in crate::delaunay) filter: &'t StaticFilter,
     pub(in crate::delaunay) sites: Sites<'t, G>,
     pub(in crate::delaunay) cells: &'t mut CellRange<'s, G::Corners>,
+    /// Whether the sites, too, are to be asked for in advance.
+    pub(in crate::delaunay) are_sites_far: bool,
 }
 
 impl<G: Dimension> Flipper<'_, '_, G> {
@@ -53,14 +55,27 @@ impl<G: Dimension> Flipper<'_, '_, G> {
         }
     }
 
-    /// Asks for the cells of the suspects that will be taken after the next ones, which are the last.
+    /// Asks for the cells of the suspects that will be taken after the next ones, which are the last, and for the sites.
     #[inline(always)]
     fn prefetch(&self, suspects: &[Facet]) {
-        let Some(&next) = suspects.last_chunk::<{ 3 * LANES }>() else { return };
+        let Some(&next) = suspects.last_chunk::<{ 4 * LANES }>() else { return };
         next[..LANES].iter().for_each(|facet| self.cells.prefetch(facet.cell()));
         for facet in &next[LANES..2 * LANES] {
             if let Ok(cell) = self.cells.cell(facet.cell()) {
                 self.cells.prefetch(cell.neighbour(facet.index()).cell());
+            }
+        }
+        if !self.are_sites_far {
+            return;
+        }
+        for facet in &next[2 * LANES..3 * LANES] {
+            if let Ok(cell) = self.cells.cell(facet.cell())
+                && !cell.is_free()
+            {
+                cell.corners.as_ref().iter().for_each(|&s| self.sites.prefetch(s));
+                if let Ok(apex) = self.cells.apex(cell.neighbour(facet.index())) {
+                    self.sites.prefetch(apex);
+                }
             }
         }
     }

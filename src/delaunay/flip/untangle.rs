@@ -202,19 +202,21 @@ impl<G: Dimension> Delaunay<G> {
         failures: &mut Failures,
         take_back: TakeBack<'_, G>,
     ) -> Result<bool> {
-        let n_listed = failures.cells.len();
+        let (n_listed, mut have_all) = (failures.cells.len(), true);
         for k in 0..untangling.cells.len() {
             let c = untangling.cells[k];
             if self.is_positive(c) || self.is_flat(c) {
                 continue;
             }
             let corners = self.complex.cell(c).corners;
-            let Some(s) = take_back(self, corners.as_ref())? else { return Ok(false) };
-            self.check_star_from(c, s, failures)?;
+            match take_back(self, corners.as_ref())? {
+                Some(s) => self.check_star_from(c, s, failures)?,
+                None => have_all = false,
+            }
         }
         memory::append(&mut untangling.cells, &failures.cells[n_listed..])?;
         failures.cells.truncate(n_listed);
-        Ok(true)
+        Ok(have_all)
     }
 
     /// Takes a vertex back at each ridge that is stuck. Their stars are not looked at: what has been exchanged is going to
@@ -237,10 +239,14 @@ impl<G: Dimension> Delaunay<G> {
         inner: &G::Point,
         most_hard: usize,
     ) -> Result<Turned> {
+        let is_far = self.is_far();
         loop {
             let before = untangling.flips.n_flips;
             let (mut n_left, mut n_hard) = (0, 0);
             for k in 0..untangling.cells.len() {
+                if is_far {
+                    self.prefetch_around_cells(&untangling.cells, k);
+                }
                 let c = untangling.cells[k];
                 if !self.is_finite(c) || self.is_positive(c) {
                     continue;

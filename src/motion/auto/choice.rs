@@ -242,23 +242,25 @@ impl Auto {
     fn is_too_expensive<G: Dimension>(
         &self,
         n: usize,
-        n_swept: u64,
+        (n_swept, slowdown): (u64, f64),
         report: &CommitReport,
         [before, after]: [Evaluations; 2],
     ) -> bool {
         let (costs, done) = (&constants::<G>().costs, after.since(before));
         let certified = done.certificates.saturating_sub(n_swept) as f64 * costs.certified;
-        let spent = n as f64 * costs.sweep + costs.of(report.placements, done).max(certified);
+        let counted = costs.of(report.placements, done).max(certified);
+        let spent = n as f64 * costs.sweep + slowdown * counted;
         // While it is not known it counts as equal.
         let exact_of_rebuild = self.exact_of_rebuild.unwrap_or(done.exact);
         spent > n as f64 * costs.rebuilt + exact_of_rebuild as f64 * costs.exact
     }
 
-    /// Draws conclusions from a repair, for `n` vertices, of which the sweep has checked `n_swept` certificates.
+    /// Draws conclusions from a repair, for `n` vertices, of which the sweep has checked so many certificates, and which
+    /// takes so many times as long as counts tell.
     pub(super) fn learn<G: Dimension>(
         &mut self,
         n: usize,
-        n_swept: u64,
+        swept: (u64, f64),
         report: &CommitReport,
         repair: &Repair,
         evaluations: [Evaluations; 2],
@@ -274,7 +276,7 @@ impl Auto {
             // All but the sweep's.
             self.exact_of_rebuild = Some(after.since(before).exact.saturating_sub(repair.exact_of_sweep()));
         }
-        if report.rebuilds > 0 || self.is_too_expensive::<G>(n, n_swept, report, evaluations) {
+        if report.rebuilds > 0 || self.is_too_expensive::<G>(n, swept, report, evaluations) {
             self.rebuilds = self.last_rebuilds;
             let more = constants.rebuilds_growth * self.last_rebuilds + 1;
             self.last_rebuilds = more.min(constants.max_rebuilds);

@@ -43,12 +43,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         memory::made(&mut self.repair)?.set_limit(self.auto.limit());
         let repaired = self.commit_by_repair(given, report);
-        let evaluations = [before, self.evaluations()];
+        let (evaluations, slowdown) = ([before, self.evaluations()], self.slowdown());
         let repair = memory::made(&mut self.repair)?;
         repair.set_limit(None);
         repaired?;
-        let n_swept = self.kernel.n_certificates();
-        self.auto.learn::<G>(self.n_present, n_swept, report, repair, evaluations);
+        let swept = (self.kernel.n_certificates(), slowdown);
+        self.auto.learn::<G>(self.n_present, swept, report, repair, evaluations);
         Ok(())
     }
 

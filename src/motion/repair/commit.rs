@@ -109,7 +109,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
-        let most = self.n_present / constants.rebuilt_per_placement;
+        let per_placement = self.slowdown() * constants.rebuilt_per_placement as f64;
+        let most = (self.n_present as f64 / per_placement) as usize;
         if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.n_present) {
             self.take_all_back(repair)?;
             return Ok(Mending::Mended);
@@ -134,7 +135,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             + CERTIFICATES_PER_EXACT * exact_of_rebuild;
         // All facets of a star that is taken back are listed.
         let n_failing = repair.failures.facets.len();
-        if self.take_leapers_back(repair, most)? == Prospect::TooMuch {
+        if self.take_leapers_back(repair, most)? == Prospect::TooMuch
+            || !self.is_worth_untangling(repair, n_failing)
+        {
             return Ok(Mending::TooMuch);
         }
         let mut is_triangulation = repair.failures.is_triangulation();
@@ -340,6 +343,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         let applied = vertices.len();
         vertices.append(&mut repair.places.queue);
         self.staging.set_applied(applied);
-        self.order_queue_by_site();
+        self.order_queue();
     }
 }

@@ -7,9 +7,10 @@
 //! | after it | those of all cells |
 //! | while vertices are placed | what those placed so far have cost |
 //!
-//! On random points a repair takes as long as a rebuild where about every seventh facet in space, or every fifth in
-//! the plane, fails: more and more vertices have to be placed then. In space it may be every third where hardly a cell is
-//! inverted, or there are ties and flips untangle the cells. That holds if what fails is in many small clusters of cells,
+//! On random points a repair takes as long as a rebuild where about every sixth facet in space, or every eighth in
+//! the plane, fails: more and more cells are inverted, and vertices have to be placed, then. In space it may be every third
+//! where hardly a cell is inverted, or there are ties and flips untangle the cells. Both come sooner where caches do not
+//! hold all. That holds if what fails is in many small clusters of cells,
 //! as in the cubes of a lattice. In large ones, of hundreds of vertices nearly on a sphere, flips get stuck, or evaluate
 //! the certificates of a cluster again and again: then a repair takes longer when one facet in seventy fails. So some
 //! clusters are gathered.
@@ -59,7 +60,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Sweeps all cells, of which `most` may fail, unless a sample shows what to do.
     pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
         // Of a whole staging all applied, the positions staged are now those before.
-        let before = self.staging.others_applied().then_some(self.staging.positions());
+        let has_rest = 4 * repair.places.n_new <= 3 * self.n_present;
+        let before = (has_rest && self.staging.others_applied()).then_some(self.staging.positions());
         let n_cells = self.kernel.complex().n_finite() as f64;
         repair.was_foreseen = true;
         let start = exact_calls();
@@ -78,7 +80,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let start = exact_calls();
         let most = repair.limit.map_or(most, |limit| most.min((limit * n_cells) as usize));
-        let before = self.staging.others_applied().then_some(self.staging.positions());
+        let before = (has_rest && self.staging.others_applied()).then_some(self.staging.positions());
         let is_done = self.kernel.sweep(&mut repair.failures, most, before)?;
         let found = Findings::of(&repair.failures, exact_calls() - start, 1.0);
         let prospect = self.prospect(found, repair);
@@ -94,28 +96,46 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// What to do about these findings.
     fn prospect(&mut self, found: Findings, repair: &Repair) -> Prospect {
         let constants = constants::<G>();
+        let slowdown = self.slowdown();
         let (n, n_moved) = (self.n_present as f64, repair.places.n_new as f64);
         let n_cells = self.kernel.complex().n_finite() as f64;
         if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
             return Prospect::TooMuch;
         }
-        let are_few = n_moved * constants.costs.placed < n * constants.costs.rebuilt;
+        let are_few = slowdown * n_moved * constants.costs.placed < n * constants.costs.rebuilt;
         if are_few && found.all_failing() > constants.failures_per_moved * n_moved {
             return Prospect::Placeable;
+        }
+        let has_ties = found.exact > constants.exact_of_ties * n_cells;
+        let are_few_inverted = found.inverted * constants.failing_per_inverted < found.failing;
+        let most =
+            if has_ties || are_few_inverted { constants.max_failing_of_small } else { constants.max_failing };
+        if slowdown * found.failing > most * n_cells {
+            return Prospect::TooMuch;
         }
         if found.failing <= constants.max_failing_of_large * n_cells {
             return Prospect::Mendable;
         }
-        let has_ties = found.exact > constants.exact_of_ties * n_cells;
         let joint = if has_ties { Joint::Uncertain } else { Joint::Failing };
-        let most = if self.kernel.mean_cluster(&repair.failures.facets, joint) > constants.cells_of_large {
-            constants.max_failing_of_large
-        } else if has_ties || found.inverted * constants.failing_per_inverted < found.failing {
-            constants.max_failing_of_small
-        } else {
-            constants.max_failing
-        };
-        if found.failing > most * n_cells { Prospect::TooMuch } else { Prospect::Mendable }
+        let is_large = self.kernel.mean_cluster(&repair.failures.facets, joint) > constants.cells_of_large;
+        if is_large { Prospect::TooMuch } else { Prospect::Mendable }
+    }
+
+    /// Whether it is worth untangling the cells that are inverted still once leaping vertices are back, where a sweep has
+    /// found so many failing facets.
+    pub(super) fn is_worth_untangling(&self, repair: &mut Repair, n_failing: usize) -> bool {
+        let constants = constants::<G>();
+        let n_cells = self.kernel.complex().n_finite() as f64;
+        let has_ties = repair.exact as f64 > constants.exact_of_ties * n_cells;
+        let inverted = repair.failures.cells.len() as f64;
+        let failing = self.slowdown() * (n_failing as f64 + constants.failing_for_inverted * inverted);
+        repair.was_foreseen = !has_ties && failing > constants.max_failing_of_small * n_cells;
+        !repair.was_foreseen
+    }
+
+    /// How much longer repair and placement take, beside rebuilding, than where caches hold all.
+    pub(in crate::motion) fn slowdown(&self) -> f64 {
+        if self.kernel.is_in_memory() { constants::<G>().slower_in_memory } else { 1.0 }
     }
 }
 
@@ -136,8 +156,9 @@ pub(in crate::motion) struct Budget {
     /// Vertices still to be relocated, and of how many.
     left: usize,
     all: usize,
-    /// What a rebuild would cost.
+    /// What a rebuild would cost, and how many times what counts tell the relocations do.
     rebuild: f64,
+    slowdown: f64,
 }
 
 impl Budget {
@@ -148,11 +169,12 @@ impl Budget {
         exact: u64,
         evaluations: Evaluations,
         report: &CommitReport,
+        slowdown: f64,
     ) -> Self {
         let constants = constants::<G>();
         let costs = &constants.costs;
         let rebuild = n as f64 * costs.rebuilt + constants.exact_per_swept * exact as f64 * costs.exact;
-        Budget { evaluations, placements: report.placements, left, all: left, rebuild }
+        Budget { evaluations, placements: report.placements, left, all: left, rebuild, slowdown }
     }
 
     /// Counts a relocation; whether all others, if they cost what the first ones have, cost more than a rebuild.
@@ -166,7 +188,8 @@ impl Budget {
         let evaluated = now.since(self.evaluations);
         // Flips count by certificates; those of placements are in what these cost.
         let certified = evaluated.certificates as f64 * constants.costs.certified;
-        let spent = constants.costs.of(report.placements - self.placements, evaluated).max(certified);
+        let counted = constants.costs.of(report.placements - self.placements, evaluated).max(certified);
+        let spent = self.slowdown * counted;
         let done = (self.all - self.left) as f64;
         spent > constants.min_share_spent * self.rebuild
             && spent / done * self.left as f64 > constants.max_placing * self.rebuild

@@ -5,8 +5,9 @@ use super::places::At;
 use crate::complex::{Corners, INFINITE};
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::{SiteId, VertexId};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
 use crate::motion::MovingTriangulation;
 use crate::motion::attempt::Prospect;
 use crate::predicates::squared_distance;
@@ -15,7 +16,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Takes the vertices of inverted cells back that have gone farther than the cell reaches: they have left their stars,
     /// and would have to be placed after much untangling. Too much if more than `most` are back.
     pub(super) fn take_leapers_back(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
+        let is_far = self.kernel.is_far();
         for k in 0..repair.failures.cells.len() {
+            if is_far {
+                self.prefetch_old_places(&repair.failures.cells, k);
+            }
             let corners = self.kernel.complex().cell(repair.failures.cells[k]).corners;
             let Some(s) = self.farthest(repair, corners.as_ref()) else { continue };
             let site = self.kernel.site(s);
@@ -36,6 +41,23 @@ impl<G: Dimension> MovingTriangulation<G> {
             cells.dedup();
         }
         Ok(Prospect::Mendable)
+    }
+
+    /// Asks for where the corners of the listed cells after the `k`-th one are, and have been.
+    #[inline(always)]
+    fn prefetch_old_places(&self, cells: &[Slot], k: usize) {
+        let complex = self.kernel.complex();
+        if let Some(&c) = cells.get(k + 24) {
+            complex.prefetch(c);
+        }
+        if let Some(&c) = cells.get(k + 16) {
+            self.kernel.prefetch_corners(c);
+        }
+        if let Some(&c) = cells.get(k + 8) {
+            for &s in complex.cell(c).corners.as_ref() {
+                prefetch(self.staging.positions(), self.kernel.site(s).id.index());
+            }
+        }
     }
 
     /// Takes vertices back until every cell is positive and the hull convex; too much if more than `most` are back.
