@@ -233,10 +233,16 @@ public:
             for (const unsigned displacement : leaps)
                 if (sizes_.has(leap_name(displacement))) leap(dimension, displacement);
             for (std::size_t i = 0; i < std::size(drifts); ++i)
-                if (sizes_.has(drift_name(drifts[i]))) drift(dimension, drifts[i], wanted_of_drifts[i]);
+                if (sizes_.has(drift_name(drifts[i]))) {
+                    drift(dimension, sizes_.n_relocated, sizes_.n_rounds, drifts[i], wanted_of_drifts[i]);
+                    // Where no cache holds all, every cell that changes takes longer.
+                    drift(dimension, sizes_.n_committed, sizes_.n_commits, drifts[i], wanted_of_drifts[i]);
+                }
             for (const double share : leaping_shares)
                 for (const bool others_move : {false, true})
-                    if (sizes_.has(leaping_name(share, others_move))) leap_by_share(dimension, share, others_move);
+                    if (sizes_.has(leaping_name(share, others_move)))
+                        for (const std::size_t n_points : {sizes_.n_relocated, sizes_.n_tested})
+                            leap_by_share(dimension, n_points, share, others_move);
             for (const PointSet &set : point_sets())
                 if (set.dimension == dimension && is_left(set))
                     for (const char *way : {"tenth", "shear"})
@@ -325,22 +331,26 @@ private:
         add(name.c_str(), series, done[1], done[2], wanted_of_rebuilding);
     }
 
-    void drift(unsigned dimension, double displacement, double wanted) {
-        const std::size_t last = n_warm + sizes_.n_rounds;
+    void drift(unsigned dimension, std::size_t n_points, std::size_t n_timestamps, double displacement,
+               double wanted) {
+        const std::size_t last = n_warm + n_timestamps;
         const std::string name = drift_name(displacement);
-        const Series series = moving_points(name, dimension, sizes_.n_relocated, From::where_they_were,
-                                            displacement, last, seed_);
-        auto done = replay(series, {entrant("deldrift/rebuilding", 1, last), entrant("deldrift/auto", 1, last)}, 1,
-                           checks_of(series), progress_);
+        const Series series =
+            moving_points(name, dimension, n_points, From::where_they_were, displacement, last, seed_);
+        auto done = replay(series,
+                           {entrant("deldrift/rebuilding", 1, last), entrant("deldrift/auto", 1, last),
+                            entrant("deldrift/rebuilding", 2, last), entrant("deldrift/auto", 2, last)},
+                           1, checks_of(series), progress_);
         // Auto tries to mend now and then.
         for (Outcome &outcome : done) outcome.ns = outcome.mean_ns;
         add(name.c_str(), series, done[0], done[1], wanted);
+        // Threads rebuild faster than they mend.
+        add(name.c_str(), series, done[2], done[3], wanted_of_rebuilding);
     }
 
-    void leap_by_share(unsigned dimension, double share, bool others_move) {
+    void leap_by_share(unsigned dimension, std::size_t n_points, double share, bool others_move) {
         const std::string name = leaping_name(share, others_move);
-        add_beside_best(name,
-                        leaping_points(name, dimension, sizes_.n_relocated, share, others_move, seed_));
+        add_beside_best(name, leaping_points(name, dimension, n_points, share, others_move, seed_));
     }
 
     void leave(const PointSet &set, const std::string &way) {

@@ -9,7 +9,7 @@ use super::{Delaunay, Dimension, IndexSet};
 use crate::complex::{Cell, Complex, Corners};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
-use crate::machine::prefetch::{ALL_CACHES_BYTES, CACHE_BYTES, prefetch};
+use crate::machine::prefetch::{CACHE_BYTES, prefetch};
 use crate::predicates::StaticFilter;
 
 /// Cells between those of which one thing and the next are asked for.
@@ -128,9 +128,9 @@ impl<G: Dimension> Delaunay<G> {
         size_of_val(&*self.sites) > CACHE_BYTES
     }
 
-    /// Whether sites and cells are too many for any cache.
-    pub(crate) fn is_in_memory(&self) -> bool {
-        self.complex.n_slots() * size_of::<Cell<G::Corners>>() + size_of_val(&*self.sites) > ALL_CACHES_BYTES
+    /// Bytes of sites and cells.
+    pub(crate) fn bytes_read(&self) -> usize {
+        self.complex.n_slots() * size_of::<Cell<G::Corners>>() + size_of_val(&*self.sites)
     }
 
     /// Asks for what a relocation of a site reads first, besides its star: the sites of the link and the cells beyond

@@ -179,6 +179,11 @@ pub(super) fn end_from(part: usize, n_parts: usize) -> usize {
 }
 
 impl<G: Dimension> Delaunay<G> {
+    /// How many threads build a triangulation of this number of sites.
+    pub(crate) fn build_threads(&self, n: usize) -> usize {
+        self.threads.for_work(n, G::BUILT_AT_LEAST, BUILT_IF_ASKED)
+    }
+
     /// Items at these places in parts for as many threads as pay, each along a Hilbert curve. The parts start
     /// where the sites do if the first one is [`FIRST`].
     pub(super) fn in_parts<'p>(
@@ -187,7 +192,7 @@ impl<G: Dimension> Delaunay<G> {
         n: usize,
         point: impl Fn(u32) -> &'p G::Point + Copy + Sync,
     ) -> Result<(Parts, Vec<Vec<Keyed>>)> {
-        let n_parts = self.threads.for_work(n, G::BUILT_AT_LEAST, BUILT_IF_ASKED);
+        let n_parts = self.build_threads(n);
         let mut sorted = Vec::new();
         memory::reserve_exact(&mut sorted, n_parts)?;
         if n_parts == 1 {

@@ -5,9 +5,6 @@ pub(crate) use crate::simd::prefetch_at;
 /// Bytes of an array above which its entries are asked for in advance: as many as a cache near the processor has.
 pub(crate) const CACHE_BYTES: usize = 1 << 20;
 
-/// Bytes that a processor's last cache holds for one of those that share it.
-pub(crate) const ALL_CACHES_BYTES: usize = 16 << 20;
-
 /// How many entries in advance to ask.
 pub(crate) const AHEAD: usize = 24;
 

@@ -119,9 +119,10 @@ pub struct Constants {
     /// are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back. In the plane
     /// flips are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
     pub max_failing_of_small: f64,
-    /// Once leaping vertices are back, a cell that is inverted still counts as this number of failing facets, unless there
-    /// are ties: the larger part is untangled, and for the others a vertex is placed. With more than the number above
-    /// repair and rebuild take as long.
+    /// Rebuild when more facets fail than this number for each finite cell once leaping vertices are back, cells that are
+    /// inverted still counted as well, unless there are ties: most are untangled, and for the others a vertex is placed.
+    pub max_failing_with_inverted: f64,
+    /// As how many failing facets an inverted cell counts.
     pub failing_for_inverted: f64,
     /// The same where the clusters of cells that hang together by what fails are large. Measured with spheres, spheres
     /// within each other and cylinders.
@@ -137,9 +138,15 @@ pub struct Constants {
     pub sample_margin: f64,
     /// Exact evaluations of a rebuild for each one of a sweep, measured with sheared lattices.
     pub exact_per_swept: f64,
-    /// Where sites and cells are more than a cache holds, repair and placement take this number of times as long, beside
-    /// rebuilding, which reads them in order.
-    pub slower_in_memory: f64,
+    /// With each doubling of what sites and cells take beyond `near_bytes` repair and placement take longer by this share
+    /// of what they do where caches hold all, beside rebuilding, which reads them in order.
+    pub slower_per_doubling: f64,
+    /// Bytes of sites and cells below which that makes no difference.
+    pub near_bytes: usize,
+    /// What one thread does alone, as a share: of a build in parts, ...
+    pub built_alone: f64,
+    /// ... and of a repair.
+    pub repaired_alone: f64,
     /// Placing vertices is given up where, by what is counted, those left would cost more than this number of rebuilds.
     /// (Among ties in space placing takes several times as long as the counts tell.)
     pub max_placing: f64,
@@ -255,12 +262,16 @@ const PLANE: Constants = Constants {
     max_failing_of_small: 0.3,
     max_failing_of_large: 0.3,
     cells_of_large: 7.0,
+    max_failing_with_inverted: 0.37,
     failing_for_inverted: 3.0,
     failing_per_inverted: 80.0,
     exact_of_ties: 0.1,
     sample_margin: 1.25,
     exact_per_swept: 4.0,
-    slower_in_memory: 1.5,
+    slower_per_doubling: 0.11,
+    near_bytes: 4 << 20,
+    built_alone: 0.12,
+    repaired_alone: 0.3,
     max_placing: 2.0,
     min_share_spent: 1.0 / 16.0,
     max_share_beyond_alone: 0.25,
@@ -298,6 +309,7 @@ const SPACE: Constants = Constants {
     certified_per_vertex: 80,
     max_failing: 0.36,
     max_failing_of_small: 0.7,
+    max_failing_with_inverted: 0.72,
     failing_for_inverted: 22.0,
     max_failing_of_large: 0.03,
     exact_per_swept: 2.0,

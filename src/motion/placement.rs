@@ -69,7 +69,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// a sweep with `exact` exact evaluations, or none.
     pub(super) fn place_staged_within_budget(&mut self, exact: u64, report: &mut CommitReport) -> Result<()> {
         let left = self.staging.vertices().len() - self.staging.applied();
-        let slowdown = self.slowdown();
+        let slowdown = self.slowdown(1.0);
         let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report, slowdown);
         self.place_staged(report, |t, v, new, report| {
             let placed = t.relocate(v, new, Shortcut::Flips, report)?;

@@ -43,7 +43,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         memory::made(&mut self.repair)?.set_limit(self.auto.limit());
         let repaired = self.commit_by_repair(given, report);
-        let (evaluations, slowdown) = ([before, self.evaluations()], self.slowdown());
+        let (evaluations, slowdown) =
+            ([before, self.evaluations()], self.slowdown(constants::<G>().repaired_alone));
         let repair = memory::made(&mut self.repair)?;
         repair.set_limit(None);
         repaired?;

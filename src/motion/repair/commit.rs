@@ -109,7 +109,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
-        let per_placement = self.slowdown() * constants.rebuilt_per_placement as f64;
+        let per_placement = self.slowdown(constants.repaired_alone) * constants.rebuilt_per_placement as f64;
         let most = (self.n_present as f64 / per_placement) as usize;
         if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.n_present) {
             self.take_all_back(repair)?;

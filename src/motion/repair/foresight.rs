@@ -7,13 +7,13 @@
 //! | after it | those of all cells |
 //! | while vertices are placed | what those placed so far have cost |
 //!
-//! On random points a repair takes as long as a rebuild where about every sixth facet in space, or every eighth in
+//! On random points a repair takes as long as a rebuild where about every sixth facet in space, or every seventh in
 //! the plane, fails: more and more cells are inverted, and vertices have to be placed, then. In space it may be every third
 //! where hardly a cell is inverted, or there are ties and flips untangle the cells. Both come sooner where caches do not
-//! hold all. That holds if what fails is in many small clusters of cells,
-//! as in the cubes of a lattice. In large ones, of hundreds of vertices nearly on a sphere, flips get stuck, or evaluate
-//! the certificates of a cluster again and again: then a repair takes longer when one facet in seventy fails. So some
-//! clusters are gathered.
+//! hold all, and where several threads rebuild, as one of them does much of a repair. All that holds if what fails is in
+//! many small clusters of cells, as in the cubes of a lattice. In large ones, of hundreds of vertices nearly on a sphere,
+//! flips get stuck, or evaluate the certificates of a cluster again and again: then a repair takes longer when one facet in
+//! seventy fails. So some clusters are gathered.
 //!
 //! Where some vertices leave a lattice, or leap, nearly all of their facets fail. Most of these vertices would have to be
 //! placed in the end: they are placed at once.
@@ -96,13 +96,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// What to do about these findings.
     fn prospect(&mut self, found: Findings, repair: &Repair) -> Prospect {
         let constants = constants::<G>();
-        let slowdown = self.slowdown();
         let (n, n_moved) = (self.n_present as f64, repair.places.n_new as f64);
         let n_cells = self.kernel.complex().n_finite() as f64;
         if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
             return Prospect::TooMuch;
         }
-        let are_few = slowdown * n_moved * constants.costs.placed < n * constants.costs.rebuilt;
+        let are_few = self.slowdown(1.0) * n_moved * constants.costs.placed < n * constants.costs.rebuilt;
         if are_few && found.all_failing() > constants.failures_per_moved * n_moved {
             return Prospect::Placeable;
         }
@@ -110,7 +109,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let are_few_inverted = found.inverted * constants.failing_per_inverted < found.failing;
         let most =
             if has_ties || are_few_inverted { constants.max_failing_of_small } else { constants.max_failing };
-        if slowdown * found.failing > most * n_cells {
+        if found.failing > most * n_cells {
             return Prospect::TooMuch;
         }
         if found.failing <= constants.max_failing_of_large * n_cells {
@@ -128,14 +127,21 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n_cells = self.kernel.complex().n_finite() as f64;
         let has_ties = repair.exact as f64 > constants.exact_of_ties * n_cells;
         let inverted = repair.failures.cells.len() as f64;
-        let failing = self.slowdown() * (n_failing as f64 + constants.failing_for_inverted * inverted);
-        repair.was_foreseen = !has_ties && failing > constants.max_failing_of_small * n_cells;
+        let failing = n_failing as f64 + constants.failing_for_inverted * inverted;
+        let most = constants.max_failing_with_inverted / self.slowdown(constants.repaired_alone);
+        repair.was_foreseen = !has_ties && failing > most * n_cells;
         !repair.was_foreseen
     }
 
-    /// How much longer repair and placement take, beside rebuilding, than where caches hold all.
-    pub(in crate::motion) fn slowdown(&self) -> f64 {
-        if self.kernel.is_in_memory() { constants::<G>().slower_in_memory } else { 1.0 }
+    /// How many times as long as where one thread does all and caches hold all something takes beside rebuilding, of
+    /// which one thread does this share alone.
+    pub(in crate::motion) fn slowdown(&self, alone: f64) -> f64 {
+        let constants = constants::<G>();
+        let doublings = (self.kernel.bytes_read() as f64 / constants.near_bytes as f64).log2().max(0.0);
+        let n_threads = self.kernel.build_threads(self.n_present) as f64;
+        let shortened = |alone: f64| alone + (1.0 - alone) / n_threads;
+        (1.0 + constants.slower_per_doubling * doublings) * shortened(alone)
+            / shortened(constants.built_alone)
     }
 }
 
@@ -193,5 +199,63 @@ impl Budget {
         let done = (self.all - self.left) as f64;
         spent > constants.min_share_spent * self.rebuild
             && spent / done * self.left as f64 > constants.max_placing * self.rebuild
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::delaunay::{Dimension, Level, Plane, Space};
+    use crate::motion::{Algorithm, MovingTriangulation, Options};
+    use crate::random::Rng;
+
+    fn random<G: Dimension>(
+        n: usize,
+        threads: u32,
+        rng: &mut Rng,
+    ) -> (MovingTriangulation<G>, Vec<G::Point>) {
+        let side = (n as f64).powf(1.0 / G::D as f64);
+        let mut points = vec![G::Point::default(); n];
+        points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = side * rng.unit()));
+        let options = Options { algorithm: Algorithm::Repair, threads, ..Options::default() };
+        (MovingTriangulation::new(&points, options).expect("room"), points)
+    }
+
+    /// How many of five commits, in which all vertices go up to this far along each axis, are rebuilt.
+    fn n_rebuilt<G: Dimension>(reach: f64) -> u64 {
+        let rng = &mut Rng::new(1);
+        let (mut t, mut points) = random::<G>(3_000, 1, rng);
+        let mut n_rebuilt = 0;
+        for _ in 0..5 {
+            for p in &mut points {
+                (0..G::D).for_each(|axis| p[axis] += 2.0 * reach * (rng.unit() - 0.5));
+            }
+            n_rebuilt += t.commit_positions(&points).expect("room").rebuilds;
+            assert_eq!(t.validate(Level::Delaunay), Ok(()));
+        }
+        n_rebuilt
+    }
+
+    #[test]
+    fn what_takes_longer_than_a_rebuild_is_rebuilt() {
+        assert_eq!([0.2, 0.4].map(n_rebuilt::<Plane>), [0, 5]);
+        assert_eq!([0.08, 0.2].map(n_rebuilt::<Space>), [0, 5]);
+    }
+
+    /// Rebuilding gains by threads and by order.
+    #[test]
+    fn repair_is_slower_beside_several_threads_and_where_caches_do_not_hold_all() {
+        let rng = &mut Rng::new(1);
+        let slowdowns = |n, threads, rng: &mut Rng| {
+            let (t, _) = random::<Plane>(n, threads, rng);
+            [0.0, 0.3, 1.0].map(|alone| t.slowdown(alone))
+        };
+        let few = slowdowns(2_000, 1, rng);
+        assert_eq!(few, [1.0; 3]);
+        let many = slowdowns(80_000, 1, rng);
+        assert!(many[0] > 1.0 && many == [many[0]; 3], "{many:?}");
+        if std::thread::available_parallelism().is_ok_and(|n| n.get() > 1) {
+            let [none, some, all] = slowdowns(80_000, 2, rng);
+            assert!(none < many[0] && many[0] < some && some < all, "{none} {some} {all}");
+        }
     }
 }
