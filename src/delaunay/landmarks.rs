@@ -210,10 +210,10 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Whether a place is so far from a site that is in cells that others are between them.
+    /// Whether a site is in cells, and a place so far from it that others are between them.
     pub(crate) fn is_away(&self, s: SiteId, q: &G::Point) -> bool {
         let site = self.site(s);
-        if self.complex.is_free(site.cell) {
+        if !is_in_cells(site) || self.complex.is_free(site.cell) {
             return false;
         }
         // The last corner of a ghost cell is the ghost vertex.

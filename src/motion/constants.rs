@@ -119,16 +119,16 @@ pub struct Constants {
     /// are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back. In the plane
     /// flips are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
     pub max_failing_of_small: f64,
-    /// Rebuild when more facets fail than this number for each finite cell once leaping vertices are back, cells that are
-    /// inverted still counted as well, unless there are ties: most are untangled, and for the others a vertex is placed.
-    pub max_failing_with_inverted: f64,
-    /// As how many failing facets an inverted cell counts.
-    pub failing_for_inverted: f64,
     /// The same where the clusters of cells that hang together by what fails are large. Measured with spheres, spheres
     /// within each other and cylinders.
     pub max_failing_of_large: f64,
     /// A cluster of this number of cells is large.
     pub cells_of_large: f64,
+    /// Rebuild when more facets fail than this number for each finite cell once leaping vertices are back, cells that are
+    /// inverted still counted as well, unless there are ties: most are untangled, and for the others a vertex is placed.
+    pub max_failing_with_inverted: f64,
+    /// As how many failing facets an inverted cell counts.
+    pub failing_for_inverted: f64,
     /// Hardly a cell is inverted where so many times as many facets fail, and more.
     pub failing_per_inverted: f64,
     /// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random

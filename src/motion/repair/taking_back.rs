@@ -12,6 +12,9 @@ use crate::motion::MovingTriangulation;
 use crate::motion::attempt::Prospect;
 use crate::predicates::squared_distance;
 
+/// Cells between those of which one thing and the next are asked for.
+const STEP: usize = 8;
+
 impl<G: Dimension> MovingTriangulation<G> {
     /// Takes the vertices of inverted cells back that have gone farther than the cell reaches: they have left their stars,
     /// and would have to be placed after much untangling. Too much if more than `most` are back.
@@ -47,13 +50,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(always)]
     fn prefetch_old_places(&self, cells: &[Slot], k: usize) {
         let complex = self.kernel.complex();
-        if let Some(&c) = cells.get(k + 24) {
+        if let Some(&c) = cells.get(k + 3 * STEP) {
             complex.prefetch(c);
         }
-        if let Some(&c) = cells.get(k + 16) {
+        if let Some(&c) = cells.get(k + 2 * STEP) {
             self.kernel.prefetch_corners(c);
         }
-        if let Some(&c) = cells.get(k + 8) {
+        if let Some(&c) = cells.get(k + STEP) {
             for &s in complex.cell(c).corners.as_ref() {
                 prefetch(self.staging.positions(), self.kernel.site(s).id.index());
             }
