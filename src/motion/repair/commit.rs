@@ -136,7 +136,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // All facets of a star that is taken back are listed.
         let n_failing = repair.failures.facets.len();
         if self.take_leapers_back(repair, most)? == Prospect::TooMuch
-            || !self.is_worth_untangling(repair, n_failing)
+            || !self.is_worth_going_on(repair, n_failing)
         {
             return Ok(Mending::TooMuch);
         }

@@ -70,7 +70,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             let weight = slots as f64 / constants::<G>().sample_margin;
             let found = Findings::of(&repair.failures, exact_calls() - start, weight);
             match self.prospect(found, repair) {
-                Prospect::Mendable => {}
+                Prospect::Mendable => {
+                    let inverted =
+                        repair.failures.cells.iter().filter(|&&c| self.leaper(repair, c).is_none());
+                    let inverted = weight * inverted.count() as f64;
+                    if !self.is_worth_untangling(Findings { inverted, ..found }) {
+                        return Ok(Prospect::TooMuch);
+                    }
+                }
                 Prospect::TooMuch => return Ok(Prospect::TooMuch),
                 Prospect::Placeable => {
                     repair.note_findings(found, n_cells);
@@ -120,17 +127,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_large { Prospect::TooMuch } else { Prospect::Mendable }
     }
 
-    /// Whether it is worth untangling the cells that are inverted still once leaping vertices are back, where a sweep has
-    /// found so many failing facets.
-    pub(super) fn is_worth_untangling(&self, repair: &mut Repair, n_failing: usize) -> bool {
+    /// Whether mending takes less than a rebuild, where these cells are inverted still once leaping vertices are back.
+    fn is_worth_untangling(&self, found: Findings) -> bool {
         let constants = constants::<G>();
         let n_cells = self.kernel.complex().n_finite() as f64;
-        let has_ties = repair.exact as f64 > constants.exact_of_ties * n_cells;
-        let inverted = repair.failures.cells.len() as f64;
-        let failing = n_failing as f64 + constants.failing_for_inverted * inverted;
+        let has_ties = found.exact > constants.exact_of_ties * n_cells;
+        let failing = found.failing + constants.failing_for_inverted * found.inverted;
         let most = constants.max_failing_with_inverted / self.slowdown(constants.repaired_alone);
-        repair.was_foreseen = !has_ties && failing > most * n_cells;
-        !repair.was_foreseen
+        has_ties || failing <= most * n_cells
+    }
+
+    /// As above, where a sweep has found this number of failing facets, and leaping vertices are back.
+    pub(super) fn is_worth_going_on(&self, repair: &mut Repair, n_failing: usize) -> bool {
+        let (inverted, exact) = (repair.failures.cells.len() as f64, repair.exact as f64);
+        let is_worth = self.is_worth_untangling(Findings { failing: n_failing as f64, inverted, exact });
+        repair.was_foreseen = !is_worth;
+        is_worth
     }
 
     /// How many times as long as where one thread does all and caches hold all something takes beside rebuilding, of

@@ -24,13 +24,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             if is_far {
                 self.prefetch_old_places(&repair.failures.cells, k);
             }
-            let corners = self.kernel.complex().cell(repair.failures.cells[k]).corners;
-            let Some(s) = self.farthest(repair, corners.as_ref()) else { continue };
-            let site = self.kernel.site(s);
-            let old = &self.staging.positions()[site.id];
-            let gone = squared_distance(&site.point, old);
-            let mut others = corners.as_ref().iter().filter(|&&other| other != s);
-            if others.all(|&other| squared_distance(self.kernel.place(other), old) < gone) {
+            if let Some(s) = self.leaper(repair, repair.failures.cells[k]) {
                 self.take_back(repair, s)?;
                 if repair.places.queue.len() > most {
                     return Ok(Prospect::TooMuch);
@@ -44,6 +38,17 @@ impl<G: Dimension> MovingTriangulation<G> {
             cells.dedup();
         }
         Ok(Prospect::Mendable)
+    }
+
+    /// The corner of a cell that has gone farthest, if that is farther than the cell reaches.
+    pub(super) fn leaper(&self, repair: &Repair, c: Slot) -> Option<SiteId> {
+        let corners = self.kernel.complex().cell(c).corners;
+        let s = self.farthest(repair, corners.as_ref())?;
+        let site = self.kernel.site(s);
+        let old = &self.staging.positions()[site.id];
+        let gone = squared_distance(&site.point, old);
+        let mut others = corners.as_ref().iter().filter(|&&other| other != s);
+        others.all(|&other| squared_distance(self.kernel.place(other), old) < gone).then_some(s)
     }
 
     /// Asks for where the corners of the listed cells after the `k`-th one are, and have been.
