@@ -112,13 +112,10 @@ pub struct Constants {
     /// Times that cells are untangled, each time with more vertices taken back before.
     pub max_untanglings: usize,
 
-    /// Rebuild when more facets fail than this number for each finite cell, of which more than a few are inverted.
-    /// Measured with random points, uniform and in clusters, in steps of 0.01 to 0.6 spacings.
+    /// Rebuild when more facets fail than this number for each finite cell, where the clusters of cells that hang together
+    /// by what fails are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back.
+    /// In the plane flips are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
     pub max_failing: f64,
-    /// The same where hardly a cell is inverted, or ties are, and the clusters of cells that hang together by what fails
-    /// are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back. In the plane
-    /// flips are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
-    pub max_failing_of_small: f64,
     /// The same where the clusters of cells that hang together by what fails are large. Measured with spheres, spheres
     /// within each other and cylinders.
     pub max_failing_of_large: f64,
@@ -129,8 +126,6 @@ pub struct Constants {
     pub max_failing_with_inverted: f64,
     /// As how many failing facets an inverted cell counts.
     pub failing_for_inverted: f64,
-    /// Hardly a cell is inverted where so many times as many facets fail, and more.
-    pub failing_per_inverted: f64,
     /// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random
     /// points need none, those of a sheared lattice about one.)
     pub exact_of_ties: f64,
@@ -258,13 +253,11 @@ const PLANE: Constants = Constants {
     certified_per_vertex: 8,
     max_rounds: 8,
     max_untanglings: 4,
-    max_failing: 0.25,
-    max_failing_of_small: 0.3,
+    max_failing: 0.3,
     max_failing_of_large: 0.3,
     cells_of_large: 7.0,
     max_failing_with_inverted: 0.37,
     failing_for_inverted: 3.0,
-    failing_per_inverted: 80.0,
     exact_of_ties: 0.1,
     sample_margin: 1.25,
     exact_per_swept: 4.0,
@@ -307,8 +300,7 @@ const SPACE: Constants = Constants {
     failures_per_placement: 12,
     failures_per_moved: 5.0,
     certified_per_vertex: 80,
-    max_failing: 0.36,
-    max_failing_of_small: 0.7,
+    max_failing: 0.7,
     max_failing_with_inverted: 0.72,
     failing_for_inverted: 22.0,
     max_failing_of_large: 0.03,

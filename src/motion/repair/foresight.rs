@@ -8,12 +8,12 @@
 //! | while vertices are placed | what those placed so far have cost |
 //!
 //! On random points a repair takes as long as a rebuild where about every sixth facet in space, or every seventh in
-//! the plane, fails: more and more cells are inverted, and vertices have to be placed, then. In space it may be every third
-//! where hardly a cell is inverted, or there are ties and flips untangle the cells. Both come sooner where caches do not
-//! hold all, and where several threads rebuild, as one of them does much of a repair. All that holds if what fails is in
-//! many small clusters of cells, as in the cubes of a lattice. In large ones, of hundreds of vertices nearly on a sphere,
-//! flips get stuck, or evaluate the certificates of a cluster again and again: then a repair takes longer when one facet in
-//! seventy fails. So some clusters are gathered.
+//! the plane, fails: more and more cells are inverted, and vertices have to be placed, then. It may be every third, or
+//! every fifth, where hardly a cell is inverted, or there are ties and flips untangle the cells. Both come sooner where
+//! caches do not hold all, and where several threads rebuild, as one of them does much of a repair. All that holds if what
+//! fails is in many small clusters of cells, as in the cubes of a lattice. In large ones, of hundreds of vertices nearly
+//! on a sphere, flips get stuck, or evaluate the certificates of a cluster again and again: then a repair takes longer
+//! when one facet in seventy fails. So some clusters are gathered.
 //!
 //! Where some vertices leave a lattice, or leap, nearly all of their facets fail. Most of these vertices would have to be
 //! placed in the end: they are placed at once.
@@ -113,10 +113,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Prospect::Placeable;
         }
         let has_ties = found.exact > constants.exact_of_ties * n_cells;
-        let are_few_inverted = found.inverted * constants.failing_per_inverted < found.failing;
-        let most =
-            if has_ties || are_few_inverted { constants.max_failing_of_small } else { constants.max_failing };
-        if found.failing > most * n_cells {
+        if found.failing > constants.max_failing * n_cells {
             return Prospect::TooMuch;
         }
         if found.failing <= constants.max_failing_of_large * n_cells {
