@@ -5,11 +5,11 @@
 //! ```
 //!
 //! By default 1,000,000 points and 1 and 2 threads. The points are uniform in a square or cube. *Build*
-//! creates the triangulation. *Sweep* is a commit by repair of which one vertex moves, and hardly: every
-//! certificate is checked, and next to nothing is moved or mended. *Repair* moves all vertices by a
-//! thousandth of a spacing, *rebuilding* as well; *mending* is repair after moves by a fiftieth, of which most
-//! of the time goes into flips. *Leaps* are placements of one vertex in a hundred, anywhere, and *jumps* those of one
-//! in 33, up to half a spacing away, in ns per vertex that moves; they are done by one thread.
+//! creates the triangulation. *Sweep*, *repair* and *mending* are commits by repair in which all vertices move, by up to
+//! half of a billionth, a thousandth and a fiftieth of a spacing along each axis: in the first every certificate is checked
+//! and nothing mended, in the last most of the time goes into flips. *Leaps* are placements of one vertex in a hundred,
+//! anywhere, and *jumps* those of one in 33, up to half a spacing away, in ns per vertex that moves; they are done by one
+//! thread. *Rebuilding* moves no vertex, and triangulates all again.
 //! Thread counts take turns, so that whatever else the machine does falls upon all alike; printed are the median of
 //! all rounds, the least, and how many times faster the medians and the least are than with the first thread count.
 
@@ -80,17 +80,17 @@ fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] 
         t.move_all(&points).expect("finite positions");
         commit(&mut t);
     }
-    shake::<G>(&mut points[..1], 1e-6, &mut random);
-    t.move_first(&points[..1]).expect("finite positions");
-    let sweep = commit(&mut t);
     let mut commit_all = |algorithm, size, points: &mut [G::Point]| {
         shake::<G>(points, size, &mut random);
         t.move_all(points).expect("finite positions");
         t.set_algorithm(algorithm);
         commit(&mut t)
     };
+    let sweep = commit_all(Algorithm::Repair, 1e-9, &mut points);
     let repair = commit_all(Algorithm::Repair, 1e-3, &mut points);
     let mending = commit_all(Algorithm::Repair, 2e-2, &mut points);
+    // The first ones find out where to begin.
+    commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
     let leaps = commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
     let jumps = commit_few::<G>(&mut t, &mut points, 33, 1.0, &mut random);
     t.move_all(&points).expect("finite positions");

@@ -7,14 +7,21 @@
 //! and some at their old positions: two may meet that are never at the same place at a timestamp; they share a site for
 //! that while.
 //!
-//! **Threads.** One does it all. Most of a placement in space finds out what will change, and changes nothing: the walk,
-//! the zone, what fills the hole. In a prototype, which is not kept, two threads found this out ahead, for
-//! batches of vertices far from each other, and one made the changes after each batch. They were 1.3 times as fast in
-//! space where vertices leap anywhere, and no faster where they jump by half a spacing; in the plane 1.15 and 0.8
-//! times (300,000 points, `examples/thread_scaling`). The shares alone would allow 1.6 times in space: the rest
-//! presumably goes where threads wait for each other, twice in each batch, and where one changes what another has in
-//! its cache. Two processes side by side place 1.6 times as many vertices in the plane and 1.8 times as many in space
-//! as one alone.
+//! **Threads.** One does it all. Two prototypes, which are not kept, used two (one vertex in a hundred leaps anywhere,
+//! 300,000 points, `examples/thread_scaling`):
+//!
+//! - Most of a placement in space finds out what will change, and changes nothing: the walk, the zone, what fills the hole.
+//!   Two threads found this out ahead, for batches of vertices far from each other, and one made the changes after each
+//!   batch: 1.3 times as fast in space, 1.15 times in the plane. The shares alone would allow 1.6 times in space: the rest
+//!   presumably goes where threads wait for each other, twice in each batch, and where one changes what another has in its
+//!   cache.
+//! - Each thread removed what leaps from its range of the sorted cells, as threads flip, and then inserted what comes there:
+//!   1.3 to 1.5 times as fast in space, 1.5 times in the plane, at first. But what one thread does alone, on the hull and
+//!   at the borders, takes the slots that it has freed elsewhere. After twenty such commits in space half of the stars had
+//!   cells of both ranges, and nothing was gained. It would take free slots near where they are needed, whoever asks.
+//!
+//! Vertices that jump by half a spacing gained nothing in either. Two processes side by side place 1.6 times as many
+//! vertices in the plane and 1.8 times as many in space as one alone.
 
 use super::constants::constants;
 use super::repair::Budget;
