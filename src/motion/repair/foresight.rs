@@ -250,6 +250,26 @@ mod tests {
         assert_eq!([0.08, 0.2].map(n_rebuilt::<Space>), [0, 5]);
     }
 
+    /// Of a lattice that trembles about half the squares change their diagonals at each timestamp, and at the hull some cells
+    /// are inverted.
+    #[test]
+    fn trembling_lattices_are_repaired() {
+        let rng = &mut Rng::new(1);
+        let rest: Vec<[f64; 2]> = (0..10_000).map(|v| [v % 100, v / 100].map(f64::from)).collect();
+        let options = Options { algorithm: Algorithm::Auto, threads: 1, ..Options::default() };
+        let mut t = MovingTriangulation::<Plane>::new(&rest, options).expect("room");
+        let mut rebuilds = Vec::new();
+        for _ in 0..6 {
+            let now: Vec<_> = rest.iter().map(|p| p.map(|x| x + 0.02 * (rng.unit() - 0.5))).collect();
+            let report = t.commit_positions(&now).expect("room");
+            rebuilds.push(report.rebuilds);
+            assert!(report.rebuilds > 0 || report.flips > 4_000, "{report:?}");
+            assert_eq!(t.validate(Level::Delaunay), Ok(()));
+        }
+        // From the lattice itself, whose boundary is straight, everything at the hull changes.
+        assert_eq!(rebuilds[1..], [0; 5]);
+    }
+
     /// Rebuilding gains by threads and by order.
     #[test]
     fn repair_is_slower_beside_several_threads_and_where_caches_do_not_hold_all() {
