@@ -89,7 +89,7 @@ fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] 
     let sweep = commit_all(Algorithm::Repair, 1e-9, &mut points);
     let repair = commit_all(Algorithm::Repair, 1e-3, &mut points);
     let mending = commit_all(Algorithm::Repair, 2e-2, &mut points);
-    // The first ones find out where to begin.
+    // Once before, as long walks make landmarks for those that follow.
     commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
     let leaps = commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
     let jumps = commit_few::<G>(&mut t, &mut points, 33, 1.0, &mut random);

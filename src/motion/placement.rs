@@ -16,11 +16,12 @@
 //!   presumably goes where threads wait for each other, twice in each batch, and where one changes what another has in its
 //!   cache.
 //! - Each thread removed what leaps from its range of the sorted cells, as threads flip, and then inserted what comes there:
-//!   1.3 to 1.5 times as fast in space, 1.5 times in the plane, at first. But what one thread does alone, on the hull and
-//!   at the borders, takes the slots that it has freed elsewhere. After twenty such commits in space half of the stars had
-//!   cells of both ranges, and nothing was gained. It would take free slots near where they are needed, whoever asks.
+//!   1.3 to 1.5 times as fast in space, up to 1.6 times in the plane, in the first commits. But new cells that one thread
+//!   makes alone, on the hull and at the borders, come into slots that it has freed elsewhere. After twenty such commits in
+//!   space half of the stars had cells of both ranges, and nothing was gained. All changes would have to take free slots
+//!   near the cells that they replace.
 //!
-//! Vertices that jump by half a spacing gained nothing in either. Two processes side by side place 1.6 times as many
+//! Placing vertices that jump by half a spacing took as long as on one thread with either, or longer. Two processes side by side place 1.6 times as many
 //! vertices in the plane and 1.8 times as many in space as one alone.
 
 use super::constants::constants;
