@@ -439,7 +439,7 @@ fn auto_rebuilds_where_few_vertices_take_longer() {
 #[test]
 fn repairs_that_are_cheap_are_not_replaced() {
     fn repairs<G: Dimension>(first: &[Point<G>], mut motion: impl FnMut(&mut [Point<G>]), name: &str) {
-        let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
+        let options = Options { algorithm: Algorithm::Repair, threads: 1, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(first, options).expect("a build");
         let mut now = first.to_vec();
         for _ in 0..3 {

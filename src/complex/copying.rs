@@ -13,7 +13,7 @@ impl<C: Corners> Complex<C> {
         let mut marks = Vec::new();
         memory::reserve_exact(&mut marks, cells.capacity())?;
         marks.resize(cells.len(), 0);
-        let free = memory::copy_of(&self.free)?;
+        let free = self.free.copied()?;
         Ok(Complex { cells, marks, free, n_ghosts: self.n_ghosts, record: Record::default() })
     }
 }

@@ -23,6 +23,8 @@ mod cell;
 mod copying;
 mod corners;
 mod flips;
+mod free;
+mod ranges;
 mod record;
 mod restoring;
 mod sorting;
@@ -30,7 +32,8 @@ mod sorting;
 pub use cell::{Cell, Facet};
 pub use corners::{Corners, Entry};
 pub(crate) use flips::NewCell;
-pub use flips::{CellRange, Obstacle};
+pub(crate) use free::WORD;
+pub use ranges::{CellRange, Obstacle};
 pub use record::Row;
 
 use crate::error::{Error, Result};
@@ -38,6 +41,7 @@ use crate::ids::{SiteId, Slot};
 use crate::machine::aligned::Aligned;
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
+use free::FreeSlots;
 use record::Record;
 
 /// The ghost vertex: index 0 of the sites.
@@ -51,7 +55,7 @@ pub struct Complex<C: Corners> {
     cells: Aligned<Cell<C>>,
     /// One byte per cell for the traversals of the layers above; 0 between them.
     marks: Vec<u8>,
-    free: Vec<Slot>,
+    free: FreeSlots,
     n_ghosts: usize,
     record: Record<C>,
 }
@@ -61,7 +65,7 @@ impl<C: Corners> Default for Complex<C> {
         Complex {
             cells: Aligned::new(),
             marks: Vec::new(),
-            free: Vec::new(),
+            free: FreeSlots::default(),
             n_ghosts: 0,
             record: Record::default(),
         }
@@ -210,6 +214,7 @@ impl<C: Corners> Complex<C> {
         // The cells last: where there is room for one, there is for its mark, whatever has failed before.
         let more_marks = room - self.marks.len();
         memory::reserve_exact(&mut self.marks, more_marks)?;
+        self.free.cover(room)?;
         if self.is_recording() {
             self.cover(room)?;
         }
@@ -218,27 +223,18 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// Makes sure that `n` more cells can be [released](Self::release) without a failure.
+    /// Creates a cell that has no neighbours yet, in a slot near this one.
     #[inline(always)]
-    pub(crate) fn reserve_free(&mut self, n: usize) -> Result<()> {
-        if self.free.capacity() - self.free.len() >= n {
-            return Ok(());
-        }
-        memory::reserve(&mut self.free, n)
-    }
-
-    /// Creates a cell that has no neighbours yet.
-    #[inline(always)]
-    pub(crate) fn create(&mut self, corners: C) -> Slot {
-        let cell = self.create_blank();
+    pub(crate) fn create(&mut self, corners: C, near: Slot) -> Slot {
+        let cell = self.create_blank(near);
         self.put(cell, corners);
         cell
     }
 
-    /// A slot for a cell that is [put](Self::put) there next.
+    /// A slot near this one, for a cell that is [put](Self::put) there next.
     #[inline(always)]
-    pub(crate) fn create_blank(&mut self) -> Slot {
-        let cell = self.free.pop().unwrap_or_else(|| {
+    pub(crate) fn create_blank(&mut self, near: Slot) -> Slot {
+        let cell = self.free.take_near(near).unwrap_or_else(|| {
             let cell = Slot::at(self.cells.len());
             self.cells.push(Cell::free());
             self.marks.push(0);
@@ -290,12 +286,12 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts -= n;
     }
 
-    /// Frees the slot of a retired cell; there must be [room](Self::reserve_free) for it.
+    /// Frees the slot of a retired cell.
     #[inline(always)]
     pub(crate) fn release(&mut self, cell: Slot) {
         self.cell_mut(cell).corners = C::filled(SiteId::NONE);
         self.set_mark(cell, 0);
-        self.free.push(cell);
+        self.free.put(cell);
     }
 
     /// Glues two facets.
@@ -316,14 +312,14 @@ impl<C: Corners> Complex<C> {
             (false, k) if k == last => i,
             _ => k,
         };
-        let cell = self.create(corners);
+        let cell = self.create(corners, Slot::new(0));
         let mut ghosts = [Slot::NONE; 4];
         for i in 0..C::N {
             let mut ghost = C::filled(INFINITE);
             for k in (0..C::N).filter(|&k| k != i) {
                 ghost.as_mut()[place(i, k)] = corners[k];
             }
-            ghosts[i] = self.create(ghost);
+            ghosts[i] = self.create(ghost, cell);
             self.glue(Facet::new(cell, i), Facet::new(ghosts[i], last));
             for k in 0..i {
                 self.glue(Facet::new(ghosts[i], place(i, k)), Facet::new(ghosts[k], place(k, i)));
@@ -339,7 +335,6 @@ impl<C: Corners> Complex<C> {
         if n + other.cells.len() > MAX_CELLS {
             return Err(Error::TooManyCells { limit: MAX_CELLS });
         }
-        memory::reserve_exact(&mut self.free, other.free.len())?;
         let moved = |c: Slot| Slot::new(c.get() + n as u32);
         let shifted = |cell: &Cell<C>| {
             let mut cell = *cell;
@@ -358,10 +353,11 @@ impl<C: Corners> Complex<C> {
         let room = self.cells.capacity().max(n + other.cells.len());
         let more_marks = room - self.marks.len();
         memory::reserve_exact(&mut self.marks, more_marks)?;
+        self.free.cover(room)?;
         self.cells.extend(&other.cells, n_threads, shifted)?;
         debug_assert!(self.cells.capacity() <= self.marks.capacity());
         self.marks.resize(self.cells.len(), 0);
-        self.free.extend(other.free.iter().map(|&c| moved(c)));
+        other.free.iter().for_each(|c| self.free.set(moved(c), true));
         self.n_ghosts += other.n_ghosts;
         Ok(())
     }
@@ -370,7 +366,7 @@ impl<C: Corners> Complex<C> {
     pub fn memory_bytes(&self) -> usize {
         self.cells.memory_bytes()
             + self.marks.capacity()
-            + self.free.capacity() * 4
+            + self.free.memory_bytes()
             + self.record.memory_bytes()
     }
 }
@@ -386,7 +382,6 @@ mod tests {
         let mut complex = Complex::<[SiteId; 3]>::default();
         complex.start(cell).expect("room");
         assert_eq!((complex.n_finite(), complex.n_ghosts()), (1, 3));
-        complex.reserve_free(1).expect("room");
         complex.retire(Slot::new(2));
         complex.release(Slot::new(2));
         complex.clear();

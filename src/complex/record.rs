@@ -70,10 +70,6 @@ impl<C: Corners> Record<C> {
         }
     }
 
-    fn is_noted(&self, slot: Slot) -> bool {
-        self.noted[slot.index() / 64] >> (slot.index() % 64) & 1 == 1
-    }
-
     pub(super) fn memory_bytes(&self) -> usize {
         self.rows.capacity() * size_of::<Row<C>>() + self.noted.capacity() * 8
     }
@@ -165,21 +161,17 @@ impl<C: Corners> Complex<C> {
             self.put_back(row);
         }
         let n_slots = self.record.n_slots;
+        self.free.remove_all(Slot::range(n_slots..self.cells.len()));
         self.cells.truncate(n_slots);
         self.marks.truncate(n_slots);
-        let record = &self.record;
-        self.free.retain(|&c| c.index() < n_slots && !record.is_noted(c));
-        // As many as these were listed when the record was begun, so there is room for them.
-        self.free.extend(
-            rows.iter().filter(|row| row.is_free() && row.slot.index() < n_slots).map(|row| row.slot),
-        );
         self.n_ghosts = self.record.n_ghosts;
         self.record.rows = rows;
     }
 
-    /// Puts back the row of a slot, with both sides of its gluings; not in the list of free slots.
+    /// Puts back the row of a slot, with both sides of its gluings.
     pub(super) fn put_back(&mut self, row: Row<C>) {
         self.set_mark(row.slot, 0);
+        self.free.set(row.slot, row.is_free());
         let cell = self.cell_mut(row.slot);
         cell.corners = row.corners;
         cell.neighbours = row.neighbours;

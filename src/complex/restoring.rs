@@ -5,6 +5,7 @@
 //!
 //! Cost: a pass over the rows, and around each ridge of the hull one over the cells there.
 
+use super::free::FreeSlots;
 use super::record::Record;
 use super::{Cell, Complex, Corners, Facet, INFINITE, MAX_CELLS};
 use crate::damage::{Damage, LoadError};
@@ -76,14 +77,15 @@ impl<C: Corners> Complex<C> {
         if n + n_ghosts > MAX_CELLS {
             return Err(Error::TooManyCells { limit: MAX_CELLS }.into());
         }
-        let (mut cells, mut marks) = (Aligned::new(), Vec::new());
+        let (mut cells, mut marks, mut free) = (Aligned::new(), Vec::new(), FreeSlots::default());
         cells.reserve_exact(n + n_ghosts)?;
         memory::reserve_exact(&mut marks, cells.capacity())?;
+        free.cover(cells.capacity())?;
         for corners in corners {
             cells.push(Cell { corners: corners?, ..Cell::free() });
         }
         marks.resize(n + n_ghosts, 0);
-        let mut complex = Complex { cells, marks, free: Vec::new(), n_ghosts, record: Record::default() };
+        let mut complex = Complex { cells, marks, free, n_ghosts, record: Record::default() };
         for (c, row) in neighbours.iter().enumerate() {
             if let Some(later) = neighbours.get(c + AHEAD) {
                 for i in 0..C::N {

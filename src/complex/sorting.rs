@@ -1,5 +1,6 @@
 //! Cells in the order of their sites.
 
+use super::free::FreeSlots;
 use super::record::Record;
 use super::{Cell, Complex, Corners, Facet, MAX_CELLS};
 use crate::error::{Error, Result};
@@ -21,13 +22,11 @@ impl<C: Corners> Complex<C> {
         let n_live = self.cells.len() - self.free.len();
         let spare = sorted.capacity().saturating_sub(self.marks.len());
         memory::reserve_exact(&mut self.marks, spare)?;
-        let more_free = (sorted.len() - n_live).saturating_sub(self.free.len());
-        memory::reserve(&mut self.free, more_free)?;
+        self.free.cover(sorted.capacity())?;
         self.follow_sort(sorted.capacity(), sorted.len())?;
         self.cells = sorted;
         self.marks.resize(self.cells.len(), 0);
-        self.free.clear();
-        self.free.extend(gaps(n_live, gap_after));
+        self.free.put_everywhere(gaps(n_live, gap_after));
         Ok(index)
     }
 
@@ -40,12 +39,12 @@ impl<C: Corners> Complex<C> {
         names: &[SiteId],
     ) -> Result<(Self, Vec<Slot>)> {
         let (cells, index) = self.sorted(n_sites, gap_after, |s| names[s])?;
-        let (mut marks, mut free) = (Vec::new(), Vec::new());
+        let (mut marks, mut free) = (Vec::new(), FreeSlots::default());
         memory::reserve_exact(&mut marks, cells.capacity())?;
         marks.resize(cells.len(), 0);
         let n_live = self.cells.len() - self.free.len();
-        memory::reserve_exact(&mut free, cells.len() - n_live)?;
-        free.extend(gaps(n_live, gap_after));
+        free.cover(cells.capacity())?;
+        free.put_everywhere(gaps(n_live, gap_after));
         Ok((Complex { cells, marks, free, n_ghosts: self.n_ghosts, record: Record::default() }, index))
     }
 

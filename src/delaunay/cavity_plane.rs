@@ -66,7 +66,7 @@ impl Insert<Plane> for Scratch {
             t.complex.reserve_rows(2)?;
         }
         for row in &mut self.rows[zone.n_cells..n_made] {
-            row.cell = t.complex.create_blank();
+            row.cell = t.complex.create_blank(start);
         }
         self.n_made = n_made;
         let made = &self.rows[..n_made];

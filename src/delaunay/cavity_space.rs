@@ -87,7 +87,7 @@ impl Insert<Space> for Scratch {
             row.cell = row.found.cell();
         }
         for row in &mut self.rows[reused..n_rim] {
-            row.cell = t.complex.create_blank();
+            row.cell = t.complex.create_blank(start);
         }
         glue::<BUILD>(t, self, ridges);
         Ok(self.rows[0].cell)
@@ -119,7 +119,6 @@ fn reserve<const BUILD: bool>(
     let Scratch { rows, n_zone, n_rim, .. } = scratch;
     let n_created = n_rim.saturating_sub(*n_zone);
     t.complex.reserve(n_created)?;
-    t.complex.reserve_free(n_zone.saturating_sub(*n_rim))?;
     if !BUILD {
         t.complex.note_all(rows[..*n_zone].iter().map(|row| row.found.cell()))?;
         t.complex.reserve_rows(n_created)?;

@@ -25,7 +25,7 @@ use untangle::Untangling;
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, Row};
+use crate::complex::{Corners, Facet, Row, WORD};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -64,11 +64,6 @@ pub(super) struct AllFlips<G: Dimension> {
     own: Flips<G>,
     /// Of several threads, before these.
     parts: Vec<Flips<G>>,
-    /// Whether there were several.
-    were_several: bool,
-    /// The cells there were, and those of them that were free, before several threads flipped.
-    n_slots: usize,
-    free: Vec<Slot>,
     island: Island<G::Corners>,
     /// What was exchanged before all flips.
     untangling: Untangling<G>,
@@ -79,9 +74,6 @@ impl<G: Dimension> Default for AllFlips<G> {
         AllFlips {
             own: Flips::default(),
             parts: Vec::new(),
-            were_several: false,
-            n_slots: 0,
-            free: Vec::new(),
             island: Island::default(),
             untangling: Untangling::default(),
         }
@@ -93,7 +85,6 @@ impl<G: Dimension> AllFlips<G> {
         let flips = self.parts.iter().chain([&self.own]);
         flips.map(Flips::memory_bytes).sum::<usize>()
             + memory::bytes_of(&self.parts)
-            + memory::bytes_of(&self.free)
             + self.island.memory_bytes()
             + self.untangling.memory_bytes()
     }
@@ -195,14 +186,7 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<()> {
         flips.own.begin(most);
         flips.parts.iter_mut().for_each(|part| part.begin(most));
-        flips.own.n_before = flips.untangling.flips.journal.len();
-        flips.were_several = false;
         if n_threads > 1 {
-            flips.n_slots = self.complex.n_slots();
-            flips.free.clear();
-            memory::reserve(&mut flips.free, self.complex.free_cells().len())?;
-            flips.free.extend_from_slice(self.complex.free_cells());
-            flips.were_several = true;
             self.flip_side_by_side(flips, n_threads)?;
             flips.own.is_exhausted = flips.parts.iter().any(|part| part.is_exhausted);
             if flips.own.is_exhausted {
@@ -230,7 +214,7 @@ impl<G: Dimension> Delaunay<G> {
                 continue;
             }
             // By a few at a time each would be put off again and again.
-            self.complex.create_free(ROOM.max(own.later.len() / 2), own.n_before + own.journal.len())?;
+            self.complex.create_free(ROOM.max(own.later.len() / 2))?;
             std::mem::swap(&mut own.suspects, &mut own.later);
         }
     }
@@ -244,7 +228,10 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(&mut starts, n_threads)?;
         sample.extend(suspects.iter().step_by(step).map(|facet| facet.cell()));
         sample.sort_unstable();
-        starts.extend((0..n_threads).map(|k| sample[sample.len() * k / n_threads]));
+        starts.extend((0..n_threads).map(|k| {
+            let quantile = sample[sample.len() * k / n_threads];
+            Slot::at(quantile.index() / WORD * WORD)
+        }));
         starts[0] = Slot::new(0);
         starts.dedup();
         let missing = starts.len().saturating_sub(parts.len());
@@ -318,18 +305,10 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     fn take_back(&mut self, flips: &mut AllFlips<G>) {
-        let AllFlips { own, parts, were_several, n_slots, free, untangling, .. } = flips;
+        let AllFlips { own, parts, untangling, .. } = flips;
         for flips in parts.iter_mut().chain([own]).rev() {
             flips.suspects.clear();
-            let rows = flips.journal.drain(..).rev();
-            if *were_several {
-                self.complex.put_back_all(rows);
-            } else {
-                self.complex.undo_flips(rows);
-            }
-        }
-        if *were_several {
-            self.complex.restore_free(*n_slots, free);
+            self.complex.undo_flips(flips.journal.drain(..).rev());
         }
         self.take_untangling_back(untangling);
     }

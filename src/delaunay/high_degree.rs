@@ -36,14 +36,14 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve_exact(&mut slots, filling.len())?;
         self.reserve_record(filling.len())?;
         self.complex.reserve(filling.len())?;
-        self.complex.reserve_free(self.star.len())?;
         self.complex.note_all(self.star.iter().map(|&(c, _)| c))?;
         self.complex.reserve_rows(filling.len())?;
         for &(c, _) in &self.star {
             self.complex.retire(c);
             self.complex.release(c);
         }
-        slots.extend(filling.iter().map(|&(corners, _)| self.complex.create(corners)));
+        let near = self.star[0].0;
+        slots.extend(filling.iter().map(|&(corners, _)| self.complex.create(corners, near)));
         for (&cell, (corners, across)) in slots.iter().zip(&filling) {
             for i in 0..G::Corners::N {
                 let other = match across[i] {

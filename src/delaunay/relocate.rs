@@ -83,7 +83,6 @@ impl<G: Dimension> Delaunay<G> {
         }
         // Where the sites of the star stay, its vertices do not: who follows the cells has to know.
         self.gather_star(s)?;
-        self.complex.reserve_free(self.star.len())?;
         self.complex.note_all(self.star.iter().map(|&(c, _)| c))?;
         let q = self.site(s).point;
         self.relocate_site(s, &q, id, Shortcut::Certificates)?;

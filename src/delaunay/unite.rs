@@ -77,7 +77,6 @@ impl<G: Dimension> Delaunay<G> {
                 }
             }
         }
-        self.complex.reserve_free(zone.len())?;
         for &c in &zone {
             self.complex.retire(c);
             self.complex.release(c);
@@ -247,7 +246,6 @@ impl<G: Dimension> Delaunay<G> {
                 }
             }
         }
-        self.complex.reserve_free(cells.len())?;
         for c in cells {
             self.complex.retire(c);
             self.complex.release(c);

@@ -41,28 +41,26 @@ impl<C: Corners> Complex<C> {
         }
         for &slot in &slots[new.len().min(n_old)..n_old] {
             *self.cell_mut(slot) = Cell::free();
-            self.free.push(slot);
+            self.free.put(slot);
         }
     }
 
     /// Adds free slots to those of the old cells, so that there are `n_new`, and makes sure that the rows can be
-    /// entered and slots be released, also when these rows are undone and so many others that came `before` them.
-    /// Nothing else changes before [`replace`](Self::replace).
+    /// entered. Nothing else changes before [`replace`](Self::replace).
     pub(crate) fn prepare_replacing(
         &mut self,
         n_new: usize,
         slots: &mut Vec<Slot>,
         journal: &mut Vec<Row<C>>,
-        before: usize,
     ) -> Result<()> {
         let missing = n_new.saturating_sub(slots.len());
         memory::reserve(slots, missing)?;
         memory::reserve(journal, slots.len() + missing)?;
-        self.reserve_free(slots.len())?;
         if self.free.len() < missing {
-            self.create_free(missing, before + journal.len())?;
+            self.create_free(missing)?;
         }
-        slots.extend(self.free.drain(self.free.len() - missing..).rev());
+        let near = slots[0];
+        slots.extend(std::iter::from_fn(|| self.free.take_near(near)).take(missing));
         Ok(())
     }
 }

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::complex::INFINITE;
+use crate::complex::WORD;
 use crate::ids::{SiteId, Slot};
+use std::collections::BTreeSet;
 
 fn sites<const N: usize>(numbers: [u32; N]) -> [SiteId; N] {
     numbers.map(SiteId::new)
@@ -52,7 +54,7 @@ fn a_2_2_flip_done_twice_more_swaps_back() {
     let outs: Vec<Facet> = (0..3).map(|i| complex.cell(first).neighbour(i)).collect();
     complex.retire(first);
     complex.put(first, sites([4, 2, 3]));
-    let (b, c) = (complex.create(sites([1, 4, 3])), complex.create(sites([1, 2, 4])));
+    let (b, c) = (complex.create(sites([1, 4, 3]), first), complex.create(sites([1, 2, 4]), first));
     let new = [first, b, c];
     for i in 0..3 {
         complex.glue(Facet::new(new[i], i), outs[i]);
@@ -101,8 +103,8 @@ fn flips_in_space_come_back() {
     let outs: Vec<Facet> = (0..4).map(|i| complex.cell(first).neighbour(i)).collect();
     let corners = complex.cell(first).corners;
     complex.put(first, corners.with(0, SiteId::new(5)));
-    let new =
-        [0, 1, 2, 3].map(|i| if i == 0 { first } else { complex.create(corners.with(i, SiteId::new(5))) });
+    let new = [0, 1, 2, 3]
+        .map(|i| if i == 0 { first } else { complex.create(corners.with(i, SiteId::new(5)), first) });
     for i in 0..4 {
         complex.glue(Facet::new(new[i], i), outs[i]);
         for j in 0..i {
@@ -116,11 +118,11 @@ fn flips_in_space_come_back() {
         if complex.cell(complex.cell(c).neighbour(i).cell()).is_ghost() {
             continue;
         }
+        let mut complex = complex.copied().unwrap();
         let [p, q] = [facet, complex.cell(c).neighbour(i)].map(|f| complex.apex(f));
-        let (n_slots, free) = (complex.n_slots(), complex.free_cells().to_vec());
         assert_eq!(complex.whole().flip_2_3(facet).err(), Some(Obstacle::Full));
         assert_eq!(cells(&complex), before);
-        complex.create_free(2, 0).unwrap();
+        complex.create_free(2).unwrap();
         let (outer, undo) = complex.whole().flip_2_3(facet).expect("all cells are there");
         let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
         assert!(is_mutual(&complex) && complex.n_finite() == 5);
@@ -132,36 +134,21 @@ fn flips_in_space_come_back() {
                 let at = complex.cell(m).index_of(apex);
                 let k = (0..4).find(|&k| k != at && ![p, q].contains(&complex.cell(m).corners[k])).unwrap();
                 let after = cells(&complex);
-                let (n_slots, free) = (complex.n_slots(), complex.free_cells().to_vec());
+                let free: BTreeSet<_> = complex.free_cells().collect();
                 let (rim, back) = complex.whole().flip_3_2(Facet::new(m, at), k).expect("three cells");
                 assert!(is_mutual(&complex));
                 assert_eq!(boundary(&complex, rim), boundary_of_flip);
                 assert_eq!(cells(&complex), before);
                 complex.undo_flips(back.into_iter().rev());
-                complex.restore_free(n_slots, &free);
+                assert_eq!(complex.free_cells().collect::<BTreeSet<_>>(), free);
                 assert!(is_mutual(&complex));
                 assert_eq!(cells(&complex), after);
             }
         }
         complex.undo_flips(undo.into_iter().rev());
-        complex.restore_free(n_slots, &free);
         assert!(is_mutual(&complex));
-        assert_eq!(cells(&complex), before);
-        assert_eq!((complex.n_slots(), complex.free_cells()), (n_slots, &free[..]));
+        assert_eq!((cells(&complex), complex.n_free()), (before.clone(), 2));
     }
-}
-
-/// More free cells come when those that there were are in use, and stay when these come back: there is room for both.
-#[test]
-fn undoing_needs_no_memory_after_more_cells_have_been_made() {
-    let (mut complex, facet) = two_tetrahedra();
-    complex.create_free(2, 0).unwrap();
-    complex.free.shrink_to_fit();
-    let (_, undo) = complex.whole().flip_2_3(facet).expect("all cells are there");
-    complex.create_free(1, undo.len()).unwrap();
-    let room = complex.free.capacity();
-    complex.undo_flips(undo.into_iter().rev());
-    assert_eq!((complex.free.len(), complex.free.capacity()), (3, room));
 }
 
 /// A cavity is filled with more cells than it had, as by a flip, with free cells that there are or that come; and
@@ -169,7 +156,7 @@ fn undoing_needs_no_memory_after_more_cells_have_been_made() {
 #[test]
 fn cavities_get_more_cells_than_they_had() {
     let (mut flipped, facet) = two_tetrahedra();
-    flipped.create_free(2, 0).unwrap();
+    flipped.create_free(2).unwrap();
     let (outer, _) = flipped.whole().flip_2_3(facet).expect("all cells are there");
     let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
     let new = made.map(|m| {
@@ -185,11 +172,11 @@ fn cavities_get_more_cells_than_they_had() {
     });
     for n_free in [0, 1, 4] {
         let (mut complex, facet) = two_tetrahedra();
-        complex.create_free(n_free, 0).unwrap();
+        complex.create_free(n_free).unwrap();
         let before = cells(&complex);
         let mut slots = vec![facet.cell(), complex.cell(facet.cell()).neighbour(facet.index()).cell()];
         let mut journal = Vec::new();
-        complex.prepare_replacing(3, &mut slots, &mut journal, 0).unwrap();
+        complex.prepare_replacing(3, &mut slots, &mut journal).unwrap();
         assert_eq!(slots.len(), 3);
         let n_left = complex.free.len();
         complex.replace(2, &new, &slots, &mut journal);
@@ -216,7 +203,7 @@ fn two_tetrahedra() -> (Complex<[SiteId; 4]>, Facet) {
     let new = [0, 1, 2].map(|i| {
         let mut corners = finite.with(i, INFINITE);
         corners.swap(i, 3);
-        complex.create(corners)
+        complex.create(corners, ghost)
     });
     for (i, &g) in new.iter().enumerate() {
         complex.glue(Facet::new(g, 3), Facet::new(ghost, i));
@@ -236,35 +223,57 @@ fn two_tetrahedra() -> (Complex<[SiteId; 4]>, Facet) {
     (complex, shared)
 }
 
+/// The same, each cell in the first slot of a word, with this number of free ones after the last.
+fn spread(complex: &Complex<[SiteId; 4]>, n_free: usize) -> Complex<[SiteId; 4]> {
+    let n = complex.n_slots();
+    let moved = |c: Slot| Slot::at(WORD * c.index());
+    let mut spread = complex.copied().unwrap();
+    spread.create_free(WORD * (n - 1) + 1 + n_free - n).unwrap();
+    spread.free.clear();
+    for c in (0..n).rev().map(Slot::at) {
+        let cell = complex.cell(c);
+        *spread.cell_mut(c) = Cell::free();
+        let neighbours = cell.neighbours.map(|out| Facet::new(moved(out.cell()), out.index()));
+        *spread.cell_mut(moved(c)) = Cell { neighbours, ..*cell };
+    }
+    let last = moved(Slot::at(n - 1)).index();
+    Slot::range(last + 1..last + 1 + n_free).for_each(|c| spread.free.set(c, true));
+    spread
+}
+
 #[test]
 fn flips_need_all_their_cells() {
-    let (mut complex, facet) = two_tetrahedra();
-    complex.create_free(3, 0).unwrap();
+    let (complex, _) = two_tetrahedra();
     let before = cells(&complex);
     let n = complex.n_slots();
-    // The six ghosts and two cells are all concerned.
-    for start in 1..n - 3 {
-        let mut tried = [None; 2];
+    for n_free in [0, 3] {
+        let mut complex = spread(&complex, n_free);
+        assert!(is_mutual(&complex) && cells(&complex) == before);
+        let facet = complex
+            .finite()
+            .flat_map(|c| (0..4).map(move |i| Facet::new(c, i)))
+            .find(|f| !complex.cell(complex.cell(f.cell()).neighbour(f.index()).cell()).is_ghost())
+            .expect("a facet between finite cells");
+        // The six ghosts and two cells are all concerned.
+        for start in (1..n).map(|c| Slot::at(WORD * c)) {
+            let mut tried = [None; 2];
+            complex
+                .divided(&[Slot::new(0), start], &mut tried, |k, range, tried| {
+                    assert_eq!(range.free.len(), k * n_free);
+                    *tried = range.flip_2_3(facet).err();
+                })
+                .unwrap();
+            assert_eq!(tried, [Some(Obstacle::OtherRange); 2]);
+            assert_eq!((cells(&complex), complex.n_free()), (before.clone(), n_free));
+        }
+        // The first range has all cells.
+        let mut tried = [None];
         complex
-            .divided(&[Slot::new(0), Slot::at(start)], &mut tried, |_, range, tried| {
-                *tried = range.flip_2_3(facet).err();
-            })
+            .divided(&[Slot::new(0)], &mut tried, |_, range, tried| *tried = range.flip_2_3(facet).err())
             .unwrap();
-        assert_eq!(tried, [Some(Obstacle::OtherRange); 2]);
-        assert_eq!(cells(&complex), before);
-        assert_eq!(complex.free_cells().len(), 3);
-    }
-    // The first range has all cells, and of the free ones one or none.
-    for (start, expected) in [(n - 3, Some(Obstacle::Full)), (n - 2, None)] {
-        let mut tried = [None; 2];
-        complex
-            .divided(&[Slot::new(0), Slot::at(start)], &mut tried, |k, range, tried| {
-                assert_eq!(range.free.len(), if k == 0 { start - (n - 3) } else { n - start });
-                *tried = range.flip_2_3(facet).err();
-            })
-            .unwrap();
-        assert_eq!(tried[0], expected);
+        assert_eq!(tried[0], (n_free == 0).then_some(Obstacle::Full));
         assert!(is_mutual(&complex));
+        let n_more = usize::from(n_free > 0);
+        assert_eq!((complex.finite().count() - 2, n_free - complex.n_free()), (n_more, n_more));
     }
-    assert_eq!((complex.n_finite(), complex.free_cells().len()), (3, 2));
 }

@@ -26,8 +26,6 @@ pub struct Flips<G: Dimension> {
     pub(in crate::delaunay) made: Vec<Slot>,
     /// For undoing: the rows that each flip has changed.
     pub(super) journal: Vec<Row<G::Corners>>,
-    /// How many rows of other flips, before these, would be undone with them.
-    pub(super) n_before: usize,
     pub(super) n_flips: u64,
     pub(super) certificates: u64,
     /// Signs evaluated exactly among them.
@@ -49,7 +47,6 @@ impl<G: Dimension> Default for Flips<G> {
             changed: Vec::new(),
             made: Vec::new(),
             journal: Vec::new(),
-            n_before: 0,
             n_flips: 0,
             certificates: 0,
             exact: 0,

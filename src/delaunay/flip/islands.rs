@@ -253,7 +253,7 @@ impl<G: Dimension> Delaunay<G> {
         let (n_old, n_new) = (island.slots.len(), island.new.len());
         memory::reserve(&mut flips.suspects, n_new * G::Corners::N)?;
         memory::reserve(&mut flips.changed, n_new)?;
-        self.complex.prepare_replacing(n_new, &mut island.slots, &mut flips.journal, flips.n_before)?;
+        self.complex.prepare_replacing(n_new, &mut island.slots, &mut flips.journal)?;
         self.complex.replace(n_old, &island.new, &island.slots, &mut flips.journal);
         for &slot in &island.slots[..n_new] {
             flips.changed.push(slot);

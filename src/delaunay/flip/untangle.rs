@@ -128,7 +128,6 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<bool> {
         let mut flips = memory::take_made(&mut self.flips)?;
         // Undoing must not go back to before flips that have been kept.
-        flips.were_several = false;
         let untangling = &mut flips.untangling;
         untangling.flips.begin(most);
         untangling.flips.suspects.clear();

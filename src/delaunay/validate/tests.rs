@@ -82,15 +82,9 @@ fn faults_of_structure<G: Dimension>() {
         t.complex.release(c);
         t.complex.put(c, corners);
     });
-    finds("is listed as free twice", |t| {
-        t.complex.reserve(1).expect("room");
-        let c = t.complex.create_blank();
-        t.complex.release(c);
-        t.complex.release(c);
-    });
     finds("a free cell is not listed", |t| {
         t.complex.reserve(1).expect("room");
-        t.complex.create_blank();
+        t.complex.create_blank(Slot::new(0));
     });
     finds("does not have it", |t| {
         let (c, corners) = finite(t);

@@ -171,7 +171,8 @@ mod tests {
         let (n, side) = (6_000, 18.0);
         let mut now = vec![[0.0; 3]; n];
         now.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
-        let mut t = MovingTriangulation::<Space>::new(&now, Options::default()).expect("room");
+        let mut t = MovingTriangulation::<Space>::new(&now, Options { threads: 1, ..Options::default() })
+            .expect("room");
         let first = constants::<Space>().replaced_to_sort_first;
         for (step, n_commits, is_slack) in [(0.06, 60, false), (1e-4, 20, true), (1e-4, 3, true)] {
             let mut n_sorted = 0;

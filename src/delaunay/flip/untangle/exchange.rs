@@ -95,7 +95,7 @@ impl<G: Dimension> Delaunay<G> {
         memory::append(slots, old)?;
         memory::reserve(&mut flips.suspects, new.len() * G::Corners::N)?;
         memory::reserve(&mut flips.changed, new.len())?;
-        self.complex.prepare_replacing(new.len(), slots, &mut flips.journal, 0)?;
+        self.complex.prepare_replacing(new.len(), slots, &mut flips.journal)?;
         self.complex.replace(old.len(), new, slots, &mut flips.journal);
         for &slot in &slots[..new.len()] {
             flips.changed.push(slot);

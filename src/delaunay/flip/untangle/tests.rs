@@ -284,7 +284,8 @@ fn undoing_goes_back_to_before_untangling_only() {
             assert!(stuck.is_empty());
             continue;
         }
-        let were_several = t.flips.as_ref().is_some_and(|flips| flips.were_several);
+        let were_several =
+            t.flips.as_ref().is_some_and(|flips| flips.parts.iter().any(|part| part.n_flips > 0));
         if mends(&mut t, &mut failures) {
             n_after_several += usize::from(were_several);
         } else {

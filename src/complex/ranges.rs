@@ -1,0 +1,197 @@
+//! Changes of the cells by several threads: each has a range of them, with the free slots there, and changes no others.
+
+use super::free::{FreeRange, WORD};
+use super::{Cell, Complex, Corners, Facet, Row};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot};
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::machine::threads;
+use std::sync::Mutex;
+
+/// Why cells were not changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The cells there are not such that it can be done, or can be done in a range.
+    Shape,
+    /// A cell would change that is not of the range.
+    OtherRange,
+    /// The range has not enough free cells.
+    Full,
+    /// There is no memory for undoing.
+    Memory,
+}
+
+/// Cells that follow each other in storage, for one thread to change while others change the rest. A change replaces cells
+/// and the neighbours' side of their gluings; it is done only if all of these are of the range.
+#[derive(Debug)]
+pub struct CellRange<'c, C: Corners> {
+    /// Slot of the first one.
+    first: Slot,
+    cells: &'c mut [Cell<C>],
+    /// Further ones, from slot 0 on.
+    head: &'c mut [Cell<C>],
+    /// Those of them that are free.
+    pub(super) free: FreeRange<'c>,
+}
+
+impl<C: Corners> Complex<C> {
+    /// All cells.
+    pub(crate) fn whole(&mut self) -> CellRange<'_, C> {
+        CellRange { first: Slot::new(0), cells: &mut self.cells, head: &mut [], free: self.free.whole() }
+    }
+
+    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`], each on a thread of its own and with
+    /// its own one of `parts`. The last range has the slots before the first one as well. After an error nothing has
+    /// changed.
+    pub(crate) fn divided<P: Send>(
+        &mut self,
+        starts: &[Slot],
+        parts: &mut [P],
+        work: impl Fn(usize, &mut CellRange<C>, &mut P) + Sync,
+    ) -> Result<()> {
+        debug_assert!(starts.iter().all(|start| start.index().is_multiple_of(WORD)));
+        let (mut numbers, mut all) = (Vec::new(), Vec::new());
+        memory::lengthen(&mut numbers, starts.len(), 0)?;
+        memory::reserve_exact(&mut all, starts.len())?;
+        let (head, mut rest) = self.cells.split_at_mut(starts[0].index());
+        let mut head = Some(head);
+        let free = self.free.ranges(starts, &mut numbers);
+        for (k, (free, part)) in free.zip(parts).enumerate() {
+            let n = starts.get(k + 1).map_or(rest.len(), |end| end.index() - starts[k].index());
+            let cells;
+            (cells, rest) = rest.split_at_mut(n);
+            let is_last = k + 1 == starts.len();
+            let head = if is_last { head.take().unwrap_or_default() } else { &mut [] };
+            all.push(Mutex::new((CellRange { first: starts[k], cells, head, free }, part)));
+        }
+        threads::for_each(0..starts.len(), &|k| {
+            let (range, part) = &mut *all[k].lock().expect("each is locked once");
+            work(k, range, part);
+        });
+        drop(all);
+        self.free.count();
+        Ok(())
+    }
+
+    /// Adds `n` cells, all of them free. They stay when flips are undone.
+    pub(crate) fn create_free(&mut self, n: usize) -> Result<()> {
+        self.reserve(self.free.len() + n)?;
+        let first = self.cells.len();
+        self.cells.lengthen(first + n, Cell::free());
+        self.marks.resize(first + n, 0);
+        Slot::range(first..first + n).for_each(|c| self.free.set(c, true));
+        Ok(())
+    }
+
+    /// The free slots.
+    pub(crate) fn free_cells(&self) -> impl Iterator<Item = Slot> + '_ {
+        self.free.iter()
+    }
+
+    /// Their number.
+    pub(crate) fn n_free(&self) -> usize {
+        self.free.len()
+    }
+}
+
+impl<C: Corners> CellRange<'_, C> {
+    /// Position in the range; beyond its end for a cell that is not of it, or of the head.
+    #[inline(always)]
+    fn position(&self, cell: Slot) -> usize {
+        cell.get().wrapping_sub(self.first.get()) as usize
+    }
+
+    /// Whether a cell is of the range.
+    #[inline(always)]
+    pub(crate) fn has(&self, cell: Slot) -> bool {
+        self.position(cell) < self.cells.len() || cell.index() < self.head.len()
+    }
+
+    /// A cell of the range.
+    #[inline(always)]
+    pub(crate) fn cell(&self, cell: Slot) -> Result<&Cell<C>, Obstacle> {
+        match self.cells.get(self.position(cell)) {
+            Some(found) => Ok(found),
+            None => self.head.get(cell.index()).ok_or(Obstacle::OtherRange),
+        }
+    }
+
+    /// Asks for a cell, which may be none of the range.
+    #[inline(always)]
+    pub(crate) fn prefetch(&self, cell: Slot) {
+        if cell.index() < self.head.len() {
+            prefetch(self.head, cell.index());
+        } else {
+            prefetch(self.cells, self.position(cell));
+        }
+    }
+
+    /// The corner opposite a facet of a cell of the range.
+    #[inline(always)]
+    pub(crate) fn apex(&self, facet: Facet) -> Result<SiteId, Obstacle> {
+        Ok(self.cell(facet.cell())?.corners[facet.index()])
+    }
+
+    #[inline(always)]
+    pub(super) fn cell_mut(&mut self, cell: Slot) -> &mut Cell<C> {
+        let at = self.position(cell);
+        if at < self.cells.len() { &mut self.cells[at] } else { &mut self.head[cell.index()] }
+    }
+
+    /// An error if one of these cells is not of the range.
+    #[inline(always)]
+    pub(super) fn has_cells_of(&self, facets: &[Facet]) -> Result<(), Obstacle> {
+        if facets.iter().all(|facet| self.has(facet.cell())) { Ok(()) } else { Err(Obstacle::OtherRange) }
+    }
+
+    /// Puts a cell, and both sides of all gluings.
+    #[inline(always)]
+    pub(super) fn put_whole(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
+        *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
+        for (i, out) in neighbours.as_ref().iter().enumerate() {
+            self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, i);
+        }
+    }
+    /// Chooses slots for `n` cells in the place of some: those of the old ones first, then free ones near them. The others
+    /// of the old ones are freed. Enters the rows before. After an obstacle nothing has changed.
+    pub(crate) fn take_slots(
+        &mut self,
+        old: &[Slot],
+        n: usize,
+        slots: &mut Vec<Slot>,
+        journal: &mut Vec<Row<C>>,
+    ) -> Result<(), Obstacle> {
+        let missing = n.saturating_sub(old.len());
+        if self.free.len() < missing {
+            return Err(Obstacle::Full);
+        }
+        slots.clear();
+        memory::reserve(slots, n)
+            .and_then(|()| memory::reserve(journal, n.max(old.len())))
+            .map_err(|_| Obstacle::Memory)?;
+        let (kept, freed) = old.split_at(n.min(old.len()));
+        slots.extend_from_slice(kept);
+        slots.extend((0..missing).filter_map(|_| self.free.take_near(old[0])));
+        for &slot in slots.iter().chain(freed) {
+            journal.push(Row::of(slot, self.cell_mut(slot)));
+        }
+        for &slot in freed {
+            *self.cell_mut(slot) = Cell::free();
+            self.free.put(slot);
+        }
+        Ok(())
+    }
+
+    /// Puts a cell, and its side of all gluings.
+    #[inline(always)]
+    pub(crate) fn put(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
+        *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
+    }
+
+    /// Sets one side of a gluing.
+    #[inline(always)]
+    pub(crate) fn set_neighbour(&mut self, of: Facet, neighbour: Facet) {
+        self.cell_mut(of.cell()).neighbours[of.index()] = neighbour;
+    }
+}
