@@ -192,6 +192,8 @@ struct Setting {
     reads: bool,
     takes: bool,
     edits: bool,
+    /// Vertices that are moved go to the places of others, which do not move; the cells are sorted.
+    leaps: bool,
     /// Insertions, and half as many removals, that are staged with the moves of a commit.
     stages: usize,
     /// Commits before.
@@ -206,11 +208,12 @@ const COLD: Setting = Setting {
     reads: false,
     takes: false,
     edits: false,
+    leaps: false,
     stages: 0,
     warm: 0,
 };
 
-const SETTINGS: [Setting; 10] = [
+const SETTINGS: [Setting; 11] = [
     COLD,
     Setting { stages: 7, ..COLD },
     Setting { reads: true, warm: 2, ..COLD },
@@ -220,6 +223,7 @@ const SETTINGS: [Setting; 10] = [
     Setting { hides: true, takes: true, tracks: true, stages: 16, ..COLD },
     Setting { hides: true, tracks: true, reads: true, takes: true, edits: true, warm: 1, ..COLD },
     Setting { n: 800, threads: 3, ..COLD },
+    Setting { n: 800, threads: 3, leaps: true, takes: true, warm: 2, ..COLD },
     Setting { n: 800, threads: 3, hides: true, tracks: true, reads: true, takes: true, warm: 1, ..COLD },
 ];
 
@@ -380,7 +384,12 @@ impl<G: Dimension> Scene<G> {
                 (points[20], points[30], points[40]) = (points[10], points[10], points[11]);
             }
             t.move_all(&points).expect("moves");
+            if setting.leaps {
+                // It sorts the cells.
+                t.set_algorithm(Algorithm::Repair);
+            }
             t.commit_timestamp().expect("a commit");
+            t.set_algorithm(call.algorithm());
         }
         let mut carried = setting.takes.then(Carried::default);
         if let Some(carried) = &mut carried {
@@ -402,6 +411,9 @@ impl<G: Dimension> Scene<G> {
             }
         }
         let mut places = points.clone();
+        if setting.leaps {
+            places.rotate_left(100);
+        }
         nudge::<G>(&mut places, 0.3 * spacing, rng);
         let present: Vec<VertexId> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
         match call {
@@ -788,7 +800,9 @@ fn calls_without_memory_leave_all_as_it_was() {
     for call in Call::all() {
         for setting in &SETTINGS {
             let is_whole = matches!(call, Call::MoveAll | Call::StageInsertions | Call::StageRemovals);
-            if setting.edits && is_whole || setting.stages > 0 && !matches!(call, Call::Commit(..)) {
+            if setting.edits && is_whole
+                || (setting.stages > 0 || setting.leaps) && !matches!(call, Call::Commit(..))
+            {
                 continue;
             }
             faults.of_call::<Plane>(call, setting);

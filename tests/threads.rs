@@ -202,6 +202,46 @@ fn repair_in_space() {
     histories::<Space>(Algorithm::Repair);
 }
 
+/// Some vertices go to other ones or near them, which threads do side by side; others tremble.
+fn leaps<G: Dimension>(n: usize) {
+    for seed in seeds(2) {
+        for kind in [Kind::Random, Kind::Lattice] {
+            let mut rng = Rng::new(seed + 70);
+            let mut now = draw::<G>(kind, n, &mut rng);
+            let mut all = on_threads::<G>(&now, Algorithm::Repair, &[1, 2, 3, 4]);
+            for step in 0..8 {
+                let is_first = step == 0;
+                for v in 0..now.len() {
+                    let other = now[rng.below(now.len())];
+                    let size = [0.0, 0.0, 0.5][rng.below(3)];
+                    if !is_first && rng.one_in(7) {
+                        now[v] = point::<G>(|k| other[k] + size * (rng.unit() - 0.5));
+                    } else if is_first || rng.one_in(20) {
+                        now[v] = point::<G>(|k| now[v][k] + 1e-3 * (rng.unit() - 0.5));
+                    }
+                }
+                for t in &mut all {
+                    t.move_first(&now).expect("positions in range");
+                    t.commit_timestamp().expect("a commit");
+                    // The first commit sorts the cells.
+                    t.set_algorithm([Algorithm::PlacementFlips, Algorithm::Placement][step % 2]);
+                }
+                assert_all_same(&all, &|| format!("{}D, {kind:?}, seed {seed}, step {step}", G::D));
+            }
+        }
+    }
+}
+
+#[test]
+fn leaps_in_the_plane() {
+    leaps::<Plane>(2500);
+}
+
+#[test]
+fn leaps_in_space() {
+    leaps::<Space>(1200);
+}
+
 /// Layers that tremble in their planes: four vertices of many bi-cells are in one plane, in the hull as well, and flips
 /// concern four cells.
 #[test]

@@ -76,7 +76,8 @@ pub trait Kernel<G: Dimension> {
     /// As [`cell_holds`](Self::cell_holds), of several cells with these corners and these sites beyond their facets.
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
-        t: &Delaunay<G>,
+        f: &StaticFilter,
+        sites: Sites<G>,
         cells: [G::Corners; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held;

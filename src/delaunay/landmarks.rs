@@ -40,6 +40,9 @@ const SHORT_IN_EDGES: f64 = 2.0;
 /// A place more than this number of edges from a site is away from it: some fifty sites are nearer in the plane.
 const AWAY_IN_EDGES: f64 = 4.0;
 
+/// A tree is made for one goal among this number of sites.
+const SITES_PER_GOAL: usize = 128;
+
 /// Fewer sites need no landmarks.
 const MIN_SITES: usize = 256;
 
@@ -108,15 +111,23 @@ impl Tree {
     /// The leaf of a place.
     #[inline(always)]
     fn leaf<G: Dimension>(&self, q: &G::Point) -> usize {
+        self.leaves_of::<G, 1>([q])[0]
+    }
+
+    /// The leaves of several places: none waits for what is read for another.
+    #[inline(always)]
+    fn leaves_of<G: Dimension, const N: usize>(&self, places: [&G::Point; N]) -> [usize; N] {
         let n = self.splits.len();
-        let mut node = 1;
-        while node < n {
-            let split = self.splits[node];
-            // The remainder spares a check of the bounds.
-            let axis = (split.to_bits() & 3) as usize % G::D;
-            node = 2 * node + usize::from(q[axis] >= split);
+        let mut nodes = [1; N];
+        while nodes[0] < n {
+            for (node, q) in nodes.iter_mut().zip(places) {
+                let split = self.splits[*node];
+                // The remainder spares a check of the bounds.
+                let axis = (split.to_bits() & 3) as usize % G::D;
+                *node = 2 * *node + usize::from(q[axis] >= split);
+            }
         }
-        node - n
+        nodes.map(|node| node - n)
     }
 }
 
@@ -143,10 +154,66 @@ impl Landmarks {
     /// A site that was near `q` once; [`SiteId::NONE`] if no tree has been made, or one is being made.
     #[inline(always)]
     fn near<G: Dimension>(&self, q: &G::Point) -> SiteId {
+        self.near_each::<G, 1>([q])[0][0]
+    }
+
+    /// The same for several places, and for each another site, should the first one be far away now.
+    #[inline(always)]
+    pub(super) fn near_each<G: Dimension, const N: usize>(&self, places: [&G::Point; N]) -> [[SiteId; 2]; N] {
+        let none = [[SiteId::NONE; 2]; N];
         let Ok(tree) = self.tree.try_read() else {
-            return SiteId::NONE;
+            return none;
         };
-        tree.as_ref().map_or(SiteId::NONE, |tree| SiteId::new(tree.leaves[tree.leaf::<G>(q)].load(Relaxed)))
+        let Some(tree) = tree.as_ref() else {
+            return none;
+        };
+        let site = |leaf: usize| SiteId::new(tree.leaves[leaf].load(Relaxed));
+        tree.leaves_of::<G, N>(places).map(|leaf| [site(leaf), site(leaf ^ 1)])
+    }
+
+    /// Enters a walk of `steps` steps to `q`, near the site `s`, without a new tree.
+    #[inline(always)]
+    pub(super) fn follow_alone<G: Dimension>(&self, q: &G::Point, s: SiteId, steps: u64) {
+        if steps > SHORT_WALK
+            && let Ok(tree) = self.tree.try_read()
+            && let Some(tree) = tree.as_ref()
+        {
+            tree.leaves[tree.leaf::<G>(q)].store(s.get(), Relaxed);
+        }
+    }
+
+    /// Each of these sites, with its place, leaves the next ones behind: where it was a landmark, that is the one after it.
+    pub(super) fn leave<G: Dimension, const N: usize>(
+        &self,
+        places: [&G::Point; N],
+        sites: [SiteId; N],
+        others: [SiteId; N],
+    ) {
+        if let Ok(tree) = self.tree.try_read()
+            && let Some(tree) = tree.as_ref()
+        {
+            for ((leaf, s), other) in tree.leaves_of::<G, N>(places).into_iter().zip(sites).zip(others) {
+                let leaf = &tree.leaves[leaf];
+                if leaf.load(Relaxed) == s.get() {
+                    leaf.store(other.get(), Relaxed);
+                }
+            }
+        }
+    }
+
+    /// Whether there is a tree, or this number of places to look for makes one worth while.
+    pub(super) fn are_made_by(&self, n: usize, n_sites: usize) -> bool {
+        n_sites >= MIN_SITES
+            && (n * SITES_PER_GOAL >= n_sites || self.tree.try_read().is_ok_and(|tree| tree.is_some()))
+    }
+
+    /// Makes a tree unless there is one.
+    pub(super) fn make<G: Dimension>(&mut self, sites: &[Site<G>]) -> Result<()> {
+        let Ok(tree) = self.tree.get_mut() else { return Ok(()) };
+        if tree.is_none() {
+            *tree = Tree::new(sites)?;
+        }
+        Ok(())
     }
 
     /// Enters a walk of `steps` steps to `q`, near the site `s`.

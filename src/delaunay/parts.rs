@@ -2,7 +2,7 @@
 //!
 //! Hyperplanes orthogonal to the axes divide space, each part of it in two (Bentley's k-d tree,
 //! 10.1145/361002.361007). The sites of each part follow each other in memory, along a Hilbert curve of their
-//! own. The planes are those of a sample, and stay when sites move: before the next build, sites that have
+//! own, forwards in one part and backwards in the next. The planes are those of a sample, and stay when sites move: before the next build, sites that have
 //! crossed one change places.
 
 use super::order::{Keyed, bounding_box, hilbert_order};
@@ -211,7 +211,13 @@ impl<G: Dimension> Delaunay<G> {
         let mut done = Vec::new();
         memory::lengthen(&mut done, n_parts, Ok(Vec::new()))?;
         threads::fill(&mut done, &|part| {
-            hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)
+            let mut own = hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)?;
+            // A curve ends beside its begin, at the other end of an axis; so most of what is beside each other in the two
+            // halves of a box, one behind the other, is as far from the end of one curve as from the begin of the next.
+            if part % 2 == 1 {
+                own.reverse();
+            }
+            Ok(own)
         });
         for (sorted, done) in sorted.iter_mut().zip(done) {
             *sorted = done?;

@@ -85,21 +85,22 @@ impl Kernel<Plane> for Plane {
     #[inline(always)]
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
-        t: &Delaunay<Plane>,
+        f: &StaticFilter,
+        sites: Sites<Plane>,
         cells: [[SiteId; 3]; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held {
-        let [a, b, c] = corners(avx2, t.view(), cells);
+        let [a, b, c] = corners(avx2, sites, cells);
         let circle = predicates::circle(&a, &b, &c);
         let own = OwnBounds2d::new(&a, &b, &c);
-        let mut hold_for_all = avx2.splat(t.filter.orient).is_less(circle[2]);
+        let mut hold_for_all = avx2.splat(f.orient).is_less(circle[2]);
         let are_positive = if HAVE_OWN_BOUNDS { own.area().is_less(circle[2]) } else { hold_for_all };
         let mut facets = [are_positive; 4];
         for (facet, apexes) in facets.iter_mut().zip(&apexes[..3]) {
-            let q = places(avx2, t.view(), **apexes);
+            let q = places(avx2, sites, **apexes);
             let side = predicates::side_of_circle(&circle, &a, &q);
             let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
-            let hold = side.is_less(avx2.splat(-t.filter.prepared)) | is_none;
+            let hold = side.is_less(avx2.splat(-f.prepared)) | is_none;
             hold_for_all = hold_for_all & hold;
             *facet = if HAVE_OWN_BOUNDS {
                 side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none

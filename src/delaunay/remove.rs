@@ -41,6 +41,9 @@ pub(super) struct Hole<G: Dimension> {
     pub(super) link: Vec<Gap<G::Corners>>,
     /// Sites of the link, the ghost vertex included.
     pub(super) sites: Vec<SiteId>,
+    /// The positions of its corners among these, for each facet of the link; 0 opposite it. Where there are more than 256
+    /// sites they mean nothing.
+    pub(super) labels: Vec<LabelsOf<G>>,
     open: Vec<(u64, Gap<G::Corners>)>,
     open_ghost: Vec<(u64, Facet)>,
     /// New cells, and the gluing of their facets: a facet whose slot counts from `NEW` is that of one of them.
@@ -53,6 +56,7 @@ impl<G: Dimension> Default for Hole<G> {
         Hole {
             link: Vec::new(),
             sites: Vec::new(),
+            labels: Vec::new(),
             open: Vec::new(),
             open_ghost: Vec::new(),
             made: Vec::new(),
@@ -65,6 +69,7 @@ impl<G: Dimension> Hole<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.link)
             + memory::bytes_of(&self.sites)
+            + memory::bytes_of(&self.labels)
             + memory::bytes_of(&self.open)
             + memory::bytes_of(&self.open_ghost)
             + memory::bytes_of(&self.made)
@@ -74,6 +79,9 @@ impl<G: Dimension> Hole<G> {
 
 /// The facets of a cell, seen from its neighbours.
 type FacetsOf<G> = <<G as Dimension>::Corners as Corners>::Of<Facet>;
+
+/// For each corner of a cell, a label.
+pub(super) type LabelsOf<G> = <<G as Dimension>::Corners as Corners>::Of<u8>;
 
 /// Slots from here on stand for the cells of `made`, which are not in the complex yet.
 pub(super) const NEW: usize = MAX_CELLS;
@@ -132,9 +140,12 @@ impl<G: Dimension> Delaunay<G> {
     /// Lists the link's sites. Each gets its position in the list as a label, kept in its `cell` field.
     pub(super) fn label_link(&mut self, hole: &mut Hole<G>) -> Result<()> {
         hole.sites.clear();
+        hole.labels.clear();
         // The link is a sphere: in the plane it has as many sites as facets, in space two more than half as many.
         memory::reserve(&mut hole.sites, hole.link.len())?;
+        memory::reserve(&mut hole.labels, hole.link.len())?;
         for gap in &hole.link {
+            let mut labels = LabelsOf::<G>::filled(0);
             for i in (0..G::Corners::N).filter(|&i| i != gap.at) {
                 let site = self.corner_mut(gap.corners[i]);
                 let l = site.cell.index();
@@ -142,7 +153,9 @@ impl<G: Dimension> Delaunay<G> {
                     site.cell = Slot::at(hole.sites.len());
                     hole.sites.push(gap.corners[i]);
                 }
+                labels[i] = site.cell.get() as u8;
             }
+            hole.labels.push(labels);
         }
         Ok(())
     }
@@ -214,7 +227,6 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve(&mut hole.made_at, n)?;
         self.reserve_record(n)?;
         self.complex.reserve(n)?;
-        self.complex.reserve_free(self.star.len())?;
         self.complex.note_all(self.star.iter().map(|&(c, _)| c))?;
         self.complex.reserve_rows(n)
     }
@@ -318,7 +330,8 @@ impl<G: Dimension> Delaunay<G> {
             complex.release(c);
         }
         hole.made_at.extend(star.iter().take(hole.made.len()).map(|&(c, _)| c));
-        hole.made_at.extend((star.len()..hole.made.len()).map(|_| complex.create_blank()));
+        let near = star[0].0;
+        hole.made_at.extend((star.len()..hole.made.len()).map(|_| complex.create_blank(near)));
         for (&cell, &(corners, mut neighbours)) in hole.made_at.iter().zip(&hole.made) {
             for (i, facet) in neighbours.as_mut().iter_mut().enumerate() {
                 match new_of(*facet) {

@@ -56,6 +56,22 @@ impl<I: Id> IndexSet<I> {
         if self.all.is_empty() { &self.few[1..=self.n] } else { &self.all }
     }
 
+    /// Whether an index has been [entered](Self::insert).
+    #[inline(always)]
+    pub(crate) fn contains(&self, index: I) -> bool {
+        if self.n > INLINE_CAPACITY {
+            return self.table[self.find(index)] != 0;
+        }
+        let mut at = place_of(index);
+        while self.places[at] != 0 {
+            if self.few[usize::from(self.places[at])] == index {
+                return true;
+            }
+            at = (at + 1) % PLACES;
+        }
+        false
+    }
+
     /// Takes all out; keeps the memory.
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
@@ -249,7 +265,9 @@ mod tests {
             for _ in 0..[3, 63, 64, 65, 130, 1000][round % 6] {
                 let index = Slot::new(rng.next() as u32 >> [24, 20, 0][round / 6 % 3]);
                 let is_new = expected.insert(index);
+                assert_eq!(set.contains(index), !is_new);
                 assert_eq!(set.insert(index), Ok(is_new));
+                assert!(set.contains(index));
                 if is_new {
                     order.push(index);
                 }

@@ -86,21 +86,22 @@ impl Kernel<Space> for Space {
     #[inline(always)]
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
-        t: &Delaunay<Space>,
+        f: &StaticFilter,
+        sites: Sites<Space>,
         cells: [[SiteId; 4]; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held {
-        let [a, b, c, d] = corners(avx2, t.view(), cells);
+        let [a, b, c, d] = corners(avx2, sites, cells);
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let own = OwnBounds3d::new(&a, &b, &c, &d);
-        let mut hold_for_all = avx2.splat(t.filter.orient).is_less(sphere[3]);
+        let mut hold_for_all = avx2.splat(f.orient).is_less(sphere[3]);
         let are_positive = if HAVE_OWN_BOUNDS { own.volume().is_less(sphere[3]) } else { hold_for_all };
         let mut facets = [are_positive; 4];
         for (facet, apexes) in facets.iter_mut().zip(apexes) {
-            let q = places(avx2, t.view(), *apexes);
+            let q = places(avx2, sites, *apexes);
             let side = predicates::side_of_sphere(&sphere, &a, &q);
             let is_none = avx2.are_equal(&apexes.map(SiteId::get), INFINITE.get());
-            let hold = side.is_less(avx2.splat(-t.filter.prepared)) | is_none;
+            let hold = side.is_less(avx2.splat(-f.prepared)) | is_none;
             hold_for_all = hold_for_all & hold;
             *facet = if HAVE_OWN_BOUNDS {
                 side.is_less(avx2.splat(0.0) - own.side(&a, &q)) | is_none

@@ -136,9 +136,9 @@ impl<G: Dimension> Delaunay<G> {
                 let apexes = block.apexes.each_ref().map(|a| &a[k]);
                 let corners = block.cells[k].map(|c| self.complex.cell(c).corners);
                 let held = if has_own_bounds {
-                    G::cells_hold::<true>(avx2, self, corners, apexes)
+                    G::cells_hold::<true>(avx2, &self.filter, self.view(), corners, apexes)
                 } else {
-                    G::cells_hold::<false>(avx2, self, corners, apexes)
+                    G::cells_hold::<false>(avx2, &self.filter, self.view(), corners, apexes)
                 };
                 n_hold += held.by_static_bounds.bits().count_ones() as usize;
                 let n = (block.n - k * LANES).min(LANES);

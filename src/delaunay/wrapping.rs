@@ -24,18 +24,19 @@
 //! set they are done by exact signs.)
 
 use super::remove::{Hole, NEW, new_of};
+use super::site::Sites;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
-use crate::predicates::{cross, dot, minus};
+use crate::predicates::{StaticFilter, cross, dot, minus};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 /// Most sites of a link.
-const MOST_SITES: usize = 32;
+pub(super) const MOST_SITES: usize = 32;
 /// Most new cells.
-const MOST_CELLS: usize = 64;
+pub(super) const MOST_CELLS: usize = 64;
 /// Most facets of the frontier at a time: a byte holds the number of one, or that there is none.
 const MOST_OPEN: usize = 255;
 /// Sets of three sites, of which facets have two or three.
@@ -107,7 +108,9 @@ impl<G: Dimension> Delaunay<G> {
                 (hole, &mut *wrapping),
                 s,
                 #[inline(always)]
-                |(avx2, t), (hole, wrapping), s| wrapping.find(avx2, t, hole, s),
+                |(avx2, t), (hole, wrapping), s| {
+                    wrapping.find(avx2, (&t.filter, t.view()), |facet| t.complex.apex(facet), hole, s)
+                },
             );
             wrapping.follow(is_found);
             is_found
@@ -130,11 +133,20 @@ impl Wrapping {
         self.skips = self.last_skips;
     }
 
+    /// Finds the cells that fill the hole of `s`, whose link has no more than [`MOST_SITES`] sites, none of them the ghost
+    /// vertex; there is room for [`MOST_CELLS`] cells. `apex` tells what is opposite a facet of the link. Whether it has.
     #[inline(always)]
-    fn find<G: Dimension>(&mut self, avx2: Avx2, t: &Delaunay<G>, hole: &mut Hole<G>, s: SiteId) -> bool {
+    pub(super) fn find<G: Dimension>(
+        &mut self,
+        avx2: Avx2,
+        (filter, sites): (&StaticFilter, Sites<G>),
+        apex: impl Fn(Facet) -> SiteId,
+        hole: &mut Hole<G>,
+        s: SiteId,
+    ) -> bool {
         hole.made.clear();
-        self.see(t, &hole.sites, s);
-        let is_found = self.open_link(t, hole) && self.wrap(avx2, hole);
+        self.see(sites, &hole.sites, s);
+        let is_found = self.open_link(hole) && self.wrap(avx2, hole);
         if !is_found {
             for open in &self.open[..self.n_open] {
                 if open.set != CLOSED {
@@ -142,14 +154,14 @@ impl Wrapping {
                 }
             }
         }
-        is_found && are_certain(avx2, t, hole)
+        is_found && are_certain(avx2, (filter, sites), apex, hole)
     }
 
     #[inline(always)]
-    fn see<G: Dimension>(&mut self, t: &Delaunay<G>, sites: &[SiteId], s: SiteId) {
-        let origin = t.view().point(s);
-        for (label, &site) in sites.iter().enumerate().take(MOST_SITES) {
-            let p = t.view().point(site);
+    fn see<G: Dimension>(&mut self, sites: Sites<G>, link: &[SiteId], s: SiteId) {
+        let origin = sites.point(s);
+        for (label, &site) in link.iter().enumerate().take(MOST_SITES) {
+            let p = sites.point(site);
             let mut seen = [0.0; 3];
             for axis in 0..G::D {
                 seen[axis] = p[axis] - origin[axis];
@@ -162,14 +174,12 @@ impl Wrapping {
 
     /// The frontier at first.
     #[inline(always)]
-    fn open_link<G: Dimension>(&mut self, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
+    fn open_link<G: Dimension>(&mut self, hole: &Hole<G>) -> bool {
         self.n_open = 0;
-        for gap in &hole.link {
-            let corners = gap.corners.rotated_to_last(gap.at);
+        for (gap, all) in hole.link.iter().zip(&hole.labels) {
+            let all = all.rotated_to_last(gap.at);
             let mut labels = [0; 3];
-            for i in 0..G::D {
-                labels[i] = t.site(corners[i]).cell.get() as u8;
-            }
+            labels[..G::D].copy_from_slice(&all.as_ref()[..G::D]);
             let (set, is_odd) = set_of::<G>(labels);
             if self.by_set[set] != 0 || !self.open(Open { labels, is_odd, set: set as u16, out: gap.out }) {
                 return false;
@@ -377,7 +387,12 @@ const fn below(of: usize) -> [u16; MOST_SITES] {
 
 /// Whether all certificates of the new cells surely hold.
 #[inline(always)]
-fn are_certain<G: Dimension>(avx2: Avx2, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
+fn are_certain<G: Dimension>(
+    avx2: Avx2,
+    (filter, sites): (&StaticFilter, Sites<G>),
+    apex_of: impl Fn(Facet) -> SiteId,
+    hole: &Hole<G>,
+) -> bool {
     let last = hole.made.len() - 1;
     let mut first = 0;
     while first <= last {
@@ -390,14 +405,14 @@ fn are_certain<G: Dimension>(avx2: Avx2, t: &Delaunay<G>, hole: &Hole<G>) -> boo
             for (apex, (_, neighbours)) in apexes.iter_mut().zip(cells) {
                 *apex = match new_of(neighbours[i]) {
                     Some(new) => hole.made[new].0[neighbours[i].index()],
-                    None => t.complex.apex(neighbours[i]),
+                    None => apex_of(neighbours[i]),
                 };
             }
         }
         let corners = [cells[0].0, cells[1].0, cells[2].0, cells[3].0];
         let apexes = [&apexes[0], &apexes[1], &apexes[2], &apexes[3]];
-        if G::cells_hold::<false>(avx2, t, corners, apexes).all::<G>() != ALL
-            && G::cells_hold::<true>(avx2, t, corners, apexes).all::<G>() != ALL
+        if G::cells_hold::<false>(avx2, filter, sites, corners, apexes).all::<G>() != ALL
+            && G::cells_hold::<true>(avx2, filter, sites, corners, apexes).all::<G>() != ALL
         {
             return false;
         }

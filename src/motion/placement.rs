@@ -7,39 +7,34 @@
 //! and some at their old positions: two may meet that are never at the same place at a timestamp; they share a site for
 //! that while.
 //!
-//! **Threads.** One does it all. Two prototypes, which are not kept, used two (one vertex in a hundred leaps anywhere,
-//! 300,000 points, `examples/thread_scaling`):
-//!
-//! - Most of a placement in space finds out what will change, and changes nothing: the walk, the zone, what fills the hole.
-//!   Two threads found this out ahead, for batches of vertices far from each other, and one made the changes after each
-//!   batch: 1.3 times as fast in space, 1.15 times in the plane. The shares alone would allow 1.6 times in space: the rest
-//!   presumably goes where threads wait for each other, twice in each batch, and where one changes what another has in its
-//!   cache.
-//! - Each thread removed what leaps from its range of the sorted cells, as threads flip, and then inserted what comes there:
-//!   1.3 to 1.5 times as fast in space, up to 1.6 times in the plane, in the first commits. But new cells that one thread
-//!   makes alone, on the hull and at the borders, come into slots that it has freed elsewhere. After twenty such commits in
-//!   space half of the stars had cells of both ranges, and nothing was gained. All changes would have to take free slots
-//!   near the cells that they replace.
-//!
-//! Placing vertices that jump by half a spacing took as long as on one thread with either, or longer. Two processes side by side place 1.6 times as many
-//! vertices in the plane and 1.8 times as many in space as one alone.
+//! **Threads.** Where many vertices go far away and the cells are sorted, several threads relocate most of them [side by
+//! side](Delaunay::place_side_by_side), each in its range of the cells, some thousands at a time. Two are up to 1.8 times as
+//! fast as one in the plane and up to 1.6 times in space (`examples/thread_scaling`: *leaps* and *later*), and 1.2 to 1.3
+//! times where a fifth of a million vertices leap, as one thread has these in an order in which what it reads is near.
+//! Vertices that go to near places are relocated by one thread: which range a small change is in has to be found out, and
+//! with several threads that took as long as the change (prototypes: 0.8 to 1.0 times as fast).
 
 use super::constants::constants;
 use super::repair::Budget;
 use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::order::{Keyed, hilbert_order};
-use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
+use crate::delaunay::{Dimension, Goal, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
+use std::ops::Range;
 
 /// Vertices looked at to find out whether many go far away, ...
 const SAMPLE: usize = 64;
 
 /// ... which they do if more than one in this number does.
 const AWAY_SHARE: usize = 4;
+
+/// Vertices placed side by side at a time, at most, and also for each of those at a time how many there are in all.
+const MOST_SIDE_BY_SIDE: usize = 1 << 14;
+const LEFT_PER_PLACED: usize = 16;
 
 /// Where a vertex has been placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +55,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         self.queue_for_placement(given)?;
+        self.place_side_by_side(report)?;
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
     }
 
@@ -76,6 +72,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Relocates the staged vertices that are not applied yet, with flips, while that costs less than to rebuild; after
     /// a sweep with `exact` exact evaluations, or none.
     pub(super) fn place_staged_within_budget(&mut self, exact: u64, report: &mut CommitReport) -> Result<()> {
+        self.place_side_by_side(report)?;
         let left = self.staging.vertices().len() - self.staging.applied();
         let slowdown = self.slowdown(1.0);
         let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report, slowdown);
@@ -91,6 +88,96 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.regions.invalidate();
         self.order_queue();
         Ok(())
+    }
+
+    /// Relocates those of the staged vertices that go far away on several threads, as far as these can.
+    fn place_side_by_side(&mut self, report: &mut CommitReport) -> Result<()> {
+        // With fewer sites at once the others stay as near to each other as they were.
+        let most = MOST_SIDE_BY_SIDE.min(self.n_present / LEFT_PER_PLACED).max(1);
+        let n = self.staging.vertices().len();
+        let mut first = self.staging.applied();
+        if self.kernel.placing_threads(n - first) < 2 || !self.goals_are_away(1) {
+            return Ok(());
+        }
+        self.deal_queue((n - first).div_ceil(most))?;
+        while first < n {
+            let queue = first..n.min(first + most);
+            first = queue.end;
+            if self.kernel.placing_threads(queue.len()) < 2 {
+                return Ok(());
+            }
+            if !self.monitor(queue.start as f64 / n as f64) {
+                return Err(Error::Cancelled);
+            }
+            self.place_range_side_by_side(queue, report)?;
+        }
+        Ok(())
+    }
+
+    /// Deals the staged vertices that are not applied yet into hands, one behind the other: those of each are everywhere.
+    fn deal_queue(&mut self, n_hands: usize) -> Result<()> {
+        if n_hands < 2 {
+            return Ok(());
+        }
+        let first = self.staging.applied();
+        let queue = &mut self.staging.vertices_mut()[first..];
+        let before = memory::copy_of(queue)?;
+        let dealt = (0..n_hands).flat_map(|hand| before.iter().skip(hand).step_by(n_hands));
+        queue.iter_mut().zip(dealt).for_each(|(v, dealt)| *v = *dealt);
+        Ok(())
+    }
+
+    /// As above, of these of the staged vertices, none of which is applied yet. Those that have been relocated are put
+    /// behind those that are.
+    fn place_range_side_by_side(&mut self, queue: Range<usize>, report: &mut CommitReport) -> Result<()> {
+        let (mut goals, mut at, mut placed) = (Vec::new(), Vec::new(), Vec::new());
+        memory::reserve_exact(&mut goals, queue.len())?;
+        memory::reserve_exact(&mut at, queue.len())?;
+        for k in queue {
+            let v = self.staging.vertices()[k];
+            let (site, place) = (self.site_of[v], self.staging.positions()[v]);
+            if !self.is_shared(site) && self.kernel.is_away(site, &place) {
+                goals.push(Goal { site, place });
+                at.push(k);
+            }
+        }
+        self.kernel.place_side_by_side(&mut goals, &mut placed)?;
+        let mut coincident = Vec::new();
+        // From the first in the queue to the last, each changes places with one that has not been relocated.
+        placed.sort_unstable_by_key(|&(goal, _)| goal);
+        for &(goal, other) in &placed {
+            if let Some(other) = other {
+                let v = self.staging.vertices()[at[goal as usize]];
+                memory::push(&mut coincident, (v, goals[goal as usize].place, other))?;
+            }
+        }
+        for &(goal, _) in placed.iter().filter(|(_, other)| other.is_none()) {
+            self.note_placed(at[goal as usize], goals[goal as usize].place, report);
+        }
+        for (v, old, other) in coincident {
+            let first = self.staging.applied();
+            let behind = self.staging.vertices()[first..].iter().position(|&w| w == v);
+            let new = self.note_placed(first + behind.expect("it has not been applied"), old, report);
+            if let Err(error) = self.hide(v, other) {
+                // It counts as not moved; what has become of its site is in the record.
+                self.staging.positions_mut()[v] = new;
+                self.staging.set_applied(first);
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Enters that the `k`-th staged vertex, which was here, has been placed; returns where it is.
+    fn note_placed(&mut self, k: usize, old: G::Point, report: &mut CommitReport) -> G::Point {
+        let first = self.staging.applied();
+        let vertices = self.staging.vertices_mut();
+        vertices.swap(first, k);
+        let v = vertices[first];
+        self.staging.set_applied(first + 1);
+        report.moved += 1;
+        report.placements += 1;
+        std::mem::replace(&mut self.staging.positions_mut()[v], old)
     }
 
     /// Relocates the staged vertices that are not applied yet, one after the other.
@@ -200,20 +287,22 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// them: that of their goals along a Hilbert curve if many go far away and the caches do not hold all; that of
     /// storage otherwise, and where there is no memory for the other.
     pub(super) fn order_queue(&mut self) {
-        if !self.goals_are_away() || self.order_queue_by_goal().is_err() {
+        let is_worth = self.kernel.is_far() && self.goals_are_away(SAMPLE);
+        if !is_worth || self.order_queue_by_goal().is_err() {
             self.order_queue_by_site();
         }
     }
 
-    /// Whether many of the staged vertices that are not applied yet go far away, which shows in a sample.
-    fn goals_are_away(&self) -> bool {
+    /// Whether of the staged vertices that are not applied yet there are this number, and many of them go far away, which
+    /// shows in a sample.
+    fn goals_are_away(&self, least: usize) -> bool {
         let queue = &self.staging.vertices()[self.staging.applied()..];
-        if !self.kernel.is_far() || !self.kernel.has_cells() || queue.len() < SAMPLE {
+        if !self.kernel.has_cells() || queue.len() < least.max(1) {
             return false;
         }
         let is_away = |&&v: &&VertexId| self.kernel.is_away(self.site_of[v], &self.staging.positions()[v]);
-        let sample = queue.iter().step_by(queue.len() / SAMPLE);
-        sample.filter(is_away).count() >= SAMPLE / AWAY_SHARE
+        let sample = queue.iter().step_by((queue.len() / SAMPLE).max(1));
+        sample.clone().filter(is_away).count() * AWAY_SHARE >= sample.len()
     }
 
     fn order_queue_by_goal(&mut self) -> Result<()> {
