@@ -231,7 +231,7 @@ const std::vector<std::string> &target_names() {
         "staged_5%",      "staged_20%",  "tenth_grid",      "tenth_face_centred", "tenth_layers",
         "tenth_sphere",   "tenth_circle", "shear_grid",     "shear_face_centred", "shear_layers",
         "shear_sphere",   "shear_circle",   "leaping_0.001",  "leaping_0.001_moving", "leaping_0.01",
-        "leaping_0.01_moving", "leaping_0.1", "leaping_0.1_moving"};
+        "leaping_0.01_moving", "leaping_0.1", "leaping_0.1_moving", "threads_leaping"};
     return names;
 }
 

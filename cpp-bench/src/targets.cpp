@@ -59,6 +59,9 @@ constexpr double wanted_at_first = 1 / 1.3;
 
 /// Shares of the vertices that leap anywhere in each timestamp, while all others rest, or move by so many spacings.
 constexpr double leaping_shares[] = {0.001, 0.01, 0.1};
+constexpr double threads_leaping_share = 0.01;
+/// What is at the border of two threads' cells, or on the hull, is left to one.
+constexpr double wanted_of_leaping_threads = 1.4;
 constexpr double moving_others = 1e-3;
 
 /// From where points go to a random place close by.
@@ -247,6 +250,7 @@ public:
                 if (set.dimension == dimension && is_left(set))
                     for (const char *way : {"tenth", "shear"})
                         if (sizes_.has(left_name(way, set))) leave(set, way);
+            if (sizes_.has("threads_leaping")) leap_on_threads(dimension);
             if (sizes_.has("threads_build")) build_anew(dimension);
             append(step_targets(dimension, sizes_, seed_, checks_, progress_));
             if (sizes_.has("loop")) append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
@@ -351,6 +355,15 @@ private:
     void leap_by_share(unsigned dimension, std::size_t n_points, double share, bool others_move) {
         const std::string name = leaping_name(share, others_move);
         add_beside_best(name, leaping_points(name, dimension, n_points, share, others_move, seed_));
+    }
+
+    void leap_on_threads(unsigned dimension) {
+        const Series series =
+            leaping_points("threads_leaping", dimension, sizes_.n_committed, threads_leaping_share, false, seed_);
+        const std::size_t last = n_warm + n_left;
+        const auto done = replay(series, {entrant("deldrift/repair", 1, last), entrant("deldrift/repair", 2, last)},
+                                 1, checks_of(series), progress_);
+        add("threads_leaping", series, done[0], done[1], wanted_of_leaping_threads);
     }
 
     void leave(const PointSet &set, const std::string &way) {

@@ -204,14 +204,18 @@ struct Shared<'t, G: Dimension> {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// How many threads may place this number of sites side by side.
+    /// How many threads may place this number of sites side by side, if the cells are sorted.
     pub(crate) fn placing_threads(&self, n: usize) -> usize {
-        // Unless the cells are sorted nearly all changes would need those of several threads; and there has to be a way to
-        // find out whose cells are near a place.
-        if !self.is_sorted || Avx2::new().is_none() || !self.landmarks.are_made_by(n, self.sites.len()) {
+        // There has to be a way to find out whose cells are near a place.
+        if Avx2::new().is_none() || !self.landmarks.are_made_by(n, self.sites.len()) {
             return 1;
         }
         self.threads.for_work(n, PLACED_AT_LEAST, PLACED_IF_ASKED)
+    }
+
+    /// Whether the cells have been sorted since the latest build.
+    pub(crate) fn are_cells_sorted(&self) -> bool {
+        self.is_sorted
     }
 
     /// Places sites, which are in cells and go [away](Self::is_away), on several threads, as far as these can. Enters the
@@ -225,7 +229,8 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<()> {
         placed.clear();
         let n_threads = self.placing_threads(goals.len());
-        if n_threads < 2 {
+        // Unless the cells are sorted nearly all changes would need those of several threads.
+        if n_threads < 2 || !self.is_sorted {
             return Ok(());
         }
         let mut all = memory::take_made(&mut self.side_by_side)?;

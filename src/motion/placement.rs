@@ -99,6 +99,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.kernel.placing_threads(n - first) < 2 || !self.goals_are_away(1) {
             return Ok(());
         }
+        // If not for this commit, for the next one.
+        self.transaction.want_order();
+        if !self.kernel.are_cells_sorted() {
+            return Ok(());
+        }
         self.deal_queue((n - first).div_ceil(most))?;
         while first < n {
             let queue = first..n.min(first + most);
