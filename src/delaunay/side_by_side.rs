@@ -41,6 +41,9 @@ use inserting::Rim;
 const PLACED_AT_LEAST: usize = 64;
 const PLACED_IF_ASKED: usize = 8;
 
+/// A journal with room for more rows is not kept as scratch memory.
+const ROWS_KEPT: usize = 1 << 14;
+
 /// Tasks between those of which one thing and the next are asked for.
 const STEP: usize = 4;
 
@@ -239,6 +242,14 @@ impl<G: Dimension> Delaunay<G> {
         done
     }
 
+    /// Frees memory that was needed for many sites, after the last of several calls.
+    pub(crate) fn end_side_by_side(&mut self) {
+        let parts = self.side_by_side.iter_mut().flat_map(|all| &mut all.parts);
+        for part in parts.filter(|part| part.journal.capacity() > ROWS_KEPT) {
+            *part = Part::default();
+        }
+    }
+
     fn place_in_parts(
         &mut self,
         all: &mut SideBySide<G>,
@@ -253,6 +264,9 @@ impl<G: Dimension> Delaunay<G> {
             self.cover(&goal.place, &goal.place);
         }
         self.divide(all, goals, n_threads)?;
+        if all.starts.len() < 2 {
+            return Ok(());
+        }
         let done = self.exchange_in_rounds(all, goals).and_then(|()| self.enter_parts(all));
         if let Err(error) = done {
             self.take_parts_back(all, goals);

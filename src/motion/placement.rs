@@ -104,18 +104,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.kernel.are_cells_sorted() {
             return Ok(());
         }
-        self.deal_queue((n - first).div_ceil(most))?;
+        let n_hands = (n - first).div_ceil(most);
+        self.deal_queue(n_hands)?;
+        let most = (n - first).div_ceil(n_hands);
         while first < n {
             let queue = first..n.min(first + most);
             first = queue.end;
-            if self.kernel.placing_threads(queue.len()) < 2 {
-                return Ok(());
-            }
             if !self.monitor(queue.start as f64 / n as f64) {
                 return Err(Error::Cancelled);
             }
             self.place_range_side_by_side(queue, report)?;
         }
+        self.kernel.end_side_by_side();
         Ok(())
     }
 
