@@ -98,6 +98,7 @@ impl<G: Dimension> Delaunay<G> {
         let mut ahead = cells.clone().skip(AHEAD);
         let mut block = Block::new();
         let mut has_own_bounds = false;
+        let (filter, sites) = (&self.filter, self.view());
         loop {
             block.n = 0;
             while block.n < BLOCK {
@@ -136,9 +137,9 @@ impl<G: Dimension> Delaunay<G> {
                 let apexes = block.apexes.each_ref().map(|a| &a[k]);
                 let corners = block.cells[k].map(|c| self.complex.cell(c).corners);
                 let held = if has_own_bounds {
-                    G::cells_hold::<true>(avx2, &self.filter, self.view(), corners, apexes)
+                    G::cells_hold::<true>(avx2, filter, sites, corners, apexes)
                 } else {
-                    G::cells_hold::<false>(avx2, &self.filter, self.view(), corners, apexes)
+                    G::cells_hold::<false>(avx2, filter, sites, corners, apexes)
                 };
                 n_hold += held.by_static_bounds.bits().count_ones() as usize;
                 let n = (block.n - k * LANES).min(LANES);
