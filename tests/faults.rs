@@ -414,7 +414,9 @@ impl<G: Dimension> Scene<G> {
         if setting.leaps {
             places.rotate_left(100);
         }
-        nudge::<G>(&mut places, 0.3 * spacing, rng);
+        // Of those that leap, some go exactly where others are.
+        let nudged = if setting.leaps { setting.n / 2 } else { places.len() };
+        nudge::<G>(&mut places[..nudged], 0.3 * spacing, rng);
         let present: Vec<VertexId> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
         match call {
             Call::Commit(_, true) if present.len() == places.len() => t.move_all(&places).expect("moves"),

@@ -154,8 +154,8 @@ impl CellRange<'_, [SiteId; 4]> {
 }
 
 impl<C: Corners> Complex<C> {
-    /// Takes flips back by the rows that they changed, the latest first.
-    pub(crate) fn undo_flips(&mut self, rows: impl Iterator<Item = Row<C>>) {
+    /// Takes changes back by the rows that they changed, the latest first.
+    pub(crate) fn undo_rows(&mut self, rows: impl Iterator<Item = Row<C>>) {
         for row in rows {
             self.n_ghosts -= usize::from(self.cell(row.slot).is_ghost());
             self.n_ghosts += usize::from(row.corners[C::N - 1] == INFINITE);

@@ -1,57 +1,91 @@
 //! The free slots, from which the one near a given slot is taken: so cells that are near each other stay near each other in
 //! storage, however long they are exchanged.
 //!
-//! There is a bit for each slot, and above that two levels, with a bit for each word of the level below that is not 0. Where
-//! the word of a slot has no free one, the level above tells which of the words beside it have. So a free slot is found in
-//! the same 64, 64² or 64³ slots, the smallest block of these that has any.
+//! There is a bit for each slot, and above that two [levels], with a bit for each word of the level below that is not 0.
+//! Where the word of a slot has no free one, the level above tells which of the words beside it have. So a free slot is
+//! found in the same 64, 64² or 64³ slots, the smallest block of these that has any.
 //!
-//! The slots that have been freed last are kept in hand: they are in a cache. Where cells are in no order, as they are
-//! while one thread does all, they are taken first, which is a tenth faster; otherwise only if they are near.
+//! The slots that have been freed last are kept *in hand*, in a short list: they are in a cache, so that writing
+//! them waits for no memory. Where cells are in no order, as they are while one thread does all, they are taken first; otherwise only if
+//! they are near.
 //!
 //! Cost: mostly one word, and a few at each level if the nearest one is far away. A slot takes an eighth of a byte.
+
+mod levels;
+
+pub(crate) use levels::WORD;
 
 use crate::error::Result;
 use crate::ids::Slot;
 use crate::machine::memory;
-use std::cmp::Ordering;
-
-const LEVELS: usize = 3;
-/// Bits of a word; ranges of slots begin at a multiple of it.
-pub(crate) const WORD: usize = u64::BITS as usize;
+use levels::{LEVELS, Levels};
 
 /// A slot no farther than this is near.
 const NEAR: usize = 1 << 10;
 
+/// Most slots in hand.
+const MOST: usize = 32;
+/// How many are laid down to make room.
+const HALF: usize = MOST / 2;
+
 /// The free ones of all slots for which there is memory.
 #[derive(Debug, Default)]
 pub(super) struct FreeSlots {
-    /// Those that are not in hand.
+    /// Bits of those that are not in hand.
     levels: [Vec<u64>; LEVELS],
     in_hand: InHand,
     /// Of all.
     n: usize,
-    /// Whether it counts more that a slot is near than that it is in a cache.
-    is_local: bool,
 }
 
 /// The slots that have been freed last.
 #[derive(Clone, Debug)]
 struct InHand {
-    slots: [Slot; Self::MOST],
+    slots: [Slot; MOST],
     n: usize,
+    /// Whether it counts more that a slot is near than that it is in a cache.
+    are_near_wanted: bool,
 }
 
 impl Default for InHand {
     fn default() -> Self {
-        InHand { slots: [Slot::NONE; Self::MOST], n: 0 }
+        InHand { slots: [Slot::NONE; MOST], n: 0, are_near_wanted: false }
     }
 }
 
 impl InHand {
-    const MOST: usize = 32;
-
     fn as_slice(&self) -> &[Slot] {
         &self.slots[..self.n]
+    }
+
+    /// Adds a slot; returns those that have been there longest, if there was no room for it.
+    #[inline(always)]
+    fn push(&mut self, slot: Slot) -> Option<[Slot; HALF]> {
+        let laid_down = if self.n == MOST { Some(self.pop_oldest()) } else { None };
+        self.slots[self.n % MOST] = slot;
+        self.n += 1;
+        laid_down
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn pop_oldest(&mut self) -> [Slot; HALF] {
+        let mut oldest = [Slot::NONE; HALF];
+        oldest.copy_from_slice(&self.slots[..HALF]);
+        self.slots.copy_within(HALF.., 0);
+        self.n -= HALF;
+        oldest
+    }
+
+    /// Takes out the latest slot, if it is good enough in place of one near this one.
+    #[inline(always)]
+    fn pop_for(&mut self, near: Slot) -> Option<Slot> {
+        let last = *self.as_slice().last()?;
+        if self.are_near_wanted && last.index().abs_diff(near.index()) >= NEAR {
+            return None;
+        }
+        self.n -= 1;
+        Some(last)
     }
 }
 
@@ -60,35 +94,13 @@ impl InHand {
 pub(super) struct FreeRange<'c> {
     /// The first slot.
     first: usize,
-    /// The upper ones are empty where there are other ranges beside this one.
-    levels: [&'c mut [u64]; LEVELS],
-    /// Further ones, from slot 0 on.
-    head: &'c mut [u64],
+    /// Without upper levels where there are other ranges beside this one.
+    levels: Levels<'c>,
+    /// Further ones, from slot 0 on, below the first.
+    head: Levels<'c>,
     n: &'c mut usize,
-    /// If these are all slots, and whether those in hand are taken even if they are not near.
-    in_hand: Option<(&'c mut InHand, bool)>,
-}
-
-/// The set bit of a word that is nearest to this one; there is one.
-#[inline(always)]
-fn bit_near(word: u64, at: usize) -> usize {
-    // Beyond the ends if there is none.
-    let after = at + (word >> at).trailing_zeros() as usize;
-    let before = at.wrapping_sub((word << (WORD - 1 - at)).leading_zeros() as usize);
-    if after < WORD && (before >= WORD || after - at <= at - before) { after } else { before }
-}
-
-/// The position of a set bit in the word of a position, or in the nearest one that has any.
-fn near_in(words: &[u64], at: usize) -> Option<usize> {
-    let own = at / WORD;
-    let mut outwards = (0..words.len()).flat_map(|d| [own + d, own.wrapping_sub(d)]);
-    let word = outwards.find(|&word| words.get(word).is_some_and(|&bits| bits != 0))?;
-    let from = match word.cmp(&own) {
-        Ordering::Less => WORD - 1,
-        Ordering::Equal => at % WORD,
-        Ordering::Greater => 0,
-    };
-    Some(word * WORD + bit_near(words[word], from))
+    /// If these are all slots.
+    in_hand: Option<&'c mut InHand>,
 }
 
 impl FreeSlots {
@@ -123,12 +135,10 @@ impl FreeSlots {
     /// Enters a free slot, which was not.
     #[inline(always)]
     pub(super) fn put(&mut self, slot: Slot) {
-        if self.in_hand.n == InHand::MOST {
-            self.whole().lay_half_down();
-        }
         self.n += 1;
-        self.in_hand.slots[self.in_hand.n % InHand::MOST] = slot;
-        self.in_hand.n += 1;
+        if let Some(oldest) = self.in_hand.push(slot) {
+            self.set_bits(&oldest);
+        }
     }
 
     /// Takes out a free slot, if there is any: near this one, or from the hand.
@@ -137,14 +147,13 @@ impl FreeSlots {
         if self.n == 0 {
             return None;
         }
-        if !self.is_local
-            && let Some(&last) = self.in_hand.as_slice().last()
-        {
-            self.n -= 1;
-            self.in_hand.n -= 1;
-            return Some(last);
+        match self.in_hand.pop_for(near) {
+            Some(slot) => {
+                self.n -= 1;
+                Some(slot)
+            }
+            None => self.look_near(near),
         }
-        self.look_near(near)
     }
 
     #[inline(never)]
@@ -154,26 +163,24 @@ impl FreeSlots {
 
     #[inline(always)]
     pub(super) fn whole(&mut self) -> FreeRange<'_> {
-        let levels = self.levels.each_mut().map(|level| &mut level[..]);
-        let in_hand = Some((&mut self.in_hand, !self.is_local));
-        FreeRange { first: 0, levels, head: &mut [], n: &mut self.n, in_hand }
+        let levels = Levels(self.levels.each_mut().map(|level| &mut level[..]));
+        let head = Levels([&mut [], &mut [], &mut []]);
+        FreeRange { first: 0, levels, head, n: &mut self.n, in_hand: Some(&mut self.in_hand) }
     }
 
     /// Enters whether a slot is free.
-    #[inline(always)]
     pub(super) fn set(&mut self, slot: Slot, is_free: bool) {
-        if self.in_hand.n > 0 {
-            self.lay_down();
-        }
-        let mut all = self.whole();
-        match (all.has(slot), is_free) {
+        self.lay_down();
+        let all = self.whole();
+        let (mut levels, n) = (all.levels, all.n);
+        match (levels.has(slot.index()), is_free) {
             (false, true) => {
-                *all.n += 1;
-                all.put_bit(slot);
+                *n += 1;
+                levels.set(slot.index());
             }
             (true, false) => {
-                *all.n -= 1;
-                all.remove_bit(slot.index());
+                *n -= 1;
+                levels.unset(slot.index());
             }
             _ => {}
         }
@@ -181,21 +188,29 @@ impl FreeSlots {
 
     /// Takes none in hand.
     fn lay_down(&mut self) {
-        let InHand { slots, n } = std::mem::take(&mut self.in_hand);
-        let mut all = self.whole();
-        slots[..n].iter().for_each(|&slot| all.put_bit(slot));
+        let InHand { slots, n, .. } = self.in_hand;
+        if n > 0 {
+            self.in_hand.n = 0;
+            self.set_bits(&slots[..n]);
+        }
+    }
+
+    #[inline(never)]
+    fn set_bits(&mut self, slots: &[Slot]) {
+        let mut levels = self.whole().levels;
+        slots.iter().for_each(|slot| levels.set(slot.index()));
     }
 
     pub(super) fn clear(&mut self) {
         self.levels.iter_mut().for_each(|level| level.fill(0));
-        (self.n, self.in_hand.n, self.is_local) = (0, 0, false);
+        (self.n, self.in_hand) = (0, InHand::default());
     }
 
     /// Puts free slots instead of those there are; they are everywhere, so that near ones are to be taken.
     pub(super) fn put_everywhere(&mut self, slots: impl Iterator<Item = Slot>) {
         self.clear();
         slots.for_each(|slot| self.set(slot, true));
-        self.is_local = self.n > 0;
+        self.in_hand.are_near_wanted = self.n > 0;
     }
 
     /// Takes out those of these slots that are free.
@@ -220,7 +235,8 @@ impl FreeSlots {
             let is_last = k + 1 == starts.len();
             let head = if is_last { head.take().unwrap_or_default() } else { &mut [] };
             *n = words.iter().chain(&*head).map(|word| word.count_ones() as usize).sum();
-            FreeRange { first: start.index(), levels: [words, &mut [], &mut []], head, n, in_hand: None }
+            let alone = |words| Levels([words, &mut [], &mut []]);
+            FreeRange { first: start.index(), levels: alone(words), head: alone(head), n, in_hand: None }
         })
     }
 
@@ -236,8 +252,7 @@ impl FreeSlots {
     }
 
     pub(super) fn copied(&self) -> Result<Self> {
-        let (in_hand, n, is_local) = (self.in_hand.clone(), self.n, self.is_local);
-        let mut copy = FreeSlots { in_hand, n, is_local, ..FreeSlots::default() };
+        let mut copy = FreeSlots { in_hand: self.in_hand.clone(), n: self.n, ..FreeSlots::default() };
         for (copied, level) in copy.levels.iter_mut().zip(&self.levels) {
             *copied = memory::copy_of(level)?;
         }
@@ -255,67 +270,25 @@ impl FreeRange<'_> {
         *self.n
     }
 
-    #[inline(always)]
-    fn has(&self, slot: Slot) -> bool {
-        let (word, bit) = (slot.index() / WORD, slot.index() % WORD);
-        let bits =
-            if word < self.head.len() { self.head[word] } else { self.levels[0][word - self.first / WORD] };
-        bits >> bit & 1 == 1
-    }
-
     /// Enters a free slot, which was not.
     #[inline(always)]
     pub(super) fn put(&mut self, slot: Slot) {
         *self.n += 1;
-        if self.in_hand.is_none() {
-            self.put_bit(slot);
-        } else {
-            self.put_in_hand(slot);
-        }
-    }
-
-    #[inline(always)]
-    fn put_in_hand(&mut self, slot: Slot) {
-        if self.in_hand.as_ref().is_some_and(|(in_hand, _)| in_hand.n == InHand::MOST) {
-            self.lay_half_down();
-        }
-        if let Some((in_hand, _)) = &mut self.in_hand {
-            in_hand.slots[in_hand.n % InHand::MOST] = slot;
-            in_hand.n += 1;
-        }
-    }
-
-    /// Makes room in hand: those that have been there longest go.
-    #[cold]
-    #[inline(never)]
-    fn lay_half_down(&mut self) {
-        const HALF: usize = InHand::MOST / 2;
-        let mut half = [Slot::NONE; HALF];
-        if let Some((in_hand, _)) = &mut self.in_hand {
-            half.copy_from_slice(&in_hand.slots[..HALF]);
-            in_hand.slots.copy_within(HALF.., 0);
-            in_hand.n -= HALF;
-        }
-        half.into_iter().for_each(|slot| self.put_bit(slot));
-    }
-
-    /// Enters a free slot that is not in hand.
-    #[inline(always)]
-    fn put_bit(&mut self, slot: Slot) {
-        debug_assert!(!self.has(slot));
-        if slot.index() < self.first {
-            self.head[slot.index() / WORD] |= 1 << (slot.index() % WORD);
-            return;
-        }
-        let mut at = slot.index() - self.first;
-        for level in &mut self.levels {
-            let Some(word) = level.get_mut(at / WORD) else { return };
-            let before = *word;
-            *word |= 1 << (at % WORD);
-            if before != 0 {
-                return;
+        match &mut self.in_hand {
+            None => self.set_bit(slot),
+            Some(in_hand) => {
+                if let Some(oldest) = in_hand.push(slot) {
+                    oldest.into_iter().for_each(|slot| self.set_bit(slot));
+                }
             }
-            at /= WORD;
+        }
+    }
+
+    #[inline(always)]
+    fn set_bit(&mut self, slot: Slot) {
+        match slot.index().checked_sub(self.first) {
+            Some(at) => self.levels.set(at),
+            None => self.head.set(slot.index()),
         }
     }
 
@@ -323,201 +296,37 @@ impl FreeRange<'_> {
     #[inline(always)]
     pub(super) fn take_near(&mut self, near: Slot) -> Option<Slot> {
         *self.n = self.n.checked_sub(1)?;
-        if let Some((in_hand, is_any_good)) = &mut self.in_hand
-            && let Some(&last) = in_hand.as_slice().last()
-            && (*is_any_good || last.index().abs_diff(near.index()) < NEAR)
+        if let Some(in_hand) = &mut self.in_hand
+            && let Some(slot) = in_hand.pop_for(near)
         {
+            return Some(slot);
+        }
+        let found = match near.index().checked_sub(self.first) {
+            Some(at) => self.take_behind(at).or_else(|| self.take_from_head(0)),
+            None => self.take_from_head(near.index()).or_else(|| self.take_behind(0)),
+        };
+        // Otherwise there are none but those in hand, which are not near.
+        found.map(Slot::at).or_else(|| {
+            let in_hand = self.in_hand.as_mut()?;
             in_hand.n -= 1;
-            return Some(last);
-        }
-        if !self.head.is_empty() {
-            return Some(self.take_near_from_both(near));
-        }
-        let at = near.index() - self.first;
-        let word = self.levels[0][at / WORD];
-        let found =
-            if word != 0 { Some(at / WORD * WORD + bit_near(word, at % WORD)) } else { self.beyond(at) };
-        if let Some(found) = found {
-            self.remove_bit(found);
-            return Some(Slot::at(self.first + found));
-        }
-        // Those in hand are not near, but there are no others.
-        let (in_hand, _) = self.in_hand.as_mut()?;
-        in_hand.n -= 1;
-        Some(in_hand.slots[in_hand.n])
+            Some(in_hand.slots[in_hand.n])
+        })
     }
 
-    /// The same where there is a head, and a free slot.
-    fn take_near_from_both(&mut self, near: Slot) -> Slot {
-        let in_head = |at| near_in(self.head, at);
-        let behind = |at| near_in(self.levels[0], at).map(|found| self.first + found);
-        let found = if near.index() < self.first {
-            in_head(near.index()).or_else(|| behind(0))
-        } else {
-            behind(near.index() - self.first).or_else(|| in_head(0))
-        };
-        let found = found.expect("one is free");
-        if found < self.first {
-            self.head[found / WORD] &= !(1 << (found % WORD));
-        } else {
-            self.remove_bit(found - self.first);
-        }
-        Slot::at(found)
-    }
-
-    /// Takes out the slot at a position, which is free and not in hand.
     #[inline(always)]
-    fn remove_bit(&mut self, mut at: usize) {
-        for level in &mut self.levels {
-            let Some(word) = level.get_mut(at / WORD) else { return };
-            *word &= !(1 << (at % WORD));
-            if *word != 0 {
-                return;
-            }
-            at /= WORD;
-        }
+    fn take_behind(&mut self, at: usize) -> Option<usize> {
+        let found = self.levels.near(at)?;
+        self.levels.unset(found);
+        Some(self.first + found)
     }
 
-    /// The position of a free slot in the words near that of a position, which has none.
-    #[inline(never)]
-    fn beyond(&self, at: usize) -> Option<usize> {
-        let n_levels = if self.levels[1].is_empty() { 1 } else { LEVELS };
-        // Up to the level at which there is one in the same word, or at the top in another one, ...
-        let (mut k, mut place) = (0, at);
-        let mut found = loop {
-            let words = &self.levels[k];
-            let own = place / WORD;
-            if words[own] != 0 {
-                break own * WORD + bit_near(words[own], place % WORD);
-            }
-            if k + 1 == n_levels {
-                break near_in(words, place)?;
-            }
-            (k, place) = (k + 1, own);
-        };
-        // ... and down again, on the side of the position.
-        while k > 0 {
-            let word = self.levels[k - 1][found];
-            let is_after = found > at >> (k as u32 * WORD.ilog2());
-            found = found * WORD + bit_near(word, if is_after { 0 } else { WORD - 1 });
-            k -= 1;
-        }
+    #[inline(always)]
+    fn take_from_head(&mut self, at: usize) -> Option<usize> {
+        let found = self.head.near(at)?;
+        self.head.unset(found);
         Some(found)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::random::Rng;
-    use std::collections::BTreeSet;
-
-    fn slots(free: &FreeSlots) -> BTreeSet<usize> {
-        free.iter().map(Slot::index).collect()
-    }
-
-    #[test]
-    fn slots_are_taken_near() {
-        let rng = &mut Rng::new(1);
-        for n_slots in [1, 64, 65, 5000, 300_000, 900_000] {
-            let mut free = FreeSlots::default();
-            free.cover(n_slots).expect("room");
-            free.is_local = true;
-            let mut expected = BTreeSet::new();
-            for round in 0..3000 {
-                let slot = rng.below(n_slots);
-                // Many at first, then fewer and fewer, and none.
-                if round < 1000 || round % 4 == 0 && round < 2000 {
-                    free.set(Slot::at(slot), true);
-                    expected.insert(slot);
-                    continue;
-                }
-                let Some(taken) = free.take_near(Slot::at(slot)) else {
-                    assert!(expected.is_empty());
-                    continue;
-                };
-                let smallest = [1, 64, 4096, 64 * 4096, usize::MAX].into_iter().find(|&size| {
-                    let first = slot / size * size;
-                    expected.range(first..first.saturating_add(size)).next().is_some()
-                });
-                let size = smallest.expect("one is free");
-                let is_near = taken.index().abs_diff(slot) < NEAR;
-                assert!(is_near || taken.index() / size == slot / size, "{taken:?} {slot} {size}");
-                assert!(expected.remove(&taken.index()));
-                assert_eq!(free.len(), expected.len());
-            }
-            assert_eq!(slots(&free), expected);
-            assert!(n_slots > 65 || free.len() == 0);
-        }
-    }
-
-    /// The latest first, unless they are to be near.
-    #[test]
-    fn the_latest_are_taken_first() {
-        let mut free = FreeSlots::default();
-        free.cover(100_000).expect("room");
-        let some = [7, 90_000, 50, 40_000].map(Slot::new);
-        let take = |free: &mut FreeSlots, near| free.take_near(Slot::new(near)).map(Slot::get);
-        for is_local in [false, true] {
-            if is_local {
-                free.put_everywhere([Slot::new(39_000)].into_iter());
-                assert_eq!(take(&mut free, 1), Some(39_000));
-            }
-            some.iter().for_each(|&slot| free.put(slot));
-            let taken = [9; 5].map(|near| take(&mut free, near));
-            // No others are there.
-            assert_eq!(taken, [Some(40_000), Some(50), Some(90_000), Some(7), None], "{is_local}");
-            // The first half of them is not in hand any more.
-            let more = (0..33).map(|k| Slot::new(1000 * k));
-            more.clone().for_each(|slot| free.put(slot));
-            assert_eq!((free.len(), free.iter().count()), (33, 33));
-            assert_eq!(take(&mut free, 3001), Some(if is_local { 3000 } else { 32_000 }));
-            more.for_each(|slot| free.set(slot, false));
-            assert_eq!((free.len(), free.iter().count()), (0, 0));
-        }
-    }
-
-    #[test]
-    fn ranges_have_their_own_and_come_together() {
-        let rng = &mut Rng::new(2);
-        let n_slots = 40_000;
-        let mut free = FreeSlots::default();
-        free.cover(n_slots).expect("room");
-        let mut expected = BTreeSet::new();
-        for round in 0..20 {
-            let starts = [round % 3 * 64, 128, 12_800, 39_936].map(Slot::at);
-            for _ in 0..100 {
-                let slot = rng.below(n_slots);
-                free.set(Slot::at(slot), true);
-                expected.insert(slot);
-            }
-            let mut numbers = [0; 4];
-            for (k, mut range) in free.ranges(&starts, &mut numbers).enumerate() {
-                let end = starts.get(k + 1).map_or(n_slots, |end| end.index());
-                let head = if k == 3 { starts[0].index() } else { 0 };
-                let own: Vec<usize> = (0..head).chain(starts[k].index()..end).collect();
-                assert_eq!(range.len(), own.iter().filter(|slot| expected.contains(slot)).count());
-                if own.is_empty() {
-                    continue;
-                }
-                for _ in 0..50 {
-                    let slot = own[rng.below(own.len())];
-                    if rng.below(3) == 0 && !expected.contains(&slot) {
-                        range.put(Slot::at(slot));
-                        expected.insert(slot);
-                    } else if let Some(taken) = range.take_near(Slot::at(slot)) {
-                        assert!(own.contains(&taken.index()) && expected.remove(&taken.index()));
-                    } else {
-                        assert!(own.iter().all(|slot| !expected.contains(slot)));
-                    }
-                }
-            }
-            free.count();
-            assert_eq!((slots(&free), free.len()), (expected.clone(), expected.len()));
-            let mut again = FreeSlots::default();
-            again.cover(n_slots).expect("room");
-            expected.iter().for_each(|&slot| again.set(Slot::at(slot), true));
-            assert_eq!(again.levels, free.levels);
-        }
-    }
-}
+mod tests;

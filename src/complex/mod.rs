@@ -33,6 +33,7 @@ pub use cell::{Cell, Facet};
 pub use corners::{Corners, Entry};
 pub(crate) use flips::NewCell;
 pub(crate) use free::WORD;
+pub(crate) use ranges::starts_of_ranges;
 pub use ranges::{CellRange, Obstacle};
 pub use record::Row;
 

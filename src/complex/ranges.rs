@@ -2,7 +2,7 @@
 
 use super::free::{FreeRange, WORD};
 use super::{Cell, Complex, Corners, Facet, Row};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
@@ -20,6 +20,38 @@ pub enum Obstacle {
     Full,
     /// There is no memory for undoing.
     Memory,
+}
+
+/// Only memory can be missing where cells are changed.
+impl From<Error> for Obstacle {
+    fn from(_: Error) -> Self {
+        Obstacle::Memory
+    }
+}
+
+/// Cells from which it follows where ranges begin.
+const SAMPLE: usize = 1 << 10;
+
+/// Where ranges begin, at most this number of them, that have about as many of some cells each: at multiples of `unit`, which
+/// is one of [`WORD`].
+pub(crate) fn starts_of_ranges(
+    cells: impl ExactSizeIterator<Item = Slot>,
+    n_ranges: usize,
+    unit: usize,
+) -> Result<Vec<Slot>> {
+    let (mut sample, mut starts) = (Vec::new(), Vec::new());
+    let step = (cells.len() / SAMPLE).max(1);
+    memory::reserve_exact(&mut sample, cells.len().div_ceil(step))?;
+    memory::reserve_exact(&mut starts, n_ranges)?;
+    sample.extend(cells.step_by(step));
+    sample.sort_unstable();
+    starts.extend((0..n_ranges).map(|k| {
+        let quantile: Slot = sample[sample.len() * k / n_ranges];
+        Slot::at(quantile.index() / unit * unit)
+    }));
+    starts[0] = Slot::new(0);
+    starts.dedup();
+    Ok(starts)
 }
 
 /// Cells that follow each other in storage, for one thread to change while others change the rest. A change replaces cells
@@ -153,6 +185,7 @@ impl<C: Corners> CellRange<'_, C> {
             self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, i);
         }
     }
+
     /// Chooses slots for `n` cells in the place of some: those of the old ones first, then free ones near them. The others
     /// of the old ones are freed. Enters the rows before. After an obstacle nothing has changed.
     pub(crate) fn take_slots(
@@ -167,12 +200,11 @@ impl<C: Corners> CellRange<'_, C> {
             return Err(Obstacle::Full);
         }
         slots.clear();
-        memory::reserve(slots, n)
-            .and_then(|()| memory::reserve(journal, n.max(old.len())))
-            .map_err(|_| Obstacle::Memory)?;
+        memory::reserve(slots, n)?;
+        memory::reserve(journal, n.max(old.len()))?;
         let (kept, freed) = old.split_at(n.min(old.len()));
         slots.extend_from_slice(kept);
-        slots.extend((0..missing).filter_map(|_| self.free.take_near(old[0])));
+        slots.extend((0..missing).map(|_| self.free.take_near(old[0]).expect("they have been counted")));
         for &slot in slots.iter().chain(freed) {
             journal.push(Row::of(slot, self.cell_mut(slot)));
         }

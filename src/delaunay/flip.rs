@@ -25,7 +25,7 @@ use untangle::Untangling;
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, Row, WORD};
+use crate::complex::{Corners, Facet, Row, WORD, starts_of_ranges};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -35,9 +35,6 @@ use crate::machine::prefetch::{AHEAD, prefetch};
 /// to be used.
 const FLIPPED_AT_LEAST: usize = 500;
 const FLIPPED_IF_ASKED: usize = 32;
-
-/// Suspects from which it follows where each thread's cells begin.
-const SAMPLE: usize = 1 << 10;
 
 /// Rows of a journal for which the memory is always kept.
 const KEPT: usize = 1 << 14;
@@ -222,18 +219,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Flips as far as several threads can, each in a range of the cells.
     fn flip_side_by_side(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<()> {
         let AllFlips { own: Flips { suspects, .. }, parts, .. } = flips;
-        let step = (suspects.len() / SAMPLE).max(1);
-        let (mut sample, mut starts) = (Vec::new(), Vec::new());
-        memory::reserve_exact(&mut sample, suspects.len().div_ceil(step))?;
-        memory::reserve_exact(&mut starts, n_threads)?;
-        sample.extend(suspects.iter().step_by(step).map(|facet| facet.cell()));
-        sample.sort_unstable();
-        starts.extend((0..n_threads).map(|k| {
-            let quantile = sample[sample.len() * k / n_threads];
-            Slot::at(quantile.index() / WORD * WORD)
-        }));
-        starts[0] = Slot::new(0);
-        starts.dedup();
+        let starts = starts_of_ranges(suspects.iter().map(|facet| facet.cell()), n_threads, WORD)?;
         let missing = starts.len().saturating_sub(parts.len());
         memory::reserve_exact(parts, missing)?;
         parts.resize_with(parts.len() + missing, Flips::default);
@@ -308,7 +294,7 @@ impl<G: Dimension> Delaunay<G> {
         let AllFlips { own, parts, untangling, .. } = flips;
         for flips in parts.iter_mut().chain([own]).rev() {
             flips.suspects.clear();
-            self.complex.undo_flips(flips.journal.drain(..).rev());
+            self.complex.undo_rows(flips.journal.drain(..).rev());
         }
         self.take_untangling_back(untangling);
     }

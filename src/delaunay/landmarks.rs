@@ -171,18 +171,25 @@ impl Landmarks {
         tree.leaves_of::<G, N>(places).map(|leaf| [site(leaf), site(leaf ^ 1)])
     }
 
-    /// Enters a walk of `steps` steps to `q`, near the site `s`, without a new tree.
+    /// Enters a walk of `steps` steps to `q`, near the site `s`, while other threads walk, too: they would wait for a new
+    /// tree.
     #[inline(always)]
-    pub(super) fn follow_alone<G: Dimension>(&self, q: &G::Point, s: SiteId, steps: u64) {
-        if steps > SHORT_WALK
-            && let Ok(tree) = self.tree.try_read()
+    pub(super) fn follow_beside_others<G: Dimension>(&self, q: &G::Point, s: SiteId, steps: u64) {
+        if steps > SHORT_WALK {
+            self.replace::<G>(q, s);
+        }
+    }
+
+    /// The site `s` is the landmark near `q` from now on.
+    fn replace<G: Dimension>(&self, q: &G::Point, s: SiteId) {
+        if let Ok(tree) = self.tree.try_read()
             && let Some(tree) = tree.as_ref()
         {
             tree.leaves[tree.leaf::<G>(q)].store(s.get(), Relaxed);
         }
     }
 
-    /// Each of these sites, with its place, leaves the next ones behind: where it was a landmark, that is the one after it.
+    /// These sites leave their places, where the `others` stay: wherever one was a landmark, the other is from now on.
     pub(super) fn leave<G: Dimension, const N: usize>(
         &self,
         places: [&G::Point; N],
@@ -227,13 +234,7 @@ impl Landmarks {
     #[cold]
     #[inline(never)]
     fn follow_long<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
-        let Ok(tree) = self.tree.try_read() else {
-            return;
-        };
-        if let Some(tree) = tree.as_ref() {
-            tree.leaves[tree.leaf::<G>(q)].store(s.get(), Relaxed);
-        }
-        drop(tree);
+        self.replace::<G>(q, s);
         let beyond = steps.saturating_sub(LONG_WALK) as usize;
         let all = self.steps.fetch_add(beyond, Relaxed) + beyond;
         if beyond > 0

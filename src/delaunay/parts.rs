@@ -212,8 +212,8 @@ impl<G: Dimension> Delaunay<G> {
         memory::lengthen(&mut done, n_parts, Ok(Vec::new()))?;
         threads::fill(&mut done, &|part| {
             let mut own = hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)?;
-            // A curve ends beside its begin, at the other end of an axis; so most of what is beside each other in the two
-            // halves of a box, one behind the other, is as far from the end of one curve as from the begin of the next.
+            // A curve ends beside where it begins. So what is on both sides of the plane between two parts comes about as long
+            // before the end of the first curve as after the start of the second, backwards.
             if part % 2 == 1 {
                 own.reverse();
             }

@@ -27,7 +27,7 @@ use super::remove::Hole;
 use super::site::Sites;
 use super::wrapping::Wrapping;
 use super::{Delaunay, Dimension, IndexSet, Insertion, Site};
-use crate::complex::{CellRange, Corners, Row, WORD};
+use crate::complex::{CellRange, Corners, Row, WORD, starts_of_ranges};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -46,9 +46,6 @@ const ROWS_KEPT: usize = 1 << 14;
 
 /// Tasks between those of which one thing and the next are asked for.
 const STEP: usize = 4;
-
-/// Sites from which it follows where each thread's cells begin.
-const SAMPLE: usize = 1 << 10;
 
 /// Parts of the cells' storage at which a thread's cells may begin.
 const STARTS: usize = 64;
@@ -174,9 +171,9 @@ impl<G: Dimension> SideBySide<G> {
         })
     }
 
-    /// The second round is done in ranges that begin in the middle of those of the first. The curve along which the cells are
-    /// sorted nearly comes back to where it begins: so the last range goes on at the first slot, and two ranges meet
-    /// nowhere where two have met before.
+    /// The second round is done in ranges that begin in the middle of those of the first. As the curve along which the cells
+    /// are sorted ends beside where it begins, the last range goes on at the first slot: so most of what is between two
+    /// ranges of one round is within a range of the other.
     fn begin_second_round(&mut self, n_slots: usize) {
         for k in 0..self.starts.len() {
             let end = self.starts.get(k + 1).map_or(n_slots, |end| end.index());
@@ -293,21 +290,9 @@ impl<G: Dimension> Delaunay<G> {
     /// Finds out where each thread's cells begin.
     fn divide(&mut self, all: &mut SideBySide<G>, goals: &[Goal<G>], n_threads: usize) -> Result<()> {
         let SideBySide { parts, starts, states } = all;
-        let step = (goals.len() / SAMPLE).max(1);
-        let mut sample = Vec::new();
-        memory::reserve_exact(&mut sample, goals.len().div_ceil(step))?;
-        sample.extend(goals.iter().step_by(step).map(|goal| self.site(goal.site).cell));
-        sample.sort_unstable();
         // In each call in the same places, mostly: a star at the border gets cells of both sides, and stays there.
         let unit = (self.complex.n_slots().next_power_of_two() / STARTS).max(WORD);
-        starts.clear();
-        memory::reserve(starts, n_threads)?;
-        starts.extend((0..n_threads).map(|k| {
-            let quantile = sample[sample.len() * k / n_threads];
-            Slot::at(quantile.index() / unit * unit)
-        }));
-        starts[0] = Slot::new(0);
-        starts.dedup();
+        *starts = starts_of_ranges(goals.iter().map(|goal| self.site(goal.site).cell), n_threads, unit)?;
         let missing = starts.len().saturating_sub(parts.len());
         memory::reserve_exact(parts, missing)?;
         parts.resize_with(parts.len() + missing, Part::default);
@@ -414,7 +399,7 @@ impl<G: Dimension> Delaunay<G> {
 
     fn take_parts_back(&mut self, all: &mut SideBySide<G>, goals: &mut [Goal<G>]) {
         for rows in all.rows().rev() {
-            self.complex.undo_flips(rows.iter().rev().copied());
+            self.complex.undo_rows(rows.iter().rev().copied());
         }
         for row in all.rows().flatten() {
             self.give_cell(row.slot);

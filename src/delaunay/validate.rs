@@ -176,7 +176,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         let n_free = Slot::range(0..n_slots).filter(|&c| self.complex.is_free(c)).count();
         let n_listed = self.complex.free_cells().count();
-        ensure(n_free == n_listed, level, || text!("a free cell is not listed"))?;
+        ensure(n_free == n_listed, level, || text!("{n_free} cells are free, and {n_listed} are listed"))?;
         ensure(n_free == self.complex.n_free(), level, || text!("free cells are miscounted"))?;
         for s in self.live_sites() {
             let site = self.site(s);

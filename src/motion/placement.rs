@@ -10,9 +10,8 @@
 //! **Threads.** Where many vertices go far away and the cells are sorted, several threads relocate most of them [side by
 //! side](Delaunay::place_side_by_side), each in its range of the cells, some thousands at a time. Where one in a hundred of
 //! a million vertices leaps, a repair on two threads is 1.5 times as fast as on one (`make targets`: *threads_leaping*); the
-//! gain is the same after twenty such commits (`examples/thread_scaling`: *later*), and less where a fifth of them leap, as
-//! one thread has these in an order in which what it reads is near. Vertices that go to near places are relocated by one
-//! thread: in a prototype two took as long, or longer.
+//! gain is the same after twenty such commits (`examples/thread_scaling`: *later*). Vertices that go to near places are
+//! relocated by one thread, as that takes little more than to find out whose cells they change.
 
 use super::constants::constants;
 use super::repair::Budget;
@@ -95,7 +94,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // With fewer sites at once the others stay as near to each other as they were.
         let most = MOST_SIDE_BY_SIDE.min(self.n_present / LEFT_PER_PLACED).max(1);
         let n = self.staging.vertices().len();
-        let mut first = self.staging.applied();
+        let first = self.staging.applied();
         if self.kernel.placing_threads(n - first) < 2 || !self.goals_are_away(1) {
             return Ok(());
         }
@@ -104,37 +103,36 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.kernel.are_cells_sorted() {
             return Ok(());
         }
-        let n_hands = (n - first).div_ceil(most);
-        self.deal_queue(n_hands)?;
-        let most = (n - first).div_ceil(n_hands);
-        while first < n {
-            let queue = first..n.min(first + most);
-            first = queue.end;
-            if !self.monitor(queue.start as f64 / n as f64) {
+        let n_chunks = (n - first).div_ceil(most);
+        self.spread_queue(n_chunks)?;
+        let size = (n - first).div_ceil(n_chunks);
+        let placed = (first..n).step_by(size).try_for_each(|start| {
+            if !self.monitor(start as f64 / n as f64) {
                 return Err(Error::Cancelled);
             }
-            self.place_range_side_by_side(queue, report)?;
-        }
+            self.place_chunk_side_by_side(start..n.min(start + size), report)
+        });
         self.kernel.end_side_by_side();
-        Ok(())
+        placed
     }
 
-    /// Deals the staged vertices that are not applied yet into hands, one behind the other: those of each are everywhere.
-    fn deal_queue(&mut self, n_hands: usize) -> Result<()> {
-        if n_hands < 2 {
+    /// Puts every `n_chunks`-th of the staged vertices that are not applied yet first, then those after these, and so on, so
+    /// that each chunk has some everywhere.
+    fn spread_queue(&mut self, n_chunks: usize) -> Result<()> {
+        if n_chunks < 2 {
             return Ok(());
         }
         let first = self.staging.applied();
         let queue = &mut self.staging.vertices_mut()[first..];
         let before = memory::copy_of(queue)?;
-        let dealt = (0..n_hands).flat_map(|hand| before.iter().skip(hand).step_by(n_hands));
-        queue.iter_mut().zip(dealt).for_each(|(v, dealt)| *v = *dealt);
+        let spread = (0..n_chunks).flat_map(|chunk| before.iter().skip(chunk).step_by(n_chunks));
+        queue.iter_mut().zip(spread).for_each(|(v, spread)| *v = *spread);
         Ok(())
     }
 
     /// As above, of these of the staged vertices, none of which is applied yet. Those that have been relocated are put
-    /// behind those that are.
-    fn place_range_side_by_side(&mut self, queue: Range<usize>, report: &mut CommitReport) -> Result<()> {
+    /// behind those that are. Where that fails midway, the kernel's log has the places of all.
+    fn place_chunk_side_by_side(&mut self, queue: Range<usize>, report: &mut CommitReport) -> Result<()> {
         let (mut goals, mut at, mut placed) = (Vec::new(), Vec::new(), Vec::new());
         memory::reserve_exact(&mut goals, queue.len())?;
         memory::reserve_exact(&mut at, queue.len())?;
@@ -147,34 +145,24 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         self.kernel.place_side_by_side(&mut goals, &mut placed)?;
-        let mut coincident = Vec::new();
         // From the first in the queue to the last, each changes places with one that has not been relocated.
         placed.sort_unstable_by_key(|&(goal, _)| goal);
         for &(goal, other) in &placed {
-            if let Some(other) = other {
-                let v = self.staging.vertices()[at[goal as usize]];
-                memory::push(&mut coincident, (v, goals[goal as usize].place, other))?;
-            }
-        }
-        for &(goal, _) in placed.iter().filter(|(_, other)| other.is_none()) {
-            self.note_placed(at[goal as usize], goals[goal as usize].place, report);
-        }
-        for (v, old, other) in coincident {
-            let first = self.staging.applied();
-            let behind = self.staging.vertices()[first..].iter().position(|&w| w == v);
-            let new = self.note_placed(first + behind.expect("it has not been applied"), old, report);
-            if let Err(error) = self.hide(v, other) {
+            let (v, new) = self.note_placed(at[goal as usize], goals[goal as usize].place, report);
+            if let Some(other) = other
+                && let Err(error) = self.hide(v, other)
+            {
                 // It counts as not moved; what has become of its site is in the record.
                 self.staging.positions_mut()[v] = new;
-                self.staging.set_applied(first);
+                self.staging.set_applied(self.staging.applied() - 1);
                 return Err(error);
             }
         }
         Ok(())
     }
 
-    /// Enters that the `k`-th staged vertex, which was here, has been placed; returns where it is.
-    fn note_placed(&mut self, k: usize, old: G::Point, report: &mut CommitReport) -> G::Point {
+    /// Enters that the `k`-th staged vertex, which was here, has been placed; returns it, and where it is.
+    fn note_placed(&mut self, k: usize, old: G::Point, report: &mut CommitReport) -> (VertexId, G::Point) {
         let first = self.staging.applied();
         let vertices = self.staging.vertices_mut();
         vertices.swap(first, k);
@@ -182,7 +170,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.staging.set_applied(first + 1);
         report.moved += 1;
         report.placements += 1;
-        std::mem::replace(&mut self.staging.positions_mut()[v], old)
+        (v, std::mem::replace(&mut self.staging.positions_mut()[v], old))
     }
 
     /// Relocates the staged vertices that are not applied yet, one after the other.

@@ -139,13 +139,13 @@ fn flips_in_space_come_back() {
                 assert!(is_mutual(&complex));
                 assert_eq!(boundary(&complex, rim), boundary_of_flip);
                 assert_eq!(cells(&complex), before);
-                complex.undo_flips(back.into_iter().rev());
+                complex.undo_rows(back.into_iter().rev());
                 assert_eq!(complex.free_cells().collect::<BTreeSet<_>>(), free);
                 assert!(is_mutual(&complex));
                 assert_eq!(cells(&complex), after);
             }
         }
-        complex.undo_flips(undo.into_iter().rev());
+        complex.undo_rows(undo.into_iter().rev());
         assert!(is_mutual(&complex));
         assert_eq!((cells(&complex), complex.n_free()), (before.clone(), 2));
     }
@@ -182,7 +182,7 @@ fn cavities_get_more_cells_than_they_had() {
         complex.replace(2, &new, &slots, &mut journal);
         assert!(is_mutual(&complex));
         assert_eq!((cells(&complex), complex.n_finite()), (cells(&flipped), 3));
-        complex.undo_flips(journal.into_iter().rev());
+        complex.undo_rows(journal.into_iter().rev());
         assert!(is_mutual(&complex));
         assert_eq!((cells(&complex), complex.free.len()), (before, n_left + 1));
     }

@@ -151,7 +151,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Puts cells back that have been exchanged.
     pub(super) fn take_untangling_back(&mut self, untangling: &mut Untangling<G>) {
-        self.complex.undo_flips(untangling.flips.journal.drain(..).rev());
+        self.complex.undo_rows(untangling.flips.journal.drain(..).rev());
         untangling.flips.begin(u64::MAX);
     }
 
@@ -314,7 +314,7 @@ impl<G: Dimension> Delaunay<G> {
                 break;
             }
             let flips = &mut untangling.flips;
-            self.complex.undo_flips(flips.journal.drain(before.0..).rev());
+            self.complex.undo_rows(flips.journal.drain(before.0..).rev());
             flips.changed.truncate(before.1);
             flips.suspects.truncate(before.2);
             flips.n_flips = before.3;

@@ -2,8 +2,8 @@
 
 use super::{Part, Shared, State};
 use crate::complex::{CellRange, Corners, Facet, Obstacle};
-use crate::delaunay::{Dimension, IndexSet};
-use crate::error::Result as Fallible;
+use crate::delaunay::Dimension;
+use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::predicates::squared_distance;
@@ -42,7 +42,7 @@ impl<G: Dimension> Rim<G> {
             + memory::bytes_of(&self.used)
     }
 
-    fn begin(&mut self) -> Fallible<()> {
+    fn begin(&mut self) -> Result<()> {
         self.facets.clear();
         self.glued.clear();
         memory::reserve(&mut self.facets, MOST_OF_RIM)?;
@@ -132,7 +132,7 @@ impl<G: Dimension> Shared<'_, G> {
         self.dig(range, part, s, start)?;
         let Part { journal, made, cells, slots, rim, .. } = part;
         let n = rim.facets.len();
-        memory::reserve(made, n).map_err(|_| Obstacle::Memory)?;
+        memory::reserve(made, n)?;
         range.take_slots(cells.as_slice(), n, slots, journal)?;
         rim.glue();
         for (k, (&(corners, at, out), &glued)) in rim.facets.iter().zip(&rim.glued).enumerate() {
@@ -180,7 +180,7 @@ impl<G: Dimension> Shared<'_, G> {
                     continue 'cells;
                 }
             }
-            self.landmarks.follow_alone::<G>(q, cell.corners[0], steps);
+            self.landmarks.follow_beside_others::<G>(q, cell.corners[0], steps);
             return Ok(slot);
         }
     }
@@ -197,10 +197,8 @@ impl<G: Dimension> Shared<'_, G> {
         let (q, id) = (self.sites.point(s), self.sites.id(s));
         let Part { cells: zone, rim, .. } = part;
         zone.clear();
-        rim.begin().map_err(|_| Obstacle::Memory)?;
-        let enter =
-            |zone: &mut IndexSet<Slot>, c: Slot| zone.insert(c).map(|_| ()).map_err(|_| Obstacle::Memory);
-        enter(zone, start)?;
+        rim.begin()?;
+        zone.insert(start)?;
         let mut k = 0;
         while let Some(&c) = zone.as_slice().get(k) {
             k += 1;
@@ -218,7 +216,7 @@ impl<G: Dimension> Shared<'_, G> {
                     }
                 }
                 if !beyond.is_ghost() && G::is_in_sphere(self.filter, self.sites, &beyond.corners, q, id) {
-                    enter(zone, out.cell())?;
+                    zone.insert(out.cell())?;
                     (0..G::Corners::N).for_each(|j| range.prefetch(beyond.neighbour(j).cell()));
                 } else if rim.facets.len() < MOST_OF_RIM {
                     rim.facets.push((cell.corners.with(i, s), i, out));

@@ -2,9 +2,10 @@
 
 use super::{Part, Shared, State};
 use crate::complex::{CellRange, Corners, Facet, Obstacle};
+use crate::delaunay::Dimension;
 use crate::delaunay::remove::{Gap, LabelsOf, new_of};
 use crate::delaunay::wrapping::{MOST_CELLS, MOST_SITES};
-use crate::delaunay::{Dimension, IndexSet};
+use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::prefetch::AHEAD;
@@ -116,7 +117,7 @@ impl<G: Dimension> Shared<'_, G> {
         }
         let Part { journal, made, cells, slots, hole, .. } = part;
         let n = hole.made.len();
-        memory::reserve(made, n).map_err(|_| Obstacle::Memory)?;
+        memory::reserve(made, n)?;
         range.take_slots(cells.as_slice(), n, slots, journal)?;
         for (&slot, &(corners, mut neighbours)) in slots.iter().zip(&hole.made) {
             for (i, facet) in neighbours.as_mut().iter_mut().enumerate() {
@@ -142,12 +143,8 @@ impl<G: Dimension> Shared<'_, G> {
         let Part { cells, hole, .. } = part;
         cells.clear();
         hole.link.clear();
-        memory::reserve(&mut hole.link, MOST_OF_STAR).map_err(|_| Obstacle::Memory)?;
-        let enter = |cells: &mut IndexSet<Slot>, c| {
-            range.prefetch(c);
-            cells.insert(c).map(|_| ()).map_err(|_| Obstacle::Memory)
-        };
-        enter(cells, first)?;
+        memory::reserve(&mut hole.link, MOST_OF_STAR)?;
+        cells.insert(first)?;
         let mut k = 0;
         while let Some(&c) = cells.as_slice().get(k) {
             k += 1;
@@ -164,7 +161,8 @@ impl<G: Dimension> Shared<'_, G> {
             hole.link.push(Gap { corners: cell.corners, at, out });
             for i in (0..G::Corners::N).filter(|&i| i != at) {
                 self.sites.prefetch(cell.corners[i]);
-                enter(cells, cell.neighbour(i).cell())?;
+                range.prefetch(cell.neighbour(i).cell());
+                cells.insert(cell.neighbour(i).cell())?;
             }
         }
         Ok(())
@@ -174,8 +172,8 @@ impl<G: Dimension> Shared<'_, G> {
     fn fill(&self, range: &CellRange<G::Corners>, part: &mut Part<G>, s: SiteId) -> Result<bool, Obstacle> {
         let Some(avx2) = Avx2::new() else { return Ok(false) };
         let Part { hole, wrapping, .. } = part;
-        memory::reserve(&mut hole.made, MOST_CELLS).map_err(|_| Obstacle::Memory)?;
-        let wrapping = memory::made(wrapping).map_err(|_| Obstacle::Memory)?;
+        memory::reserve(&mut hole.made, MOST_CELLS)?;
+        let wrapping = memory::made(wrapping)?;
         Ok(avx2.run_with(
             (avx2, self, range),
             (hole, wrapping),
@@ -194,9 +192,8 @@ fn label<G: Dimension>(part: &mut Part<G>) -> Result<(), Obstacle> {
     let hole = &mut part.hole;
     hole.sites.clear();
     hole.labels.clear();
-    memory::reserve(&mut hole.sites, MOST_SITES)
-        .and_then(|()| memory::reserve(&mut hole.labels, hole.link.len()))
-        .map_err(|_| Obstacle::Memory)?;
+    memory::reserve(&mut hole.sites, MOST_SITES)?;
+    memory::reserve(&mut hole.labels, hole.link.len())?;
     for gap in &hole.link {
         let mut labels = LabelsOf::<G>::filled(0);
         for i in (0..G::Corners::N).filter(|&i| i != gap.at) {
