@@ -151,6 +151,7 @@ fn thresholds_of(dimension: usize) -> Vec<Constant> {
         max_excess: Real,
         max_imbalance: Real,
         max_share_beyond: Share,
+        beyond_per_placed: Real,
         sampled_vertices: Whole,
         min_share_within: Share,
         swept_per_placement: Whole,

@@ -230,8 +230,9 @@ const std::vector<std::string> &target_names() {
         "drift_0.3",      "staged_1",    "staged_10",       "staged_100",    "staged_1000",
         "staged_5%",      "staged_20%",  "tenth_grid",      "tenth_face_centred", "tenth_layers",
         "tenth_sphere",   "tenth_circle", "shear_grid",     "shear_face_centred", "shear_layers",
-        "shear_sphere",   "shear_circle",   "leaping_0.001",  "leaping_0.001_moving", "leaping_0.01",
-        "leaping_0.01_moving", "leaping_0.1", "leaping_0.1_moving", "threads_leaping"};
+        "shear_sphere",   "shear_circle",   "leaping_0.001",  "leaping_0.001_creeping",
+        "leaping_0.001_moving", "leaping_0.01", "leaping_0.01_creeping", "leaping_0.01_moving", "leaping_0.1",
+        "leaping_0.1_creeping", "leaping_0.1_moving", "threads_leaping"};
     return names;
 }
 

@@ -57,12 +57,15 @@ constexpr double leaving_shear = 1e-3;
 constexpr std::size_t n_left = 10;
 constexpr double wanted_at_first = 1 / 1.3;
 
-/// Shares of the vertices that leap anywhere in each timestamp, while all others rest, or move by so many spacings.
+/// Shares of the vertices that leap anywhere in each timestamp, while all others move by so many spacings.
 constexpr double leaping_shares[] = {0.001, 0.01, 0.1};
+constexpr struct {
+    const char *suffix;
+    double step;
+} others_of_leaping[] = {{"", 0}, {"_creeping", 1e-5}, {"_moving", 1e-3}};
 constexpr double threads_leaping_share = 0.01;
 /// What is at the border of two threads' cells, or on the hull, is left to one.
 constexpr double wanted_of_leaping_threads = 1.4;
-constexpr double moving_others = 1e-3;
 
 /// From where points go to a random place close by.
 enum class From { where_they_began, where_they_were };
@@ -87,9 +90,8 @@ Series moving_points(const std::string &name, unsigned dimension, std::size_t n_
 }
 
 /// Random points at unit density of which some leap after the warm-up.
-Series leaping_points(const std::string &name, unsigned dimension, std::size_t n_points, double share, bool others_move,
+Series leaping_points(const std::string &name, unsigned dimension, std::size_t n_points, double share, double step,
                       std::uint64_t seed) {
-    const double step = others_move ? moving_others : 0;
     const std::size_t last = n_warm + n_left;
     Series series = moving_points(name, dimension, n_points, From::where_they_were, step, last, seed);
     const double side = std::pow(static_cast<double>(n_points), 1.0 / dimension);
@@ -242,10 +244,11 @@ public:
                     drift(dimension, sizes_.n_committed, sizes_.n_commits, drifts[i], wanted_of_drifts[i]);
                 }
             for (const double share : leaping_shares)
-                for (const bool others_move : {false, true})
-                    if (sizes_.has(leaping_name(share, others_move)))
+                for (const auto &others : others_of_leaping)
+                    if (const std::string name = leaping_name(share, others.suffix); sizes_.has(name))
                         for (const std::size_t n_points : {sizes_.n_relocated, sizes_.n_tested})
-                            leap_by_share(dimension, n_points, share, others_move);
+                            add_beside_best(name,
+                                            leaping_points(name, dimension, n_points, share, others.step, seed_));
             for (const PointSet &set : point_sets())
                 if (set.dimension == dimension && is_left(set))
                     for (const char *way : {"tenth", "shear"})
@@ -352,14 +355,9 @@ private:
         add(name.c_str(), series, done[2], done[3], wanted_of_rebuilding);
     }
 
-    void leap_by_share(unsigned dimension, std::size_t n_points, double share, bool others_move) {
-        const std::string name = leaping_name(share, others_move);
-        add_beside_best(name, leaping_points(name, dimension, n_points, share, others_move, seed_));
-    }
-
     void leap_on_threads(unsigned dimension) {
         const Series series =
-            leaping_points("threads_leaping", dimension, sizes_.n_committed, threads_leaping_share, false, seed_);
+            leaping_points("threads_leaping", dimension, sizes_.n_committed, threads_leaping_share, 0, seed_);
         const std::size_t last = n_warm + n_left;
         const auto done = replay(series, {entrant("deldrift/repair", 1, last), entrant("deldrift/repair", 2, last)},
                                  1, checks_of(series), progress_);
@@ -400,8 +398,8 @@ private:
     static std::string left_name(const std::string &way, const PointSet &set) {
         return fmt::format("{}_{}", way, set.name);
     }
-    static std::string leaping_name(double share, bool others_move) {
-        return fmt::format("leaping_{:g}{}", share, others_move ? "_moving" : "");
+    static std::string leaping_name(double share, const char *suffix) {
+        return fmt::format("leaping_{:g}{}", share, suffix);
     }
     static std::string drift_name(double displacement) { return fmt::format("drift_{:g}", displacement); }
 

@@ -71,6 +71,9 @@ pub struct Constants {
     pub max_imbalance: f64,
     /// Watching pays only while less than this share of the vertices is beyond its tolerance.
     pub max_share_beyond: f64,
+    /// While vertices are watched, one that is placed counts as so many more beyond: the bi-cells around two places are
+    /// computed again, which no cache holds.
+    pub beyond_per_placed: f64,
     /// Vertices sampled before all tolerances are computed, ...
     pub sampled_vertices: u32,
     /// ... and the share of them that must be within.
@@ -239,6 +242,7 @@ const PLANE: Constants = Constants {
     max_excess: 0.25,
     max_imbalance: 2.0,
     max_share_beyond: 0.125,
+    beyond_per_placed: 3.0,
     sampled_vertices: 64,
     min_share_within: 0.8,
     swept_per_placement: 15,

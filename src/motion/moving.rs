@@ -259,6 +259,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let slacks = self.regions.slacks().expect("they have been prepared");
         let mut moved = 0_u64;
         let (mut sum, mut greatest) = (0.0, 0.0);
+        let longest = slacks.longest_way();
         let sites = self.kernel.sites_mut();
         let mut blocks = Blocks { given: given.positions(), are_good: true };
         for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions_mut().chunks_mut(BLOCK)) {
@@ -274,7 +275,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 }
                 let distance = distance_above(point, p);
                 slacks.travel(s, distance);
-                sum += distance;
+                sum += if distance < longest { distance } else { longest };
                 greatest = if distance > greatest { distance } else { greatest };
                 moved += 1;
                 std::mem::swap(point, p);

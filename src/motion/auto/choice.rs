@@ -105,8 +105,12 @@ impl Auto {
         let vertices = n as f64;
         let watched = n_watched as f64 * costs.watched;
         let beyond = (vertices - report.within_tolerance as f64) * costs.beyond;
+        let followed = report.placements as f64 * constants::<G>().beyond_per_placed * costs.beyond;
         self.imbalance += watched - beyond;
-        self.weigh::<G>(n, report, watched + beyond - vertices * costs.slack.unwrap_or(costs.sweep));
+        // Slack would have to follow the same placements.
+        let (sweep, slack) = (vertices * costs.sweep, costs.slack.map(|slack| vertices * slack + followed));
+        let others = slack.unwrap_or(sweep).min(sweep);
+        self.weigh::<G>(n, report, watched + beyond + followed - others, others < sweep);
         if self.imbalance.abs() <= constants::<G>().max_imbalance * costs.computed * vertices {
             return false;
         }
@@ -125,32 +129,32 @@ impl Auto {
         // Few that move are placed without a sweep.
         let sweep = if constants::<G>().are_few(report.moved as usize, n) { 0.0 } else { costs.sweep };
         let spared = sweep - costs.slack.unwrap_or_default();
-        self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared);
+        self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared, false);
         let vertices_per_used_up = constants::<G>().vertices_per_used_up_to_watch;
         if self.wait == 0 && report.tolerances * vertices_per_used_up < n as u64 {
             self.scope = Scope::Watched;
         }
     }
 
-    /// Enters by how much a commit has cost more than the more expensive way, which is taken when the sum is too large.
-    fn weigh<G: Dimension>(&mut self, n: usize, report: &CommitReport, excess: f64) {
+    /// Enters by how much a commit has cost more than the more expensive way, which is taken when the sum is too large:
+    /// slack, if that would have cost less than a sweep.
+    fn weigh<G: Dimension>(&mut self, n: usize, report: &CommitReport, excess: f64, is_slack_less: bool) {
         let constants = constants::<G>();
         self.follow_changes::<G>(report);
         self.excess = (self.excess + excess).max(0.0);
         self.wait = self.wait.saturating_sub(1);
         if self.excess > constants.max_excess * constants.costs.computed * n as f64 {
-            self.give_up::<G>(n, report.rebuilds > 0);
+            self.give_up::<G>(n, is_slack_less && report.rebuilds == 0);
         } else {
             self.next_wait = self.next_wait.saturating_sub(1);
         }
     }
 
-    /// From now on the more expensive way is taken; slack only if few cells change, of `n` vertices, and not all have just
-    /// been rebuilt.
-    pub(super) fn give_up<G: Dimension>(&mut self, n: usize, has_rebuilt: bool) {
+    /// From now on the more expensive way is taken: slack if that may be, and few cells change, of `n` vertices.
+    pub(super) fn give_up<G: Dimension>(&mut self, n: usize, may_be_slack: bool) {
         let constants = constants::<G>();
-        let are_changes_few = !has_rebuilt && self.changes * constants.vertices_per_change <= n as f64;
-        self.scope = if self.scope == Scope::Watched && constants.costs.slack.is_some() && are_changes_few {
+        let may_be_slack = may_be_slack && self.scope == Scope::Watched && constants.costs.slack.is_some();
+        self.scope = if may_be_slack && self.changes * constants.vertices_per_change <= n as f64 {
             Scope::Slack
         } else {
             Scope::All

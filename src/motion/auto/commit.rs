@@ -67,7 +67,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 }
                 return Ok(Attempt::Committed);
             }
-            self.auto.give_up::<G>(self.n_present, false);
+            self.auto.give_up::<G>(self.n_present, true);
         }
         if self.auto.scope() == Scope::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
@@ -191,5 +191,41 @@ mod tests {
                 now.push(place);
             }
         }
+    }
+
+    /// All vertices creep, and from some timestamp on this share of them leaps at each. Whether they are watched at the
+    /// end, and how many bi-cells are before the leaps and at the end.
+    fn watched_among_leaps(share: f64) -> (bool, usize, usize) {
+        let rng = &mut Rng::new(3);
+        let (n, side) = (6_000, 18.0);
+        let mut now = vec![[0.0; 3]; n];
+        now.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
+        let mut t = MovingTriangulation::<Space>::new(&now, Options { threads: 1, ..Options::default() })
+            .expect("room");
+        let mut n_before = 0;
+        for commit in 0..50 {
+            let is_leaping = commit >= 10;
+            if !is_leaping {
+                n_before = t.regions.n_watched();
+            }
+            for p in &mut now {
+                let leaps = is_leaping && rng.unit() < share;
+                p.iter_mut()
+                    .for_each(|x| *x = if leaps { side * rng.unit() } else { *x + 1e-5 * rng.unit() });
+            }
+            t.commit_positions(&now).expect("room");
+        }
+        assert_eq!(t.validate(Level::Delaunay), Ok(()));
+        (t.regions.kept_for() == Some(Filter::Watch), n_before, t.regions.n_watched())
+    }
+
+    /// Where few vertices leap, the others stay watched, and hardly more bi-cells are; where many do, the leaps cost more
+    /// than watching spares.
+    #[test]
+    fn few_leaps_leave_the_others_watched() {
+        let (are_watched, n_before, n_after) = watched_among_leaps(5e-4);
+        assert!(are_watched && n_before > 100 && n_after < 2 * n_before, "{n_before} to {n_after}");
+        let (are_watched, ..) = watched_among_leaps(2e-2);
+        assert!(!are_watched);
     }
 }

@@ -8,12 +8,12 @@
 //!
 //! When a corner passes its deadline the cell is *referred* to the present: the longest way of a corner since is
 //! taken off its slacks, which is exact, and new deadlines follow. The bi-cells that have none left are checked and
-//! computed recomputed; they concern only the two cells.
+//! computed again; they concern only the two cells.
 //!
 //! **Units.** Ways and slacks are integers of 16 bits. The unit is a power of two of about a sixteenth of the mean
-//! way of a timestamp, chosen when all are computed, and again when it has not fitted for long. Ways are rounded up,
-//! slacks down. Odometers may overflow: only differences count, which are below 2¹⁵ in magnitude as slacks are cut at
-//! 2¹⁴ and the ways of one timestamp at one more.
+//! way of a timestamp, leaps apart, chosen when all are computed, and again when it has not fitted for long. Ways are
+//! rounded up, slacks down. Odometers may overflow: only differences count, which are below 2¹⁵ in magnitude as slacks
+//! are cut at 2¹⁴ and the ways of one timestamp at one more.
 //!
 //! Cost: a timestamp reads 16 bytes for each cell beside its corners (12 in the plane), and the odometers of these.
 //! Memory: as many bytes for a cell, and 2 for a site.
@@ -144,17 +144,27 @@ impl<G: Dimension> Slacks<G> {
     }
 
     fn choose_unit(&mut self, kernel: &Delaunay<G>, other_positions: &[G::Point]) {
-        let (mut sum, mut n) = (0.0, 0.0);
-        for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
-            let there = other_positions.get(site.id.index());
-            sum += there.map_or(0.0, |p| distance_above(&site.point, p));
-            n += 1.0;
-        }
+        let mean_of_up_to = |most: f64| {
+            let (mut sum, mut n) = (0.0, 0.0);
+            for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
+                let there = other_positions.get(site.id.index());
+                let way = there.map_or(0.0, |p| distance_above(&site.point, p));
+                if way <= most {
+                    sum += way;
+                    n += 1.0;
+                }
+            }
+            sum / n
+        };
+        let of_all = mean_of_up_to(f64::INFINITY);
+        // Without those that leap, which may go a million times as far as the others, unless these rest.
+        let of_others = mean_of_up_to(FITTING * of_all);
+        let mean = if of_others > 0.0 { of_others } else { of_all };
         // Of no use, but no error either, where nothing moves. A power of two that is no number any more would make
         // all ways 0.
-        self.per_length = (UNITS * n / sum).log2().floor().clamp(-900.0, 900.0).exp2();
+        self.per_length = (UNITS / mean).log2().floor().clamp(-900.0, 900.0).exp2();
         self.unfit = 0;
-        self.expect(sum / n);
+        self.expect(mean);
     }
 
     /// Computes the bi-cells of all facets of these cells, each listed once; returns how many.
@@ -184,7 +194,8 @@ impl<G: Dimension> Slacks<G> {
         self.unfit < UNFIT
     }
 
-    /// All vertices have moved, by these distances on average and at most: the kernel's static filter follows.
+    /// All vertices have moved, by these distances at most, and on average, where none counts as longer than the
+    /// [longest](Self::longest_way): the kernel's static filter follows.
     /// Whether the unit still fits.
     pub(in crate::motion) fn end_motion(
         &mut self,
@@ -197,6 +208,11 @@ impl<G: Dimension> Slacks<G> {
             self.tighten_filter(kernel);
         }
         self.expect(mean)
+    }
+
+    /// No way of a timestamp is entered as longer than about this one.
+    pub(in crate::motion) fn longest_way(&self) -> f64 {
+        f64::from(LIMIT) / self.per_length
     }
 
     /// Adds to the way of a site; `distance` is an upper bound.

@@ -73,12 +73,14 @@ fn is_soon_beyond<G: Dimension>(
     other_positions: &[G::Point],
 ) -> bool {
     let here = |v: VertexId| fixed[v].point();
+    let from_one = |&v: &VertexId| squared_distance(here(vertices[1]), here(v));
+    let (square, greatest) = (from_one(&vertices[2]), vertices.iter().map(from_one).fold(0.0, f64::max));
+    // Who has leapt does not do so at each timestamp.
     let step = |&v: &VertexId| {
         let there = other_positions.get(v.index());
-        there.map_or(0.0, |p| squared_distance(here(v), p))
+        there.map(|p| squared_distance(here(v), p)).filter(|&step| step <= greatest).unwrap_or(0.0)
     };
     let steps = vertices.iter().map(step).fold(0.0, f64::max);
-    let square = squared_distance(here(vertices[1]), here(vertices[2]));
     let t = tolerance * tolerance;
     t * t <= constants::<G>().watched_share * steps * square
 }
