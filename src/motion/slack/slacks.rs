@@ -157,7 +157,7 @@ impl<G: Dimension> Slacks<G> {
             sum / n
         };
         let of_all = mean_of_up_to(f64::INFINITY);
-        // Without those that leap, which may go a million times as far as the others, unless these rest.
+        // Without those that leap, which may go a million times as far as the others, unless the others rest.
         let of_others = mean_of_up_to(FITTING * of_all);
         let mean = if of_others > 0.0 { of_others } else { of_all };
         // Of no use, but no error either, where nothing moves. A power of two that is no number any more would make
