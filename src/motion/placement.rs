@@ -9,7 +9,7 @@
 //!
 //! **Threads.** Where many vertices go far away and the cells are sorted, several threads relocate most of them [side by
 //! side](Delaunay::place_side_by_side), each in its range of the cells, some thousands at a time. Where one in a hundred of
-//! a million vertices leaps, a repair on two threads is 1.5 times as fast as on one (`make targets`: *threads_leaping*); the
+//! a million vertices leaps, a repair on two threads is 1.3 to 1.5 times as fast as on one (`make targets`: *threads_leaping*); the
 //! gain is the same after twenty such commits (`examples/thread_scaling`: *later*). Vertices that go to near places are
 //! relocated by one thread, as that takes little more than to find out whose cells they change.
 

@@ -150,10 +150,10 @@ impl Auto {
         }
     }
 
-    /// From now on the more expensive way is taken: slack if that may be, and few cells change, of `n` vertices.
+    /// From now on the more expensive way is taken: slack, if that may come next and few cells change, or a sweep.
     pub(super) fn give_up<G: Dimension>(&mut self, n: usize, may_be_slack: bool) {
         let constants = constants::<G>();
-        let may_be_slack = may_be_slack && self.scope == Scope::Watched && constants.costs.slack.is_some();
+        let may_be_slack = may_be_slack && constants.costs.slack.is_some();
         self.scope = if may_be_slack && self.changes * constants.vertices_per_change <= n as f64 {
             Scope::Slack
         } else {

@@ -162,6 +162,15 @@ mod tests {
     use crate::motion::{MovingTriangulation, Options};
     use crate::random::Rng;
 
+    /// Random points in a cube, and their triangulation.
+    fn random(n: usize, side: f64, rng: &mut Rng) -> (Vec<[f64; 3]>, MovingTriangulation<Space>) {
+        let mut points = vec![[0.0; 3]; n];
+        points.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
+        let options = Options { threads: 1, ..Options::default() };
+        let t = MovingTriangulation::new(&points, options).expect("room");
+        (points, t)
+    }
+
     /// Cells are sorted again as flips, placements and insertions replace them: after repairs, before slacks are computed
     /// and while they are kept. They stay those of the triangulation.
     #[test]
@@ -169,10 +178,7 @@ mod tests {
         let rng = &mut Rng::new(1);
         // More cells than a processor's own cache holds.
         let (n, side) = (6_000, 18.0);
-        let mut now = vec![[0.0; 3]; n];
-        now.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
-        let mut t = MovingTriangulation::<Space>::new(&now, Options { threads: 1, ..Options::default() })
-            .expect("room");
+        let (mut now, mut t) = random(n, side, rng);
         let first = constants::<Space>().replaced_to_sort_first;
         for (step, n_commits, is_slack) in [(0.06, 60, false), (1e-4, 20, true), (1e-4, 3, true)] {
             let mut n_sorted = 0;
@@ -198,18 +204,14 @@ mod tests {
     fn watched_among_leaps(share: f64) -> (bool, usize, usize) {
         let rng = &mut Rng::new(3);
         let (n, side) = (6_000, 18.0);
-        let mut now = vec![[0.0; 3]; n];
-        now.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
-        let mut t = MovingTriangulation::<Space>::new(&now, Options { threads: 1, ..Options::default() })
-            .expect("room");
+        let (mut now, mut t) = random(n, side, rng);
         let mut n_before = 0;
         for commit in 0..50 {
-            let is_leaping = commit >= 10;
-            if !is_leaping {
+            if commit == 10 {
                 n_before = t.regions.n_watched();
             }
             for p in &mut now {
-                let leaps = is_leaping && rng.unit() < share;
+                let leaps = commit >= 10 && rng.unit() < share;
                 p.iter_mut()
                     .for_each(|x| *x = if leaps { side * rng.unit() } else { *x + 1e-5 * rng.unit() });
             }

@@ -75,7 +75,7 @@ fn is_soon_beyond<G: Dimension>(
     let here = |v: VertexId| fixed[v].point();
     let from_one = |&v: &VertexId| squared_distance(here(vertices[1]), here(v));
     let (square, greatest) = (from_one(&vertices[2]), vertices.iter().map(from_one).fold(0.0, f64::max));
-    // Who has leapt does not do so at each timestamp.
+    // A step longer than the bi-cell is a leap, which tells nothing about the next step.
     let step = |&v: &VertexId| {
         let there = other_positions.get(v.index());
         there.map(|p| squared_distance(here(v), p)).filter(|&step| step <= greatest).unwrap_or(0.0)
