@@ -329,18 +329,35 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// Adds the cells of another complex, on other sites: its slot `c` becomes `c + n_slots()`, its site `s`
-    /// becomes `s + shift`, on several threads.
-    pub(crate) fn append(&mut self, other: &Self, shift: u32, n_threads: usize) -> Result<()> {
-        let n = self.cells.len();
-        if n + other.cells.len() > MAX_CELLS {
+    /// Keeps room for `kept` cells; an empty complex that has the room for the `n` cells behind them, for another thread to
+    /// fill. One that turns out to have more cells moves them elsewhere.
+    pub(crate) fn divide(&mut self, kept: usize, n: usize) -> Result<Self> {
+        let mut other = Self::default();
+        memory::reserve_exact(&mut other.marks, n)?;
+        other.free.cover(n)?;
+        other.cells = self.cells.divide(kept, n)?;
+        Ok(other)
+    }
+
+    /// Has all its room again, once those that were [divided](Self::divide) from it are gone.
+    pub(crate) fn reclaim(&mut self) {
+        self.cells.reclaim();
+        debug_assert!(self.cells.capacity() <= self.marks.capacity());
+    }
+
+    /// Adds the cells of another complex, on other sites: its site `s` becomes `s + shift`, its slot `c` becomes `c` plus
+    /// what is returned; on several threads. Where it has the room behind that of this one, cells stay where they are.
+    pub(crate) fn append(&mut self, other: Self, shift: u32, n_threads: usize) -> Result<usize> {
+        let is_behind = self.cells.is_followed_by(&other.cells);
+        let (n, n_others, room) = (self.cells.len(), other.cells.len(), self.cells.capacity());
+        let first = if is_behind { room } else { n };
+        if first + n_others > MAX_CELLS {
             return Err(Error::TooManyCells { limit: MAX_CELLS });
         }
-        let moved = |c: Slot| Slot::new(c.get() + n as u32);
-        let shifted = |cell: &Cell<C>| {
-            let mut cell = *cell;
+        let moved = |c: Slot| Slot::new(c.get() + first as u32);
+        let shift_one = |cell: &mut Cell<C>| {
             if cell.is_free() {
-                return cell;
+                return;
             }
             for corner in cell.corners.as_mut().iter_mut().filter(|corner| **corner != INFINITE) {
                 *corner = SiteId::new(corner.get() + shift);
@@ -348,19 +365,27 @@ impl<C: Corners> Complex<C> {
             for out in cell.neighbours.as_mut() {
                 *out = Facet::new(moved(out.cell()), out.index());
             }
-            cell
         };
         // As when the complex grows, the cells last.
-        let room = self.cells.capacity().max(n + other.cells.len());
+        let room = if is_behind { room + other.cells.capacity() } else { room.max(n + n_others) };
         let more_marks = room - self.marks.len();
         memory::reserve_exact(&mut self.marks, more_marks)?;
         self.free.cover(room)?;
-        self.cells.extend(&other.cells, n_threads, shifted)?;
+        if is_behind {
+            self.cells.rejoin(other.cells, Cell::free());
+            memory::change(&mut self.cells[first..], n_threads, &shift_one);
+        } else {
+            self.cells.extend(&other.cells, n_threads, |cell| {
+                let mut cell = *cell;
+                shift_one(&mut cell);
+                cell
+            })?;
+        }
         debug_assert!(self.cells.capacity() <= self.marks.capacity());
         self.marks.resize(self.cells.len(), 0);
-        other.free.iter().for_each(|c| self.free.set(moved(c), true));
+        Slot::range(n..first).chain(other.free.iter().map(moved)).for_each(|c| self.free.set(c, true));
         self.n_ghosts += other.n_ghosts;
-        Ok(())
+        Ok(first)
     }
 
     /// Bytes held.

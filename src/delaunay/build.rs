@@ -144,6 +144,14 @@ impl<G: Dimension> Delaunay<G> {
         self.merge(coincident)
     }
 
+    /// For how many cells there is room in a build of `n` sites; only few sets have more. In the plane there are not quite
+    /// two for each site. In space Poisson points have 6.77, hulls and rounds need a little more, and a few sites never have
+    /// as many.
+    pub(super) fn n_cells_of(n: usize) -> usize {
+        let most = if G::D == 2 { 2 * n } else { (n + 1).saturating_mul(n.saturating_sub(2)) / 2 };
+        most.min(7 * n + (4 * n).min(64))
+    }
+
     /// Likewise, with room for `n` sites; returns pairs of coincident sites, the second in the cells.
     pub(super) fn triangulate_unmerged(
         &mut self,
@@ -153,10 +161,7 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<Vec<(SiteId, SiteId)>> {
         self.complex.clear();
         self.is_sorted = false;
-        // In the plane there are not quite 2 cells per site. In space Poisson points have 6.77, hulls and rounds need a
-        // little more, and a few sites never have as many.
-        let most = if G::D == 2 { 2 * n } else { (n + 1).saturating_mul(n.saturating_sub(2)) / 2 };
-        self.complex.reserve(most.min(7 * n + (4 * n).min(64)))?;
+        self.complex.reserve(Self::n_cells_of(n))?;
         for site in &mut self.sites {
             site.cell = Slot::NONE;
         }

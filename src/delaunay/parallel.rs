@@ -5,8 +5,9 @@
 //! hyperplane are [united](super::unite), two by two.
 //!
 //! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner; that of the first
-//! part has the sites of all, each other one a copy of its own; the monitor is called by the calling thread alone. Ids
-//! break the ties in a part as in the whole, so the cells are those of a build on one thread.
+//! part has the sites of all and room for all cells, each other one a copy of its own sites and a part of that room, where
+//! its cells stay; the monitor is called by the calling thread alone. Ids break the ties in a part as in the whole, so the
+//! cells are those of a build on one thread.
 //!
 //! Cost: that of the largest part, and of uniting. Of a million sites in two parts 0.15 % are inserted again
 //! in the plane, and 1.7 % in space. Where spheres reach far into other parts, as those of points on one
@@ -70,11 +71,15 @@ impl<G: Dimension> Delaunay<G> {
         let parts = std::mem::take(&mut self.parts);
         let build = Build { parts: &parts, n_sites, copies, boxes, stop: AtomicBool::new(false) };
         let mut is_cancelled = false;
+        self.complex.clear();
         // The first part is triangulated here, where the sites of all are.
-        let built = build.triangulate(self, 0..n_parts, n_parts, &mut |fraction| {
-            is_cancelled |= !monitor(fraction);
-            !is_cancelled && !build.stop.load(Relaxed)
+        let built = self.complex.reserve(build.n_cells_of(0..n_parts)).and_then(|()| {
+            build.triangulate(self, 0..n_parts, &mut |fraction| {
+                is_cancelled |= !monitor(fraction);
+                !is_cancelled && !build.stop.load(Relaxed)
+            })
         });
+        self.complex.reclaim();
         self.parts = parts;
         match built {
             Ok(coincident) => Ok(Some(coincident)),
@@ -113,18 +118,17 @@ impl<G: Dimension> Delaunay<G> {
 }
 
 impl<G: Dimension> Build<'_, G> {
-    /// Triangulates parts, with room for the cells of those up to the part `end`.
+    /// Triangulates parts, for the cells of which there is [room](Self::n_cells_of).
     fn triangulate(
         &self,
         t: &mut Delaunay<G>,
         parts: Range<usize>,
-        end: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Coincident> {
         let built = if parts.len() == 1 {
-            self.triangulate_one(t, parts.start, end, monitor)
+            self.triangulate_one(t, parts.start, monitor)
         } else {
-            self.triangulate_halves(t, parts, end, monitor)
+            self.triangulate_halves(t, parts, monitor)
         };
         // The work of the others is lost.
         self.stop.fetch_or(built.is_err(), Relaxed);
@@ -135,16 +139,17 @@ impl<G: Dimension> Build<'_, G> {
         &self,
         t: &mut Delaunay<G>,
         parts: Range<usize>,
-        end: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Coincident> {
         let middle = parts::middle(&parts);
+        let [n_left, n_right] = [parts.start..middle, middle..parts.end].map(|half| self.n_cells_of(half));
+        let complex = t.complex.divide(n_left, n_right)?;
         let (left, right) = threads::join(
-            || self.triangulate(t, parts.start..middle, end, monitor),
+            || self.triangulate(t, parts.start..middle, monitor),
             || {
                 let goes_on = &mut |_| !self.stop.load(Relaxed);
-                let mut right = Delaunay::on(Threads::ONE)?;
-                let coincident = self.triangulate(&mut right, middle..parts.end, parts.end, goes_on)?;
+                let mut right = Delaunay { complex, ..Delaunay::on(Threads::ONE)? };
+                let coincident = self.triangulate(&mut right, middle..parts.end, goes_on)?;
                 let (lower, upper) = self.box_of(parts.start..middle);
                 Ok((right.open(&lower, &upper)?, coincident))
             },
@@ -168,7 +173,6 @@ impl<G: Dimension> Build<'_, G> {
         &self,
         t: &mut Delaunay<G>,
         part: usize,
-        end: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Coincident> {
         if part > 0 {
@@ -181,10 +185,19 @@ impl<G: Dimension> Build<'_, G> {
         if !order.iter().any(|&s| t.extend_basis(s)) {
             return Err(Error::Cancelled);
         }
-        let n = self.parts.sites(part..end, self.n_sites).len();
         let mut monitor = |fraction: f64| monitor(SHARE_OF_PARTS * fraction);
-        // While two triangulations are united there are more cells than before and after.
-        t.triangulate_unmerged(&order, n + 8 * n.isqrt(), &mut monitor)
+        t.triangulate_unmerged(&order, self.n_sites_of(part), &mut monitor)
+    }
+
+    /// For how many sites a part has room: while two triangulations are united there are more cells than before and after.
+    fn n_sites_of(&self, part: usize) -> usize {
+        let n = self.parts.sites(part..part + 1, self.n_sites).len();
+        n + 8 * n.isqrt()
+    }
+
+    /// For how many cells parts have room.
+    fn n_cells_of(&self, parts: Range<usize>) -> usize {
+        parts.map(|part| Delaunay::<G>::n_cells_of(self.n_sites_of(part))).sum()
     }
 
     /// Bounding box of the sites of parts.
@@ -247,6 +260,36 @@ mod tests {
         }
         unites::<Plane>();
         unites::<Space>();
+    }
+
+    /// Points on the moment curve have a cell for each pair of pairs of neighbours along it: parts outgrow the room for
+    /// their cells.
+    #[test]
+    fn parts_of_very_many_cells_are_united() {
+        let n = 520;
+        let rng = &mut Rng::new(1);
+        let points: Vec<[f64; 3]> = (0..n).map(|_| rng.unit()).map(|x| [x, x * x, x * x * x]).collect();
+        let mut t = Delaunay::<Space>::on(Threads::exactly(2)).expect("room for it");
+        t.add_sites(&points).expect("room for it");
+        assert_eq!(t.triangulate_parts(&mut |_| true), Ok(Some(Vec::new())));
+        assert!(t.complex().n_finite() > 3 * Delaunay::<Space>::n_cells_of(n));
+        t.validate(Level::Delaunay).expect("a Delaunay triangulation");
+    }
+
+    /// A triangulation that is built again has its room again, whether or not it was cancelled, and no more.
+    #[test]
+    fn room_is_divided_and_taken_back() {
+        let mut t = Delaunay::<Space>::on(Threads::exactly(4)).expect("room for it");
+        t.add_sites(&random::<Space>(3000)).expect("room for it");
+        t.triangulate_parts(&mut |_| true).expect("room for it");
+        let (room, n_slots) = (t.complex().n_cells_reserved(), t.complex().n_slots());
+        for most in [0.5, 2.0, 0.9, 2.0] {
+            let built = t.triangulate_parts(&mut |fraction| fraction < most);
+            assert_eq!(built, if most > 1.0 { Ok(Some(Vec::new())) } else { Err(Error::Cancelled) });
+            assert_eq!(t.complex().n_cells_reserved(), room);
+        }
+        assert_eq!(t.complex().n_slots(), n_slots);
+        t.validate(Level::Delaunay).expect("a Delaunay triangulation");
     }
 
     #[test]

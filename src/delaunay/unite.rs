@@ -25,8 +25,8 @@
 //! place have the same orientation; the cell on the other side has the opposite one, and is the new
 //! neighbour.
 //!
-//! Cost: a search and an insertion for each site of the border, and a copy of the right cells, in which all
-//! threads of both parts take part.
+//! Cost: a search and an insertion for each site of the border, and new numbers in the right cells, which all threads of
+//! both parts write.
 
 use super::facets::{ByCorners, facet_of};
 use super::order::in_rounds;
@@ -149,15 +149,14 @@ impl<G: Dimension> Delaunay<G> {
     /// sites, the second in the cells. After an error the cells are half made.
     pub(super) fn unite(
         &mut self,
-        Open { t: right, border, mut rim }: Open<G>,
+        Open { t: mut right, border, mut rim }: Open<G>,
         first: SiteId,
         n_threads: usize,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
-        let n_slots = self.complex.n_slots();
-        let moved = |c: Slot| Slot::at(c.index() + n_slots);
         let shift = first.get() - 1;
-        self.complex.append(&right.complex, shift, n_threads)?;
+        let first_slot = self.complex.append(std::mem::take(&mut right.complex), shift, n_threads)?;
+        let moved = |c: Slot| Slot::at(c.index() + first_slot);
         let shifted = |site: &Site<G>| {
             let mut site = *site;
             if site.cell != Slot::NONE {

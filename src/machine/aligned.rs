@@ -3,6 +3,10 @@
 //! A vector of such entries asks the system for memory that is aligned like them, which takes several times as long as
 //! asking for any memory: a tenth of the time to build five points. So this asks for a few bytes more than it needs, and
 //! skips those before the first entry.
+//!
+//! An array may be [divided](Aligned::divide): its room at the end becomes another array's, which another thread can fill
+//! where the entries are going to be, and which is then [taken back](Aligned::rejoin). The memory is gone when the last of
+//! both is.
 
 #![allow(unsafe_code)]
 
@@ -14,6 +18,7 @@ use std::ptr::{self, NonNull};
 use std::slice;
 
 use super::memory;
+use super::shared::Share;
 use crate::error::{Error, Result};
 
 /// What any memory is aligned to.
@@ -26,6 +31,8 @@ pub(crate) struct Aligned<T: Copy> {
     capacity: usize,
     /// Bytes before the start.
     skipped: usize,
+    /// If the memory is not its own alone.
+    share: Option<Share>,
     entries: PhantomData<T>,
 }
 
@@ -41,7 +48,14 @@ impl<T: Copy> Aligned<T> {
     /// An empty one.
     #[inline(always)]
     pub(crate) const fn new() -> Self {
-        Aligned { start: NonNull::dangling(), n: 0, capacity: 0, skipped: 0, entries: PhantomData }
+        Aligned {
+            start: NonNull::dangling(),
+            n: 0,
+            capacity: 0,
+            skipped: 0,
+            share: None,
+            entries: PhantomData,
+        }
     }
 
     /// For how many entries there is memory.
@@ -70,9 +84,10 @@ impl<T: Copy> Aligned<T> {
         let no_room = Error::OutOfMemory { bytes: more.saturating_mul(size_of::<T>()) };
         let Some(capacity) = self.n.checked_add(more) else { return Err(no_room) };
         let Some(layout) = Self::layout(capacity) else { return Err(no_room) };
+        let own = Self::layout(self.capacity).filter(|_| self.capacity > 0 && self.share.is_none());
         // SAFETY: the layout is not empty, as neither `more` nor an entry is; what there is was asked for like that.
         let memory = unsafe {
-            match Self::layout(self.capacity).filter(|_| self.capacity > 0) {
+            match own {
                 Some(old) => realloc(self.memory(), old, layout.size()),
                 None => alloc(layout),
             }
@@ -83,15 +98,17 @@ impl<T: Copy> Aligned<T> {
         let skipped = memory.align_offset(align_of::<T>());
         debug_assert!(skipped <= Self::MORE);
         // SAFETY: there are that many bytes before the entries, for all of which there is room behind them. What was
-        // there has been moved with the memory, and is as far from its beginning as it was.
+        // there has been moved with the memory, and is as far from its beginning as it was; or it is elsewhere still.
         let start = unsafe {
             let start = memory.add(skipped).cast::<T>();
-            if skipped != self.skipped {
+            if own.is_none() {
+                ptr::copy_nonoverlapping(self.start.as_ptr(), start, self.n);
+            } else if skipped != self.skipped {
                 ptr::copy(memory.add(self.skipped), start.cast(), self.n * size_of::<T>());
             }
             NonNull::new_unchecked(start)
         };
-        (self.start, self.capacity, self.skipped) = (start, capacity, skipped);
+        (self.start, self.capacity, self.skipped, self.share) = (start, capacity, skipped, None);
         memory::advise_if_large(start.as_ptr().cast(), capacity * size_of::<T>());
         Ok(())
     }
@@ -124,6 +141,49 @@ impl<T: Copy> Aligned<T> {
     /// Drops all but the first `n` entries.
     pub(crate) fn truncate(&mut self, n: usize) {
         self.n = self.n.min(n);
+    }
+
+    /// Keeps room for `kept` entries, and makes the room for the `room` entries behind them that of another array.
+    pub(crate) fn divide(&mut self, kept: usize, room: usize) -> Result<Self> {
+        assert!(self.n <= kept && room > 0 && kept + room <= self.capacity, "room is made before");
+        let share = match &self.share {
+            Some(share) => share.another(),
+            None => {
+                let layout = Self::layout(self.capacity).expect("it was asked for like that");
+                // SAFETY: this was allocated like that, and an array with a share frees nothing itself.
+                let own = unsafe { Share::new(self.memory(), layout, self.capacity)? };
+                let share = own.another();
+                self.share = Some(own);
+                share
+            }
+        };
+        self.capacity = kept;
+        // SAFETY: this is in the same memory.
+        let start = unsafe { self.start.add(kept) };
+        Ok(Aligned { start, n: 0, capacity: room, skipped: 0, share: Some(share), entries: PhantomData })
+    }
+
+    /// Whether another array has the room behind the end of this one's.
+    pub(crate) fn is_followed_by(&self, other: &Self) -> bool {
+        let (Some(own), Some(its)) = (&self.share, &other.share) else { return false };
+        own.is_beside(its) && self.start.as_ptr().wrapping_add(self.capacity) == other.start.as_ptr()
+    }
+
+    /// Takes back the entries and the room of the array that [follows](Self::is_followed_by). All entries between there
+    /// are `between`.
+    pub(crate) fn rejoin(&mut self, other: Self, between: T) {
+        assert!(self.is_followed_by(&other));
+        self.lengthen(self.capacity, between);
+        self.n += other.n;
+        self.capacity += other.capacity;
+    }
+
+    /// Has all room that it had before it was divided, if the other arrays are gone.
+    pub(crate) fn reclaim(&mut self) {
+        let memory = self.memory();
+        if let Some(share) = self.share.take_if(|share| share.is_last_of(memory)) {
+            self.capacity = share.keep();
+        }
     }
 
     /// A copy without room for more.
@@ -160,6 +220,7 @@ impl<T: Copy> Drop for Aligned<T> {
     #[inline(always)]
     fn drop(&mut self) {
         if self.capacity > 0
+            && self.share.is_none()
             && let Some(layout) = Self::layout(self.capacity)
         {
             // SAFETY: this is where the memory begins, and its layout.
@@ -223,6 +284,65 @@ mod tests {
         assert_eq!((copy.len(), copy[1011]), (1012, entry(1)));
         assert!(copy.reserve_exact(usize::MAX).is_err() && copy.reserve_exact(usize::MAX / 64).is_err());
         assert_eq!(copy.len(), 1012);
+    }
+
+    /// An array with room for 100 entries and ten of them, and two that have been divided from it and filled on other
+    /// threads.
+    fn divided() -> [Aligned<Wide>; 3] {
+        let mut first = Aligned::new();
+        first.reserve_exact(100).expect("room");
+        let mut last = first.divide(60, 30).expect("room");
+        let mut middle = first.divide(40, 20).expect("room");
+        assert_eq!([&first, &middle, &last].map(Aligned::capacity), [40, 20, 30]);
+        first.lengthen(10, Wide(1));
+        std::thread::scope(|scope| {
+            scope.spawn(|| middle.lengthen(20, Wide(2)));
+            scope.spawn(|| last.lengthen(5, Wide(3)));
+        });
+        [first, middle, last]
+    }
+
+    #[test]
+    fn divided_arrays_are_rejoined() {
+        let [mut first, mut middle, last] = divided();
+        assert!(
+            first.is_followed_by(&middle) && middle.is_followed_by(&last) && !first.is_followed_by(&last)
+        );
+        middle.rejoin(last, Wide(0));
+        first.rejoin(middle, Wide(0));
+        let expected = [(10, 1), (30, 0), (20, 2), (5, 3)].map(|(n, k)| vec![Wide(k); n]).concat();
+        assert_eq!((&first[..], first.capacity()), (&expected[..], 90));
+        first.reclaim();
+        assert_eq!(first.capacity(), 100);
+        first.reserve_exact(1000).expect("room");
+        assert_eq!((&first[..], first.capacity()), (&expected[..], 1065));
+    }
+
+    #[test]
+    fn divided_arrays_grow_elsewhere() {
+        let [mut first, mut middle, mut last] = divided();
+        last.reserve_exact(26).expect("room");
+        assert_eq!((&last[..], last.capacity()), (&[Wide(3); 5][..], 31));
+        assert!(!middle.is_followed_by(&last));
+        middle.reserve_exact(1).expect("room");
+        assert!(!first.is_followed_by(&middle) && middle[..] == [Wide(2); 20]);
+        // Nobody else has a part any more.
+        first.reclaim();
+        assert_eq!((&first[..], first.capacity()), (&[Wide(1); 10][..], 100));
+    }
+
+    #[test]
+    fn memory_is_there_as_long_as_some_array_is() {
+        let [mut first, mut middle, last] = divided();
+        drop(last);
+        first.reclaim();
+        assert_eq!(first.capacity(), 40, "the middle is not gone");
+        first.reserve_exact(50).expect("room");
+        assert!(!first.is_followed_by(&middle));
+        drop(first);
+        // It is not the first, and has no more than its part.
+        middle.reclaim();
+        assert_eq!((&middle[..], middle.capacity()), (&[Wide(2); 20][..], 20));
     }
 
     #[test]

@@ -216,10 +216,26 @@ pub(super) fn write<T: Sync, U: Copy + Send>(
         }
         return;
     }
-    let (threads, rest) = (n_threads / 2, n_threads - n_threads / 2);
-    let middle = (from.len() as u64 * threads as u64 / n_threads as u64) as usize;
+    let (threads, middle) = halved(n_threads, from.len());
     let ((from_a, from_b), (to_a, to_b)) = (from.split_at(middle), to.split_at_mut(middle));
-    threads::join(|| write(from_a, to_a, threads, make), || write(from_b, to_b, rest, make));
+    threads::join(|| write(from_a, to_a, threads, make), || write(from_b, to_b, n_threads - threads, make));
+}
+
+/// Half of the threads, and how many of `n` entries are for them.
+fn halved(n_threads: usize, n: usize) -> (usize, usize) {
+    let threads = n_threads / 2;
+    (threads, (n as u64 * threads as u64 / n_threads as u64) as usize)
+}
+
+/// Changes every entry, each of several threads a stretch of them.
+pub(crate) fn change<T: Send>(entries: &mut [T], n_threads: usize, change_one: &(impl Fn(&mut T) + Sync)) {
+    if n_threads <= 1 {
+        entries.iter_mut().for_each(change_one);
+        return;
+    }
+    let (threads, middle) = halved(n_threads, entries.len());
+    let (a, b) = entries.split_at_mut(middle);
+    threads::join(|| change(a, threads, change_one), || change(b, n_threads - threads, change_one));
 }
 
 #[cfg(target_os = "linux")]

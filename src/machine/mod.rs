@@ -8,5 +8,6 @@ pub mod memory;
 mod pool;
 pub mod prefetch;
 mod processors;
+mod shared;
 pub mod tally;
 pub mod threads;
