@@ -115,6 +115,7 @@ impl<G: Dimension> Delaunay<G> {
                 let across = self.complex.cell(c).neighbour(i).cell();
                 if self.complex.mark(across) == 0 && !self.is_clear(across, lower, upper) {
                     self.complex.set_mark(across, IN_ZONE);
+                    self.complex.prefetch_neighbours(across);
                     memory::push(zone, across)?;
                 }
             }
