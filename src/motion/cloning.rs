@@ -36,6 +36,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             sorted_stride: self.sorted_stride,
             transaction: Transaction::default(),
             views: self.views.copied(&self.kernel)?,
+            foreseen: Default::default(),
             taken: None,
             takes_changes: self.takes_changes,
         })

@@ -46,6 +46,7 @@ pub(crate) mod constants;
 mod editing;
 mod edits;
 mod exporting;
+mod foreseen;
 mod geometry;
 mod hidden;
 mod immediate;

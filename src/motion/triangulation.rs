@@ -4,6 +4,7 @@ use super::auto::Auto;
 use super::changes::Taken;
 use super::constants::constants;
 use super::edits::Edits;
+use super::foreseen::Foreseen;
 use super::hidden::Hidden;
 use super::options::Options;
 use super::regions::Regions;
@@ -46,6 +47,7 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(super) sorted_stride: f64,
     pub(super) transaction: Transaction<G>,
     pub(super) views: Views<G>,
+    pub(super) foreseen: Foreseen,
     /// The changes taken last, and whether any ever were.
     pub(super) taken: Option<Box<Taken<G::Vertices>>>,
     pub(super) takes_changes: bool,
@@ -98,6 +100,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             n_moved: 0,
             transaction: Transaction::default(),
             views: Views::default(),
+            foreseen: Foreseen::default(),
             taken: None,
             takes_changes: false,
         }

@@ -1,0 +1,84 @@
+//! Vertices that are asked for one after another, in the order of their ids: what the next ones need can be foreseen.
+//!
+//! A solver that visits all vertices reads the star of one, then of the next. Sites and cells are stored along a curve,
+//! so each star lies elsewhere, and five reads in turn wait for memory: the site, a cell of it, those beside that, and so
+//! on. What is asked for some vertices ahead has come when it is their turn. Who visits vertices in another order would
+//! wait for what nobody needs, so only the second and later ones of a block of ids are followed by others.
+//!
+//! Invariant: none. This decides on hints to the processor, and any thread may note any vertex at any time.
+//!
+//! Cost: a comparison for each vertex, and a store for each block that is entered.
+
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use super::MovingTriangulation;
+use crate::delaunay::Dimension;
+use crate::ids::{SiteId, VertexId};
+
+/// How many vertices with consecutive ids are a block.
+const BLOCK: u32 = 64;
+
+/// How many blocks are known: as many threads can visit vertices, each some of its own.
+const BLOCKS: usize = 16;
+
+/// How many ids after the one at hand a vertex is in each of the [steps](crate::delaunay::Delaunay::prefetch_star).
+const AHEAD: [usize; 4] = [4, 3, 2, 1];
+
+/// The blocks of which vertices were asked for, from 1 on, each at its number modulo that of entries.
+#[derive(Debug, Default)]
+pub(super) struct Foreseen([AtomicU32; BLOCKS]);
+
+impl Foreseen {
+    /// Notes that a vertex is asked for; whether one of its block was, not long before.
+    #[inline(always)]
+    fn note(&self, vertex: VertexId) -> bool {
+        let block = vertex.get() / BLOCK + 1;
+        let entry = &self.0[block as usize % BLOCKS];
+        let is_known = entry.load(Relaxed) == block;
+        if !is_known {
+            entry.store(block, Relaxed);
+        }
+        is_known
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Asks for what the stars of the vertices after this one will read, where that is not in a cache anyway and is going to
+    /// be needed. There must be cells.
+    #[inline(always)]
+    pub(super) fn prefetch_next_stars(&self, vertex: VertexId) {
+        if self.kernel.is_far() && self.foreseen.note(vertex) {
+            self.prefetch_stars_after(vertex);
+        }
+    }
+
+    #[inline(never)]
+    fn prefetch_stars_after(&self, vertex: VertexId) {
+        for (step, ahead) in AHEAD.into_iter().enumerate() {
+            if let Some(&next) = self.site_of.get(vertex.index() + ahead)
+                && next != SiteId::NONE
+            {
+                self.kernel.prefetch_star(next, step);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of vertices in the order of their ids all but the first of each block are followed by others, whoever else visits
+    /// his own; of vertices far from each other none.
+    #[test]
+    fn ids_in_order_are_noticed() {
+        fn n_followed(ids: impl Iterator<Item = u32>) -> usize {
+            let foreseen = Foreseen::default();
+            ids.filter(|&id| foreseen.note(VertexId::new(id))).count()
+        }
+        assert_eq!(n_followed([0, 1, 2, 5].into_iter()), 3);
+        // Two threads, which visit 16 blocks each.
+        assert_eq!(n_followed((0..1024).flat_map(|k| [k, 10_048 + k])), 2 * 1024 - 2 * 16);
+        assert_eq!(n_followed((0..1000).map(|k| 1_000_000 - 1000 * k)), 0);
+    }
+}
