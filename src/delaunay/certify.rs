@@ -130,6 +130,22 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Whether all certificates of the cells of a star, listed with the index of its site in each, surely hold: not if there
+    /// are ghosts among them.
+    #[inline(always)]
+    pub(super) fn star_surely_holds(&self, star: &[(Slot, u8)]) -> bool {
+        let Some(avx2) = Avx2::new() else {
+            return star.iter().all(|&(c, _)| !self.complex.cell(c).is_ghost() && G::cell_holds(self, c));
+        };
+        avx2.run_with(
+            avx2,
+            self,
+            star,
+            #[inline(always)]
+            |avx2, t, star| G::star_holds(avx2, t, star),
+        )
+    }
+
     /// As [`visit_uncertain`](Self::visit_uncertain), one cell at a time.
     pub(super) fn visit_uncertain_singly(
         &self,

@@ -82,6 +82,10 @@ pub trait Kernel<G: Dimension> {
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held;
 
+    /// Whether all cells of a star, listed with the index of its site in each, surely are as
+    /// [`cell_holds`](Self::cell_holds) says: not if there are ghosts among them.
+    fn star_holds(avx2: Avx2, t: &Delaunay<G>, star: &[(Slot, u8)]) -> bool;
+
     /// Of several cells, each with a site: whether that surely is outside the cell's sphere, one bit each.
     fn are_outside(
         avx2: Avx2,

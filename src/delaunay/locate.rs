@@ -141,12 +141,15 @@ impl<G: Dimension> Delaunay<G> {
             return;
         }
         for &c in star.as_slice() {
-            let cell = self.complex.cell(c);
-            self.complex.prefetch(cell.neighbour(cell.index_of(s)).cell());
-            for &corner in cell.corners.as_ref() {
-                prefetch(&self.sites, corner.index());
-            }
+            self.prefetch_across(c, self.complex.cell(c).index_of(s));
         }
+    }
+
+    /// Asks for the corners of a cell, and for the neighbour opposite one of them.
+    #[inline(always)]
+    pub(super) fn prefetch_across(&self, c: Slot, at: usize) {
+        self.complex.prefetch(self.complex.cell(c).neighbour(at).cell());
+        self.prefetch_corners(c);
     }
 
     /// Asks for what the relocation of a site will read first, in as many calls as there are steps in turn: the site, a
@@ -224,30 +227,13 @@ pub(super) fn list_star<C: Corners>(
     star: &mut IndexSet<Slot>,
     mut found: impl FnMut(Slot),
 ) -> Result<()> {
-    found(first);
     if C::N == 3 {
-        // A ring: both ways around at once, so that the processor waits for two cells together.
-        let across = |cell: Slot, from: usize| {
-            let c = complex.cell(cell);
-            c.neighbour((c.index_of(s) + from) % C::N).cell()
-        };
-        star.push(first)?;
-        let (mut left, mut right) = (first, first);
-        loop {
-            left = across(left, 1);
-            if left == right {
-                return Ok(());
-            }
-            found(left);
-            star.push(left)?;
-            right = across(right, 2);
-            if right == left {
-                return Ok(());
-            }
-            found(right);
-            star.push(right)?;
-        }
+        return list_ring(complex, first, s, |cell, _| {
+            found(cell);
+            star.push(cell)
+        });
     }
+    found(first);
     star.spread(first, |cell| {
         let c = complex.cell(cell);
         let at = c.index_of(s);
@@ -259,4 +245,48 @@ pub(super) fn list_star<C: Corners>(
             other
         })
     })
+}
+
+/// Calls `found` for the cells around a site in the plane, ghost cells included, of which `first` is one, with the index of
+/// the site in each.
+#[inline(always)]
+pub(super) fn list_ring<C: Corners>(
+    complex: &Complex<C>,
+    first: Slot,
+    s: SiteId,
+    mut found: impl FnMut(Slot, usize) -> Result<()>,
+) -> Result<()> {
+    // Both ways around at once, so that the processor waits for two cells together. A facet tells where in its cell it is, and
+    // so where the site is: next to that.
+    let across = |(cell, at): (Slot, usize), turned: fn(usize) -> usize| {
+        let facet = complex.cell(cell).neighbour(turned(at));
+        (facet.cell(), turned(facet.index()))
+    };
+    let at = complex.cell(first).index_of(s);
+    found(first, at)?;
+    let (mut left, mut right) = ((first, at), (first, at));
+    loop {
+        left = across(left, next_of_three);
+        if left == right {
+            return Ok(());
+        }
+        found(left.0, left.1)?;
+        right = across(right, last_of_three);
+        if right == left {
+            return Ok(());
+        }
+        found(right.0, right.1)?;
+    }
+}
+
+/// The corner of a triangle after this one.
+#[inline(always)]
+pub(super) fn next_of_three(i: usize) -> usize {
+    0b00_10_01 >> (2 * i) & 3
+}
+
+/// The corner of a triangle before this one.
+#[inline(always)]
+pub(super) fn last_of_three(i: usize) -> usize {
+    0b01_00_10 >> (2 * i) & 3
 }

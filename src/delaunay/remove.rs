@@ -14,7 +14,7 @@
 //!
 //! Invariant: the complex is not touched before the whole filling is known.
 
-use super::locate::list_star;
+use super::locate::{list_ring, list_star};
 use super::{Delaunay, Dimension, IndexSet};
 use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
@@ -93,8 +93,8 @@ pub(super) fn new_of(facet: Facet) -> Option<usize> {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Collects the star of a site and its link. What a relocation reads next is asked for on the way: the sites of the
-    /// link and those beyond its facets.
+    /// Collects the star of a site. What a relocation reads next is asked for: the sites of the link and those beyond its
+    /// facets.
     pub(crate) fn gather_star(&mut self, s: SiteId) -> Result<()> {
         self.gather_star_from(self.sites[s].cell, s)
     }
@@ -108,28 +108,32 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     fn gather_star_into(&mut self, around: &mut IndexSet<Slot>, first: Slot, s: SiteId) -> Result<()> {
-        around.clear();
-        list_star(&self.complex, first, s, around, |_| {})?;
-        self.prefetch_around(s, around);
-        let is_far = self.is_far();
-        let link = &mut memory::made(&mut self.hole)?.link;
-        let star = &mut self.star;
+        let (complex, star) = (&self.complex, &mut self.star);
         star.clear();
-        link.clear();
-        memory::reserve(star, around.as_slice().len())?;
-        memory::reserve(link, around.as_slice().len())?;
-        let (complex, sites) = (&self.complex, &self.sites);
-        star.extend(around.as_slice().iter().map(|&c| (c, complex.cell(c).index_of(s) as u8)));
-        link.extend(star.iter().map(|&(c, at)| {
-            let (corners, at) = (complex.cell(c).corners, usize::from(at));
-            Gap { corners, at, out: complex.cell(c).neighbour(at) }
-        }));
-        if is_far {
-            for gap in link {
-                prefetch(sites, complex.apex(gap.out).index());
-            }
+        if G::D == 2 {
+            list_ring(complex, first, s, |c, at| memory::push(star, (c, at as u8)))?;
+        } else {
+            around.clear();
+            list_star(complex, first, s, around, |_| {})?;
+            let cells = around.as_slice();
+            memory::reserve(star, cells.len())?;
+            star.extend(cells.iter().map(|&c| (c, complex.cell(c).index_of(s) as u8)));
+        }
+        if self.is_far() {
+            self.prefetch_link();
         }
         Ok(())
+    }
+
+    /// Asks for the sites of the gathered star's link, and for those beyond its facets.
+    fn prefetch_link(&self) {
+        for &(c, at) in &self.star {
+            self.prefetch_across(c, usize::from(at));
+        }
+        for &(c, at) in &self.star {
+            let across = self.complex.cell(c).neighbour(usize::from(at));
+            prefetch(&self.sites, self.complex.apex(across).index());
+        }
     }
 
     /// Cells of the star gathered last, and the index of its site in each.
@@ -137,8 +141,15 @@ impl<G: Dimension> Delaunay<G> {
         &self.star
     }
 
-    /// Lists the link's sites. Each gets its position in the list as a label, kept in its `cell` field.
+    /// Lists the link of the gathered star and its sites. Each gets its position in the list as a label, kept in its `cell`
+    /// field.
     pub(super) fn label_link(&mut self, hole: &mut Hole<G>) -> Result<()> {
+        hole.link.clear();
+        memory::reserve(&mut hole.link, self.star.len())?;
+        hole.link.extend(self.star.iter().map(|&(c, at)| {
+            let (cell, at) = (self.complex.cell(c), usize::from(at));
+            Gap { corners: cell.corners, at, out: cell.neighbour(at) }
+        }));
         hole.sites.clear();
         hole.labels.clear();
         // The link is a sphere: in the plane it has as many sites as facets, in space two more than half as many.

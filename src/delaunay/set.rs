@@ -15,8 +15,9 @@ pub(crate) struct IndexSet<I> {
     n: usize,
     /// From 1 on.
     few: [I; INLINE_CAPACITY + 1],
-    /// The position in `few` of each, at its hash or behind; 0 where there is none.
-    places: [u8; PLACES],
+    /// The position in `few` of each, at its hash or behind; 0 where there is none. Once one has been [inserted](Self::insert):
+    /// those that are only [pushed](Self::push) are not looked for.
+    places: Option<[u8; PLACES]>,
     /// All of them, once they are more.
     all: Vec<I>,
     /// Then, where to find each: one above its position, at its hash or behind; a power of two of entries, half of them
@@ -33,6 +34,44 @@ fn place_of(index: impl Id) -> usize {
     usize::from((index.get().wrapping_mul(GOLDEN) >> 24) as u8)
 }
 
+/// Enters an index, unless it is there, into the few, of which there are `n`, with room for one more.
+#[inline(always)]
+fn enter<I: Id>(few: &mut [I; INLINE_CAPACITY + 1], places: &mut [u8; PLACES], index: I, n: &mut usize) {
+    let at = place_of(index);
+    let position = places[at];
+    // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its place.
+    let difference = few[usize::from(position) & INLINE_CAPACITY].get() ^ index.get();
+    if u64::from(position) * u64::from(difference) != 0 {
+        return enter_behind(few, places, index, n);
+    }
+    let n_new = u8::from(position == 0);
+    // Where nothing is new, what is behind the last entry is written.
+    few[(*n + 1) & INLINE_CAPACITY] = index;
+    *n += usize::from(n_new);
+    places[at] = position | (*n as u8 & n_new.wrapping_neg());
+}
+
+/// The same, if another index is in its place.
+#[cold]
+#[inline(never)]
+fn enter_behind<I: Id>(
+    few: &mut [I; INLINE_CAPACITY + 1],
+    places: &mut [u8; PLACES],
+    index: I,
+    n: &mut usize,
+) {
+    let mut at = place_of(index);
+    while places[at] != 0 {
+        if few[usize::from(places[at])] == index {
+            return;
+        }
+        at = (at + 1) % PLACES;
+    }
+    *n += 1;
+    few[*n] = index;
+    places[at] = *n as u8;
+}
+
 impl<I: Id> Default for IndexSet<I> {
     fn default() -> Self {
         Self::new()
@@ -44,7 +83,7 @@ impl<I: Id> IndexSet<I> {
         IndexSet {
             n: 0,
             few: [I::new(0); INLINE_CAPACITY + 1],
-            places: [0; PLACES],
+            places: None,
             all: Vec::new(),
             table: Vec::new(),
         }
@@ -62,9 +101,10 @@ impl<I: Id> IndexSet<I> {
         if self.n > INLINE_CAPACITY {
             return self.table[self.find(index)] != 0;
         }
+        let Some(places) = &self.places else { return false };
         let mut at = place_of(index);
-        while self.places[at] != 0 {
-            if self.few[usize::from(self.places[at])] == index {
+        while places[at] != 0 {
+            if self.few[usize::from(places[at])] == index {
                 return true;
             }
             at = (at + 1) % PLACES;
@@ -76,7 +116,7 @@ impl<I: Id> IndexSet<I> {
     #[inline(always)]
     pub(crate) fn clear(&mut self) {
         self.n = 0;
-        self.places = [0; PLACES];
+        self.places = None;
         self.all.clear();
     }
 
@@ -88,12 +128,11 @@ impl<I: Id> IndexSet<I> {
     #[inline(always)]
     pub(crate) fn insert(&mut self, index: I) -> Result<bool> {
         let n = self.n;
-        let mut n_after = n;
-        if n < INLINE_CAPACITY && self.is_entered(index, &mut n_after) {
-            self.n = n_after;
-            return Ok(n_after > n);
+        if n < INLINE_CAPACITY {
+            enter(&mut self.few, self.places.get_or_insert([0; PLACES]), index, &mut self.n);
+            return Ok(self.n > n);
         }
-        self.insert_elsewhere(index)
+        self.insert_beyond(index)
     }
 
     /// Enters an index into an empty set, and all that are reached from it: `around` tells which are next to an index.
@@ -103,16 +142,13 @@ impl<I: Id> IndexSet<I> {
         first: I,
         mut around: impl FnMut(I) -> [I; N],
     ) -> Result<()> {
-        self.insert(first)?;
         // The number is not kept in memory meanwhile: each entry would wait for that of the one before.
-        let (mut n, mut next) = (self.n, 1);
+        let (mut n, mut next) = (0, 1);
+        let (few, places) = (&mut self.few, self.places.get_or_insert([0; PLACES]));
+        enter(few, places, first, &mut n);
         while next <= n && n + N <= INLINE_CAPACITY {
-            for other in around(self.few[next & INLINE_CAPACITY]) {
-                if !self.is_entered(other, &mut n) {
-                    self.n = n;
-                    self.insert_elsewhere(other)?;
-                    n = self.n;
-                }
+            for other in around(few[next & INLINE_CAPACITY]) {
+                enter(few, places, other, &mut n);
             }
             next += 1;
         }
@@ -124,26 +160,6 @@ impl<I: Id> IndexSet<I> {
             next += 1;
         }
         Ok(())
-    }
-
-    /// Enters an index, if it is not there, into the few, of which there are `n`, with room for one more. Returns
-    /// whether that could be done: not if another index is in its place.
-    #[inline(always)]
-    fn is_entered(&mut self, index: I, n: &mut usize) -> bool {
-        let at = place_of(index);
-        let position = self.places[at];
-        // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its
-        // place.
-        let difference = self.few[usize::from(position) & INLINE_CAPACITY].get() ^ index.get();
-        if u64::from(position) * u64::from(difference) != 0 {
-            return false;
-        }
-        let n_new = u8::from(position == 0);
-        // Where nothing is new, what is behind the last entry is written.
-        self.few[(*n + 1) & INLINE_CAPACITY] = index;
-        *n += usize::from(n_new);
-        self.places[at] = position | (*n as u8 & n_new.wrapping_neg());
-        true
     }
 
     /// Enters an index that is known not to be there. No [`insert`](Self::insert) may follow until the set has been
@@ -170,26 +186,17 @@ impl<I: Id> IndexSet<I> {
         Ok(())
     }
 
-    /// As [`insert`](Self::insert), if another index is in its place, or there are many.
+    /// As [`insert`](Self::insert), if there are many.
     #[cold]
     #[inline(never)]
-    fn insert_elsewhere(&mut self, index: I) -> Result<bool> {
+    fn insert_beyond(&mut self, index: I) -> Result<bool> {
         if self.n > INLINE_CAPACITY {
             return self.insert_into_table(index);
         }
-        let mut at = place_of(index);
-        while self.places[at] != 0 {
-            if self.few[usize::from(self.places[at])] == index {
-                return Ok(false);
-            }
-            at = (at + 1) % PLACES;
+        if self.contains(index) {
+            return Ok(false);
         }
-        if self.n == INLINE_CAPACITY {
-            self.spill(index)?;
-        } else {
-            self.few[self.n + 1] = index;
-            self.places[at] = self.n as u8 + 1;
-        }
+        self.spill(index)?;
         self.n += 1;
         Ok(true)
     }

@@ -113,6 +113,11 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
+    fn star_holds(avx2: Avx2, t: &Delaunay<Space>, star: &[(Slot, u8)]) -> bool {
+        t.star_holds_in_lanes(avx2, star)
+    }
+
+    #[inline(always)]
     fn are_outside(
         avx2: Avx2,
         f: &StaticFilter,

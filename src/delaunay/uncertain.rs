@@ -15,8 +15,8 @@ use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::simd::{ALL, Avx2, LANES, Lanes};
 
-/// Most cells of a block.
-const BLOCK: usize = 64;
+/// Most cells of a block of many cells, by lane.
+const MANY: usize = 64 / LANES;
 
 /// What surely holds of some cells, by bounds of the cells' own if they have these.
 #[derive(Clone, Copy)]
@@ -68,20 +68,16 @@ impl Doubts {
 }
 
 /// Finite cells, by lane.
-struct Block {
+struct Block<const N: usize> {
     n: usize,
-    cells: [[Slot; LANES]; BLOCK / LANES],
+    cells: [[Slot; LANES]; N],
     /// Sites beyond the facets opposite each corner.
-    apexes: [[[SiteId; LANES]; BLOCK / LANES]; 4],
+    apexes: [[[SiteId; LANES]; N]; 4],
 }
 
-impl Block {
+impl<const N: usize> Block<N> {
     fn new() -> Self {
-        Block {
-            n: 0,
-            cells: [[Slot::new(0); LANES]; BLOCK / LANES],
-            apexes: [[[INFINITE; LANES]; BLOCK / LANES]; 4],
-        }
+        Block { n: 0, cells: [[Slot::new(0); LANES]; N], apexes: [[[INFINITE; LANES]; N]; 4] }
     }
 }
 
@@ -92,16 +88,39 @@ impl<G: Dimension> Delaunay<G> {
     pub(super) fn visit_uncertain_in_lanes<const IS_FAR: bool>(
         &self,
         avx2: Avx2,
+        cells: impl Iterator<Item = Slot> + Clone,
+        visit: impl FnMut(Slot, Doubts) -> bool,
+    ) {
+        self.visit_uncertain_in_blocks::<IS_FAR, MANY>(avx2, cells, visit);
+    }
+
+    /// Whether all certificates of the cells of a star in space surely hold: not if there are ghosts among them. In a block of
+    /// most stars, as making one takes as long as it is.
+    #[inline(always)]
+    pub(super) fn star_holds_in_lanes(&self, avx2: Avx2, star: &[(Slot, u8)]) -> bool {
+        let mut holds = true;
+        self.visit_uncertain_in_blocks::<false, 8>(avx2, star.iter().map(|&(c, _)| c), |_, _| {
+            holds = false;
+            false
+        });
+        holds
+    }
+
+    /// In blocks of `N` times as many cells as there are lanes.
+    #[inline(always)]
+    fn visit_uncertain_in_blocks<const IS_FAR: bool, const N: usize>(
+        &self,
+        avx2: Avx2,
         mut cells: impl Iterator<Item = Slot> + Clone,
         mut visit: impl FnMut(Slot, Doubts) -> bool,
     ) {
         let mut ahead = cells.clone().skip(AHEAD);
-        let mut block = Block::new();
+        let mut block = Block::<N>::new();
         let mut has_own_bounds = false;
         let (filter, sites) = (&self.filter, self.view());
         loop {
             block.n = 0;
-            while block.n < BLOCK {
+            while block.n < N * LANES {
                 let Some(c) = cells.next() else { break };
                 if IS_FAR && let Some(next) = ahead.next() {
                     self.complex.prefetch_neighbours(next);
@@ -311,7 +330,7 @@ mod tests {
             agree(&t, "at rest")[2]
         }
         assert_eq!([n_open::<Plane>(3.0), n_open::<Space>(3.0)], [0, 0]);
-        let n_first = if Avx2::new().is_some() { BLOCK } else { 0 };
+        let n_first = if Avx2::new().is_some() { MANY * LANES } else { 0 };
         assert_eq!([n_open::<Plane>(1e5), n_open::<Space>(1e5)], [n_first; 2]);
     }
 

@@ -41,7 +41,7 @@ fn found<G: Dimension>(points: &[G::Point]) -> [usize; 3] {
     let mut n = [0; 3];
     for s in t.live_sites().collect::<Vec<_>>() {
         t.gather_star(s).expect("room");
-        let mut hole = t.hole.take().expect("a star");
+        let mut hole = memory::take_made(&mut t.hole).expect("room");
         t.label_link(&mut hole).expect("room");
         if hole.sites.len() <= MOST_SITES && !hole.sites.contains(&INFINITE) {
             if let Some(wrapping) = &mut t.wrapping {
