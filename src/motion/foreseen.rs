@@ -14,6 +14,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use super::MovingTriangulation;
 use crate::delaunay::Dimension;
 use crate::ids::{SiteId, VertexId};
+use crate::machine::prefetch::CACHE_BYTES;
 
 /// How many vertices with consecutive ids are a block.
 const BLOCK: u32 = 64;
@@ -47,7 +48,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// be needed. There must be cells.
     #[inline(always)]
     pub(super) fn prefetch_next_stars(&self, vertex: VertexId) {
-        if self.kernel.is_far() && self.foreseen.note(vertex) {
+        if self.kernel.bytes_read() > CACHE_BYTES && self.foreseen.note(vertex) {
             self.prefetch_stars_after(vertex);
         }
     }
