@@ -4,15 +4,15 @@
 //! cargo run --release --example thread_scaling [points [threads...]]
 //! ```
 //!
-//! By default 1,000,000 points and 1 and 2 threads. The points are uniform in a square or cube. *Build*
-//! creates the triangulation. *Sweep*, *repair* and *mending* are commits by repair in which all vertices move, by up to
-//! half of a billionth, a thousandth and a fiftieth of a spacing along each axis: in the first every certificate is checked
-//! and nothing mended, in the last most of the time goes into flips. *Leaps* are placements of one vertex in a hundred,
-//! anywhere, in ns per vertex that moves, and *later* the same after twenty commits of them, which leave cells where there
-//! is room. *Jumps* are those of one vertex in 33, up to half a spacing away; they are done by one thread. *Rebuilding*
-//! moves no vertex, and triangulates all again.
-//! Thread counts take turns, so that whatever else the machine does falls upon all alike; printed are the median of
-//! all rounds, the least, and how many times faster the medians and the least are than with the first thread count.
+//! By default 1,000,000 points and 1 and 2 threads. The points are uniform in a square or cube. *Build* creates the
+//! triangulation. *Sweep*, *repair* and *mending* are commits by repair in which all vertices move, by up to half of a
+//! billionth, a thousandth and a fiftieth of a spacing along each axis: in the first every certificate is checked and
+//! nothing mended, in the last most of the time goes into flips. *Leaps* are placements of one vertex in a hundred,
+//! anywhere, in ns per vertex that moves, and *later* the same after twenty commits of them, which leave cells where
+//! there is room. *Jumps* are those of one vertex in 33, up to half a spacing away; they are done by one thread.
+//! *Rebuilding* moves no vertex, and triangulates all again. Thread counts take turns, so that whatever else the
+//! machine does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
+//! medians and the least are than with the first thread count.
 
 mod common;
 

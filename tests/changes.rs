@@ -648,8 +648,8 @@ fn rebuilding_lists_only_what_differs() {
     rebuilding_keeps_what_stays::<Space>();
 }
 
-/// Insertions that are staged when an immediate call builds all cells are no part of what it changes, nor of what follows
-/// when they are discarded.
+/// Insertions that are staged when an immediate call builds all cells are no part of what it changes, nor of what
+/// follows when they are discarded.
 fn discarded_insertions_are_not_listed<G: Dimension>() {
     let mut points: Vec<G::Point> = (0..9).map(|i| point::<G>(|k| [i as f64, 0.0, 0.0][k])).collect();
     if G::D == 3 {

@@ -1,5 +1,5 @@
-//! Files for other programs hold the positions and cells that are read, number for number: by readers of the tests' own,
-//! and by meshio and VTK where they can be had.
+//! Files for other programs hold the positions and cells that are read, number for number: by readers of the tests'
+//! own, and by meshio and VTK where they can be had.
 
 mod common;
 

@@ -194,8 +194,8 @@ fn measures_in_space() {
     measures_are_those_of_integers::<Space>();
 }
 
-/// Cells that are flat but for last bits, as those between the points of a lattice: rounded numbers know nothing of their
-/// volumes.
+/// Cells that are flat but for last bits, as those between the points of a lattice: rounded numbers know nothing of
+/// their volumes.
 #[test]
 fn slivers_have_volumes_and_spheres() {
     const UNIT: i32 = 48;

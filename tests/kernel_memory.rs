@@ -77,8 +77,8 @@ unsafe impl GlobalAlloc for Failing {
 }
 
 /// Does the work on something new each time, without the `k`-th allocation, or without those after it either, for all
-/// `k` until it needs no more; returns how many there were. Afterwards `after` looks at what is left, and is told whether
-/// the work has been done: what can do without goes on.
+/// `k` until it needs no more; returns how many there were. Afterwards `after` looks at what is left, and is told
+/// whether the work has been done: what can do without goes on.
 fn without_each<T>(
     make: impl Fn() -> T,
     mut work: impl FnMut(&mut T) -> Result<(), Error>,

@@ -272,8 +272,8 @@ impl Canceller {
         })
     }
 
-    /// Commits what is staged, cancelled at the first call of the monitor, at the second, and so on until that succeeds.
-    /// Returns how often it was cancelled.
+    /// Commits what is staged, cancelled at the first call of the monitor, at the second, and so on until that
+    /// succeeds. Returns how often it was cancelled.
     fn at_every_call<G: Dimension>(
         &self,
         t: &mut MovingTriangulation<G>,

@@ -316,8 +316,8 @@ fn foresight_changes_no_cell_and_depends_on_nothing_else() {
     agree::<Space>(19);
 }
 
-/// In a lattice that is sheared, or becomes one again, up to two thirds of the facets fail for each cell, in clusters as
-/// small as its cubes: they are flipped.
+/// In a lattice that is sheared, or becomes one again, up to two thirds of the facets fail for each cell, in clusters
+/// as small as its cubes: they are flipped.
 #[test]
 fn sheared_lattices_are_mended() {
     for side in [8, 14] {
@@ -342,8 +342,8 @@ fn spheres_that_become_ellipsoids_are_rebuilt_at_once() {
     }
 }
 
-/// A seventh of a lattice leaves its places: there are more cells then, and the slots for them are made at once, so that
-/// facets do not wait for them by turns.
+/// A seventh of a lattice leaves its places: there are more cells then, and the slots for them are made at once, so
+/// that facets do not wait for them by turns.
 #[test]
 fn leaving_a_lattice_takes_few_certificates_for_each_flip() {
     let rng = &mut Rng::new(37);
@@ -461,8 +461,8 @@ fn repairs_that_are_cheap_are_not_replaced() {
     all_repair::<Space>(19, 0.06);
 }
 
-/// A tenth of a lattice leaves it while the rest stays: those are placed, nothing is built, however they are staged, and
-/// also where slack has moved them before it gave up.
+/// A tenth of a lattice leaves it while the rest stays: those are placed, nothing is built, however they are staged,
+/// and also where slack has moved them before it gave up.
 #[test]
 fn few_vertices_that_leave_a_lattice_are_placed() {
     for (algorithm, is_whole) in

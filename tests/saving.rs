@@ -1,5 +1,5 @@
-//! Triangulations that are saved and loaded, or cloned, are like the first, and go on like it; data that are not those of
-//! a triangulation are refused. Oracles: a fresh build, and a reader and writer of the format of the tests' own.
+//! Triangulations that are saved and loaded, or cloned, are like the first, and go on like it; data that are not those
+//! of a triangulation are refused. Oracles: a fresh build, and a reader and writer of the format of the tests' own.
 
 mod common;
 mod saving_format;
@@ -127,8 +127,8 @@ fn shaken<G: Dimension>(positions: &[G::Point], size: f64, rng: &mut Rng) -> Vec
     positions.iter().map(|p| point::<G>(|k| p[k] + size * (rng.unit() - 0.5))).collect()
 }
 
-/// By every algorithm, with what it keeps between commits: a clone, after the same calls, has the same rows and lists the
-/// same changes; a loaded triangulation has the same cells.
+/// By every algorithm, with what it keeps between commits: a clone, after the same calls, has the same rows and lists
+/// the same changes; a loaded triangulation has the same cells.
 fn the_same_calls_give_the_same<G: Dimension>(n: usize) {
     for algorithm in Algorithm::ALL {
         let context = || format!("{}D, {algorithm:?}", G::D);
@@ -380,9 +380,9 @@ fn cells_that_are_not_the_triangulation_are_refused() {
     assert!(matches!(damage_of::<Plane>(&parts), Damage::Neighbour { .. }));
 }
 
-/// Five triangles around a point that go around it twice: all are positive, every facet is locally Delaunay, and the hull
-/// is convex at every vertex.
-/// Two neighbours are saved as if both were on the hull: whatever else agrees, that is not the triangulation.
+/// Five triangles around a point that go around it twice: all are positive, every facet is locally Delaunay, and the
+/// hull is convex at every vertex. Two neighbours are saved as if both were on the hull: whatever else agrees, that is
+/// not the triangulation.
 fn cells_cut_apart_are_refused<G: Dimension>() {
     let mut n_cut = 0;
     for seed in 0..20 {

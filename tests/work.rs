@@ -1,5 +1,5 @@
-//! How much work the algorithms take, in counts: files in `results/work`, one for each kind of input, with a row
-//! for each algorithm, summed over a fixed history. They depend on the processor in one thing alone: whether it has AVX2.
+//! How much work the algorithms take, in counts: files in `results/work`, one for each kind of input, with a row for
+//! each algorithm, summed over a fixed history. They depend on the processor in one thing alone: whether it has AVX2.
 //!
 //! A change of the library that is for speed, or against it, changes a row. `DELDRIFT_RECORD=1 cargo test --test work`
 //! writes the files again, and with `DELDRIFT_SCALAR=1` those without AVX2.

@@ -1,13 +1,13 @@
-//! The free slots, from which the one near a given slot is taken: so cells that are near each other stay near each other in
-//! storage, however long they are exchanged.
+//! The free slots, from which the one near a given slot is taken: so cells that are near each other stay near each
+//! other in storage, however long they are exchanged.
 //!
-//! There is a bit for each slot, and above that two [levels], with a bit for each word of the level below that is not 0.
-//! Where the word of a slot has no free one, the level above tells which of the words beside it have. So a free slot is
-//! found in the same 64, 64² or 64³ slots, the smallest block of these that has any.
+//! There is a bit for each slot, and above that two [levels], with a bit for each word of the level below that is not
+//! 0. Where the word of a slot has no free one, the level above tells which of the words beside it have. So a free slot
+//! is found in the same 64, 64² or 64³ slots, the smallest block of these that has any.
 //!
-//! The slots that have been freed last are kept *in hand*, in a short list: they are in a cache, so that writing
-//! them waits for no memory. Where cells are in no order, as they are while one thread does all, they are taken first; otherwise only if
-//! they are near.
+//! The slots that have been freed last are kept *in hand*, in a short list: they are in a cache, so that writing them
+//! waits for no memory. Where cells are in no order, as they are while one thread does all, they are taken first;
+//! otherwise only if they are near.
 //!
 //! Cost: mostly one word, and a few at each level if the nearest one is far away. A slot takes an eighth of a byte.
 
@@ -218,9 +218,9 @@ impl FreeSlots {
         slots.for_each(|slot| self.set(slot, false));
     }
 
-    /// The ranges that begin at these slots, all of them multiples of [`WORD`], the last one with the slots before the first
-    /// one as well; `numbers` is memory for how many are free in each. What has been put and taken there has to be
-    /// [counted](Self::count) before anything else.
+    /// The ranges that begin at these slots, all of them multiples of [`WORD`], the last one with the slots before the
+    /// first one as well; `numbers` is memory for how many are free in each. What has been put and taken there has to
+    /// be [counted](Self::count) before anything else.
     pub(super) fn ranges<'c>(
         &'c mut self,
         starts: &'c [Slot],

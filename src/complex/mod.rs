@@ -306,8 +306,8 @@ impl<C: Corners> Complex<C> {
     pub(crate) fn start(&mut self, corners: C) -> Result<()> {
         self.reserve(C::N + 1)?;
         let last = C::N - 1;
-        // Where the ghost cell beyond facet `i` has corner `k` of the cell. The ghost vertex comes in for corner `i`, and
-        // changes places with the last one; if it is the last one, two others do, as the order must be even.
+        // Where the ghost cell beyond facet `i` has corner `k` of the cell. The ghost vertex comes in for corner `i`,
+        // and changes places with the last one; if it is the last one, two others do, as the order must be even.
         let place = |i: usize, k: usize| match (i == last, k) {
             (true, 0 | 1) => 1 - k,
             (false, k) if k == last => i,
@@ -329,8 +329,8 @@ impl<C: Corners> Complex<C> {
         Ok(())
     }
 
-    /// Keeps room for `kept` cells; an empty complex that has the room for the `n` cells behind them, for another thread to
-    /// fill. One that turns out to have more cells moves them elsewhere.
+    /// Keeps room for `kept` cells; an empty complex that has the room for the `n` cells behind them, for another
+    /// thread to fill. One that turns out to have more cells moves them elsewhere.
     pub(crate) fn divide(&mut self, kept: usize, n: usize) -> Result<Self> {
         let mut other = Self::default();
         memory::reserve_exact(&mut other.marks, n)?;
@@ -345,8 +345,9 @@ impl<C: Corners> Complex<C> {
         debug_assert!(self.cells.capacity() <= self.marks.capacity());
     }
 
-    /// Adds the cells of another complex, on other sites: its site `s` becomes `s + shift`, its slot `c` becomes `c` plus
-    /// what is returned; on several threads. Where it has the room behind that of this one, cells stay where they are.
+    /// Adds the cells of another complex, on other sites: its site `s` becomes `s + shift`, its slot `c` becomes `c`
+    /// plus what is returned; on several threads. Where it has the room behind that of this one, cells stay where they
+    /// are.
     pub(crate) fn append(&mut self, other: Self, shift: u32, n_threads: usize) -> Result<usize> {
         let is_behind = self.cells.is_followed_by(&other.cells);
         let (n, n_others, room) = (self.cells.len(), other.cells.len(), self.cells.capacity());

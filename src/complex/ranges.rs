@@ -32,8 +32,8 @@ impl From<Error> for Obstacle {
 /// Cells from which it follows where ranges begin.
 const SAMPLE: usize = 1 << 10;
 
-/// Where ranges begin, at most this number of them, that have about as many of some cells each: at multiples of `unit`, which
-/// is one of [`WORD`].
+/// Where ranges begin, at most this number of them, that have about as many of some cells each: at multiples of `unit`,
+/// which is one of [`WORD`].
 pub(crate) fn starts_of_ranges(
     cells: impl ExactSizeIterator<Item = Slot>,
     n_ranges: usize,
@@ -54,8 +54,8 @@ pub(crate) fn starts_of_ranges(
     Ok(starts)
 }
 
-/// Cells that follow each other in storage, for one thread to change while others change the rest. A change replaces cells
-/// and the neighbours' side of their gluings; it is done only if all of these are of the range.
+/// Cells that follow each other in storage, for one thread to change while others change the rest. A change replaces
+/// cells and the neighbours' side of their gluings; it is done only if all of these are of the range.
 #[derive(Debug)]
 pub struct CellRange<'c, C: Corners> {
     /// Slot of the first one.
@@ -73,9 +73,9 @@ impl<C: Corners> Complex<C> {
         CellRange { first: Slot::new(0), cells: &mut self.cells, head: &mut [], free: self.free.whole() }
     }
 
-    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`], each on a thread of its own and with
-    /// its own one of `parts`. The last range has the slots before the first one as well. After an error nothing has
-    /// changed.
+    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`], each on a thread of its own
+    /// and with its own one of `parts`. The last range has the slots before the first one as well. After an error
+    /// nothing has changed.
     pub(crate) fn divided<P: Send>(
         &mut self,
         starts: &[Slot],
@@ -186,8 +186,8 @@ impl<C: Corners> CellRange<'_, C> {
         }
     }
 
-    /// Chooses slots for `n` cells in the place of some: those of the old ones first, then free ones near them. The others
-    /// of the old ones are freed. Enters the rows before. After an obstacle nothing has changed.
+    /// Chooses slots for `n` cells in the place of some: those of the old ones first, then free ones near them. The
+    /// others of the old ones are freed. Enters the rows before. After an obstacle nothing has changed.
     pub(crate) fn take_slots(
         &mut self,
         old: &[Slot],

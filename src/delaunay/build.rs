@@ -1,8 +1,8 @@
 //! All sites at once: the static triangulation.
 //!
 //! Sites along a Hilbert curve are inserted in rounds (see [`order`](super::order)), each by a walk from the site
-//! before it to a cell that is in conflict with it. Rebuilding keeps the storage order of the sites, which small motions spoil little; the mean distance of
-//! sites that are next to each other in storage tells when to sort again.
+//! before it to a cell that is in conflict with it. Rebuilding keeps the storage order of the sites, which small
+//! motions spoil little; the mean distance of sites that are next to each other in storage tells when to sort again.
 
 use super::cavity::{Cavity, Insert};
 use super::order::{SHORT_RUN, in_rounds};
@@ -144,9 +144,9 @@ impl<G: Dimension> Delaunay<G> {
         self.merge(coincident)
     }
 
-    /// For how many cells there is room in a build of `n` sites; only few sets have more. In the plane there are not quite
-    /// two for each site. In space Poisson points have 6.77, hulls and rounds need a little more, and a few sites never have
-    /// as many.
+    /// For how many cells there is room in a build of `n` sites; only few sets have more. In the plane there are not
+    /// quite two for each site. In space Poisson points have 6.77, hulls and rounds need a little more, and a few sites
+    /// never have as many.
     pub(super) fn n_cells_of(n: usize) -> usize {
         let most = if G::D == 2 { 2 * n } else { (n + 1).saturating_mul(n.saturating_sub(2)) / 2 };
         most.min(7 * n + (4 * n).min(64))

@@ -52,8 +52,8 @@ pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
     /// Bytes held.
     fn memory_bytes(&self) -> usize;
 
-    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site. Returns
-    /// one of the new cells. After an error nothing has changed.
+    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site.
+    /// Returns one of the new cells. After an error nothing has changed.
     fn insert<const BUILD: bool>(&mut self, t: &mut Delaunay<G>, start: Slot, s: SiteId) -> Result<Slot>;
 
     /// The cells made by the last insertion.

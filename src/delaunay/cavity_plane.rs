@@ -22,7 +22,8 @@ use crate::predicates::{Lifted, seen_circle_bound, seen_circle_running_bound, si
 /// Scratch memory, written without a check of the bounds (they cost 10 % of a build).
 #[derive(Debug, Default)]
 pub struct Scratch {
-    /// Whether this build tests by lengths (see [`seen_circle_bound`]): the static bound would leave most tests uncertain.
+    /// Whether this build tests by lengths (see [`seen_circle_bound`]): the static bound would leave most tests
+    /// uncertain.
     has_lengths: bool,
     /// Edges where the walk through the zone turned right, to be taken up when it comes back: as long as `rows`.
     turns: Vec<Edge>,

@@ -1,8 +1,8 @@
 //! Conflict zones in space.
 //!
 //! New cells have the site first, and its rim facet's corners after it in an order that keeps the orientation and
-//! leaves a ghost corner last; so which facet of a new cell is which is known to the compiler. How they are glued is the
-//! matter of [`meetings`](super::meetings).
+//! leaves a ghost corner last; so which facet of a new cell is which is known to the compiler. How they are glued is
+//! the matter of [`meetings`](super::meetings).
 //!
 //! Which way a test goes cannot be predicted, so both ways are written and one is kept. What can be known is the facet
 //! through which a cell of the zone was found: three others are left to look across.

@@ -130,8 +130,8 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Whether all certificates of the cells of a star, listed with the index of its site in each, surely hold: not if there
-    /// are ghosts among them.
+    /// Whether all certificates of the cells of a star, listed with the index of its site in each, surely hold: not if
+    /// there are ghosts among them.
     #[inline(always)]
     pub(super) fn star_surely_holds(&self, star: &[(Slot, u8)]) -> bool {
         let Some(avx2) = Avx2::new() else {

@@ -281,8 +281,8 @@ impl<G: Dimension> Delaunay<G> {
         flips.journal.clear();
     }
 
-    /// Takes the flips of the last [`flip_all`](Self::flip_all) back, and those of [`untangle`](Self::untangle) before it
-    /// or after it.
+    /// Takes the flips of the last [`flip_all`](Self::flip_all) back, and those of [`untangle`](Self::untangle) before
+    /// it or after it.
     pub(crate) fn undo_flips(&mut self) {
         if let Some(mut flips) = self.flips.take() {
             self.take_back(&mut flips);

@@ -171,8 +171,8 @@ impl Landmarks {
         tree.leaves_of::<G, N>(places).map(|leaf| [site(leaf), site(leaf ^ 1)])
     }
 
-    /// Enters a walk of `steps` steps to `q`, near the site `s`, while other threads walk, too: they would wait for a new
-    /// tree.
+    /// Enters a walk of `steps` steps to `q`, near the site `s`, while other threads walk, too: they would wait for a
+    /// new tree.
     #[inline(always)]
     pub(super) fn follow_beside_others<G: Dimension>(&self, q: &G::Point, s: SiteId, steps: u64) {
         if steps > SHORT_WALK {

@@ -173,8 +173,8 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Asks for what an exchange of the listed cells after the `k`-th one will read: the cells, their neighbours, and the
-    /// corners of both.
+    /// Asks for what an exchange of the listed cells after the `k`-th one will read: the cells, their neighbours, and
+    /// the corners of both.
     #[inline(always)]
     pub(super) fn prefetch_around_cells(&self, cells: &[Slot], k: usize) {
         if let Some(&c) = cells.get(k + 3 * STEP) {
@@ -247,8 +247,8 @@ pub(super) fn list_star<C: Corners>(
     })
 }
 
-/// Calls `found` for the cells around a site in the plane, ghost cells included, of which `first` is one, with the index of
-/// the site in each.
+/// Calls `found` for the cells around a site in the plane, ghost cells included, of which `first` is one, with the
+/// index of the site in each.
 #[inline(always)]
 pub(super) fn list_ring<C: Corners>(
     complex: &Complex<C>,
@@ -256,8 +256,8 @@ pub(super) fn list_ring<C: Corners>(
     s: SiteId,
     mut found: impl FnMut(Slot, usize) -> Result<()>,
 ) -> Result<()> {
-    // Both ways around at once, so that the processor waits for two cells together. A facet tells where in its cell it is, and
-    // so where the site is: next to that.
+    // Both ways around at once, so that the processor waits for two cells together. A facet tells where in its cell it
+    // is, and so where the site is: next to that.
     let across = |(cell, at): (Slot, usize), turned: fn(usize) -> usize| {
         let facet = complex.cell(cell).neighbour(turned(at));
         (facet.cell(), turned(facet.index()))

@@ -23,8 +23,8 @@ const TABLE: usize = MAX_LABELS * MAX_LABELS;
 const FEW_LABELS: usize = 16;
 pub(super) const FEW_RIM: usize = 2 * (FEW_LABELS - 2);
 
-/// A facet of the rim, the cell that joins it to the site, and beside it, where that is no matter of the facet, a cell of
-/// the zone.
+/// A facet of the rim, the cell that joins it to the site, and beside it, where that is no matter of the facet, a cell
+/// of the zone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
     /// Corners of the new cell.

@@ -218,8 +218,8 @@ fn hilbert_key_2(x: u32, y: u32, bits: u32) -> u32 {
 /// The space's Hilbert curve (Skilling's transform, 10.1063/1.1751381): for each state and octant (three bits, x first)
 /// the position along the curve (bits 0 to 2) and the state after it.
 ///
-/// The state is what the octants passed so far do to those within: which coordinates are mirrored (bits 0 to 2, x last),
-/// in which order they are (as in [`ORDERS`], times 8), and whether the curve is passed backwards (48).
+/// The state is what the octants passed so far do to those within: which coordinates are mirrored (bits 0 to 2, x
+/// last), in which order they are (as in [`ORDERS`], times 8), and whether the curve is passed backwards (48).
 static CURVE_3: [[u16; 8]; 96] = {
     let mut table = [[0; 8]; 96];
     let mut state = 0;

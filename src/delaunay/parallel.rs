@@ -5,9 +5,9 @@
 //! hyperplane are [united](super::unite), two by two.
 //!
 //! Invariants: a thread changes nothing but its own part's triangulation, of which it is the owner; that of the first
-//! part has the sites of all and room for all cells, each other one a copy of its own sites and a part of that room, where
-//! its cells stay; the monitor is called by the calling thread alone. Ids break the ties in a part as in the whole, so the
-//! cells are those of a build on one thread.
+//! part has the sites of all and room for all cells, each other one a copy of its own sites and a part of that room,
+//! where its cells stay; the monitor is called by the calling thread alone. Ids break the ties in a part as in the
+//! whole, so the cells are those of a build on one thread.
 //!
 //! Cost: that of the largest part, and of uniting. Of a million sites in two parts 0.15 % are inserted again
 //! in the plane, and 1.7 % in space. Where spheres reach far into other parts, as those of points on one
@@ -189,7 +189,8 @@ impl<G: Dimension> Build<'_, G> {
         t.triangulate_unmerged(&order, self.n_sites_of(part), &mut monitor)
     }
 
-    /// For how many sites a part has room: while two triangulations are united there are more cells than before and after.
+    /// For how many sites a part has room: while two triangulations are united there are more cells than before and
+    /// after.
     fn n_sites_of(&self, part: usize) -> usize {
         let n = self.parts.sites(part..part + 1, self.n_sites).len();
         n + 8 * n.isqrt()

@@ -201,8 +201,8 @@ mod tests {
     use crate::delaunay::{Plane, Space};
     use crate::random::Rng;
 
-    /// Moves sites of random points, or of a small grid, one after the other and back. That a star surely holds is never
-    /// wrong, and of random points nearly always said where it can be.
+    /// Moves sites of random points, or of a small grid, one after the other and back. That a star surely holds is
+    /// never wrong, and of random points nearly always said where it can be.
     fn stars_hold_surely<G: Dimension>() {
         let rng = &mut Rng::new(5);
         for is_grid in [false, true] {

@@ -6,8 +6,8 @@
 //! side lies on the new convex hull and gets a ghost cell. Facets that hold the ghost vertex are never wrapped: each
 //! is met by the ghost cell of a finite facet.
 //!
-//! That is how it is done where signs have to be exact. Mostly they need not be: then the filling is found in doubles, four
-//! sites at a time, and certified as a whole ([`wrapping`](super::wrapping)).
+//! That is how it is done where signs have to be exact. Mostly they need not be: then the filling is found in doubles,
+//! four sites at a time, and certified as a whole ([`wrapping`](super::wrapping)).
 //!
 //! Cost: with `k` link sites, about `2k` cells in space and `k` in the plane, each after at most `k` in-sphere
 //! tests. For a vertex of high degree ([`MAX_LINK`] sites and more) `high_degree` triangulates the link instead.
@@ -41,8 +41,8 @@ pub(super) struct Hole<G: Dimension> {
     pub(super) link: Vec<Gap<G::Corners>>,
     /// Sites of the link, the ghost vertex included.
     pub(super) sites: Vec<SiteId>,
-    /// The positions of its corners among these, for each facet of the link; 0 opposite it. Where there are more than 256
-    /// sites they mean nothing.
+    /// The positions of its corners among these, for each facet of the link; 0 opposite it. Where there are more than
+    /// 256 sites they mean nothing.
     pub(super) labels: Vec<LabelsOf<G>>,
     open: Vec<(u64, Gap<G::Corners>)>,
     open_ghost: Vec<(u64, Facet)>,
@@ -93,8 +93,8 @@ pub(super) fn new_of(facet: Facet) -> Option<usize> {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Collects the star of a site. What a relocation reads next is asked for: the sites of the link and those beyond its
-    /// facets.
+    /// Collects the star of a site. What a relocation reads next is asked for: the sites of the link and those beyond
+    /// its facets.
     pub(crate) fn gather_star(&mut self, s: SiteId) -> Result<()> {
         self.gather_star_from(self.sites[s].cell, s)
     }
@@ -141,8 +141,8 @@ impl<G: Dimension> Delaunay<G> {
         &self.star
     }
 
-    /// Lists the link of the gathered star and its sites. Each gets its position in the list as a label, kept in its `cell`
-    /// field.
+    /// Lists the link of the gathered star and its sites. Each gets its position in the list as a label, kept in its
+    /// `cell` field.
     pub(super) fn label_link(&mut self, hole: &mut Hole<G>) -> Result<()> {
         hole.link.clear();
         memory::reserve(&mut hole.link, self.star.len())?;

@@ -137,8 +137,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Whether a fresh build has the same cells, and as many ghosts: where the hull could not be seen to wind once, as
-    /// that of cells so thin that no double lies inside any. A facet has one other cell to be glued to or none, so cells
-    /// with as many ghosts are glued alike.
+    /// that of cells so thin that no double lies inside any. A facet has one other cell to be glued to or none, so
+    /// cells with as many ghosts are glued alike.
     fn has_cells_of_a_build(&self) -> Result<bool> {
         let mut build = Delaunay::<G>::on(self.threads)?;
         memory::reserve_exact(&mut build.sites, self.sites.len() - 1)?;

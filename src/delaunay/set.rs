@@ -15,8 +15,8 @@ pub(crate) struct IndexSet<I> {
     n: usize,
     /// From 1 on.
     few: [I; INLINE_CAPACITY + 1],
-    /// The position in `few` of each, at its hash or behind; 0 where there is none. Once one has been [inserted](Self::insert):
-    /// those that are only [pushed](Self::push) are not looked for.
+    /// The position in `few` of each, at its hash or behind; 0 where there is none. Once one has been
+    /// [inserted](Self::insert): those that are only [pushed](Self::push) are not looked for.
     places: Option<[u8; PLACES]>,
     /// All of them, once they are more.
     all: Vec<I>,

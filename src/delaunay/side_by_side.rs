@@ -10,11 +10,11 @@
 //! insert what is left over, on one thread
 //! ```
 //!
-//! A removal or an insertion is done only if every cell that it changes, or whose gluings it changes, is of the thread's
-//! range, as with [flips](super::flip): so no two threads read or write the same cell. Sites are read by all and written
-//! by none. What is at the border of a range is done the second time; what is on the hull, among ties that have to be
-//! removed, or at the place of another site is left over, and done here or by the caller, as if the threads had not been
-//! there. Since the cells are a function of the sites, they do not depend on who has done what.
+//! A removal or an insertion is done only if every cell that it changes, or whose gluings it changes, is of the
+//! thread's range, as with [flips](super::flip): so no two threads read or write the same cell. Sites are read by all
+//! and written by none. What is at the border of a range is done the second time; what is on the hull, among ties that
+//! have to be removed, or at the place of another site is left over, and done here or by the caller, as if the threads
+//! had not been there. Since the cells are a function of the sites, they do not depend on who has done what.
 //!
 //! Invariant: until all is done, the rows of all cells that have been replaced are in the journals, round by round. An
 //! error takes all of it back.
@@ -36,8 +36,8 @@ use crate::predicates::StaticFilter;
 use crate::simd::Avx2;
 use inserting::Rim;
 
-/// Sites for each thread that take longer to place than the thread to wake up, twice; and as many if all threads are to be
-/// used.
+/// Sites for each thread that take longer to place than the thread to wake up, twice; and as many if all threads are to
+/// be used.
 const PLACED_AT_LEAST: usize = 64;
 const PLACED_IF_ASKED: usize = 8;
 
@@ -171,9 +171,9 @@ impl<G: Dimension> SideBySide<G> {
         })
     }
 
-    /// The second round is done in ranges that begin in the middle of those of the first. As the curve along which the cells
-    /// are sorted ends beside where it begins, the last range goes on at the first slot: so most of what is between two
-    /// ranges of one round is within a range of the other.
+    /// The second round is done in ranges that begin in the middle of those of the first. As the curve along which the
+    /// cells are sorted ends beside where it begins, the last range goes on at the first slot: so most of what is
+    /// between two ranges of one round is within a range of the other.
     fn begin_second_round(&mut self, n_slots: usize) {
         for k in 0..self.starts.len() {
             let end = self.starts.get(k + 1).map_or(n_slots, |end| end.index());
@@ -218,9 +218,9 @@ impl<G: Dimension> Delaunay<G> {
         self.is_sorted
     }
 
-    /// Places sites, which are in cells and go [away](Self::is_away), on several threads, as far as these can. Enters the
-    /// numbers of those that have been, and exchanges their goals with where they were. Where there was a site at the
-    /// goal, it is entered as well, and the index of the other is free. After an error as after one of
+    /// Places sites, which are in cells and go [away](Self::is_away), on several threads, as far as these can. Enters
+    /// the numbers of those that have been, and exchanges their goals with where they were. Where there was a site at
+    /// the goal, it is entered as well, and the index of the other is free. After an error as after one of
     /// [`relocate_site`](Self::relocate_site).
     pub(crate) fn place_side_by_side(
         &mut self,
@@ -411,8 +411,8 @@ impl<G: Dimension> Delaunay<G> {
 }
 
 impl<G: Dimension> Shared<'_, G> {
-    /// Asks for what the tasks after the `k`-th one will read first: the cell there, those next to it, and those next to
-    /// these, with their corners.
+    /// Asks for what the tasks after the `k`-th one will read first: the cell there, those next to it, and those next
+    /// to these, with their corners.
     #[inline(always)]
     fn prefetch(&self, range: &CellRange<G::Corners>, tasks: &[Task], k: usize) {
         let cell = |steps: usize| range.cell(tasks.get(k + steps * STEP)?.1).ok();

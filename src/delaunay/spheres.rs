@@ -6,13 +6,13 @@
 //! valid while sites do not move and every cell made is [`put`](Table::put) there: with AVX2
 //! [four at a time](Table::put_four), as all cells that an insertion makes have the new site in common.
 //!
-//! The walk to a new site asks, too: it may end in the first cell whose sphere has the site, as the zone can be found from
-//! any cell of it.
+//! The walk to a new site asks, too: it may end in the first cell whose sphere has the site, as the zone can be found
+//! from any cell of it.
 //!
 //! Where the static bound leaves most tests uncertain, or many that a bound of the cell's own decides, a sphere is
 //! prepared with that bound, and tested against it at once: *by lengths*, those of the cell's edges. That takes more
-//! operations, but hardly a branch that may go either way. Builds of clusters and of lattices with noise gain (`clusters`
-//! and `grid_noise` of `cpp-bench/run --structured`).
+//! operations, but hardly a branch that may go either way. Builds of clusters and of lattices with noise gain
+//! (`clusters` and `grid_noise` of `cpp-bench/run --structured`).
 
 #![allow(unsafe_code)]
 
@@ -168,8 +168,8 @@ impl Table<'_> {
         }
     }
 
-    /// The mark of a cell for `q`: [`IN_ZONE`] if they are in conflict, with ties broken as those of vertex `id`, else 0.
-    /// `known` is the mark that the cell has: one in the zone stays there.
+    /// The mark of a cell for `q`: [`IN_ZONE`] if they are in conflict, with ties broken as those of vertex `id`, else
+    /// 0. `known` is the mark that the cell has: one in the zone stays there.
     #[inline(always)]
     pub(super) fn is_in_conflict<const BY_LENGTHS: bool>(
         &mut self,

@@ -94,8 +94,8 @@ impl<G: Dimension> Delaunay<G> {
         self.visit_uncertain_in_blocks::<IS_FAR, MANY>(avx2, cells, visit);
     }
 
-    /// Whether all certificates of the cells of a star in space surely hold: not if there are ghosts among them. In a block of
-    /// most stars, as making one takes as long as it is.
+    /// Whether all certificates of the cells of a star in space surely hold: not if there are ghosts among them. In a
+    /// block of most stars, as making one takes as long as it is.
     #[inline(always)]
     pub(super) fn star_holds_in_lanes(&self, avx2: Avx2, star: &[(Slot, u8)]) -> bool {
         let mut holds = true;

@@ -25,8 +25,8 @@
 //! place have the same orientation; the cell on the other side has the opposite one, and is the new
 //! neighbour.
 //!
-//! Cost: a search and an insertion for each site of the border, and new numbers in the right cells, which all threads of
-//! both parts write.
+//! Cost: a search and an insertion for each site of the border, and new numbers in the right cells, which all threads
+//! of both parts write.
 
 use super::facets::{ByCorners, facet_of};
 use super::order::in_rounds;

@@ -1,8 +1,9 @@
-//! Gift wrapping in lanes: the cells that fill the hole of a removed site, found in doubles and made sure of afterwards.
+//! Gift wrapping in lanes: the cells that fill the hole of a removed site, found in doubles and made sure of
+//! afterwards.
 //!
-//! Lift the sites of the link, seen from the removed one, to the paraboloid `w = |x|²`. The Delaunay triangulation of the
-//! hole is below them: each of its cells has a hyperplane `w = u·x + e`, the *floor* of the cell, and no lifted site is
-//! under it (Edelsbrunner and Seidel, 10.1007/BF02187681). All hyperplanes through a facet of the frontier are
+//! Lift the sites of the link, seen from the removed one, to the paraboloid `w = |x|²`. The Delaunay triangulation of
+//! the hole is below them: each of its cells has a hyperplane `w = u·x + e`, the *floor* of the cell, and no lifted
+//! site is under it (Edelsbrunner and Seidel, 10.1007/BF02187681). All hyperplanes through a facet of the frontier are
 //!
 //! ```text
 //! w = u·x + e + t h(x)        h: how far x is on the inner side of the facet, up to a factor
@@ -13,15 +14,15 @@
 //! whose facet it is, which is known from its own `t`. That is one pass over the link in lanes, without an error bound.
 //!
 //! **Certificates.** What is found may be wrong. It is taken only if each facet has been glued once, to one of the
-//! opposite orientation, every new cell surely is positively oriented, and for each of its facets the site beyond surely is
-//! outside its sphere. All cells together then are a closed, oriented pseudo-manifold of positive cells and the ghosts that
-//! there were, so they cover every point as often as a point far away, once; and a triangulation in which every facet
-//! passes is the Delaunay triangulation. Otherwise, where there are ties, nearly so, or ghosts around the site, the
-//! frontier is wrapped by exact signs.
+//! opposite orientation, every new cell surely is positively oriented, and for each of its facets the site beyond
+//! surely is outside its sphere. All cells together then are a closed, oriented pseudo-manifold of positive cells and
+//! the ghosts that there were, so they cover every point as often as a point far away, once; and a triangulation in
+//! which every facet passes is the Delaunay triangulation. Otherwise, where there are ties, nearly so, or ghosts around
+//! the site, the frontier is wrapped by exact signs.
 //!
-//! Cost: for `k` sites of the link `2k` passes over `k / 4` lanes in space, and `k` in the plane, and the certificates that
-//! a sweep evaluates for as many cells. (`examples/tolerance_share` times removals with insertions; with `DELDRIFT_SCALAR`
-//! set they are done by exact signs.)
+//! Cost: for `k` sites of the link `2k` passes over `k / 4` lanes in space, and `k` in the plane, and the certificates
+//! that a sweep evaluates for as many cells. (`examples/tolerance_share` times removals with insertions; with
+//! `DELDRIFT_SCALAR` set they are done by exact signs.)
 
 use super::remove::{Hole, NEW, new_of};
 use super::site::Sites;
@@ -62,7 +63,8 @@ const CLOSED: u16 = u16::MAX;
 /// Scratch memory.
 #[derive(Debug)]
 pub(super) struct Wrapping {
-    /// The sites of the link as seen from the one removed; and that by axis, followed by the squares of their distances.
+    /// The sites of the link as seen from the one removed; and that by axis, followed by the squares of their
+    /// distances.
     seen: [[f64; 3]; MOST_SITES],
     by_axis: [[f64; MOST_SITES]; 4],
     /// Of the new cells: `u` and then `e`.
@@ -133,8 +135,9 @@ impl Wrapping {
         self.skips = self.last_skips;
     }
 
-    /// Finds the cells that fill the hole of `s`, whose link has no more than [`MOST_SITES`] sites, none of them the ghost
-    /// vertex; there is room for [`MOST_CELLS`] cells. `apex` tells what is opposite a facet of the link. Whether it has.
+    /// Finds the cells that fill the hole of `s`, whose link has no more than [`MOST_SITES`] sites, none of them the
+    /// ghost vertex; there is room for [`MOST_CELLS`] cells. `apex` tells what is opposite a facet of the link. Whether
+    /// it has.
     #[inline(always)]
     pub(super) fn find<G: Dimension>(
         &mut self,
@@ -329,8 +332,8 @@ impl Wrapping {
     }
 }
 
-/// The hyperplane through the lifted ends of an edge, at these squares of their distances, and through the origin, which
-/// is `offset` off the edge along its normal.
+/// The hyperplane through the lifted ends of an edge, at these squares of their distances, and through the origin,
+/// which is `offset` off the edge along its normal.
 #[inline(always)]
 fn floor_of_edge(a: &[f64; 3], b: &[f64; 3], [aa, bb]: [f64; 2], offset: f64) -> [f64; 4] {
     let factor = 1.0 / offset;

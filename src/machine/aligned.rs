@@ -1,12 +1,12 @@
 //! Arrays of entries that are aligned to more than a number is.
 //!
 //! A vector of such entries asks the system for memory that is aligned like them, which takes several times as long as
-//! asking for any memory: a tenth of the time to build five points. So this asks for a few bytes more than it needs, and
-//! skips those before the first entry.
+//! asking for any memory: a tenth of the time to build five points. So this asks for a few bytes more than it needs,
+//! and skips those before the first entry.
 //!
-//! An array may be [divided](Aligned::divide): its room at the end becomes another array's, which another thread can fill
-//! where the entries are going to be, and which is then [taken back](Aligned::rejoin). The memory is gone when the last of
-//! both is.
+//! An array may be [divided](Aligned::divide): its room at the end becomes another array's, which another thread can
+//! fill where the entries are going to be, and which is then [taken back](Aligned::rejoin). The memory is gone when the
+//! last of both is.
 
 #![allow(unsafe_code)]
 

@@ -17,7 +17,8 @@ struct Shared {
     capacity: usize,
 }
 
-/// A share; counted as those of [`Arc`](std::sync::Arc) are, which ends the program if there is no memory for the count.
+/// A share; counted as those of [`Arc`](std::sync::Arc) are, which ends the program if there is no memory for the
+/// count.
 pub(super) struct Share(NonNull<Shared>);
 
 impl Share {
@@ -69,8 +70,8 @@ impl Drop for Share {
             return;
         }
         fence(Ordering::Acquire);
-        // SAFETY: it was leaked when it was made, and this was the last share; the memory has this layout, and is ours to
-        // free.
+        // SAFETY: it was leaked when it was made, and this was the last share; the memory has this layout, and is ours
+        // to free.
         unsafe {
             let shared = Box::from_raw(self.0.as_ptr());
             dealloc(shared.memory, shared.layout);

@@ -8,10 +8,10 @@ use crate::error::Result;
 use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// An independent triangulation that is as this one: positions, ids, cells with their indices, hidden vertices, what
-    /// is staged, the timestamp, statistics, options, the changes that have not been taken, and what the algorithm keeps
-    /// between commits. The callback of the options is `monitor`, as that of this one cannot be copied. Views, and lists
-    /// of changes that have been taken, stay with this one.
+    /// An independent triangulation that is as this one: positions, ids, cells with their indices, hidden vertices,
+    /// what is staged, the timestamp, statistics, options, the changes that have not been taken, and what the algorithm
+    /// keeps between commits. The callback of the options is `monitor`, as that of this one cannot be copied. Views,
+    /// and lists of changes that have been taken, stay with this one.
     ///
     /// If there are arrays of [`cells`](Self::cells), they are brought up to date. A pass over what is kept.
     ///

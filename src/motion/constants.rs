@@ -106,26 +106,28 @@ pub struct Constants {
     /// Place all vertices that have moved, where these are few enough for that to cost less than a rebuild, when more
     /// facets and cells fail for each of them than this number. (Where they leave a lattice all of their facets fail.)
     pub failures_per_moved: f64,
-    /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long, and what a rebuild
-    /// would evaluate exactly. (Where nearly all cells change at once flips may be quadratic in their number: points on
-    /// a sphere that becomes an ellipsoid.)
+    /// Rebuild when flips have evaluated this number of certificates per vertex, which takes as long, and what a
+    /// rebuild would evaluate exactly. (Where nearly all cells change at once flips may be quadratic in their number:
+    /// points on a sphere that becomes an ellipsoid.)
     pub certified_per_vertex: u64,
     /// Times that flips may be stuck before the triangulation is rebuilt.
     pub max_rounds: usize,
     /// Times that cells are untangled, each time with more vertices taken back before.
     pub max_untanglings: usize,
 
-    /// Rebuild when more facets fail than this number for each finite cell, where the clusters of cells that hang together
-    /// by what fails are small. Measured with lattices, face-centred ones, layers and grids with noise, sheared and back.
-    /// In the plane flips are as fast on lattices; on a circle, where half a facet for each cell fails, they are not.
+    /// Rebuild when more facets fail than this number for each finite cell, where the clusters of cells that hang
+    /// together by what fails are small. Measured with lattices, face-centred ones, layers and grids with noise,
+    /// sheared and back. In the plane flips are as fast on lattices; on a circle, where half a facet for each cell
+    /// fails, they are not.
     pub max_failing: f64,
     /// The same where the clusters of cells that hang together by what fails are large. Measured with spheres, spheres
     /// within each other and cylinders.
     pub max_failing_of_large: f64,
     /// A cluster of this number of cells is large.
     pub cells_of_large: f64,
-    /// Rebuild when more facets fail than this number for each finite cell once leaping vertices are back, cells that are
-    /// inverted still counted as well, unless there are ties: most are untangled, and for the others a vertex is placed.
+    /// Rebuild when more facets fail than this number for each finite cell once leaping vertices are back, cells that
+    /// are inverted still counted as well, unless there are ties: most are untangled, and for the others a vertex is
+    /// placed.
     pub max_failing_with_inverted: f64,
     /// As how many failing facets an inverted cell counts.
     pub failing_for_inverted: f64,
@@ -136,8 +138,8 @@ pub struct Constants {
     pub sample_margin: f64,
     /// Exact evaluations of a rebuild for each one of a sweep, measured with sheared lattices.
     pub exact_per_swept: f64,
-    /// With each doubling of what sites and cells take beyond `near_bytes` repair and placement take longer by this share
-    /// of what they do where caches hold all, beside rebuilding, which reads them in order.
+    /// With each doubling of what sites and cells take beyond `near_bytes` repair and placement take longer by this
+    /// share of what they do where caches hold all, beside rebuilding, which reads them in order.
     pub slower_per_doubling: f64,
     /// Bytes of sites and cells below which that makes no difference.
     pub near_bytes: usize,

@@ -1,9 +1,9 @@
 //! Vertices that are asked for one after another, in the order of their ids: what the next ones need can be foreseen.
 //!
 //! A solver that visits all vertices reads the star of one, then of the next. Sites and cells are stored along a curve,
-//! so each star lies elsewhere, and five reads in turn wait for memory: the site, a cell of it, those beside that, and so
-//! on. What is asked for some vertices ahead has come when it is their turn. Who visits vertices in another order would
-//! wait for what nobody needs, so only the second and later ones of a block of ids are followed by others.
+//! so each star lies elsewhere, and five reads in turn wait for memory: the site, a cell of it, those beside that, and
+//! so on. What is asked for some vertices ahead has come when it is their turn. Who visits vertices in another order
+//! would wait for what nobody needs, so only the second and later ones of a block of ids are followed by others.
 //!
 //! Invariant: none. This decides on hints to the processor, and any thread may note any vertex at any time.
 //!
@@ -44,8 +44,8 @@ impl Foreseen {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Asks for what the stars of the vertices after this one will read, where that is not in a cache anyway and is going to
-    /// be needed. There must be cells.
+    /// Asks for what the stars of the vertices after this one will read, where that is not in a cache anyway and is
+    /// going to be needed. There must be cells.
     #[inline(always)]
     pub(super) fn prefetch_next_stars(&self, vertex: VertexId) {
         if self.kernel.bytes_read() > CACHE_BYTES && self.foreseen.note(vertex) {
@@ -69,8 +69,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 mod tests {
     use super::*;
 
-    /// Of vertices in the order of their ids all but the first of each block are followed by others, whoever else visits
-    /// his own; of vertices far from each other none.
+    /// Of vertices in the order of their ids all but the first of each block are followed by others, whoever else
+    /// visits his own; of vertices far from each other none.
     #[test]
     fn ids_in_order_are_noticed() {
         fn n_followed(ids: impl Iterator<Item = u32>) -> usize {

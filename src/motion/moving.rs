@@ -112,9 +112,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// This loop is what a timestamp costs that changes nothing.
     ///
-    /// Undoing knows which vertices have moved: the staging says that the others are applied, and so are those queued if
-    /// `MOVES_ALL`. That holds also after the error that one of the positions given is bad, when some are at other places
-    /// than given.
+    /// Undoing knows which vertices have moved: the staging says that the others are applied, and so are those queued
+    /// if `MOVES_ALL`. That holds also after the error that one of the positions given is bad, when some are at other
+    /// places than given.
     pub(super) fn move_and_queue<const MOVES_ALL: bool>(
         &mut self,
         most: usize,

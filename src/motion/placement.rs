@@ -3,15 +3,16 @@
 //! Vertices are relocated one at a time, each by a walk from its old place, from the vertex placed before it, or from a
 //! landmark, whichever is nearest: in storage order, or, where many go far away, in that of their goals along a Hilbert
 //! curve, so that what an insertion reads has been read by the one before. (One in twenty of a million vertices that go
-//! anywhere take half the time so in the plane, and three quarters in space.) In between, some vertices are at their new
-//! and some at their old positions: two may meet that are never at the same place at a timestamp; they share a site for
-//! that while.
+//! anywhere take half the time so in the plane, and three quarters in space.) In between, some vertices are at their
+//! new and some at their old positions: two may meet that are never at the same place at a timestamp; they share a site
+//! for that while.
 //!
-//! **Threads.** Where many vertices go far away and the cells are sorted, several threads relocate most of them [side by
-//! side](Delaunay::place_side_by_side), each in its range of the cells, some thousands at a time. Where one in a hundred of
-//! a million vertices leaps, a repair on two threads is 1.3 to 1.5 times as fast as on one (`make targets`: *threads_leaping*); the
-//! gain is the same after twenty such commits (`examples/thread_scaling`: *later*). Vertices that go to near places are
-//! relocated by one thread, as that takes little more than to find out whose cells they change.
+//! **Threads.** Where many vertices go far away and the cells are sorted, several threads relocate most of them [side
+//! by side](Delaunay::place_side_by_side), each in its range of the cells, some thousands at a time. Where one in a
+//! hundred of a million vertices leaps, a repair on two threads is 1.3 to 1.5 times as fast as on one (`make targets`:
+//! *threads_leaping*); the gain is the same after twenty such commits (`examples/thread_scaling`: *later*). Vertices
+//! that go to near places are relocated by one thread, as that takes little more than to find out whose cells they
+//! change.
 
 use super::constants::constants;
 use super::repair::Budget;
@@ -116,8 +117,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         placed
     }
 
-    /// Puts every `n_chunks`-th of the staged vertices that are not applied yet first, then those after these, and so on, so
-    /// that each chunk has some everywhere.
+    /// Puts every `n_chunks`-th of the staged vertices that are not applied yet first, then those after these, and so
+    /// on, so that each chunk has some everywhere.
     fn spread_queue(&mut self, n_chunks: usize) -> Result<()> {
         if n_chunks < 2 {
             return Ok(());
@@ -276,9 +277,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(Placed::InCells)
     }
 
-    /// Puts the staged vertices that are not applied yet, and have sites of their own, in the order in which to relocate
-    /// them: that of their goals along a Hilbert curve if many go far away and the caches do not hold all; that of
-    /// storage otherwise, and where there is no memory for the other.
+    /// Puts the staged vertices that are not applied yet, and have sites of their own, in the order in which to
+    /// relocate them: that of their goals along a Hilbert curve if many go far away and the caches do not hold all;
+    /// that of storage otherwise, and where there is no memory for the other.
     pub(super) fn order_queue(&mut self) {
         let is_worth = self.kernel.is_far() && self.goals_are_away(SAMPLE);
         if !is_worth || self.order_queue_by_goal().is_err() {
@@ -286,8 +287,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Whether of the staged vertices that are not applied yet there are this number, and many of them go far away, which
-    /// shows in a sample.
+    /// Whether of the staged vertices that are not applied yet there are this number, and many of them go far away,
+    /// which shows in a sample.
     fn goals_are_away(&self, least: usize) -> bool {
         let queue = &self.staging.vertices()[self.staging.applied()..];
         if !self.kernel.has_cells() || queue.len() < least.max(1) {
@@ -336,8 +337,8 @@ mod tests {
     use crate::predicates::squared_distance;
     use crate::random::Rng;
 
-    /// Of more vertices than a cache near the processor holds some go anywhere, or only to near places. Returns the queue's
-    /// sites, and how far one goal is from the next in the mean, in units of the box.
+    /// Of more vertices than a cache near the processor holds some go anywhere, or only to near places. Returns the
+    /// queue's sites, and how far one goal is from the next in the mean, in units of the box.
     fn queue_of_some<G: Dimension>(reach: f64) -> (Vec<SiteId>, f64) {
         let rng = &mut Rng::new(1);
         let n = 50_000;

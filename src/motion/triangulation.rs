@@ -65,8 +65,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(t)
     }
 
-    /// A triangulation that is to be [built](Self::build_first). Inlined, it is made where it is going to be: it has some
-    /// kilobytes, and to move them takes longer than to build one of a few points.
+    /// A triangulation that is to be [built](Self::build_first). Inlined, it is made where it is going to be: it has
+    /// some kilobytes, and to move them takes longer than to build one of a few points.
     #[inline(always)]
     pub(crate) fn unbuilt(options: Options) -> Self {
         let kernel = Delaunay::empty_on(Threads::at_most(options.threads));

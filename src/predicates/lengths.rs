@@ -1,27 +1,27 @@
 //! Error bounds by the lengths of a cell's edges.
 //!
-//! Where spacings differ much, spheres and circles need a bound for each cell that costs little. *By lengths* it takes a
-//! few products of what has been computed for the sign itself, and it does not depend on directions.
+//! Where spacings differ much, spheres and circles need a bound for each cell that costs little. *By lengths* it takes
+//! a few products of what has been computed for the sign itself, and it does not depend on directions.
 //!
 //! # In space
 //!
 //! Multiplied out, the value of a prepared sphere (`sphere.rs`) is a sum of products of five differences. Each has been
-//! rounded at most 17 times: in the differences, three times in the square of a length, twice in a minor, three times in
-//! a component of n, three times in the scalar product, and once in the last sum. So it is off by at most 17 u times the
-//! sum of the magnitudes of all products, as under *Sums of magnitudes* in `filter.rs`.
+//! rounded at most 17 times: in the differences, three times in the square of a length, twice in a minor, three times
+//! in a component of n, three times in the scalar product, and once in the last sum. So it is off by at most 17 u times
+//! the sum of the magnitudes of all products, as under *Sums of magnitudes* in `filter.rs`.
 //!
-//! The magnitudes of a determinant's products add up to the permanent of the magnitudes, which is at most 2/√3 times the
-//! product of the lengths of its three rows (Carlen, Lieb and Loss, 10.4310/MAA.2006.v13.n1.a1). With L for the longest
-//! edge from the first corner, those that belong to s·n thus add up to 2/√3 · 3 L⁴ |s| at most, and those of |s|² V to
-//! 2/√3 · L³ |s|². Since 2 L |s| ≤ L² + |s|², all together are 2/√3 · L³ (5/2 |s|² + 3/2 L²) at most. The bound is larger
-//! than what underflow adds, L being not less than [`LEAST_LENGTH`].
+//! The magnitudes of a determinant's products add up to the permanent of the magnitudes, which is at most 2/√3 times
+//! the product of the lengths of its three rows (Carlen, Lieb and Loss, 10.4310/MAA.2006.v13.n1.a1). With L for the
+//! longest edge from the first corner, those that belong to s·n thus add up to 2/√3 · 3 L⁴ |s| at most, and those of
+//! |s|² V to 2/√3 · L³ |s|². Since 2 L |s| ≤ L² + |s|², all together are 2/√3 · L³ (5/2 |s|² + 3/2 L²) at most. The
+//! bound is larger than what underflow adds, L being not less than [`LEAST_LENGTH`].
 //!
 //! # In the plane
 //!
-//! The same holds for `lifted.rs`: four differences, each rounded, the square of a length and a minor, twice each, their
-//! product, and two sums, 11 times in all. Permanents of two rows are at most the product of their lengths, so that with
-//! L for the greatest of the three distances all magnitudes add up to 3 L⁴. Where L is above 1, the bound exceeds what
-//! underflow adds; for all others that is added to it.
+//! The same holds for `lifted.rs`: four differences, each rounded, the square of a length and a minor, twice each,
+//! their product, and two sums, 11 times in all. Permanents of two rows are at most the product of their lengths, so
+//! that with L for the greatest of the three distances all magnitudes add up to 3 L⁴. Where L is above 1, the bound
+//! exceeds what underflow adds; for all others that is added to it.
 
 use super::filter::{ROUND_UP, UNDERFLOW, UNIT};
 

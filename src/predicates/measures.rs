@@ -266,8 +266,8 @@ mod tests {
     use super::*;
     use crate::random::Rng;
 
-    /// Whether rounded numbers are sharp depends on the shape of a cell, not on its size, and is certain of all but flat
-    /// ones: those of which the determinant is a billionth of what it may be.
+    /// Whether rounded numbers are sharp depends on the shape of a cell, not on its size, and is certain of all but
+    /// flat ones: those of which the determinant is a billionth of what it may be.
     fn check<const D: usize, const N: usize>(rounded: impl Fn([&[f64; D]; N]) -> Rounded<D>) {
         let rng = &mut Rng::new(12);
         let (mut n_sharp, mut n_blunt) = (0, 0);

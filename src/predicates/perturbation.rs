@@ -83,8 +83,8 @@ fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids:
     })
 }
 
-/// As [`insphere_perturbed`], of points that are cospherical and on a lattice (see [`lattice`](super::lattice)): without
-/// a branch, as which vertex decides cannot be foreseen.
+/// As [`insphere_perturbed`], of points that are cospherical and on a lattice (see [`lattice`](super::lattice)):
+/// without a branch, as which vertex decides cannot be foreseen.
 #[inline(always)]
 pub fn is_inside_cospherical_on_lattice([a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
     let [a, b, c, d] = [a, b, c, d].map(|p| minus(p, e));

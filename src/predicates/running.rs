@@ -5,9 +5,9 @@
 //!
 //! # A sum of two products
 //!
-//! Let C be a cross product, or D a scalar product, of rounded differences in the plane, and m the sum of the magnitudes
-//! of its two products, as computed. Each of these is off by at most 3 u of itself: for two differences and its own
-//! rounding. So C is off by at most e(C) = u (3 m + |C|), and D likewise ([`Running`]).
+//! Let C be a cross product, or D a scalar product, of rounded differences in the plane, and m the sum of the
+//! magnitudes of its two products, as computed. Each of these is off by at most 3 u of itself: for two differences and
+//! its own rounding. So C is off by at most e(C) = u (3 m + |C|), and D likewise ([`Running`]).
 //!
 //! # The in-circle determinant of `plane.rs`
 //!
@@ -16,8 +16,8 @@
 //! # The in-circle determinant of `lifted.rs`
 //!
 //! It is a sum of three products S C of a square of a distance and a cross product. S is off by 4 u S, for two
-//! differences, a product and a sum. With its own rounding S C is off by u S (3 m + 6 |C|), and the sum of three by what
-//! they are off together and, for the first of its two roundings, by u S |C| of two of them.
+//! differences, a product and a sum. With its own rounding S C is off by u S (3 m + 6 |C|), and the sum of three by
+//! what they are off together and, for the first of its two roundings, by u S |C| of two of them.
 //!
 //! Second-order terms that are not there are less than 10 u of the bound, and left to [`ROUND_UP`]. Underflow adds what
 //! it adds to the bounds by extents (`filter.rs`).
@@ -62,8 +62,8 @@ pub(super) fn incircle_running_bound(products: [[Running; 2]; 2], extents: [f64;
     UNIT * ROUND_UP * (first + second) + UNDERFLOW * (amplified * amplified)
 }
 
-/// Bound of `side_of_seen_circle` by the [errors](Running::error_of_lifted) of its terms and the greatest of the corners'
-/// squared distances.
+/// Bound of `side_of_seen_circle` by the [errors](Running::error_of_lifted) of its terms and the greatest of the
+/// corners' squared distances.
 #[inline(always)]
 pub(super) fn lifted_running_bound(errors: f64, square: f64) -> f64 {
     UNIT * ROUND_UP * errors + UNDERFLOW * square.max(1.0)

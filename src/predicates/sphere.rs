@@ -112,8 +112,8 @@ pub fn side_bound_by_length(length: f32, a: &[f64; 3], q: &[f64; 3]) -> f64 {
     prepared_bound_by_lengths(length.into(), fused_dot(&s, &s))
 }
 
-/// The greatest distance of `b`, `c` and `d` from `a`, from above, also after rounding to `f32`; infinite where it is too
-/// small or too large for [`side_bound_by_length`], which is infinite, too, then.
+/// The greatest distance of `b`, `c` and `d` from `a`, from above, also after rounding to `f32`; infinite where it is
+/// too small or too large for [`side_bound_by_length`], which is infinite, too, then.
 #[inline(always)]
 pub fn edge_length<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> T {
     let [uu, vv, ww] = [b, c, d].map(

@@ -101,8 +101,8 @@ impl<G: Dimension> Delaunay<G> {
         old == new || G::stays_positive(old, new)
     }
 
-    /// Lists the ghost cells: one, and all that are reached from it. (The ghost vertex need not know one while there are
-    /// flips; where cells are sorted the first ones are ghosts.)
+    /// Lists the ghost cells: one, and all that are reached from it. (The ghost vertex need not know one while there
+    /// are flips; where cells are sorted the first ones are ghosts.)
     pub(crate) fn list_ghosts(&mut self, ghosts: &mut Vec<Slot>) -> Result<()> {
         ghosts.clear();
         memory::reserve(ghosts, self.complex.n_ghosts())?;

@@ -4,7 +4,8 @@ use super::*;
 use crate::delaunay::Space;
 use crate::ids::VertexId;
 
-/// A pyramid, and the diagonal of its base as a ridge, after a vertex of that, not on the diagonal, has gone to a place.
+/// A pyramid, and the diagonal of its base as a ridge, after a vertex of that, not on the diagonal, has gone to a
+/// place.
 fn pyramid_after(place: [f64; 3]) -> (Delaunay<Space>, Facet) {
     let mut t = Delaunay::<Space>::default();
     t.add_sites(&PYRAMID).expect("room for it");

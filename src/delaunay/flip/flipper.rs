@@ -55,7 +55,8 @@ impl<G: Dimension> Flipper<'_, '_, G> {
         }
     }
 
-    /// Asks for the cells of the suspects that will be taken after the next ones, which are the last, and for the sites.
+    /// Asks for the cells of the suspects that will be taken after the next ones, which are the last, and for the
+    /// sites.
     #[inline(always)]
     fn prefetch(&self, suspects: &[Facet]) {
         let Some(&next) = suspects.last_chunk::<{ 4 * LANES }>() else { return };

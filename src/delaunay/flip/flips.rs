@@ -7,8 +7,8 @@ use crate::ids::Slot;
 use crate::machine::memory;
 use crate::predicates::exact_calls;
 
-/// An exact evaluation takes as long as this number of certificates: their costs in `motion::constants` are as 135 to 30
-/// in space, and as 80 to 20 in the plane.
+/// An exact evaluation takes as long as this number of certificates: their costs in `motion::constants` are as 135 to
+/// 30 in space, and as 80 to 20 in the plane.
 pub(crate) const CERTIFICATES_PER_EXACT: u64 = 4;
 
 /// What has been flipped, and what is to be.

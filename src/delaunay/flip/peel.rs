@@ -1,8 +1,8 @@
 //! Peeling: flat cells at the hull are taken away, to uncover those among them that are not positive.
 //!
-//! Where the vertices on a side of the hull are in a plane but for rounding, that side has flat cells, several one above
-//! the other. When rounding differs, some of them are turned inside out, and cannot be exchanged one by one. Without all
-//! of them, the side is dented, and dents can be [filled](super::untangle).
+//! Where the vertices on a side of the hull are in a plane but for rounding, that side has flat cells, several one
+//! above the other. When rounding differs, some of them are turned inside out, and cannot be exchanged one by one.
+//! Without all of them, the side is dented, and dents can be [filled](super::untangle).
 //!
 //! To take a cell away is to exchange it, with the ghost cells on it, for ghosts. The complex stays a closed one: a
 //! vertex within, or an edge, comes to the hull only if it was not there. A cell is taken away through a facet that is
@@ -17,8 +17,9 @@ use crate::ids::Slot;
 use crate::machine::memory;
 use crate::predicates::squared_distance;
 
-/// A cell is flat if its volume is less than this share of that of a box with its edges, and a facet if the square of its
-/// area is that small, next to a square. Between what rounding makes and what any mesh has; nothing else depends on it.
+/// A cell is flat if its volume is less than this share of that of a box with its edges, and a facet if the square of
+/// its area is that small, next to a square. Between what rounding makes and what any mesh has; nothing else depends on
+/// it.
 const FLAT: f64 = 1e-9;
 
 /// Flat cells that are taken away at most for each one that has to be. On sheared lattices they are about as many. On a

@@ -1,7 +1,7 @@
 //! Untangling: cells that are not positive any more, and ridges of the hull that are not convex, mended by flips.
 //!
-//! A motion turns flat cells inside out, and it dents the hull where vertices are in a plane but for rounding, as on the
-//! sides of a sheared lattice. To take vertices back and place them again is expensive there: from its old place a
+//! A motion turns flat cells inside out, and it dents the hull where vertices are in a plane but for rounding, as on
+//! the sides of a sheared lattice. To take vertices back and place them again is expensive there: from its old place a
 //! vertex sees all others of its side.
 //!
 //! ```text
@@ -13,9 +13,9 @@
 //! if ridges are stuck in every order: take a vertex of each back
 //! ```
 //!
-//! An exchange may leave a cell that is not positive of vertices that have all been taken back, and ridges that are stuck
-//! cannot be mended there and then. All exchanges are undone in these cases, and the caller begins again: with the
-//! vertices back from the start fewer cells are not positive, and other exchanges are made.
+//! An exchange may leave a cell that is not positive of vertices that have all been taken back, and ridges that are
+//! stuck cannot be mended there and then. All exchanges are undone in these cases, and the caller begins again: with
+//! the vertices back from the start fewer cells are not positive, and other exchanges are made.
 //!
 //! An exchange is a flip, done for another reason: of two cells for three or three for two in space, two for two in the
 //! plane. A new ghost cell counts as positive if a point within all is on the inner side of its facet.
@@ -23,13 +23,13 @@
 //! A vertex that is taken back has to be placed later, which takes twenty times as long as an exchange. If nothing were
 //! exchanged, a vertex of nearly every inverted cell would have to be.
 //!
-//! Every step comes to an end: no vertex is taken back twice, exchanges leave fewer cells that are not positive, peeling
-//! fewer finite ones, and exchanges of ghosts more volume in the hull. In the end all cells are positive and the hull is
-//! convex at every ridge, or all exchanges are undone. How often the hull winds is not asked here.
+//! Every step comes to an end: no vertex is taken back twice, exchanges leave fewer cells that are not positive,
+//! peeling fewer finite ones, and exchanges of ghosts more volume in the hull. In the end all cells are positive and
+//! the hull is convex at every ridge, or all exchanges are undone. How often the hull winds is not asked here.
 //!
 //! Cost: half a microsecond for an exchange. What it spares is a placement of every vertex taken back. (For a cubic
-//! lattice of 10,648 vertices, sheared by 0.001 in each timestamp, `deldrift_bench --targets --target shear_grid` has 1.2
-//! microseconds a vertex for repairs; 5.4 without it, and 2.4 for rebuilding.)
+//! lattice of 10,648 vertices, sheared by 0.001 in each timestamp, `deldrift_bench --targets --target shear_grid` has
+//! 1.2 microseconds a vertex for repairs; 5.4 without it, and 2.4 for rebuilding.)
 
 use super::{Delaunay, Dimension, Flips};
 use crate::complex::{Corners, Facet};
@@ -38,25 +38,25 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
-/// It ends when more than this number of cells, and one in `HARD_SHARE`, are left that are not flat before any vertex is
-/// taken back: where vertices go farther than cells are thick, hardly any can be exchanged.
+/// It ends when more than this number of cells, and one in `HARD_SHARE`, are left that are not flat before any vertex
+/// is taken back: where vertices go farther than cells are thick, hardly any can be exchanged.
 const HARD: usize = 8;
 const HARD_SHARE: usize = 2;
 
-/// It is not begun with more ridges that are not convex than one for this number of facets of the hull; a sweep lists each
-/// from both sides, and they are known only if all cells are positive. Vertices that leave a side of a lattice dent all of
-/// it, and where some have gone outwards what is added soon reaches across the side and is stuck.
+/// It is not begun with more ridges that are not convex than one for this number of facets of the hull; a sweep lists
+/// each from both sides, and they are known only if all cells are positive. Vertices that leave a side of a lattice
+/// dent all of it, and where some have gone outwards what is added soon reaches across the side and is stuck.
 const FACETS_PER_DENT: usize = 4;
 
 /// Orders in which dents are filled at most. Four of five times the first one does; else edges around a vertex that has
-/// sunk wait for each other, and none of them can be flipped. (So it is with flips to a regular triangulation of the plane:
-/// Edelsbrunner and Shah, 10.1007/BF01975867.) No other order is tried with fewer exchanges than this number for each
-/// ridge that is stuck.
+/// sunk wait for each other, and none of them can be flipped. (So it is with flips to a regular triangulation of the
+/// plane: Edelsbrunner and Shah, 10.1007/BF01975867.) No other order is tried with fewer exchanges than this number for
+/// each ridge that is stuck.
 const ATTEMPTS: u32 = 8;
 const FILLED_PER_STUCK: u64 = 16;
 
-/// No vertices are taken back for the ridges that are stuck then if these are more than one for this number of cells that
-/// were not positive, and `HARD`: so it is on the sides of lattices, from which placing takes too long.
+/// No vertices are taken back for the ridges that are stuck then if these are more than one for this number of cells
+/// that were not positive, and `HARD`: so it is on the sides of lattices, from which placing takes too long.
 const CELLS_PER_STUCK: usize = 32;
 
 /// What has been exchanged, and scratch memory.
@@ -115,10 +115,10 @@ impl<G: Dimension> Untangling<G> {
 
 impl<G: Dimension> Delaunay<G> {
     /// Makes all cells positive and the hull convex at every ridge, where flips can do that in at most `most`
-    /// certificates once some vertices have been taken back; whether that has been done. Facets of new cells are added to
-    /// `suspects`, those around vertices taken back to what has failed. What is done is part of the next
-    /// [`flip_all`](Self::flip_all), and [`undo_flips`](Self::undo_flips) undoes both. Otherwise, and after an error, all
-    /// is as it was, but for the vertices taken back: of their stars nothing is known then.
+    /// certificates once some vertices have been taken back; whether that has been done. Facets of new cells are added
+    /// to `suspects`, those around vertices taken back to what has failed. What is done is part of the next
+    /// [`flip_all`](Self::flip_all), and [`undo_flips`](Self::undo_flips) undoes both. Otherwise, and after an error,
+    /// all is as it was, but for the vertices taken back: of their stars nothing is known then.
     pub(crate) fn untangle(
         &mut self,
         failures: &mut Failures,
@@ -193,8 +193,8 @@ impl<G: Dimension> Delaunay<G> {
         self.complex.finite().filter(|&c| !self.is_flat(c)).find_map(|c| self.point_inside(c))
     }
 
-    /// Takes a vertex back of each listed cell that is neither positive nor flat, of which there is one; lists the cells that
-    /// are not positive then. Whether each had one to be taken back.
+    /// Takes a vertex back of each listed cell that is neither positive nor flat, of which there is one; lists the
+    /// cells that are not positive then. Whether each had one to be taken back.
     fn take_hard_back(
         &mut self,
         untangling: &mut Untangling<G>,
@@ -218,8 +218,8 @@ impl<G: Dimension> Delaunay<G> {
         Ok(have_all)
     }
 
-    /// Takes a vertex back at each ridge that is stuck. Their stars are not looked at: what has been exchanged is going to
-    /// be undone.
+    /// Takes a vertex back at each ridge that is stuck. Their stars are not looked at: what has been exchanged is going
+    /// to be undone.
     fn take_dents_back(&mut self, untangling: &Untangling<G>, take_back: TakeBack<'_, G>) -> Result<()> {
         for &ridge in &untangling.stuck {
             if self.is_ghost(ridge.cell()) && !self.is_convex(ridge) {

@@ -16,13 +16,13 @@ const PLACES: usize = 512;
 /// The rim of a conflict zone.
 #[derive(Debug)]
 pub(super) struct Rim<G: Dimension> {
-    /// For each of its facets the corners of the new cell, the index of the new site, and the facet seen from the cell that
-    /// stays.
+    /// For each of its facets the corners of the new cell, the index of the new site, and the facet seen from the cell
+    /// that stays.
     facets: Vec<(G::Corners, usize, Facet)>,
     /// Gluings of the new cells; a slot is the position of one of these among them.
     glued: Vec<<G::Corners as Corners>::Of<Facet>>,
-    /// By hash or behind it, ridges of which one facet has been found: their sites, and that facet. A key of 0 is none, and
-    /// all are none between insertions.
+    /// By hash or behind it, ridges of which one facet has been found: their sites, and that facet. A key of 0 is none,
+    /// and all are none between insertions.
     ridges: Vec<(u64, Facet)>,
     /// The places of those there.
     used: Vec<u16>,
@@ -115,8 +115,8 @@ impl<G: Dimension> Shared<'_, G> {
         }
     }
 
-    /// Inserts a site that is in no cell, by a walk from the nearer one of two cells, which may have gone; returns one of
-    /// the new cells. After an obstacle nothing has changed.
+    /// Inserts a site that is in no cell, by a walk from the nearer one of two cells, which may have gone; returns one
+    /// of the new cells. After an obstacle nothing has changed.
     fn insert(
         &self,
         range: &mut CellRange<G::Corners>,

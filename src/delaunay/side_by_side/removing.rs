@@ -68,8 +68,8 @@ impl<G: Dimension> Shared<'_, G> {
         }
     }
 
-    /// Finds landmarks near some of the goals; where a site that has been removed was one, it is replaced by one that it
-    /// has left behind.
+    /// Finds landmarks near some of the goals; where a site that has been removed was one, it is replaced by one that
+    /// it has left behind.
     #[inline(always)]
     fn look_for_some<const N: usize>(
         &self,

@@ -125,7 +125,8 @@ fn faults_of_embedding_are_found() {
     is_found(&t, Level::Embedding, "the hull is not convex between ");
 }
 
-/// Two cells with a facet in common, whose other two vertices come so near that each is in the sphere of the other cell.
+/// Two cells with a facet in common, whose other two vertices come so near that each is in the sphere of the other
+/// cell.
 #[test]
 fn vertices_inside_spheres_are_found() {
     let mut t = built::<Plane>(&[[0.0, 0.0], [8.0, 0.0], [4.0, 9.0], [4.0, -9.0]]);

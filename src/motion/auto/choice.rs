@@ -259,8 +259,8 @@ impl Auto {
         spent > n as f64 * costs.rebuilt + exact_of_rebuild as f64 * costs.exact
     }
 
-    /// Draws conclusions from a repair, for `n` vertices, of which the sweep has checked so many certificates, and which
-    /// takes so many times as long as counts tell.
+    /// Draws conclusions from a repair, for `n` vertices, of which the sweep has checked so many certificates, and
+    /// which takes so many times as long as counts tell.
     pub(super) fn learn<G: Dimension>(
         &mut self,
         n: usize,

@@ -171,8 +171,8 @@ mod tests {
         (points, t)
     }
 
-    /// Cells are sorted again as flips, placements and insertions replace them: after repairs, before slacks are computed
-    /// and while they are kept. They stay those of the triangulation.
+    /// Cells are sorted again as flips, placements and insertions replace them: after repairs, before slacks are
+    /// computed and while they are kept. They stay those of the triangulation.
     #[test]
     fn cells_are_sorted_again() {
         let rng = &mut Rng::new(1);
@@ -221,8 +221,8 @@ mod tests {
         (t.regions.kept_for() == Some(Filter::Watch), n_before, t.regions.n_watched())
     }
 
-    /// Where few vertices leap, the others stay watched, and hardly more bi-cells are; where many do, the leaps cost more
-    /// than watching spares.
+    /// Where few vertices leap, the others stay watched, and hardly more bi-cells are; where many do, the leaps cost
+    /// more than watching spares.
     #[test]
     fn few_leaps_leave_the_others_watched() {
         let (are_watched, n_before, n_after) = watched_among_leaps(5e-4);

@@ -8,8 +8,8 @@ use crate::motion::MovingTriangulation;
 use crate::motion::chunks::Chunks;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Hands on the text of a `.mesh` file, some thousand bytes at a time. Vertices are numbered from 1; the reference of
-    /// each is its id, that of cells is 1. Coordinates have as many digits as tell them apart.
+    /// Hands on the text of a `.mesh` file, some thousand bytes at a time. Vertices are numbered from 1; the reference
+    /// of each is its id, that of cells is 1. Coordinates have as many digits as tell them apart.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`], before the first byte; and those of `put`, with which it ends.

@@ -61,8 +61,8 @@ impl<E, P: FnMut(&[u8]) -> Result<(), E>> Directory<'_, P> {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Hands on the bytes of a `.vtu` file, some thousand at a time. The points have three coordinates, the third being 0
-    /// in the plane, and their ids as an array `vertex`.
+    /// Hands on the bytes of a `.vtu` file, some thousand at a time. The points have three coordinates, the third being
+    /// 0 in the plane, and their ids as an array `vertex`.
     ///
     /// # Errors
     /// [`Error::WrongCount`] if a field has no or too few numbers, or too many; [`Error::OutOfMemory`]; both before the

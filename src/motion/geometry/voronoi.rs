@@ -18,8 +18,8 @@ use crate::machine::memory;
 use crate::motion::staging::check_position;
 use crate::motion::{MovingTriangulation, NO_CELL};
 
-/// The cells around an edge, in order, and the vertices of its link. Of a ring that is open, at the hull, only some cells
-/// are listed: nobody reads them.
+/// The cells around an edge, in order, and the vertices of its link. Of a ring that is open, at the hull, only some
+/// cells are listed: nobody reads them.
 #[derive(Debug, Default)]
 struct Ring {
     cells: Vec<CellId>,

@@ -15,9 +15,9 @@
 //! place the vertices that were taken back, one by one
 //! ```
 //!
-//! Where flips are stuck after it, untangling is undone and not tried any more. Where it fails and many facets fail, all is
-//! rebuilt: flips would be stuck among what is placed. Invariant: with every vertex taken back all is as
-//! before the commit, so taking back comes to an end; and when it has, the cells are the Delaunay triangulation of the
+//! Where flips are stuck after it, untangling is undone and not tried any more. Where it fails and many facets fail,
+//! all is rebuilt: flips would be stuck among what is placed. Invariant: with every vertex taken back all is as before
+//! the commit, so taking back comes to an end; and when it has, the cells are the Delaunay triangulation of the
 //! vertices where they are ([`Failures`](crate::delaunay::Failures) has the argument). Of a certificate's vertices the
 //! one that moved farthest is taken back, so that a vertex that jumps across the domain goes first.
 //!
@@ -187,8 +187,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         n_failing as f64 <= constants::<G>().max_failing * n_cells
     }
 
-    /// Makes the cells a triangulation by flips, if that can be done with at most this number of vertices taken back; what
-    /// has failed is listed as before.
+    /// Makes the cells a triangulation by flips, if that can be done with at most this number of vertices taken back;
+    /// what has failed is listed as before.
     fn untangle(&mut self, repair: &mut Repair, most_back: usize) -> Result<bool> {
         if repair.failures.cells.is_empty() {
             self.check_ridges(repair)?;

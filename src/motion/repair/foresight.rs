@@ -1,5 +1,5 @@
-//! Whether a repair is going to take longer than a rebuild, or than to place the vertices that have moved, as far as that
-//! can be told before.
+//! Whether a repair is going to take longer than a rebuild, or than to place the vertices that have moved, as far as
+//! that can be told before.
 //!
 //! | when | from what |
 //! |---|---|
@@ -7,16 +7,16 @@
 //! | after it | those of all cells |
 //! | while vertices are placed | what those placed so far have cost |
 //!
-//! On random points a repair takes as long as a rebuild where about every sixth facet in space, or every seventh in
-//! the plane, fails: more and more cells are inverted, and vertices have to be placed, then. It may be every third, or
+//! On random points a repair takes as long as a rebuild where about every sixth facet in space, or every seventh in the
+//! plane, fails: more and more cells are inverted, and vertices have to be placed, then. It may be every third, or
 //! every fifth, where hardly a cell is inverted, or there are ties and flips untangle the cells. Both come sooner where
-//! caches do not hold all, and where several threads rebuild, as one of them does much of a repair. All that holds if what
-//! fails is in many small clusters of cells, as in the cubes of a lattice. In large ones, of hundreds of vertices nearly
-//! on a sphere, flips get stuck, or evaluate the certificates of a cluster again and again: then a repair takes longer
-//! when one facet in seventy fails. So some clusters are gathered.
+//! caches do not hold all, and where several threads rebuild, as one of them does much of a repair. All that holds if
+//! what fails is in many small clusters of cells, as in the cubes of a lattice. In large ones, of hundreds of vertices
+//! nearly on a sphere, flips get stuck, or evaluate the certificates of a cluster again and again: then a repair takes
+//! longer when one facet in seventy fails. So some clusters are gathered.
 //!
-//! Where some vertices leave a lattice, or leap, nearly all of their facets fail. Most of these vertices would have to be
-//! placed in the end: they are placed at once.
+//! Where some vertices leave a lattice, or leap, nearly all of their facets fail. Most of these vertices would have to
+//! be placed in the end: they are placed at once.
 //!
 //! A vertex on a flat part of the hull may have a star of slivers with all others there. How long it takes to place
 //! some of these is known only from the first ones.
@@ -253,8 +253,8 @@ mod tests {
         assert_eq!([0.08, 0.2].map(n_rebuilt::<Space>), [0, 5]);
     }
 
-    /// While a lattice trembles, about half the squares change their diagonals at each timestamp, and some cells at the hull
-    /// are inverted.
+    /// While a lattice trembles, about half the squares change their diagonals at each timestamp, and some cells at the
+    /// hull are inverted.
     #[test]
     fn trembling_lattices_are_repaired() {
         let rng = &mut Rng::new(1);

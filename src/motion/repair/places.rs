@@ -78,7 +78,8 @@ impl Places {
         Ok(())
     }
 
-    /// Makes room for this number of vertices more in the queue. It has to fit where the staged vertices are listed, too.
+    /// Makes room for this number of vertices more in the queue. It has to fit where the staged vertices are listed,
+    /// too.
     pub(super) fn reserve<G: Dimension>(&mut self, staging: &mut Staging<G>, more: usize) -> Result<()> {
         memory::reserve(&mut self.queue, more)?;
         let listed = staging.vertices_mut();

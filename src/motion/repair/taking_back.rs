@@ -16,8 +16,8 @@ use crate::predicates::squared_distance;
 const STEP: usize = 8;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Takes the vertices of inverted cells back that have gone farther than the cell reaches: they have left their stars,
-    /// and would have to be placed after much untangling. Too much if more than `most` are back.
+    /// Takes the vertices of inverted cells back that have gone farther than the cell reaches: they have left their
+    /// stars, and would have to be placed after much untangling. Too much if more than `most` are back.
     pub(super) fn take_leapers_back(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
         let is_far = self.kernel.is_far();
         for k in 0..repair.failures.cells.len() {

@@ -28,8 +28,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.header().size().and_then(|size| usize::try_from(size).ok()).expect("it fits in memory")
     }
 
-    /// Hands on all bytes from which [`load`](Self::load) makes a triangulation like this one, a few thousand at a time.
-    /// Before the first, it does what the first [`cells`](Self::cells) does.
+    /// Hands on all bytes from which [`load`](Self::load) makes a triangulation like this one, a few thousand at a
+    /// time. Before the first, it does what the first [`cells`](Self::cells) does.
     ///
     /// Cost: a pass over what is saved.
     ///

@@ -105,8 +105,8 @@ impl<G: Dimension> Delaunay<G> {
         Ok(true)
     }
 
-    /// The cells that [`exchange_across`](Self::exchange_across) exchanges, and the new ones, not glued yet. `None` also
-    /// where a site would be left without a cell.
+    /// The cells that [`exchange_across`](Self::exchange_across) exchanges, and the new ones, not glued yet. `None`
+    /// also where a site would be left without a cell.
     fn find_exchange(
         &self,
         facet: Facet,

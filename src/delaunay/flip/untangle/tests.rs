@@ -95,8 +95,8 @@ fn mends<G: Dimension>(t: &mut Delaunay<G>, failures: &mut Failures) -> bool {
     true
 }
 
-/// The sides of a lattice that is sheared, again and again, are in a plane but for rounding. Returns how often cells were
-/// not positive, and how often all of them were, but the hull was dented.
+/// The sides of a lattice that is sheared, again and again, are in a plane but for rounding. Returns how often cells
+/// were not positive, and how often all of them were, but the hull was dented.
 fn sheared_lattices<G: Dimension>(side: usize, n_steps: usize) -> [usize; 2] {
     let mut points = lattice::<G>(side, &mut Rng::new(1));
     let mut n_tangled = [0; 2];
@@ -164,8 +164,8 @@ fn tetrahedra_are_untangled() {
     random_points::<Space>(300, [0.003, 0.5]);
 }
 
-/// Where vertices of cells and ridges that cannot be exchanged are taken back, all can be untangled, though some only from
-/// the start again; what is left where it cannot is the cells from before.
+/// Where vertices of cells and ridges that cannot be exchanged are taken back, all can be untangled, though some only
+/// from the start again; what is left where it cannot is the cells from before.
 fn vertices_are_taken_back<G: Dimension>(n: usize, size: f64) {
     let rng = &mut Rng::new(4);
     let (mut n_tangled, mut n_mended, mut n_again, mut n_back) = (0, 0, 0, 0);
@@ -310,8 +310,9 @@ fn dents_that_are_stuck_are_filled_in_another_order() {
     assert!(n_mended > 8, "{n_mended}");
 }
 
-/// Vertices just below the middle of a polygon that is flat but for rounding: flat cells share them, and taking one away
-/// looks at a star of as many cells as there are corners. It ends within its budget and one such star all the same.
+/// Vertices just below the middle of a polygon that is flat but for rounding: flat cells share them, and taking one
+/// away looks at a star of as many cells as there are corners. It ends within its budget and one such star all the
+/// same.
 #[test]
 fn peeling_below_a_polygon_ends_in_time() {
     const CORNERS: usize = 1000;
