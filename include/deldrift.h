@@ -785,7 +785,8 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call
-/// also does what the first deldrift_cells does; else the cost is that of the star.
+/// also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
+/// than a cache holds, stars are read fastest in the order of the ids.
 deldrift_status deldrift_star(const deldrift_triangulation *t,
                               uint32_t vertex,
                               uint32_t *cells,

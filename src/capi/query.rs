@@ -174,7 +174,8 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call
-/// also does what the first deldrift_cells does; else the cost is that of the star.
+/// also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
+/// than a cache holds, stars are read fastest in the order of the ids.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_star(
     t: *const deldrift_triangulation,
