@@ -17,8 +17,8 @@ struct Shared {
     capacity: usize,
 }
 
-/// A share; counted as those of [`Arc`](std::sync::Arc) are, which ends the program if there is no memory for the
-/// count.
+/// A share. They are counted as by [`Arc`](std::sync::Arc), but that there is no memory for the count is an error here,
+/// and ends the program there.
 pub(super) struct Share(NonNull<Shared>);
 
 impl Share {
