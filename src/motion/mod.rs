@@ -19,7 +19,7 @@
 //! Each of `tolerance`, `safe_region`, `watching` and `slack` has a store and a commit; `regions` keeps one of the
 //! stores, and lets it follow changes. `immediate` relocates, inserts and removes one vertex at a time; `moving` has
 //! the loops that move all vertices; `transaction` what undoes a change; `cells` and `changes` what callers read of
-//! it; `geometry` what they compute from that; `compaction` forgets removed vertices; `cloning` and `saving` copy
+//! it, and `foreseen` what they are going to read; `geometry` what they compute from that; `compaction` forgets removed vertices; `cloning` and `saving` copy
 //! everything.
 //!
 //! Invariants between calls:
