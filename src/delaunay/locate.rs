@@ -256,26 +256,25 @@ pub(super) fn list_ring<C: Corners>(
     s: SiteId,
     mut found: impl FnMut(Slot, usize) -> Result<()>,
 ) -> Result<()> {
-    // Both ways around at once, so that the processor waits for two cells together. A facet tells where in its cell it
-    // is, and so where the site is: next to that.
-    let across = |(cell, at): (Slot, usize), turned: fn(usize) -> usize| {
-        let facet = complex.cell(cell).neighbour(turned(at));
-        (facet.cell(), turned(facet.index()))
-    };
+    // Both ways around at once, so that the processor waits for two cells together. A facet tells where in the cell
+    // beyond it is: the site is next to that, and so is the facet to cross then.
     let at = complex.cell(first).index_of(s);
     found(first, at)?;
-    let (mut left, mut right) = ((first, at), (first, at));
+    let (mut left, mut leaving_left) = (first, next_of_three(at));
+    let (mut right, mut leaving_right) = (first, last_of_three(at));
     loop {
-        left = across(left, next_of_three);
+        let facet = complex.cell(left).neighbour(leaving_left);
+        (left, leaving_left) = (facet.cell(), last_of_three(facet.index()));
         if left == right {
             return Ok(());
         }
-        found(left.0, left.1)?;
-        right = across(right, last_of_three);
+        found(left, next_of_three(facet.index()))?;
+        let facet = complex.cell(right).neighbour(leaving_right);
+        (right, leaving_right) = (facet.cell(), next_of_three(facet.index()));
         if right == left {
             return Ok(());
         }
-        found(right.0, right.1)?;
+        found(right, last_of_three(facet.index()))?;
     }
 }
 
