@@ -68,6 +68,10 @@ impl<G: Dimension> MovingTriangulation<G> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::delaunay::{Level, Plane, Space};
+    use crate::ids::CellId;
+    use crate::motion::Options;
+    use crate::random::Rng;
 
     /// Of vertices in the order of their ids all but the first of each block are followed by others, whoever else
     /// visits his own; of vertices far from each other none.
@@ -81,5 +85,51 @@ mod tests {
         // Two threads, which visit 16 blocks each.
         assert_eq!(n_followed((0..1024).flat_map(|k| [k, 10_048 + k])), 2 * 1024 - 2 * 16);
         assert_eq!(n_followed((0..1000).map(|k| 1_000_000 - 1000 * k)), 0);
+    }
+
+    /// More points than a cache holds, some of them at one place and some removed: the stars, read in the order of the
+    /// ids, are those that the cells tell, and vertices are relocated in that order.
+    fn visits_in_order<G: Dimension>() {
+        let (n, rng) = (20_000, &mut Rng::new(1));
+        let mut points = vec![G::Point::default(); n];
+        for p in &mut points {
+            (0..G::D).for_each(|k| p[k] = rng.unit());
+        }
+        for k in (100..n).step_by(100) {
+            points[k] = points[k - 99];
+        }
+        let mut t = MovingTriangulation::<G>::new(&points, Options::default()).expect("room");
+        for v in (0..n).step_by(70).chain(n - 3..n) {
+            t.remove_vertex(VertexId::at(v)).expect("it is there");
+        }
+        assert!(t.kernel.bytes_read() > CACHE_BYTES);
+        let mut expected = vec![Vec::new(); n];
+        for (index, corners) in t.cells().expect("room").corners.iter().enumerate() {
+            corners.as_ref().iter().for_each(|v| expected[v.index()].push(CellId::at(index)));
+        }
+        let mut star = Vec::new();
+        for v in VertexId::range(0..n) {
+            let Ok(shown) = t.coincident_representative(v) else { continue };
+            t.star(v, &mut star).expect("room");
+            star.sort_unstable();
+            assert_eq!(star, expected[shown.index()]);
+        }
+        for v in VertexId::range(0..n) {
+            let mut place = points[v.index()];
+            place[0] += 1e-4 * rng.unit();
+            let is_present = t.position(v).is_ok();
+            assert_eq!(t.relocate_vertex(v, &place).is_ok(), is_present);
+        }
+        assert_eq!(t.validate(Level::Delaunay), Ok(()));
+    }
+
+    #[test]
+    fn vertices_of_the_plane_are_visited_in_order() {
+        visits_in_order::<Plane>();
+    }
+
+    #[test]
+    fn vertices_in_space_are_visited_in_order() {
+        visits_in_order::<Space>();
     }
 }
