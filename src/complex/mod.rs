@@ -384,7 +384,8 @@ impl<C: Corners> Complex<C> {
         }
         debug_assert!(self.cells.capacity() <= self.marks.capacity());
         self.marks.resize(self.cells.len(), 0);
-        Slot::range(n..first).chain(other.free.iter().map(moved)).for_each(|c| self.free.set(c, true));
+        Slot::range(n..first).for_each(|c| self.free.set(c, true));
+        other.free.iter().for_each(|c| self.free.set(moved(c), true));
         self.n_ghosts += other.n_ghosts;
         Ok(first)
     }
