@@ -261,10 +261,10 @@ pub(super) fn list_ring<C: Corners>(
     let at = complex.cell(first).index_of(s);
     found(first, at)?;
     let (mut left, mut leaving_left) = (first, next_of_three(at));
-    let (mut right, mut leaving_right) = (first, last_of_three(at));
+    let (mut right, mut leaving_right) = (first, previous_of_three(at));
     loop {
         let facet = complex.cell(left).neighbour(leaving_left);
-        (left, leaving_left) = (facet.cell(), last_of_three(facet.index()));
+        (left, leaving_left) = (facet.cell(), previous_of_three(facet.index()));
         if left == right {
             return Ok(());
         }
@@ -274,7 +274,7 @@ pub(super) fn list_ring<C: Corners>(
         if right == left {
             return Ok(());
         }
-        found(right, last_of_three(facet.index()))?;
+        found(right, previous_of_three(facet.index()))?;
     }
 }
 
@@ -286,6 +286,6 @@ pub(super) fn next_of_three(i: usize) -> usize {
 
 /// The corner of a triangle before this one.
 #[inline(always)]
-pub(super) fn last_of_three(i: usize) -> usize {
+pub(super) fn previous_of_three(i: usize) -> usize {
     0b01_00_10 >> (2 * i) & 3
 }

@@ -3,7 +3,7 @@
 use super::dimension::Plane;
 use super::flip::{Flipper, Flips};
 use super::kernel::Kernel;
-use super::locate::{last_of_three, next_of_three};
+use super::locate::{next_of_three, previous_of_three};
 use super::site::{Site, Sites};
 use super::uncertain::{Held, apexes_beyond, corners_at};
 use super::{Delaunay, cavity_plane};
@@ -116,22 +116,22 @@ impl Kernel<Plane> for Plane {
     fn star_holds(avx2: Avx2, t: &Delaunay<Plane>, star: &[(Slot, u8)]) -> bool {
         let (f, sites) = (&t.filter, t.view());
         // The cells have the site in common: the others are its neighbours.
-        let [x, y] = *star
-            .first()
-            .map_or(&[0.0; 2], |&(c, at)| sites.point(t.complex.cell(c).corners[usize::from(at)]));
+        let Some(&(c, at)) = star.first() else { return true };
+        let &[x, y] = sites.point(t.complex.cell(c).corners[usize::from(at)]);
         let center = [avx2.splat(x), avx2.splat(y)];
         for four in star.chunks(LANES) {
             let rows = [0, 1, 2, 3].map(|k| {
                 // Any cells fill the last lanes.
                 let (c, at) = four[k.min(four.len() - 1)];
                 let (cell, at) = (t.complex.cell(c), usize::from(at));
-                let (next, last) = (next_of_three(at), last_of_three(at));
+                let (next, previous) = (next_of_three(at), previous_of_three(at));
                 let [across, beside] = [at, next].map(|i| t.complex.apex(cell.neighbour(i)));
-                [cell.corners[next], cell.corners[last], across, beside]
+                [cell.corners[next], cell.corners[previous], across, beside]
             });
-            let [next, last, across, beside] = [0, 1, 2, 3].map(|i| rows.map(|row| row[i]));
-            let are_ghosts = [next, last].iter().flatten().any(|&s| s == INFINITE);
-            let circle = predicates::circle(&center, &places(avx2, sites, next), &places(avx2, sites, last));
+            let [next, previous, across, beside] = [0, 1, 2, 3].map(|i| rows.map(|row| row[i]));
+            let are_ghosts = [next, previous].iter().flatten().any(|&s| s == INFINITE);
+            let circle =
+                predicates::circle(&center, &places(avx2, sites, next), &places(avx2, sites, previous));
             let [across_side, beside_side] = [across, beside]
                 .map(|s| predicates::side_of_circle(&circle, &center, &places(avx2, sites, s)));
             let is_none = avx2.are_equal(&across.map(SiteId::get), INFINITE.get());

@@ -15,7 +15,7 @@
 //! Invariant: the complex is not touched before the whole filling is known.
 
 use super::locate::{list_ring, list_star};
-use super::{Delaunay, Dimension, IndexSet};
+use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -101,18 +101,12 @@ impl<G: Dimension> Delaunay<G> {
 
     /// The same, where a cell of the star is known, as the site need not know one while there are flips.
     pub(super) fn gather_star_from(&mut self, first: Slot, s: SiteId) -> Result<()> {
-        let mut around = memory::take_made(&mut self.around)?;
-        let gathered = self.gather_star_into(&mut around, first, s);
-        self.around = Some(around);
-        gathered
-    }
-
-    fn gather_star_into(&mut self, around: &mut IndexSet<Slot>, first: Slot, s: SiteId) -> Result<()> {
         let (complex, star) = (&self.complex, &mut self.star);
         star.clear();
         if G::D == 2 {
             list_ring(complex, first, s, |c, at| memory::push(star, (c, at as u8)))?;
         } else {
+            let around = memory::made(&mut self.around)?;
             around.clear();
             list_star(complex, first, s, around, |_| {})?;
             let cells = around.as_slice();

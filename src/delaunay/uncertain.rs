@@ -17,6 +17,8 @@ use crate::simd::{ALL, Avx2, LANES, Lanes};
 
 /// Most cells of a block of many cells, by lane.
 const MANY: usize = 64 / LANES;
+/// As many as most stars in space have.
+const STAR: usize = 32 / LANES;
 
 /// What surely holds of some cells, by bounds of the cells' own if they have these.
 #[derive(Clone, Copy)]
@@ -99,7 +101,7 @@ impl<G: Dimension> Delaunay<G> {
     #[inline(always)]
     pub(super) fn star_holds_in_lanes(&self, avx2: Avx2, star: &[(Slot, u8)]) -> bool {
         let mut holds = true;
-        self.visit_uncertain_in_blocks::<false, 8>(avx2, star.iter().map(|&(c, _)| c), |_, _| {
+        self.visit_uncertain_in_blocks::<false, STAR>(avx2, star.iter().map(|&(c, _)| c), |_, _| {
             holds = false;
             false
         });

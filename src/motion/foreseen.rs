@@ -2,8 +2,8 @@
 //!
 //! A solver that visits all vertices reads the star of one, then of the next. Sites and cells are stored along a curve,
 //! so each star lies elsewhere, and five reads in turn wait for memory: the site, a cell of it, those beside that, and
-//! so on. What is asked for some vertices ahead has come when it is their turn. Who visits vertices in another order
-//! would wait for what nobody needs, so only the second and later ones of a block of ids are followed by others.
+//! so on. What is asked for some vertices ahead has come when it is their turn. In another order that would be wasted,
+//! and take time: so it is done only where a vertex of the same block of ids was asked for before.
 //!
 //! Invariant: none. This decides on hints to the processor, and any thread may note any vertex at any time.
 //!
@@ -19,7 +19,7 @@ use crate::machine::prefetch::CACHE_BYTES;
 /// How many vertices with consecutive ids are a block.
 const BLOCK: u32 = 64;
 
-/// How many blocks are known: as many threads can visit vertices, each some of its own.
+/// How many blocks are remembered, so that this number of threads can each visit vertices of its own.
 const BLOCKS: usize = 16;
 
 /// How many ids after the one at hand a vertex is in each of the [steps](crate::delaunay::Delaunay::prefetch_star).
@@ -45,10 +45,10 @@ impl Foreseen {
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Asks for what the stars of the vertices after this one will read, where that is not in a cache anyway and is
-    /// going to be needed. There must be cells.
+    /// going to be needed.
     #[inline(always)]
     pub(super) fn prefetch_next_stars(&self, vertex: VertexId) {
-        if self.kernel.bytes_read() > CACHE_BYTES && self.foreseen.note(vertex) {
+        if self.kernel.has_cells() && self.kernel.bytes_read() > CACHE_BYTES && self.foreseen.note(vertex) {
             self.prefetch_stars_after(vertex);
         }
     }

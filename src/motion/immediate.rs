@@ -37,9 +37,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if old == q {
             return Ok(());
         }
-        if self.kernel.has_cells() {
-            self.prefetch_next_stars(vertex);
-        }
+        self.prefetch_next_stars(vertex);
         let before = self.evaluations();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };
         let relocated = self.transact(|t| {

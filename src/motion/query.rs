@@ -98,9 +98,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let s = self.present_site("vertex", 0, vertex)?;
         let cells = self.cell_arrays()?;
         let index_of = cells.index_of();
-        if self.kernel.has_cells() {
-            self.prefetch_next_stars(vertex);
-        }
+        self.prefetch_next_stars(vertex);
         self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot.index()))?;
         // Whoever asks for a star goes on to read the rows of its cells.
         let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index.index()));
