@@ -202,9 +202,10 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Whether the static bound is of the order of in-sphere determinants, and so decides little: that of clusters, of
-    /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells.
+    /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells;
+    /// that of few sites is good enough.
     fn is_filter_weak(&self, order: &[SiteId]) -> bool {
-        if self.filter.is_exact {
+        if self.filter.is_exact || order.len() <= SHORT_RUN {
             return false;
         }
         let step = (order.len() / SAMPLED_PAIRS).max(1);
@@ -378,9 +379,13 @@ impl<G: Dimension> Delaunay<G> {
         Ok((t, index))
     }
 
-    /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve.
+    /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve. Zero of
+    /// sites that follow none, as they are few.
     pub(crate) fn mean_stride(&self) -> f64 {
         let sites = &self.sites[1..];
+        if sites.len() <= SHORT_RUN {
+            return 0.0;
+        }
         let step = (sites.len() / STRIDES).max(1);
         let (mut sum, mut n) = (0.0, 0.0);
         let mut rest = sites;

@@ -3,13 +3,13 @@
 //! Each edge of the rim is seen once in each direction: the facet that sees it as `kl` meets the one that sees it as
 //! `lk`. The meeting place is a square table over local labels of the rim's sites (a small one on the stack until the
 //! first rim that is too large for it: triangulations of few sites would spend half their time to clear the large one);
-//! a label is kept in the site's `cell` field, which the insertion overwrites anyway, and holds if the list of labels
-//! agrees. Whether it does cannot be predicted, so both ways are written and one is kept.
+//! a label is kept in the site's `cell` field, which the insertion overwrites anyway, and is greater than any slot.
+//! Whether there is one cannot be predicted, so both ways are written and one is kept.
 
 use std::hint::select_unpredictable;
 
 use super::{Delaunay, Space};
-use crate::complex::{Facet, INFINITE};
+use crate::complex::{Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -19,9 +19,15 @@ pub(super) const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
 const MAX_LABELS: usize = 64;
 const TABLE: usize = MAX_LABELS * MAX_LABELS;
 
+/// Added to labels, so that they are greater than all slots.
+const NO_SLOT: u32 = MAX_CELLS.next_power_of_two() as u32;
+
 /// Rims up to this size go through a smaller table, which takes no memory of its own, until there is a larger one.
 const FEW_LABELS: usize = 16;
 pub(super) const FEW_RIM: usize = 2 * (FEW_LABELS - 2);
+
+/// Up to this number of sites, the ghost vertex included, each is its own label.
+const FEW_SITES: usize = 8;
 
 /// A facet of the rim, the cell that joins it to the site, and beside it, where that is no matter of the facet, a cell
 /// of the zone.
@@ -51,18 +57,14 @@ impl Row {
 #[derive(Debug, Default)]
 pub(super) struct Meetings(Option<Box<Room>>);
 
+/// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
 #[derive(Debug)]
-struct Room {
-    /// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
-    table: [Facet; TABLE],
-    /// The site of each label.
-    labels: [SiteId; MAX_LABELS],
-}
+struct Room([Facet; TABLE]);
 
 impl Default for Room {
     #[inline(always)]
     fn default() -> Self {
-        Room { table: [Facet::new(Slot::new(0), 0); TABLE], labels: [INFINITE; MAX_LABELS] }
+        Room([Facet::new(Slot::new(0), 0); TABLE])
     }
 }
 
@@ -84,10 +86,34 @@ impl Meetings {
             return glue_sorted(t, rim, ridges);
         }
         match &mut self.0 {
-            Some(room) => glue_by_table(t, rim, &mut room.table, &mut room.labels),
+            Some(room) => glue_by_table::<MAX_LABELS, _>(t, rim, &mut room.0, labels()),
+            None if t.sites.len() <= FEW_SITES => glue_by_sites(t, rim),
             None => glue_few(t, rim),
         }
     }
+}
+
+/// Labels for the sites of one rim, each of them at its first and at all further calls.
+#[inline(always)]
+fn labels() -> impl FnMut(&mut Delaunay<Space>, SiteId) -> usize {
+    let mut next = NO_SLOT;
+    move |t, v| {
+        let site = t.corner_mut(v);
+        let old = site.cell.get();
+        let is_known = old >= NO_SLOT;
+        let label = select_unpredictable(is_known, old, next);
+        site.cell = Slot::new(label);
+        next += !is_known as u32;
+        (label - NO_SLOT) as usize
+    }
+}
+
+/// As the table of [`Meetings`], of [`FEW_SITES`] at most.
+#[cold]
+#[inline(never)]
+fn glue_by_sites(t: &mut Delaunay<Space>, rim: &mut [Row]) {
+    let mut table = [Facet::new(Slot::new(0), 0); FEW_SITES * FEW_SITES];
+    glue_by_table::<FEW_SITES, _>(t, rim, &mut table, |_, v| v.index());
 }
 
 /// As the table of [`Meetings`], for a rim of [`FEW_RIM`] facets at most.
@@ -95,7 +121,7 @@ impl Meetings {
 #[inline(never)]
 fn glue_few(t: &mut Delaunay<Space>, rim: &mut [Row]) {
     let mut table = [Facet::new(Slot::new(0), 0); FEW_LABELS * FEW_LABELS];
-    glue_by_table(t, rim, &mut table, &mut [INFINITE; FEW_LABELS]);
+    glue_by_table::<FEW_LABELS, _>(t, rim, &mut table, labels());
 }
 
 /// Glues by a table of `LABELS` times `LABELS` entries.
@@ -104,23 +130,12 @@ fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
     t: &mut Delaunay<Space>,
     rim: &mut [Row],
     table: &mut [Facet; ENTRIES],
-    labels: &mut [SiteId; LABELS],
+    mut label: impl FnMut(&mut Delaunay<Space>, SiteId) -> usize,
 ) {
-    let mut n_labels = 0;
     for row in rim.iter_mut() {
         let cell = row.cell;
-        let mut label = |v: SiteId| {
-            let site = t.corner_mut(v);
-            let old = site.cell.get();
-            let is_known = (old < n_labels) & (labels[old as usize % LABELS] == v);
-            let label = select_unpredictable(is_known, old, n_labels);
-            labels[label as usize % LABELS] = v;
-            site.cell = Slot::new(label);
-            n_labels += !is_known as u32;
-            label as usize
-        };
         let [_, k, l, m] = row.corners;
-        let (k, l, m) = (label(k), label(l), label(m));
+        let (k, l, m) = (label(t, k), label(t, l), label(t, m));
         row.local = [0, k as u8, l as u8, m as u8];
         table[(l * LABELS + m) % ENTRIES] = Facet::new(cell, 1);
         table[(m * LABELS + k) % ENTRIES] = Facet::new(cell, 2);

@@ -69,6 +69,26 @@ fn the_latest_are_taken_first() {
     }
 }
 
+/// What one word held is there when more are made, all levels of it.
+#[test]
+fn few_slots_become_many() {
+    let mut free = FreeSlots::default();
+    free.cover(WORD).expect("room");
+    (0..WORD).step_by(3).for_each(|slot| free.set(Slot::at(slot), true));
+    assert_eq!(free.memory_bytes(), 0);
+    let few = slots(&free);
+    free.cover(100 * WORD).expect("room");
+    assert_eq!((slots(&free), free.len()), (few.clone(), few.len()));
+    free.set(Slot::at(99 * WORD), true);
+    let copy = free.copied().expect("room");
+    assert_eq!(slots(&copy), slots(&free));
+    // From far away, by the upper levels.
+    let far = Slot::at(50 * WORD);
+    let taken: BTreeSet<usize> = std::iter::from_fn(|| free.take_near(far)).map(Slot::index).collect();
+    assert_eq!(taken, slots(&copy));
+    assert_eq!(free.words(), [&vec![0; 100][..], &[0; 2], &[0]]);
+}
+
 #[test]
 fn ranges_have_their_own_and_come_together() {
     let rng = &mut Rng::new(2);
@@ -109,6 +129,6 @@ fn ranges_have_their_own_and_come_together() {
         let mut again = FreeSlots::default();
         again.cover(n_slots).expect("room");
         expected.iter().for_each(|&slot| again.set(Slot::at(slot), true));
-        assert_eq!(again.levels, free.levels);
+        assert_eq!(again.words(), free.words());
     }
 }
