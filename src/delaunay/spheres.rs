@@ -238,6 +238,8 @@ fn prepare<const BY_LENGTHS: bool>(
     id: VertexId,
     known: u8,
 ) -> u8 {
+    // Where one cell is not there, the next ones are neither.
+    t.complex.prefetch_neighbours(cell);
     put::<BY_LENGTHS>(entries, t, cell, &t.complex.cell(cell).corners);
     is_inside::<BY_LENGTHS>(entry(entries, cell), t, q, id, known)
 }
