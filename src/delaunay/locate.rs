@@ -184,13 +184,45 @@ impl<G: Dimension> Delaunay<G> {
             self.complex.prefetch_neighbours(c);
             self.prefetch_corners(c);
         }
-        if let Some(&c) = cells.get(k + STEP)
-            && !self.complex.is_free(c)
-        {
-            let cell = self.complex.cell(c);
-            for i in 0..G::Corners::N {
-                prefetch(&self.sites, self.complex.apex(cell.neighbour(i)).index());
-            }
+        if let Some(&c) = cells.get(k + STEP) {
+            self.prefetch_apexes(c);
+        }
+    }
+
+    /// The same of a visit of all cells in the order of their slots, after that of `c`.
+    #[inline(always)]
+    pub(crate) fn prefetch_around_cells_after(&self, c: Slot) {
+        if let Some(c) = self.prefetch_neighbours_after(c) {
+            self.prefetch_corners(c);
+        }
+        if let Some(c) = self.slot_after(c, STEP) {
+            self.prefetch_apexes(c);
+        }
+    }
+
+    /// Asks for the neighbours of a cell after `c`, which need not exist; returns that cell.
+    #[inline(always)]
+    pub(super) fn prefetch_neighbours_after(&self, c: Slot) -> Option<Slot> {
+        let c = self.slot_after(c, 2 * STEP)?;
+        self.complex.prefetch_neighbours(c);
+        Some(c)
+    }
+
+    /// The slot `n` after this one, if there is any.
+    #[inline(always)]
+    fn slot_after(&self, c: Slot, n: usize) -> Option<Slot> {
+        Some(Slot::at(c.index() + n)).filter(|c| c.index() < self.complex.n_slots())
+    }
+
+    /// Asks for the sites beyond the facets of a cell, unless it is free.
+    #[inline(always)]
+    fn prefetch_apexes(&self, c: Slot) {
+        if self.complex.is_free(c) {
+            return;
+        }
+        let cell = self.complex.cell(c);
+        for i in 0..G::Corners::N {
+            prefetch(&self.sites, self.complex.apex(cell.neighbour(i)).index());
         }
     }
 

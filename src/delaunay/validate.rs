@@ -134,6 +134,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         let n = G::Corners::N;
         for c in self.complex.live() {
+            self.prefetch_neighbours_after(c);
             let cell = self.complex.cell(c);
             for i in 0..n {
                 let s = cell.corners[i];
@@ -376,6 +377,7 @@ impl<G: Dimension> Delaunay<G> {
 
     fn check_spheres(&self) -> Check {
         for c in self.complex.finite() {
+            self.prefetch_around_cells_after(c);
             for i in 0..G::Corners::N {
                 let facet = Facet::new(c, i);
                 ensure(self.is_locally_delaunay(facet), Level::Delaunay, || {

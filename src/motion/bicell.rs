@@ -3,6 +3,7 @@
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::ids::{SiteId, VertexId};
+use crate::machine::prefetch::CACHE_BYTES;
 use crate::predicates::{Delimiter, Tolerances};
 
 /// The corners of a bi-cell that are not the ghost vertex.
@@ -87,8 +88,12 @@ impl<'k, G: Dimension> BiCell<'k, G> {
 #[inline(always)]
 pub(super) fn for_bicells<G: Dimension>(kernel: &Delaunay<G>, mut visit: impl FnMut(Facet)) -> u64 {
     let complex = kernel.complex();
+    let is_far = kernel.bytes_read() > CACHE_BYTES;
     let mut n = 0;
     for c in complex.live() {
+        if is_far {
+            kernel.prefetch_around_cells_after(c);
+        }
         for i in 0..G::Corners::N {
             if c < complex.cell(c).neighbour(i).cell() {
                 visit(Facet::new(c, i));
