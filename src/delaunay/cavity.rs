@@ -129,8 +129,12 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<Insertion> {
         let q = self.site(s).point;
         let Cavity { scratch, steps } = cavity;
-        let is_inside = |cell| BUILD && scratch.is_inside(&self.filter, cell, &q);
-        let (start, is_inside) = self.walk_until(&self.filter, &q, near, steps, is_inside);
+        let (start, is_inside) = if BUILD {
+            let is_inside = |cell| scratch.is_inside(&self.filter, cell, &q);
+            self.walk_until(&self.filter, &q, near, steps, is_inside)
+        } else {
+            (self.walk(&self.filter, &q, near, steps), false)
+        };
         // What is inside the sphere of a cell is at no site.
         if !is_inside && let Some(t) = self.corner_at(start, &q) {
             return Ok(Insertion::Coincident(t));

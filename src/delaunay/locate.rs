@@ -32,7 +32,12 @@ impl<G: Dimension> Delaunay<G> {
     /// Cell where a walk to `q` from the cell `start` ends. `f` must hold for `q`. Counts its steps.
     #[inline(always)]
     pub(super) fn walk(&self, f: &StaticFilter, q: &G::Point, start: Slot, steps: &mut u64) -> Slot {
-        self.walk_until(f, q, start, steps, |_| false).0
+        // Whichever cell is next comes while it is found out which that is.
+        let is_enough = |cell| {
+            self.complex.prefetch_neighbours(cell);
+            false
+        };
+        self.walk_until(f, q, start, steps, is_enough).0
     }
 
     /// As [`walk`](Self::walk), but a finite cell that is enough ends it, too; whether one has.
