@@ -100,6 +100,7 @@ fn labels() -> impl FnMut(&mut Delaunay<Space>, SiteId) -> usize {
     move |t, v| {
         let site = t.corner_mut(v);
         let old = site.cell.get();
+        debug_assert!(old < NO_SLOT + MAX_LABELS as u32, "a corner of a cell names a cell, or has a label");
         let is_known = old >= NO_SLOT;
         let label = select_unpredictable(is_known, old, next);
         site.cell = Slot::new(label);
