@@ -34,7 +34,7 @@ const HALF: usize = MOST / 2;
 pub(super) struct FreeSlots {
     /// Bits of those that are not in hand; empty while all slots are in [`first_words`](Self::first_words).
     levels: [Vec<u64>; LEVELS],
-    /// The same for few slots, one word at each level: a set of a few points has few other arrays.
+    /// The same for few slots, one word at each level, so that a set of a few points needs fewer arrays.
     first_words: [u64; LEVELS],
     in_hand: InHand,
     /// Of all.
@@ -295,8 +295,8 @@ impl FreeSlots {
     }
 
     pub(super) fn copied(&self) -> Result<Self> {
-        let (levels, first_words) = (Default::default(), self.first_words);
-        let mut copy = FreeSlots { levels, first_words, in_hand: self.in_hand.clone(), n: self.n };
+        let (first_words, in_hand) = (self.first_words, self.in_hand.clone());
+        let mut copy = FreeSlots { first_words, in_hand, n: self.n, ..FreeSlots::default() };
         for (copied, level) in copy.levels.iter_mut().zip(&self.levels) {
             *copied = memory::copy_of(level)?;
         }

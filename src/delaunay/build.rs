@@ -203,7 +203,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether the static bound is of the order of in-sphere determinants, and so decides little: that of clusters, of
     /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells;
-    /// that of few sites is good enough.
+    /// with a few sites it would take longer than it saves.
     fn is_filter_weak(&self, order: &[SiteId]) -> bool {
         if self.filter.is_exact || order.len() <= SHORT_RUN {
             return false;
@@ -379,8 +379,8 @@ impl<G: Dimension> Delaunay<G> {
         Ok((t, index))
     }
 
-    /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve. Zero of
-    /// sites that follow none, as they are few.
+    /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve. Zero
+    /// where there are too few sites to be sorted along one.
     pub(crate) fn mean_stride(&self) -> f64 {
         let sites = &self.sites[1..];
         if sites.len() <= SHORT_RUN {

@@ -168,11 +168,9 @@ impl<G: Dimension> Delaunay<G> {
             _ => {
                 let first = self.complex.cell(self.site(s).cell);
                 for i in 0..G::Corners::N {
-                    let next = self.complex.cell(first.neighbour(i).cell());
-                    for &corner in next.corners.as_ref() {
-                        prefetch(&self.sites, corner.index());
-                    }
-                    self.complex.prefetch_neighbours(first.neighbour(i).cell());
+                    let next = first.neighbour(i).cell();
+                    self.prefetch_corners(next);
+                    self.complex.prefetch_neighbours(next);
                 }
             }
         }
@@ -205,7 +203,7 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Asks for the neighbours of a cell after `c`, which need not exist; returns that cell.
+    /// Asks for the neighbours of a cell some slots after `c`, even if they do not exist; returns that cell.
     #[inline(always)]
     pub(super) fn prefetch_neighbours_after(&self, c: Slot) -> Option<Slot> {
         let c = self.slot_after(c, 2 * STEP)?;

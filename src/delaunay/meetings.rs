@@ -19,8 +19,8 @@ pub(super) const SMALL_RIM: usize = 2 * (MAX_LABELS - 2);
 const MAX_LABELS: usize = 64;
 const TABLE: usize = MAX_LABELS * MAX_LABELS;
 
-/// Added to labels, so that they are greater than all slots.
-const NO_SLOT: u32 = MAX_CELLS.next_power_of_two() as u32;
+/// The first label: all are greater than any slot.
+const FIRST_LABEL: u32 = MAX_CELLS.next_power_of_two() as u32;
 
 /// Rims up to this size go through a smaller table, which takes no memory of its own, until there is a larger one.
 const FEW_LABELS: usize = 16;
@@ -96,20 +96,23 @@ impl Meetings {
 /// Labels for the sites of one rim, each of them at its first and at all further calls.
 #[inline(always)]
 fn labels() -> impl FnMut(&mut Delaunay<Space>, SiteId) -> usize {
-    let mut next = NO_SLOT;
+    let mut next = FIRST_LABEL;
     move |t, v| {
         let site = t.corner_mut(v);
         let old = site.cell.get();
-        debug_assert!(old < NO_SLOT + MAX_LABELS as u32, "a corner of a cell names a cell, or has a label");
-        let is_known = old >= NO_SLOT;
+        debug_assert!(
+            old < FIRST_LABEL + MAX_LABELS as u32,
+            "a corner of a cell names a cell, or has a label"
+        );
+        let is_known = old >= FIRST_LABEL;
         let label = select_unpredictable(is_known, old, next);
         site.cell = Slot::new(label);
         next += !is_known as u32;
-        (label - NO_SLOT) as usize
+        (label - FIRST_LABEL) as usize
     }
 }
 
-/// As the table of [`Meetings`], of [`FEW_SITES`] at most.
+/// As the table of [`Meetings`], where there are [`FEW_SITES`] sites at most, each its own label.
 #[cold]
 #[inline(never)]
 fn glue_by_sites(t: &mut Delaunay<Space>, rim: &mut [Row]) {

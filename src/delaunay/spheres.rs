@@ -238,7 +238,7 @@ fn prepare<const BY_LENGTHS: bool>(
     id: VertexId,
     known: u8,
 ) -> u8 {
-    // Where one cell is not there, the next ones are neither.
+    // Where one is missing in the table, so are its neighbours, which are looked at next.
     t.complex.prefetch_neighbours(cell);
     put::<BY_LENGTHS>(entries, t, cell, &t.complex.cell(cell).corners);
     is_inside::<BY_LENGTHS>(entry(entries, cell), t, q, id, known)
