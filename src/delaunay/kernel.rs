@@ -13,7 +13,7 @@ use super::uncertain::Held;
 use crate::complex::{Corners, Facet, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::StaticFilter;
-use crate::simd::{Avx2, LANES};
+use crate::simd::{Avx2, LANES, Lanes};
 
 /// The predicates of a dimension, and the steps of algorithms that differ. `G` is the dimension itself: a supertrait of
 /// [`Dimension`] can name its types only by a parameter.
@@ -108,12 +108,13 @@ pub trait Kernel<G: Dimension> {
     /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
     fn flip(flipper: &mut Flipper<G>, facet: Facet, flips: &mut Flips<G>) -> Result<(), Obstacle>;
 
-    /// Exchanges places with those of sites, by index; returns how many differ, bit by bit. All is read before anything
-    /// is written.
+    /// Exchanges places with those of sites; returns how many differ, bit by bit. Widens a box, its lower and its upper
+    /// corner, to the places that the sites get: lane `k` of both is of the axis that is `k` modulo the least power of
+    /// two that is not less than the dimension, and of none where there is no such axis.
     fn exchange(
         avx2: Avx2,
         places: &mut [G::Point; LANES],
-        sites: &mut [Site<G>],
-        sites_of: &[SiteId; LANES],
+        sites: [&mut Site<G>; LANES],
+        covered: &mut [Lanes; 2],
     ) -> u64;
 }

@@ -208,25 +208,24 @@ impl Kernel<Plane> for Plane {
     fn exchange(
         avx2: Avx2,
         places: &mut [[f64; 2]; LANES],
-        sites: &mut [Site<Plane>],
-        sites_of: &[SiteId; LANES],
+        [s, t, u, v]: [&mut Site<Plane>; LANES],
+        [lower, upper]: &mut [Lanes; 2],
     ) -> u64 {
-        let [s, t, u, v] = sites_of.map(SiteId::index);
+        /// How many pairs of bits differ from 3.
+        const N_PAIRS: [u8; 1 << LANES] = [2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 2, 1, 1, 1, 1, 0];
         let (first, last) = halves(places);
         let new = [avx2.load(first), avx2.load(last)];
-        let old = [
-            avx2.two_pairs(&sites[s].point, &sites[t].point),
-            avx2.two_pairs(&sites[u].point, &sites[v].point),
-        ];
-        new[0].store_low_to(&mut sites[s].point);
-        new[0].store_high_to(&mut sites[t].point);
-        new[1].store_low_to(&mut sites[u].point);
-        new[1].store_high_to(&mut sites[v].point);
+        let old = [avx2.two_pairs(&s.point, &t.point), avx2.two_pairs(&u.point, &v.point)];
+        new[0].store_low_to(&mut s.point);
+        new[0].store_high_to(&mut t.point);
+        new[1].store_low_to(&mut u.point);
+        new[1].store_high_to(&mut v.point);
         old[0].store_to(first);
         old[1].store_to(last);
-        let same = [new[0].are_same(old[0]).bits(), new[1].are_same(old[1]).bits()];
-        let same = [same[0] & 3, same[0] >> 2, same[1] & 3, same[1] >> 2];
-        same.iter().map(|&bits| u64::from(bits != 3)).sum()
+        *lower = lower.min(new[0].min(new[1]));
+        *upper = upper.max(new[0].max(new[1]));
+        let [first, last] = [0, 1].map(|k| N_PAIRS[new[k].are_same(old[k]).bits() as usize]);
+        u64::from(first + last)
     }
 }
 

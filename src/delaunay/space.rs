@@ -210,10 +210,9 @@ impl Kernel<Space> for Space {
     fn exchange(
         avx2: Avx2,
         places: &mut [[f64; 3]; LANES],
-        sites: &mut [Site<Space>],
-        sites_of: &[SiteId; LANES],
+        [s, t, u, v]: [&mut Site<Space>; LANES],
+        [lower, upper]: &mut [Lanes; 2],
     ) -> u64 {
-        let [s, t, u, v] = sites_of.map(SiteId::index);
         let places = places.as_flattened_mut();
         let new = [
             avx2.load(from(places, 0)),
@@ -222,11 +221,13 @@ impl Kernel<Space> for Space {
             avx2.load(from(places, 8)).rotated(),
         ];
         let old = [
-            avx2.load(sites[s].padded()),
-            avx2.load(sites[t].padded()),
-            avx2.load(sites[u].padded()),
-            avx2.load(sites[v].padded()),
+            avx2.load(s.padded()),
+            avx2.load(t.padded()),
+            avx2.load(u.padded()),
+            avx2.load(v.padded()),
         ];
+        *lower = lower.min(new[0].min(new[1]).min(new[2].min(new[3])));
+        *upper = upper.max(new[0].max(new[1]).max(new[2].max(new[3])));
         // What is behind a site's point stays.
         let new = [
             new[0].with_last_of(old[0]),
@@ -234,10 +235,10 @@ impl Kernel<Space> for Space {
             new[2].with_last_of(old[2]),
             new[3].with_last_of(old[3]),
         ];
-        new[0].store_to(sites[s].padded_mut());
-        new[1].store_to(sites[t].padded_mut());
-        new[2].store_to(sites[u].padded_mut());
-        new[3].store_to(sites[v].padded_mut());
+        new[0].store_to(s.padded_mut());
+        new[1].store_to(t.padded_mut());
+        new[2].store_to(u.padded_mut());
+        new[3].store_to(v.padded_mut());
         // Each has one number too many, which the next one mends.
         old[0].store_to(from(places, 0));
         old[1].store_to(from(places, 3));

@@ -24,7 +24,7 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch, prefetch_at};
 use crate::machine::{memory, threads};
 use crate::predicates::{are_within, distance_above};
-use crate::simd::{ALL, Avx2, LANES};
+use crate::simd::{ALL, Avx2, LANES, Lanes};
 
 /// Moves of this number of vertices take a few times as long as a thread takes to wake up.
 const MOVED_AT_LEAST: usize = 1 << 14;
@@ -155,7 +155,11 @@ impl<G: Dimension> MovingTriangulation<G> {
                             are_within(avx2, fixed, &tolerances, places.each_ref())
                         },
                         #[inline(always)]
-                        |movers, places, sites_of| G::exchange(avx2, places, movers.sites, sites_of),
+                        |movers, places, sites_of| {
+                            // SAFETY: every vertex has a site of its own.
+                            let sites = unsafe { sites_at(movers.sites.as_mut_ptr(), sites_of) };
+                            G::exchange(avx2, places, sites, &mut [avx2.splat(0.0); 2])
+                        },
                     )
                 },
             );
@@ -359,11 +363,39 @@ impl<G: Dimension> Moved<G> {
     #[inline(always)]
     fn hold(&mut self, lower: &G::Point, upper: &G::Point) {
         for axis in 0..G::D {
-            let (least, greatest) = (&mut self.lower[axis], &mut self.upper[axis]);
-            *least = if lower[axis] < *least { lower[axis] } else { *least };
-            *greatest = if upper[axis] > *greatest { upper[axis] } else { *greatest };
+            self.hold_along(axis, lower[axis], upper[axis]);
         }
     }
+
+    #[inline(always)]
+    fn hold_along(&mut self, axis: usize, lower: f64, upper: f64) {
+        let (least, greatest) = (&mut self.lower[axis], &mut self.upper[axis]);
+        *least = if lower < *least { lower } else { *least };
+        *greatest = if upper > *greatest { upper } else { *greatest };
+    }
+
+    /// Holds a box in lanes, as [`exchange`](crate::delaunay::kernel::Kernel::exchange) has them.
+    fn hold_lanes(&mut self, [lower, upper]: [Lanes; 2]) {
+        for (lane, (lower, upper)) in lower.store().into_iter().zip(upper.store()).enumerate() {
+            let axis = lane % G::D.next_power_of_two();
+            if axis < G::D {
+                self.hold_along(axis, lower, upper);
+            }
+        }
+    }
+}
+
+/// Several sites.
+///
+/// # Safety
+/// These are indices of the sites that begin there, no two the same, and nobody else uses them meanwhile.
+#[inline(always)]
+unsafe fn sites_at<'s, G: Dimension>(
+    start: *mut Site<G>,
+    sites_of: &[SiteId; LANES],
+) -> [&'s mut Site<G>; LANES] {
+    // SAFETY: the caller's promise.
+    sites_of.map(|s| unsafe { &mut *start.add(s.index()) })
 }
 
 /// Sites that several threads move, each some of them.
@@ -405,28 +437,88 @@ impl<G: Dimension> SharedSites<G> {
             moved.hold(&more.lower, &more.upper);
             return moved;
         }
+        let Some(avx2) = Avx2::new() else {
+            // SAFETY: the caller's promise.
+            return unsafe {
+                self.move_blocks(positions, given, sites_of, |sites, moved, places, sites_of| {
+                    places.iter_mut().zip(sites_of).for_each(|(p, &s)| sites.move_one(p, s, moved));
+                })
+            };
+        };
+        let mut covered = [avx2.splat(f64::INFINITY), avx2.splat(f64::NEG_INFINITY)];
+        let mut moved = avx2.run_with(
+            self,
+            (positions, given, sites_of),
+            &mut covered,
+            #[inline(always)]
+            |sites, (positions, given, sites_of), covered| {
+                // SAFETY: the caller's promise.
+                unsafe {
+                    sites.move_blocks(
+                        positions,
+                        given,
+                        sites_of,
+                        #[inline(always)]
+                        |sites, moved, places, sites_of| {
+                            let sites = sites_at(sites.start, sites_of);
+                            moved.n += G::exchange(avx2, places, sites, covered);
+                        },
+                    )
+                }
+            },
+        );
+        moved.hold_lanes(covered);
+        moved
+    }
+
+    /// As [`move_all`](Self::move_all), block by block, and by an exchange of several positions.
+    ///
+    /// # Safety
+    /// As for [`move_all`](Self::move_all).
+    #[inline(always)]
+    unsafe fn move_blocks(
+        self,
+        positions: &mut [G::Point],
+        given: Option<&[G::Point]>,
+        sites_of: &[SiteId],
+        mut exchange: impl FnMut(Self, &mut Moved<G>, &mut [G::Point; LANES], &[SiteId; LANES]),
+    ) -> Moved<G> {
+        debug_assert!(sites_of.iter().all(|s| s.index() < self.n));
         let is_far = self.n * size_of::<Site<G>>() > CACHE_BYTES;
         let mut moved = Moved::none();
         for (first, positions) in (0..).step_by(BLOCK).zip(positions.chunks_mut(BLOCK)) {
+            let sites_of = &sites_of[first..];
             if let Some(given) = given {
                 // SAFETY: these are indices of sites that nobody else uses.
-                let place = |k: usize| unsafe { (*self.start.add(sites_of[first + k].index())).point };
+                let place = |k: usize| unsafe { (*self.start.add(sites_of[k].index())).point };
                 moved.are_good &= stage_good::<G>(positions, &given[first..], place);
             }
-            let sites_of = &sites_of[first..];
-            for (k, (p, &s)) in positions.iter_mut().zip(sites_of).enumerate() {
-                if is_far && let Some(&next) = sites_of.get(k + AHEAD) {
-                    prefetch_at(self.start.wrapping_add(next.index()));
+            let (places, last_places) = positions.as_chunks_mut::<LANES>();
+            let (at, last_at) = sites_of[..LANES * places.len() + last_places.len()].as_chunks::<LANES>();
+            for (k, (places, at)) in places.iter_mut().zip(at).enumerate() {
+                if is_far && let Some(next) = sites_of.get(k * LANES + AHEAD..) {
+                    next.iter().take(LANES).for_each(|s| prefetch_at(self.start.wrapping_add(s.index())));
                 }
-                moved.hold(p, p);
-                let s = s.index();
-                debug_assert!(s < self.n);
-                // SAFETY: `s` is the index of a site that nobody else uses.
-                let point = unsafe { &mut (*self.start.add(s)).point };
-                moved.n += u64::from(exchange::<G>(point, p));
+                exchange(self, &mut moved, places, at);
+            }
+            for (p, &s) in last_places.iter_mut().zip(last_at) {
+                // SAFETY: the caller's promise.
+                unsafe { self.move_one(p, s, &mut moved) };
             }
         }
         moved
+    }
+
+    /// Exchanges a position with that of a site.
+    ///
+    /// # Safety
+    /// As for [`move_all`](Self::move_all).
+    #[inline(always)]
+    unsafe fn move_one(self, p: &mut G::Point, s: SiteId, moved: &mut Moved<G>) {
+        moved.hold(p, p);
+        // SAFETY: `s` is the index of a site that nobody else uses.
+        let point = unsafe { &mut (*self.start.add(s.index())).point };
+        moved.n += u64::from(exchange::<G>(point, p));
     }
 }
 
