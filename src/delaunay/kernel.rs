@@ -10,6 +10,7 @@ use super::dimension::Dimension;
 use super::flip::{Flipper, Flips};
 use super::site::{Site, Sites};
 use super::uncertain::Held;
+use super::winding::Ray;
 use crate::complex::{Corners, Facet, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::StaticFilter;
@@ -93,6 +94,26 @@ pub trait Kernel<G: Dimension> {
         sites: Sites<G>,
         cells: &[G::Corners; LANES],
         others: &[SiteId; LANES],
+    ) -> u32;
+
+    /// Of several ghosts, where the ray from `o` through `aim` goes.
+    fn ray(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<G>,
+        ghosts: &[G::Corners; LANES],
+        o: &G::Point,
+        aim: &G::Point,
+    ) -> Ray;
+
+    /// Of several ghosts, each with the finite corners across its ridges: whether the hull surely is convex at all of
+    /// them, one bit each.
+    fn are_convex(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<G>,
+        ghosts: &[G::Corners; LANES],
+        across: [&[SiteId; LANES]; 3],
     ) -> u32;
 
     /// Whether the two cells of a facet, both finite, surely are positively oriented, and it passes the empty-sphere

@@ -72,6 +72,7 @@ mod uncertain;
 mod undo;
 mod unite;
 mod validate;
+mod winding;
 mod wrapping;
 
 pub use build::Merge;

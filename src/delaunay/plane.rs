@@ -6,6 +6,7 @@ use super::kernel::Kernel;
 use super::locate::{next_of_three, previous_of_three};
 use super::site::{Site, Sites};
 use super::uncertain::{Held, apexes_beyond, corners_at};
+use super::winding::Ray;
 use super::{Delaunay, cavity_plane};
 use crate::complex::{Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
@@ -159,6 +160,35 @@ impl Kernel<Plane> for Plane {
         let circle = predicates::circle(&a, &b, &c);
         let side = predicates::side_of_circle(&circle, &a, &places(avx2, sites, *others));
         side.is_less(avx2.splat(-f.prepared)).bits()
+    }
+
+    #[inline(always)]
+    fn ray(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Plane>,
+        ghosts: &[[SiteId; 3]; LANES],
+        o: &[f64; 2],
+        aim: &[f64; 2],
+    ) -> Ray {
+        let [a, b] = [0, 1].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
+        let [o, aim] = [o, aim].map(|p| p.map(|x| avx2.splat(x)));
+        Ray::of(avx2, f, predicates::ray_and_segment([&a, &b], &o, &aim))
+    }
+
+    #[inline(always)]
+    fn are_convex(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Plane>,
+        ghosts: &[[SiteId; 3]; LANES],
+        across: [&[SiteId; LANES]; 3],
+    ) -> u32 {
+        let [a, b] = [0, 1].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
+        let bound = avx2.splat(-f.orient);
+        let [first, last] =
+            [across[0], across[1]].map(|s| predicates::area(&a, &b, &places(avx2, sites, *s)).is_less(bound));
+        (first & last).bits()
     }
 
     #[inline(always)]

@@ -5,6 +5,7 @@ use super::flip::{Flipper, Flips};
 use super::kernel::Kernel;
 use super::site::{Site, Sites};
 use super::uncertain::{Held, apexes_beyond, corners_at};
+use super::winding::Ray;
 use super::{Delaunay, cavity_space};
 use crate::complex::{Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
@@ -132,6 +133,34 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
+    fn ray(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Space>,
+        ghosts: &[[SiteId; 4]; LANES],
+        o: &[f64; 3],
+        aim: &[f64; 3],
+    ) -> Ray {
+        let [a, b, c] = [0, 1, 2].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
+        let [o, aim] = [o, aim].map(|p| p.map(|x| avx2.splat(x)));
+        Ray::of(avx2, f, predicates::ray_and_triangle([&a, &b, &c], &o, &aim))
+    }
+
+    #[inline(always)]
+    fn are_convex(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Space>,
+        ghosts: &[[SiteId; 4]; LANES],
+        across: [&[SiteId; LANES]; 3],
+    ) -> u32 {
+        let [a, b, c] = [0, 1, 2].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
+        let volumes = predicates::volumes_over([&a, &b, &c], across.map(|s| places(avx2, sites, *s)));
+        let bound = avx2.splat(-f.orient);
+        (volumes[0].is_less(bound) & volumes[1].is_less(bound) & volumes[2].is_less(bound)).bits()
+    }
+
+    #[inline(always)]
     fn bicell_holds(t: &Delaunay<Space>, facet: Facet) -> bool {
         let cell = t.complex.cell(facet.cell());
         let across = cell.neighbour(facet.index());
@@ -220,12 +249,8 @@ impl Kernel<Space> for Space {
             avx2.load(from(places, 6)),
             avx2.load(from(places, 8)).rotated(),
         ];
-        let old = [
-            avx2.load(s.padded()),
-            avx2.load(t.padded()),
-            avx2.load(u.padded()),
-            avx2.load(v.padded()),
-        ];
+        let old =
+            [avx2.load(s.padded()), avx2.load(t.padded()), avx2.load(u.padded()), avx2.load(v.padded())];
         *lower = lower.min(new[0].min(new[1]).min(new[2].min(new[3])));
         *upper = upper.max(new[0].max(new[1]).max(new[2].max(new[3])));
         // What is behind a site's point stays.

@@ -14,11 +14,10 @@
 
 use std::fmt;
 
-use super::{Delaunay, Dimension, order};
+use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::ids::Slot;
 use crate::machine::memory;
-use crate::predicates::StaticFilter;
 
 /// How much is checked; each level includes the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,33 +29,6 @@ pub enum Level {
     /// Empty spheres: the triangulation is the Delaunay triangulation.
     Delaunay,
 }
-
-/// A point of a box, drawn by a fixed rule.
-fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point, attempt: u32) -> G::Point {
-    let mut aim = G::Point::default();
-    for k in 0..G::D {
-        let hash = (u64::from(attempt) * 3 + k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
-        let share = hash as f64 / (1u64 << 53) as f64;
-        aim[k] = lower[k] + share * (upper[k] - lower[k]);
-    }
-    aim
-}
-
-/// A point of a curve that meets any hyperplane in at most as many points as there are dimensions.
-fn aim_on_curve<G: Dimension>(step: u32) -> G::Point {
-    let mut aim = G::Point::default();
-    let mut power = 1.0;
-    for k in 0..G::D {
-        power *= f64::from(step);
-        aim[k] = power;
-    }
-    aim
-}
-
-/// Aims in the box of the hull that are tried: the first nearly always serves.
-const AIMS_IN_BOX: u32 = 64;
-/// Aims on the curve: the third powers of smaller numbers are exact.
-const AIMS_ON_CURVE: u32 = 1 << 17;
 
 /// The first thing found wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -230,24 +202,6 @@ impl<G: Dimension> Delaunay<G> {
         Ok(())
     }
 
-    /// A point strictly inside some finite cell.
-    fn inner_point(&self) -> Option<G::Point> {
-        self.complex.finite().find_map(|c| self.point_inside(c))
-    }
-
-    /// A point strictly inside a finite cell, unless that is too thin.
-    pub(super) fn point_inside(&self, c: Slot) -> Option<G::Point> {
-        let corners = &self.complex.cell(c).corners;
-        let mut o = G::Point::default();
-        for k in 0..G::D {
-            o[k] = (0..G::Corners::N).map(|i| self.site(corners[i]).point[k] / G::Corners::N as f64).sum();
-        }
-        let is_inside = self.is_covered(&o)
-            && (0..G::Corners::N)
-                .all(|i| G::orientation_with(&self.filter, self.view(), corners, i, &o) > 0.0);
-        is_inside.then_some(o)
-    }
-
     fn check_hull(&self) -> Check {
         let level = Level::Embedding;
         if !self.has_cells() {
@@ -289,20 +243,6 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// Whether the hull, which is convex at every ridge, winds once around a point inside a cell; `false` also if these
-    /// are not all ghost cells, or if every cell is so thin that no double lies inside.
-    pub(crate) fn winds_once(&self, ghosts: &[Slot]) -> bool {
-        let are_all = ghosts.len() == self.complex.n_ghosts();
-        are_all
-            && self.inner_point().is_some_and(|o| {
-                let is_inside = |&g: &Slot| {
-                    let corners = &self.complex.cell(g).corners;
-                    G::orientation_with(&self.filter, self.view(), corners, Self::LAST, &o) < 0.0
-                };
-                ghosts.iter().all(is_inside) && self.crossings_of(ghosts.iter().copied(), &o).0 == 1
-            })
-    }
-
     /// A ray from `o` crosses exactly one hull facet.
     fn check_winding(&self, o: &G::Point) -> Check {
         let slots = Slot::range(0..self.complex.n_slots());
@@ -311,68 +251,6 @@ impl<G: Dimension> Delaunay<G> {
         ensure(crossings == 1, Level::Embedding, || {
             text!("the ray from {o:?} towards {aim:?} crosses {crossings} hull facets, not one")
         })
-    }
-
-    /// How many of the ghosts' facets, all of which have `o` on their inner side, a ray from `o` that meets no ridge
-    /// crosses, and a point on it. `o` must be in the box of the filter.
-    ///
-    /// Where the hull is a few roundings wide, its box may have no other aims than `o` and points behind ridges. Of
-    /// those on the curve, each ridge is in the way of as many as there are dimensions at most, since it is in one
-    /// hyperplane with `o`.
-    fn crossings_of(&self, ghosts: impl Iterator<Item = Slot> + Clone, o: &G::Point) -> (usize, G::Point) {
-        let aim = aim_in::<G>(&self.lower, &self.upper, 0);
-        if self.is_covered(&aim)
-            && let Some(crossings) = self.crossings(&self.filter, ghosts.clone(), o, &aim)
-        {
-            return (crossings, aim);
-        }
-        // The box of the hull: that of the filter may be far wider.
-        let corners = ghosts.clone().map(|g| &self.complex.cell(g).corners.as_ref()[..Self::LAST]);
-        let places = corners.flatten().map(|&s| &self.site(s).point);
-        let (lower, upper) = order::bounding_box::<G>(places).unwrap_or_default();
-        let in_box = (0..AIMS_IN_BOX).map(|attempt| aim_in::<G>(&lower, &upper, attempt));
-        let mut aims = in_box.chain((1..AIMS_ON_CURVE).map(aim_on_curve::<G>));
-        let crossings = |aim: G::Point| {
-            // Aims may be out of the box of the triangulation's filter.
-            let (lower, upper) = order::bounding_box::<G>([&lower, &upper, o, &aim].into_iter())?;
-            let filter = G::filter(&lower, &upper);
-            Some((self.crossings(&filter, ghosts.clone(), o, &aim)?, aim))
-        };
-        aims.find_map(crossings).unwrap_or((0, *o))
-    }
-
-    /// How many facets the ray from `o` through `aim` crosses; `None` if it meets a ridge.
-    fn crossings(
-        &self,
-        filter: &StaticFilter,
-        ghosts: impl Iterator<Item = Slot>,
-        o: &G::Point,
-        aim: &G::Point,
-    ) -> Option<usize> {
-        let mut crossings = 0;
-        for c in ghosts {
-            crossings += usize::from(self.is_crossed(filter, c, o, aim)?);
-        }
-        Some(crossings)
-    }
-
-    /// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side;
-    /// `None` if it meets the boundary of the facet, or there is no ray.
-    fn is_crossed(&self, filter: &StaticFilter, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
-        let mut is_crossed = Some(true);
-        for i in 0..G::D {
-            let mut points = self.view().points(&self.complex.cell(ghost).corners);
-            (points[i], points[Self::LAST]) = (aim, o);
-            // The facet of a ghost is oriented as seen from outside: negative, with a point on the inner side.
-            let sign = G::orient(filter, &points[..G::Corners::N]);
-            if sign > 0.0 {
-                return Some(false);
-            }
-            if sign == 0.0 {
-                is_crossed = None;
-            }
-        }
-        is_crossed
     }
 
     fn check_spheres(&self) -> Check {

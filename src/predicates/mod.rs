@@ -84,6 +84,7 @@ mod distance;
 #[cfg(test)]
 mod dyadic;
 mod filter;
+mod hull;
 mod integer;
 mod lanes;
 mod lattice;
@@ -113,6 +114,7 @@ pub(crate) use bicells::{
 pub use coordinates::{Array, Coordinates};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
+pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
 pub use lanes::BiCells;
 pub use lattice::exact_filter;
 pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_seen_circle};
@@ -131,12 +133,12 @@ pub use sphere::{
     is_box_outside_circle, is_box_outside_sphere, is_side_certain, side_bound_by_length, side_of_circle,
     side_of_sphere, sphere,
 };
-pub(crate) use tolerance::are_within;
 pub use tolerance::{
     Delimiter, delimiter2d, displacement_limit, distance_above, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, squared_distance,
     tolerances2d,
 };
+pub(crate) use tolerance::{are_within, distances_above};
 pub(crate) use vectors::{cross, dot, minus};
 
 /// Largest magnitude of an accepted coordinate.

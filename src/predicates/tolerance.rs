@@ -183,6 +183,20 @@ pub fn distance_above<P: AsRef<[f64]> + PartialEq>(p: &P, q: &P) -> f64 {
     square.sqrt() * ABOVE
 }
 
+/// The same of several points, each with another one.
+#[inline(always)]
+pub(crate) fn distances_above<P: Array + AsRef<[f64]> + PartialEq>(
+    avx2: Avx2,
+    p: [&P; LANES],
+    q: [&P; LANES],
+) -> [f64; LANES] {
+    let square = square_between(P::in_lanes(avx2, p).as_ref(), P::in_lanes(avx2, q).as_ref());
+    if square.is_less(avx2.splat(LEAST * LEAST)).bits() != 0 {
+        return [0, 1, 2, 3].map(|k| distance_above(p[k], q[k]));
+    }
+    (square.sqrt() * avx2.splat(ABOVE)).store()
+}
+
 /// What the [`squared_distance`] of a vertex from its fixed position must be below for the distance to be
 /// certainly below its tolerance; 0, which nothing is below, if that is too small to tell.
 #[inline(always)]
@@ -328,6 +342,27 @@ mod tests {
             avx2.run(|| are_within(avx2, fixed2d.each_ref(), tolerances, places2d.each_ref())),
             avx2.run(|| are_within(avx2, fixed.each_ref(), tolerances, places.each_ref())),
         ]
+    }
+
+    /// Distances of several points are those of each, bit by bit, also where squares underflow.
+    #[test]
+    fn distances_of_several_are_those_of_each() {
+        let Some(avx2) = Avx2::new() else { return };
+        let rng = &mut Rng::new(3);
+        let mut n_same = 0;
+        for _ in 0..20_000 {
+            let size = [0.0, 1e-300, 1e-141, 1e-3, 1e50][rng.below(5)];
+            let mut point = |around: [f64; 3]| around.map(|x| x + size * (rng.unit() - 0.5));
+            let p: [[f64; 3]; LANES] = std::array::from_fn(|_| point([0.0; 3]));
+            let q = p.map(&mut point);
+            let (p2d, q2d) = (p.map(|[x, y, _]| [x, y]), q.map(|[x, y, _]| [x, y]));
+            let in_space = avx2.run(|| distances_above(avx2, p.each_ref(), q.each_ref()));
+            let in_plane = avx2.run(|| distances_above(avx2, p2d.each_ref(), q2d.each_ref()));
+            assert_eq!(in_space, [0, 1, 2, 3].map(|k| distance_above(&p[k], &q[k])));
+            assert_eq!(in_plane, [0, 1, 2, 3].map(|k| distance_above(&p2d[k], &q2d[k])));
+            n_same += in_space.iter().filter(|&&distance| distance == 0.0).count();
+        }
+        assert!((10_000..30_000).contains(&n_same), "{n_same}");
     }
 
     /// Several vertices are found to be within exactly where each of them is, tolerances without a use included.

@@ -7,6 +7,7 @@ use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
 use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
+use crate::simd::{Avx2, LANES};
 
 impl<G: Dimension> Delaunay<G> {
     /// Checks the ridges of the ghost cells that are open; what is listed may be none any more, where flips have been
@@ -16,6 +17,10 @@ impl<G: Dimension> Delaunay<G> {
         failures: &mut Failures,
         before: impl Fn(VertexId) -> Option<&'p G::Point>,
     ) -> Result<()> {
+        // Where the hull's windings are going to be counted, it does not matter what has been all the way.
+        if failures.may_wind_twice {
+            self.drop_convex(&mut failures.open_ghosts);
+        }
         for g in failures.open_ghosts.drain(..).filter(|&g| self.is_ghost(g)) {
             for ridge in (0..Self::LAST).map(|i| Facet::new(g, i)) {
                 if !self.is_convex(ridge) {
@@ -27,6 +32,37 @@ impl<G: Dimension> Delaunay<G> {
             }
         }
         Ok(())
+    }
+
+    /// Drops ghosts at whose ridges the hull surely is convex, and what is no ghost any more.
+    pub(in crate::delaunay) fn drop_convex(&self, ghosts: &mut Vec<Slot>) {
+        let Some(avx2) = Avx2::new() else { return };
+        ghosts.retain(|&g| self.is_ghost(g));
+        avx2.run_with(
+            avx2,
+            self,
+            ghosts,
+            #[inline(always)]
+            |avx2, t, ghosts| {
+                let mut n_kept = 0;
+                for first in (0..ghosts.len()).step_by(LANES) {
+                    // The last one fills the last lanes.
+                    let four = [0, 1, 2, 3].map(|k| ghosts[(first + k).min(ghosts.len() - 1)]);
+                    let corners = four.map(|g| t.complex.cell(g).corners);
+                    // There are three ridges in space: in the plane the last two are the same.
+                    let [i, j, k] = [0, 1, G::D - 1]
+                        .map(|i| four.map(|g| t.complex.apex(t.complex.cell(g).neighbour(i))));
+                    let are_convex = G::are_convex(avx2, &t.filter, t.view(), &corners, [&i, &j, &k]);
+                    for (lane, &g) in four[..LANES.min(ghosts.len() - first)].iter().enumerate() {
+                        if are_convex >> lane & 1 == 0 {
+                            ghosts[n_kept] = g;
+                            n_kept += 1;
+                        }
+                    }
+                }
+                ghosts.truncate(n_kept);
+            },
+        );
     }
 
     /// Checks that the hull is convex at a ridge between ghost cells, and has been so all the way. Whether it is now.

@@ -57,7 +57,7 @@ impl<G: Dimension> Watching<G> {
         let Watching { tolerances, watched } = self;
         relocated.for_each(|s| tolerances.fix(kernel, s));
         tolerances.measure_around(kernel, cells, |fixed, facets, vertices, tolerance| {
-            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions))
+            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions, f64::INFINITY))
         })
     }
 }
@@ -65,24 +65,41 @@ impl<G: Dimension> Watching<G> {
 /// Whether a bi-cell's tolerance is so small, next to its size h and the displacement u of its vertices from one
 /// timestamp to the next, that watching it is cheaper than recomputing stars now and then. Watching those
 /// below θ costs in proportion to θ / h, what is recomputed in proportion to u / θ; so the best θ² is in
-/// proportion to u h.
+/// proportion to u h. No step is longer, squared, than `most_steps`.
+#[inline(always)]
 fn is_soon_beyond<G: Dimension>(
     fixed: &[Fixed<G>],
     vertices: &[VertexId],
     tolerance: f64,
     other_positions: &[G::Point],
+    most_steps: f64,
 ) -> bool {
+    let square = squared_distance(fixed[vertices[1]].point(), fixed[vertices[2]].point());
+    let t = tolerance * tolerance;
+    let share = constants::<G>().watched_share;
+    // For all but a few this is enough, and it needs only what is at hand.
+    if t * t > share * most_steps * square {
+        return false;
+    }
+    t * t <= share * longest_step(fixed, vertices, other_positions) * square
+}
+
+/// The longest way of a vertex of a bi-cell in the last timestamp, squared.
+#[inline(never)]
+fn longest_step<G: Dimension>(
+    fixed: &[Fixed<G>],
+    vertices: &[VertexId],
+    other_positions: &[G::Point],
+) -> f64 {
     let here = |v: VertexId| fixed[v].point();
     let from_one = |&v: &VertexId| squared_distance(here(vertices[1]), here(v));
-    let (square, greatest) = (from_one(&vertices[2]), vertices.iter().map(from_one).fold(0.0, f64::max));
+    let greatest = vertices.iter().map(from_one).fold(0.0, f64::max);
     // A step longer than the bi-cell is a leap, which tells nothing about the next step.
     let step = |&v: &VertexId| {
         let there = other_positions.get(v.index());
         there.map(|p| squared_distance(here(v), p)).filter(|&step| step <= greatest).unwrap_or(0.0)
     };
-    let steps = vertices.iter().map(step).fold(0.0, f64::max);
-    let t = tolerance * tolerance;
-    t * t <= constants::<G>().watched_share * steps * square
+    vertices.iter().map(step).fold(0.0, f64::max)
 }
 
 impl<G: Dimension> Store<G> for Watching<G> {
@@ -96,8 +113,10 @@ impl<G: Dimension> Store<G> for Watching<G> {
         watched.clear();
         tolerances.fix_all(kernel, n_ids)?;
         watched.grow(kernel.complex().n_slots())?;
+        let steps = tolerances.fixed().iter().zip(other_positions);
+        let most_steps = steps.map(|(fixed, p)| squared_distance(fixed.point(), p)).fold(0.0, f64::max);
         Ok(tolerances.measure_all(kernel, |fixed, facets, vertices, tolerance| {
-            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions))
+            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions, most_steps))
         }))
     }
 
