@@ -67,6 +67,7 @@ mod side_by_side;
 pub mod site;
 mod space;
 mod spheres;
+mod star;
 mod successor;
 mod uncertain;
 mod undo;

@@ -14,13 +14,11 @@
 //!
 //! Invariant: the complex is not touched before the whole filling is known.
 
-use super::locate::{list_ring, list_star};
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
-use crate::machine::prefetch::prefetch;
 
 /// Link sites that the bit masks of facets can tell apart, the ghost vertex included.
 pub(super) const MAX_LINK: usize = 64;
@@ -93,48 +91,6 @@ pub(super) fn new_of(facet: Facet) -> Option<usize> {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// Collects the star of a site. What a relocation reads next is asked for: the sites of the link and those beyond
-    /// its facets.
-    pub(crate) fn gather_star(&mut self, s: SiteId) -> Result<()> {
-        self.gather_star_from(self.sites[s].cell, s)
-    }
-
-    /// The same, where a cell of the star is known, as the site need not know one while there are flips.
-    pub(super) fn gather_star_from(&mut self, first: Slot, s: SiteId) -> Result<()> {
-        let (complex, star) = (&self.complex, &mut self.star);
-        star.clear();
-        if G::D == 2 {
-            list_ring(complex, first, s, |c, at| memory::push(star, (c, at as u8)))?;
-        } else {
-            let around = memory::made(&mut self.around)?;
-            around.clear();
-            list_star(complex, first, s, around, |_| {})?;
-            let cells = around.as_slice();
-            memory::reserve(star, cells.len())?;
-            star.extend(cells.iter().map(|&c| (c, complex.cell(c).index_of(s) as u8)));
-        }
-        if self.is_far() {
-            self.prefetch_link();
-        }
-        Ok(())
-    }
-
-    /// Asks for the sites of the gathered star's link, and for those beyond its facets.
-    fn prefetch_link(&self) {
-        for &(c, at) in &self.star {
-            self.prefetch_across(c, usize::from(at));
-        }
-        for &(c, at) in &self.star {
-            let across = self.complex.cell(c).neighbour(usize::from(at));
-            prefetch(&self.sites, self.complex.apex(across).index());
-        }
-    }
-
-    /// Cells of the star gathered last, and the index of its site in each.
-    pub(crate) fn gathered_star(&self) -> &[(Slot, u8)] {
-        &self.star
-    }
-
     /// Lists the link of the gathered star and its sites. Each gets its position in the list as a label, kept in its
     /// `cell` field.
     pub(super) fn label_link(&mut self, hole: &mut Hole<G>) -> Result<()> {
