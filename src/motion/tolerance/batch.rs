@@ -28,10 +28,16 @@ impl<G: Dimension> Default for Batch<G> {
 impl<G: Dimension> Batch<G> {
     /// Adds a bi-cell: its facet from both sides, its vertices, and their places.
     #[inline(always)]
-    pub(super) fn push(&mut self, facets: [Facet; 2], vertices: [VertexId; 5], points: &[&G::Point]) {
+    pub(super) fn push(
+        &mut self,
+        facets: [Facet; 2],
+        vertices: impl Iterator<Item = VertexId>,
+        points: &[&G::Point],
+    ) {
         G::Point::set_bicell(&mut self.bicells, self.n, points);
         self.facets[self.n] = facets;
-        self.vertices[self.n] = vertices;
+        // One by one: an array of them would be read as a whole right after it was written in parts, which waits.
+        std::iter::zip(&mut self.vertices[self.n], vertices).for_each(|(to, v)| *to = v);
         self.n += 1;
     }
 

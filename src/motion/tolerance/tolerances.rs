@@ -160,16 +160,16 @@ impl<G: Dimension> Tolerances<G> {
                 self.fix_again(kernel.site(s));
             }
         }
-        let vertices = bicell.vertices(kernel);
         let facets = [facet, kernel.complex().cell(facet.cell()).neighbour(facet.index())];
         match bicell.interior() {
             Some(points) => {
-                batch.push(facets, vertices, points);
+                batch.push(facets, bicell.sites().iter().map(|&s| kernel.site(s).id), points);
                 if batch.is_full() {
                     self.lower_batch(batch, set_aside);
                 }
             }
             None => {
+                let vertices = bicell.vertices(kernel);
                 let finite = &vertices[..bicell.sites().len()];
                 let tolerance = bicell.hull_tolerance();
                 if !set_aside(&self.fixed, facets, finite, tolerance) {
