@@ -29,16 +29,6 @@ impl Ordering {
         usize::from(self.0 >> (2 * corner) & 3)
     }
 
-    /// What belongs to the corners of the slot, as the row lists it.
-    #[inline(always)]
-    pub(super) fn arrange<T: Entry, C: Corners<T>>(self, slot: C) -> C {
-        let mut row = slot;
-        if self != Self::SAME {
-            (0..C::N).for_each(|i| row[self.place(i)] = slot[i]);
-        }
-        row
-    }
-
     /// Whether the orientation of the row is opposite to that of the slot.
     pub(super) fn is_odd(self) -> bool {
         let is_inversion = |&(i, j): &(usize, usize)| self.place(i) > self.place(j);
@@ -61,7 +51,6 @@ mod tests {
             }
             let row = [slot[a], slot[b], slot[c], slot[d]];
             let ordering = Ordering::of(&slot, &row);
-            assert_eq!(ordering.arrange(slot), row);
             assert!((0..4).all(|i| row[ordering.place(i)] == slot[i]));
             assert!(!seen.contains(&ordering.0));
             seen.push(ordering.0);

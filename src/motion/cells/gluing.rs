@@ -48,17 +48,18 @@ impl<G: Dimension> Cells<G> {
                 }
                 continue;
             }
+            // Each into its place: a row put in order first would be read as a whole right after it was written in
+            // parts, which waits.
             let index = self.index_of[slot];
-            let mut across = G::Neighbours::filled(NO_CELL);
+            let ordering = self.orderings[index];
             for i in 0..G::Corners::N {
                 let out = cell.neighbour(i);
-                across[i] = self.index_of[out.cell()];
-                if across[i] != NO_CELL && !dirty.has(out.cell()) {
-                    let place = self.orderings[across[i]].place(out.index());
-                    self.neighbours[across[i]][place] = index;
+                let across = self.index_of[out.cell()];
+                self.neighbours[index][ordering.place(i)] = across;
+                if across != NO_CELL && !dirty.has(out.cell()) {
+                    self.neighbours[across][self.orderings[across].place(out.index())] = index;
                 }
             }
-            self.neighbours[index] = self.orderings[index].arrange(across);
         }
     }
 
@@ -71,12 +72,10 @@ impl<G: Dimension> Cells<G> {
                 if let Some(&next) = slots.get(index + AHEAD) {
                     prefetch(kernel.complex().cells(), next.index());
                 }
-                let cell = kernel.complex().cell(slots[index]);
-                let mut across = G::Neighbours::filled(NO_CELL);
+                let (cell, ordering) = (kernel.complex().cell(slots[index]), orderings[index]);
                 for i in 0..G::Corners::N {
-                    across[i] = index_of[cell.neighbour(i).cell()];
+                    row[ordering.place(i)] = index_of[cell.neighbour(i).cell()];
                 }
-                *row = orderings[index].arrange(across);
             }
         });
     }
