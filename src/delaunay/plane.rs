@@ -230,7 +230,8 @@ impl Kernel<Plane> for Plane {
 
     #[inline(always)]
     fn flip(flipper: &mut Flipper<Plane>, edge: Facet, flips: &mut Flips<Plane>) -> Result<(), Obstacle> {
-        flips.enter(flipper.cells.flip_2_2(edge)?);
+        let outer = flipper.cells.flip_2_2(edge, &mut flips.journal)?;
+        flips.enter(outer);
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use super::site::{Site, Sites};
 use super::uncertain::{Held, apexes_beyond, corners_at};
 use super::winding::Ray;
 use super::{Delaunay, cavity_space};
-use crate::complex::{Facet, INFINITE, Obstacle};
+use crate::complex::{Facet, INFINITE, Obstacle, outer_of_three, outer_of_two};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::{self, OwnBounds3d, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
@@ -219,16 +219,20 @@ impl Kernel<Space> for Space {
         let mut not_positive = (0..3).filter(|&k| signs[k] <= 0.0);
         match (not_positive.next(), not_positive.next()) {
             (None, _) => {
-                let flipped = cells.flip_2_3(face)?;
-                flips.made.push(flipped.0[4].cell());
-                flips.enter(flipped);
+                let three = cells.flip_2_3(face, &mut flips.journal)?;
+                flips.made.push(three[2]);
+                flips.enter(outer_of_three(three));
             }
             // The segment between the opposing vertices meets the edge opposite one corner: beyond it, or in it.
-            (Some(k), None) if signs[k] < 0.0 => flips.enter(cells.flip_3_2(face, others[k])?),
+            (Some(k), None) if signs[k] < 0.0 => {
+                let two = cells.flip_3_2(face, others[k], &mut flips.journal)?;
+                flips.enter(outer_of_two(two));
+            }
             (Some(k), None) => {
-                let flipped = cells.flip_4_4(face, others[k])?;
-                flips.made.push(flipped[0].0[4].cell());
-                flipped.into_iter().for_each(|flipped| flips.enter(flipped));
+                let (three, two) = cells.flip_4_4(face, others[k], &mut flips.journal)?;
+                flips.made.push(three[2]);
+                flips.enter(outer_of_three(three));
+                flips.enter(outer_of_two(two));
             }
             _ => return Err(Obstacle::Shape),
         }

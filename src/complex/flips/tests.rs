@@ -72,11 +72,11 @@ fn a_2_2_flip_done_twice_more_swaps_back() {
             .unwrap()
     };
     let f = edge(&complex);
-    complex.whole().flip_2_2(f).expect("all cells are there");
+    complex.whole().flip_2_2(f, &mut Vec::new()).expect("all cells are there");
     assert!(is_mutual(&complex));
     assert_ne!(cells(&complex), before);
     let i = (f.index() + 1) % 3;
-    complex.whole().flip_2_2(Facet::new(f.cell(), i)).expect("all cells are there");
+    complex.whole().flip_2_2(Facet::new(f.cell(), i), &mut Vec::new()).expect("all cells are there");
     assert!(is_mutual(&complex));
     assert_eq!(cells(&complex), before);
 }
@@ -120,13 +120,14 @@ fn flips_in_space_come_back() {
         }
         let mut complex = complex.copied().unwrap();
         let [p, q] = [facet, complex.cell(c).neighbour(i)].map(|f| complex.apex(f));
-        assert_eq!(complex.whole().flip_2_3(facet).err(), Some(Obstacle::Full));
+        let mut undo = Vec::new();
+        assert_eq!(complex.whole().flip_2_3(facet, &mut undo), Err(Obstacle::Full));
+        assert!(undo.is_empty());
         assert_eq!(cells(&complex), before);
         complex.create_free(2).unwrap();
-        let (outer, undo) = complex.whole().flip_2_3(facet).expect("all cells are there");
-        let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
+        let made = complex.whole().flip_2_3(facet, &mut undo).expect("all cells are there");
         assert!(is_mutual(&complex) && complex.n_finite() == 5);
-        let boundary_of_flip = boundary(&complex, outer);
+        let boundary_of_flip = boundary(&complex, outer_of_three(made));
         assert!(made.iter().all(|&m| [p, q].iter().all(|s| complex.cell(m).corners.contains(s))));
         // The other way by the inverse flip, from each cell and each of its facets at the edge.
         for &m in &made {
@@ -135,9 +136,10 @@ fn flips_in_space_come_back() {
                 let k = (0..4).find(|&k| k != at && ![p, q].contains(&complex.cell(m).corners[k])).unwrap();
                 let after = cells(&complex);
                 let free: BTreeSet<_> = complex.free_cells().collect();
-                let (rim, back) = complex.whole().flip_3_2(Facet::new(m, at), k).expect("three cells");
+                let mut back = Vec::new();
+                let two = complex.whole().flip_3_2(Facet::new(m, at), k, &mut back).expect("three cells");
                 assert!(is_mutual(&complex));
-                assert_eq!(boundary(&complex, rim), boundary_of_flip);
+                assert_eq!(boundary(&complex, outer_of_two(two)), boundary_of_flip);
                 assert_eq!(cells(&complex), before);
                 complex.undo_rows(back.into_iter().rev());
                 assert_eq!(complex.free_cells().collect::<BTreeSet<_>>(), free);
@@ -157,8 +159,7 @@ fn flips_in_space_come_back() {
 fn cavities_get_more_cells_than_they_had() {
     let (mut flipped, facet) = two_tetrahedra();
     flipped.create_free(2).unwrap();
-    let (outer, _) = flipped.whole().flip_2_3(facet).expect("all cells are there");
-    let made = [outer[0], outer[2], outer[4]].map(Facet::cell);
+    let made = flipped.whole().flip_2_3(facet, &mut Vec::new()).expect("all cells are there");
     let new = made.map(|m| {
         let cell = flipped.cell(m);
         let (mut neighbours, mut inner) = (cell.neighbours, 0);
@@ -260,7 +261,7 @@ fn flips_need_all_their_cells() {
             complex
                 .divided(&[Slot::new(0), start], &mut tried, |k, range, tried| {
                     assert_eq!(range.free.len(), k * n_free);
-                    *tried = range.flip_2_3(facet).err();
+                    *tried = range.flip_2_3(facet, &mut Vec::new()).err();
                 })
                 .unwrap();
             assert_eq!(tried, [Some(Obstacle::OtherRange); 2]);
@@ -269,7 +270,9 @@ fn flips_need_all_their_cells() {
         // The first range has all cells.
         let mut tried = [None];
         complex
-            .divided(&[Slot::new(0)], &mut tried, |_, range, tried| *tried = range.flip_2_3(facet).err())
+            .divided(&[Slot::new(0)], &mut tried, |_, range, tried| {
+                *tried = range.flip_2_3(facet, &mut Vec::new()).err()
+            })
             .unwrap();
         assert_eq!(tried[0], (n_free == 0).then_some(Obstacle::Full));
         assert!(is_mutual(&complex));

@@ -25,7 +25,7 @@ pub struct Flips<G: Dimension> {
     /// The third cell of flips that have made one.
     pub(in crate::delaunay) made: Vec<Slot>,
     /// For undoing: the rows that each flip has changed.
-    pub(super) journal: Vec<Row<G::Corners>>,
+    pub(in crate::delaunay) journal: Vec<Row<G::Corners>>,
     pub(super) n_flips: u64,
     pub(super) certificates: u64,
     /// Signs evaluated exactly among them.
@@ -108,15 +108,15 @@ impl<G: Dimension> Flips<G> {
         memory::reserve(&mut self.journal, 6)
     }
 
-    /// Enters a flip: facets on its boundary, of two cells that have all its sites, and the rows before.
+    /// Enters a flip that is in the journal: facets on its boundary, of two cells that have all its sites.
     #[inline(always)]
-    pub(in crate::delaunay) fn enter<const N: usize, const ROWS: usize>(
-        &mut self,
-        (outer, rows): ([Facet; N], [Row<G::Corners>; ROWS]),
-    ) {
-        self.changed.extend([outer[0].cell(), outer[N / 2].cell()]);
-        self.journal.extend(rows);
-        self.suspects.extend(outer);
+    pub(in crate::delaunay) fn enter<const N: usize>(&mut self, outer: [Facet; N]) {
+        self.changed.push(outer[0].cell());
+        self.changed.push(outer[N / 2].cell());
+        // One by one, as they are not in memory yet.
+        for facet in outer {
+            self.suspects.push(facet);
+        }
     }
 
     /// Lists a facet that was not flipped.
