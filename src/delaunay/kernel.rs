@@ -79,7 +79,7 @@ pub trait Kernel<G: Dimension> {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<G>,
-        cells: [G::Corners; LANES],
+        cells: [&G::Corners; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held;
 
@@ -92,7 +92,7 @@ pub trait Kernel<G: Dimension> {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<G>,
-        cells: &[G::Corners; LANES],
+        cells: [&G::Corners; LANES],
         others: &[SiteId; LANES],
     ) -> u32;
 

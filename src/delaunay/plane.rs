@@ -89,7 +89,7 @@ impl Kernel<Plane> for Plane {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Plane>,
-        cells: [[SiteId; 3]; LANES],
+        cells: [&[SiteId; 3]; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held {
         let [a, b, c] = corners(avx2, sites, cells);
@@ -153,10 +153,10 @@ impl Kernel<Plane> for Plane {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Plane>,
-        cells: &[[SiteId; 3]; LANES],
+        cells: [&[SiteId; 3]; LANES],
         others: &[SiteId; LANES],
     ) -> u32 {
-        let [a, b, c] = corners(avx2, sites, *cells);
+        let [a, b, c] = corners(avx2, sites, cells);
         let circle = predicates::circle(&a, &b, &c);
         let side = predicates::side_of_circle(&circle, &a, &places(avx2, sites, *others));
         side.is_less(avx2.splat(-f.prepared)).bits()
@@ -262,7 +262,7 @@ impl Kernel<Plane> for Plane {
 
 /// The places of the corners of cells, by corner.
 #[inline(always)]
-fn corners(avx2: Avx2, all: Sites<Plane>, [k, l, m, n]: [[SiteId; 3]; LANES]) -> [[Lanes; 2]; 3] {
+fn corners(avx2: Avx2, all: Sites<Plane>, [k, l, m, n]: [&[SiteId; 3]; LANES]) -> [[Lanes; 2]; 3] {
     [
         places(avx2, all, [k[0], l[0], m[0], n[0]]),
         places(avx2, all, [k[1], l[1], m[1], n[1]]),

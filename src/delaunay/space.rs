@@ -89,7 +89,7 @@ impl Kernel<Space> for Space {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Space>,
-        cells: [[SiteId; 4]; LANES],
+        cells: [&[SiteId; 4]; LANES],
         apexes: [&[SiteId; LANES]; 4],
     ) -> Held {
         let [a, b, c, d] = corners(avx2, sites, cells);
@@ -123,10 +123,10 @@ impl Kernel<Space> for Space {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Space>,
-        cells: &[[SiteId; 4]; LANES],
+        cells: [&[SiteId; 4]; LANES],
         others: &[SiteId; LANES],
     ) -> u32 {
-        let [a, b, c, d] = corners(avx2, sites, *cells);
+        let [a, b, c, d] = corners(avx2, sites, cells);
         let sphere = predicates::sphere(&a, &b, &c, &d);
         let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, sites, *others));
         side.is_less(avx2.splat(-f.prepared)).bits()
@@ -279,7 +279,7 @@ impl Kernel<Space> for Space {
 
 /// The places of the corners of cells, by corner.
 #[inline(always)]
-fn corners(avx2: Avx2, all: Sites<Space>, [k, l, m, n]: [[SiteId; 4]; LANES]) -> [[Lanes; 3]; 4] {
+fn corners(avx2: Avx2, all: Sites<Space>, [k, l, m, n]: [&[SiteId; 4]; LANES]) -> [[Lanes; 3]; 4] {
     [
         places(avx2, all, [k[0], l[0], m[0], n[0]]),
         places(avx2, all, [k[1], l[1], m[1], n[1]]),

@@ -156,7 +156,7 @@ impl<G: Dimension> Delaunay<G> {
             let mut n_hold = 0;
             for k in 0..block.n.div_ceil(LANES) {
                 let apexes = block.apexes.each_ref().map(|a| &a[k]);
-                let corners = block.cells[k].map(|c| self.complex.cell(c).corners);
+                let corners = block.cells[k].map(|c| &self.complex.cell(c).corners);
                 let held = if has_own_bounds {
                     G::cells_hold::<true>(avx2, filter, sites, corners, apexes)
                 } else {

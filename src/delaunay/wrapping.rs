@@ -412,7 +412,7 @@ fn are_certain<G: Dimension>(
                 };
             }
         }
-        let corners = [cells[0].0, cells[1].0, cells[2].0, cells[3].0];
+        let corners = [&cells[0].0, &cells[1].0, &cells[2].0, &cells[3].0];
         let apexes = [&apexes[0], &apexes[1], &apexes[2], &apexes[3]];
         if G::cells_hold::<false>(avx2, filter, sites, corners, apexes).all::<G>() != ALL
             && G::cells_hold::<true>(avx2, filter, sites, corners, apexes).all::<G>() != ALL

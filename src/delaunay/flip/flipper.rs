@@ -84,20 +84,21 @@ impl<G: Dimension> Flipper<'_, '_, G> {
     /// Which of these facets surely hold, one bit each.
     #[inline(always)]
     fn surely_hold(&self, avx2: Avx2, facets: &[Facet; LANES]) -> u32 {
-        let (mut cells, mut apexes, mut known) =
-            ([G::Corners::filled(INFINITE); LANES], [INFINITE; LANES], 0);
+        let none = G::Corners::filled(INFINITE);
+        // By reference: the corners of new cells would be read wider than they have just been written, which waits.
+        let (mut cells, mut apexes, mut known) = ([&none; LANES], [INFINITE; LANES], 0);
         for (k, facet) in facets.iter().enumerate() {
             let Ok(cell) = self.cells.cell(facet.cell()) else { continue };
             let Ok(apex) = self.cells.apex(cell.neighbour(facet.index())) else { continue };
             if !cell.is_free() && !cell.is_ghost() && apex != INFINITE {
-                (cells[k], apexes[k]) = (cell.corners, apex);
+                (cells[k], apexes[k]) = (&cell.corners, apex);
                 known |= 1 << k;
             }
         }
         known
             & avx2.run(
                 #[inline(always)]
-                || G::are_outside(avx2, self.filter, self.sites, &cells, &apexes),
+                || G::are_outside(avx2, self.filter, self.sites, cells, &apexes),
             )
     }
 
