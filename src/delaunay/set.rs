@@ -15,9 +15,9 @@ pub(crate) struct IndexSet<I> {
     n: usize,
     /// From 1 on.
     few: [I; INLINE_CAPACITY + 1],
-    /// The position in `few` of each, at its hash or behind; 0 where there is none. Once one has been
-    /// [inserted](Self::insert): those that are only [pushed](Self::push) are not looked for.
-    places: Option<[u8; PLACES]>,
+    /// One more than each, at its hash or behind; 0 where there is none. Once one has been [inserted](Self::insert):
+    /// those that are only [pushed](Self::push) are not looked for.
+    places: Option<[u32; PLACES]>,
     /// All of them, once they are more.
     all: Vec<I>,
     /// Then, where to find each: one above its position, at its hash or behind; a power of two of entries, half of them
@@ -34,21 +34,26 @@ fn place_of(index: impl Id) -> usize {
     usize::from((index.get().wrapping_mul(GOLDEN) >> 24) as u8)
 }
 
+/// What stands for an index in its place: no index is the greatest number.
+#[inline(always)]
+fn key_of(index: impl Id) -> u32 {
+    debug_assert!(index.get() != u32::MAX);
+    index.get() + 1
+}
+
 /// Enters an index, unless it is there, into the few, of which there are `n`, with room for one more.
 #[inline(always)]
-fn enter<I: Id>(few: &mut [I; INLINE_CAPACITY + 1], places: &mut [u8; PLACES], index: I, n: &mut usize) {
-    let at = place_of(index);
-    let position = places[at];
+fn enter<I: Id>(few: &mut [I; INLINE_CAPACITY + 1], places: &mut [u32; PLACES], index: I, n: &mut usize) {
+    let (at, key) = (place_of(index), key_of(index));
+    let found = places[at];
     // Whether an index is new is hard to foresee: no branch is on it, but for one on whether another is in its place.
-    let difference = few[usize::from(position) & INLINE_CAPACITY].get() ^ index.get();
-    if u64::from(position) * u64::from(difference) != 0 {
+    if u64::from(found) * u64::from(found ^ key) != 0 {
         return enter_behind(few, places, index, n);
     }
-    let n_new = u8::from(position == 0);
     // Where nothing is new, what is behind the last entry is written.
     few[(*n + 1) & INLINE_CAPACITY] = index;
-    *n += usize::from(n_new);
-    places[at] = position | (*n as u8 & n_new.wrapping_neg());
+    *n += usize::from(found == 0);
+    places[at] = key;
 }
 
 /// The same, if another index is in its place.
@@ -56,20 +61,26 @@ fn enter<I: Id>(few: &mut [I; INLINE_CAPACITY + 1], places: &mut [u8; PLACES], i
 #[inline(never)]
 fn enter_behind<I: Id>(
     few: &mut [I; INLINE_CAPACITY + 1],
-    places: &mut [u8; PLACES],
+    places: &mut [u32; PLACES],
     index: I,
     n: &mut usize,
 ) {
-    let mut at = place_of(index);
-    while places[at] != 0 {
-        if few[usize::from(places[at])] == index {
-            return;
-        }
+    let (at, is_there) = look_up(places, index);
+    if !is_there {
+        *n += 1;
+        few[*n] = index;
+        places[at] = key_of(index);
+    }
+}
+
+/// The place of an index, or the one that it would get; and whether it is there.
+#[inline(always)]
+fn look_up(places: &[u32; PLACES], index: impl Id) -> (usize, bool) {
+    let (mut at, key) = (place_of(index), key_of(index));
+    while places[at] != 0 && places[at] != key {
         at = (at + 1) % PLACES;
     }
-    *n += 1;
-    few[*n] = index;
-    places[at] = *n as u8;
+    (at, places[at] == key)
 }
 
 impl<I: Id> Default for IndexSet<I> {
@@ -101,15 +112,7 @@ impl<I: Id> IndexSet<I> {
         if self.n > INLINE_CAPACITY {
             return self.table[self.find(index)] != 0;
         }
-        let Some(places) = &self.places else { return false };
-        let mut at = place_of(index);
-        while places[at] != 0 {
-            if self.few[usize::from(places[at])] == index {
-                return true;
-            }
-            at = (at + 1) % PLACES;
-        }
-        false
+        self.places.as_ref().is_some_and(|places| look_up(places, index).1)
     }
 
     /// Takes all out; keeps the memory.
