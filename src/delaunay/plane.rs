@@ -65,6 +65,7 @@ impl Kernel<Plane> for Plane {
         }
     }
 
+    #[inline(always)]
     fn stays_positive(old: &[&[f64; 2]], new: &[&[f64; 2]]) -> bool {
         let triangle = |p: &[_]| <[_; 3]>::try_from(p).expect("three corners");
         predicates::stays_positive2d(triangle(old), triangle(new))

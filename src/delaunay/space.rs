@@ -65,6 +65,7 @@ impl Kernel<Space> for Space {
         }
     }
 
+    #[inline(always)]
     fn stays_positive(old: &[&[f64; 3]], new: &[&[f64; 3]]) -> bool {
         let tetrahedron = |p: &[_]| <[_; 4]>::try_from(p).expect("four corners");
         predicates::stays_positive3d(tetrahedron(old), tetrahedron(new))

@@ -12,6 +12,7 @@ use super::tolerance::{LEAST_DETERMINANT, ORIENT_2D, ORIENT_3D};
 use super::vectors::{cross, dot, minor, minus};
 
 /// Whether a triangle certainly stays positively oriented.
+#[inline]
 pub fn stays_positive2d(old: [&[f64; 2]; 3], new: [&[f64; 2]; 3]) -> bool {
     let rows = |p: [&[f64; 2]; 3]| [p[1], p[2]].map(|q| minus(q, p[0]));
     let [a, b] = [rows(old), rows(new)];
@@ -21,6 +22,7 @@ pub fn stays_positive2d(old: [&[f64; 2]; 3], new: [&[f64; 2]; 3]) -> bool {
 }
 
 /// Whether a tetrahedron certainly stays positively oriented.
+#[inline]
 pub fn stays_positive3d(old: [&[f64; 3]; 4], new: [&[f64; 3]; 4]) -> bool {
     let rows = |p: [&[f64; 3]; 4]| [p[1], p[2], p[3]].map(|q| minus(q, p[0]));
     let [a, b] = [rows(old), rows(new)];

@@ -123,6 +123,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Whether a simplex that is not negative now has not become so on the way from where its vertices were before: it
     /// was certainly positive all the way, or nothing has moved.
+    #[inline(always)]
     fn stayed_positive<'p>(
         &self,
         corners: &G::Corners,
@@ -134,28 +135,29 @@ impl<G: Dimension> Delaunay<G> {
             (old[k], new[k]) = (before(site.id).unwrap_or(&site.point), &site.point);
         }
         let (old, new) = (&old[..G::Corners::N], &new[..G::Corners::N]);
-        old == new || G::stays_positive(old, new)
+        G::stays_positive(old, new) || old == new
     }
 
     /// Lists the ghost cells: one, and all that are reached from it. (The ghost vertex need not know one while there
     /// are flips; where cells are sorted the first ones are ghosts.)
     pub(crate) fn list_ghosts(&mut self, ghosts: &mut Vec<Slot>) -> Result<()> {
         ghosts.clear();
-        memory::reserve(ghosts, self.complex.n_ghosts())?;
         let complex = &mut self.complex;
-        let first = complex.live().find(|&c| complex.cell(c).is_ghost());
-        ghosts.extend(first.inspect(|&c| complex.set_mark(c, 1)));
-        let mut k = 0;
-        while let Some(&c) = ghosts.get(k) {
+        let Some(first) = complex.live().find(|&c| complex.cell(c).is_ghost()) else { return Ok(()) };
+        memory::lengthen(ghosts, complex.n_ghosts() + 1, first)?;
+        complex.set_mark(first, 1);
+        let (mut n, mut k) = (1, 0);
+        while k < n {
             for i in 0..Self::LAST {
-                let across = complex.cell(c).neighbour(i).cell();
-                if complex.mark(across) == 0 {
-                    complex.set_mark(across, 1);
-                    ghosts.push(across);
-                }
+                // Whether it is new is hard to foresee. Where it is not, what is behind the last one is written.
+                let across = complex.cell(ghosts[k]).neighbour(i).cell();
+                ghosts[n] = across;
+                n += usize::from(complex.mark(across) == 0);
+                complex.set_mark(across, 1);
             }
             k += 1;
         }
+        ghosts.truncate(n);
         debug_assert_eq!(ghosts.len(), complex.n_ghosts());
         ghosts.iter().for_each(|&c| complex.set_mark(c, 0));
         Ok(())
