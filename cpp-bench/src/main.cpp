@@ -23,19 +23,20 @@ std::string joined(int n_arguments, char **arguments) {
 
 int perform(const bench::Options &options, const std::string &command) {
     std::string environment = "environment";
+    const std::string structured = "_" + bench::structured_name(options.preset);
     switch (options.task) {
         case bench::Task::help: fmt::print("{}", options.help); return 0;
         case bench::Task::self_test: return bench::run_self_test() ? 0 : 1;
         case bench::Task::report: bench::run_report(options); environment += "_report"; break;
         case bench::Task::memory: bench::run_memory(options); environment += "_memory"; break;
         case bench::Task::large: bench::run_large(options); environment += "_large"; break;
-        case bench::Task::structured: bench::run_structured(options); environment += "_structured"; break;
+        case bench::Task::structured: bench::run_structured(options); environment += structured; break;
         case bench::Task::targets: bench::run_targets(options); environment += "_targets"; break;
         case bench::Task::run: bench::run_scenarios(options); break;
     }
     bench::write_environment(options.results + "/" + environment + ".txt", command);
     if (options.with_structured)
-        bench::write_environment(options.results + "/environment_structured.txt", command);
+        bench::write_environment(options.results + "/environment" + structured + ".txt", command);
     return 0;
 }
 

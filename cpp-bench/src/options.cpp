@@ -163,7 +163,7 @@ private:
         add_task("--structured", Task::structured,
                  "point sets such as solvers have: lattices, layers, surfaces, graded and clustered clouds,\n"
                  "built and moved, to structured.csv; the last part of a run without --scenario or --series.\n"
-                 "With --preset full all sets at three sizes");
+                 "With --preset full all sets at three sizes, to structured_full.csv");
         add_task("--targets", Task::targets,
                  "special cases beside the speed-up wanted, to targets.csv: within nine minutes");
         add_task("--self-test", Task::self_test, "test the benchmark's own checks");

@@ -69,8 +69,7 @@ public:
         write_csv(path, rows_);
         std::cout << "\nwritten: " << path << '\n';
         if (!options_.with_structured) return;
-        write_structured(options_.results, structured_lines_);
-        std::cout << "written: " << options_.results << "/structured.csv\n";
+        std::cout << "written: " << write_structured(options_.results, options_.preset, structured_lines_) << '\n';
     }
 
 private:

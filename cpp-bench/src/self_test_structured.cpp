@@ -181,8 +181,8 @@ TEST_CASE("structured lines") {
     print_structured(table, lines);
     CHECK(table.str().find("3D layers") != std::string::npos);
     const Folder folder;
-    write_structured(folder.file(""), lines);
-    std::ifstream file(folder.file("structured.csv"));
+    CHECK(write_structured(folder.file(""), preset, lines) == folder.file("") + "/structured_full.csv");
+    std::ifstream file(folder.file("structured_full.csv"));
     const auto n_lines = std::count(std::istreambuf_iterator<char>(file), {}, '\n');
     CHECK(static_cast<std::size_t>(n_lines) == 1 + expected);
 

@@ -278,13 +278,20 @@ void print_structured(std::ostream &out, const std::vector<StructuredLine> &line
     small.print(out);
 }
 
-void write_structured(const std::string &folder, const std::vector<StructuredLine> &lines) {
+std::string structured_name(const Preset &preset) {
+    return preset.has_all_point_sets ? "structured_full" : "structured";
+}
+
+std::string write_structured(const std::string &folder, const Preset &preset,
+                             const std::vector<StructuredLine> &lines) {
     std::vector<std::vector<std::string>> all = {
         {"dimension", "points", "n", "timed", "cgal_ns", "deldrift_ns", "ratio"}};
     for (const StructuredLine &line : lines)
         all.push_back(line_of(line.dimension, line.points, line.n, line.timed, significant(line.cgal_ns, 4),
                               significant(line.deldrift_ns, 4), significant(line.ratio(), 3)));
-    write_csv(folder + "/structured.csv", all);
+    const std::string path = folder + "/" + structured_name(preset) + ".csv";
+    write_csv(path, all);
+    return path;
 }
 
 void run_structured(const Options &options) {
@@ -298,8 +305,7 @@ void run_structured(const Options &options) {
     print_checks(std::cout, checks);
     std::cout << '\n';
     std::filesystem::create_directories(options.results);
-    write_structured(options.results, lines);
-    std::cout << "written: " << options.results << "/structured.csv\n";
+    std::cout << "written: " << write_structured(options.results, options.preset, lines) << '\n';
 }
 
 }  // namespace bench

@@ -80,8 +80,12 @@ std::vector<StructuredLine> measure_structured(const Preset &preset, const std::
 /// The lines as tables.
 void print_structured(std::ostream &out, const std::vector<StructuredLine> &lines);
 
-/// structured.csv in a folder that exists.
-void write_structured(const std::string &folder, const std::vector<StructuredLine> &lines);
+/// What files of a preset's sets are called: structured, or structured_full of all sets.
+std::string structured_name(const Preset &preset);
+
+/// The file of that name in a folder that exists; returns its path.
+std::string write_structured(const std::string &folder, const Preset &preset,
+                             const std::vector<StructuredLine> &lines);
 
 /// Measures, and does both.
 void run_structured(const Options &options);
