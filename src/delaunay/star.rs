@@ -53,6 +53,7 @@ impl<G: Dimension> Delaunay<G> {
             let marked = mark_star(complex, first, s, star);
             star.iter().for_each(|&(c, _)| complex.set_mark(c, 0));
             marked?;
+            debug_assert!(is_whole(complex, star), "a mark was left");
         }
         if is_far {
             self.prefetch_link();
@@ -75,6 +76,14 @@ impl<G: Dimension> Delaunay<G> {
     pub(crate) fn gathered_star(&self) -> &[(Slot, u8)] {
         &self.star
     }
+}
+
+/// Whether what is beside a cell of a star in space is in the star: where marks are left, some are missing.
+fn is_whole<C: Corners>(complex: &Complex<C>, star: &[Entry]) -> bool {
+    star.iter().all(|&(c, at)| {
+        let others = (1..C::N).map(|from| complex.cell(c).neighbour((usize::from(at) + from) % C::N).cell());
+        others.into_iter().all(|other| star.iter().any(|&(c, _)| c == other))
+    })
 }
 
 /// Lists the cells around a site in space, of which `first` is one, and marks all that are listed. There is room for

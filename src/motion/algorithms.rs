@@ -153,7 +153,7 @@ macro_rules! for_algorithms {
 
         /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within
         /// as with either, and most cost one distance. Memory as for the safe region. In the recorded report slower
-        /// than DELDRIFT_TOLERANCE in 67 of 74 rows.
+        /// than DELDRIFT_TOLERANCE in 68 of 74 rows.
         SafeRegionTolerance = 18 {
             name: "safe_region_tolerance",
             purpose: Comparison,
@@ -166,7 +166,7 @@ macro_rules! for_algorithms {
         /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
         /// rule is that of switch_share and the options behind it (RR-6750, section 5.2). A sample costs the tolerances
         /// of a few vertices. To choose another algorithm and this one again starts over. In the recorded report slower
-        /// than DELDRIFT_AUTO in 70 of 74 rows.
+        /// than DELDRIFT_AUTO in 71 of 74 rows.
         RebuildingTolerance = 19 {
             name: "rebuilding_tolerance",
             purpose: Comparison,
