@@ -1,0 +1,198 @@
+//! All vertices moved, whatever their tolerances, on several threads where that pays.
+
+use super::{BLOCK, Blocks, exchange, sites_at, stage_good};
+use crate::delaunay::{Dimension, Site};
+use crate::error::Result;
+use crate::ids::SiteId;
+use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch_at};
+use crate::machine::threads;
+use crate::motion::MovingTriangulation;
+use crate::motion::staging::Given;
+use crate::simd::{Avx2, LANES, Lanes};
+
+/// Moves of this number of vertices take a few times as long as a thread takes to wake up.
+const MOVED_AT_LEAST: usize = 1 << 14;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Moves all vertices of a whole staging, on several threads where that pays; returns how many positions differ.
+    /// Errors as those of [`move_and_queue`](Self::move_and_queue).
+    pub(in crate::motion) fn move_all_staged(&mut self, given: &mut Given<'_, G>) -> Result<u64> {
+        let n_threads = self.kernel.threads().for_work(self.site_of.len(), MOVED_AT_LEAST, 256);
+        let sites = self.kernel.sites_mut();
+        let sites = SharedSites { start: sites.as_mut_ptr(), n: sites.len() };
+        // SAFETY: every vertex has a site of its own, and these are borrowed for as long as this takes.
+        let moved = unsafe {
+            sites.move_all(self.staging.positions_mut(), given.positions(), &self.site_of, n_threads)
+        };
+        self.staging.apply_others();
+        self.kernel.cover(&moved.lower, &moved.upper);
+        Blocks { given: given.positions(), are_good: moved.are_good }.end(given)?;
+        Ok(moved.n)
+    }
+}
+
+/// How many positions differ, a box that holds the new ones, and whether all of these were good.
+struct Moved<G: Dimension> {
+    n: u64,
+    are_good: bool,
+    lower: G::Point,
+    upper: G::Point,
+}
+
+impl<G: Dimension> Moved<G> {
+    fn none() -> Self {
+        let (mut lower, mut upper) = (G::Point::default(), G::Point::default());
+        for axis in 0..G::D {
+            (lower[axis], upper[axis]) = (f64::INFINITY, f64::NEG_INFINITY);
+        }
+        Moved { n: 0, are_good: true, lower, upper }
+    }
+
+    #[inline(always)]
+    fn hold(&mut self, lower: &G::Point, upper: &G::Point) {
+        for axis in 0..G::D {
+            self.hold_along(axis, lower[axis], upper[axis]);
+        }
+    }
+
+    #[inline(always)]
+    fn hold_along(&mut self, axis: usize, lower: f64, upper: f64) {
+        let (least, greatest) = (&mut self.lower[axis], &mut self.upper[axis]);
+        *least = if lower < *least { lower } else { *least };
+        *greatest = if upper > *greatest { upper } else { *greatest };
+    }
+
+    /// Holds a box in lanes, as [`exchange`](crate::delaunay::kernel::Kernel::exchange) has them.
+    fn hold_lanes(&mut self, [lower, upper]: [Lanes; 2]) {
+        for (lane, (lower, upper)) in lower.store().into_iter().zip(upper.store()).enumerate() {
+            let axis = lane % G::D.next_power_of_two();
+            if axis < G::D {
+                self.hold_along(axis, lower, upper);
+            }
+        }
+    }
+}
+
+/// Sites that several threads move, each some of them.
+#[derive(Clone, Copy)]
+struct SharedSites<G: Dimension> {
+    start: *mut Site<G>,
+    n: usize,
+}
+
+// SAFETY: who uses them promises that no two threads use the same site (`move_all`).
+unsafe impl<G: Dimension> Send for SharedSites<G> {}
+
+impl<G: Dimension> SharedSites<G> {
+    /// Exchanges positions with those of sites.
+    ///
+    /// # Safety
+    /// `sites_of` are indices of these sites, no two the same, and nobody else uses the sites meanwhile.
+    unsafe fn move_all(
+        self,
+        positions: &mut [G::Point],
+        given: Option<&[G::Point]>,
+        sites_of: &[SiteId],
+        n_threads: usize,
+    ) -> Moved<G> {
+        if n_threads > 1 {
+            let middle = positions.len() / n_threads * (n_threads / 2);
+            let (positions, more_positions) = positions.split_at_mut(middle);
+            let (given, more_given) = given.map(|given| given.split_at(middle)).unzip();
+            let (sites_of, more_sites_of) = sites_of.split_at(middle);
+            let n_more_threads = n_threads - n_threads / 2;
+            let (mut moved, more) = threads::join(
+                // SAFETY: as for the whole; the two halves have no site in common.
+                || unsafe { self.move_all(positions, given, sites_of, n_threads / 2) },
+                // SAFETY: likewise.
+                move || unsafe { self.move_all(more_positions, more_given, more_sites_of, n_more_threads) },
+            );
+            moved.n += more.n;
+            moved.are_good &= more.are_good;
+            moved.hold(&more.lower, &more.upper);
+            return moved;
+        }
+        let Some(avx2) = Avx2::new() else {
+            // SAFETY: the caller's promise.
+            return unsafe {
+                self.move_blocks(positions, given, sites_of, |sites, moved, places, sites_of| {
+                    places.iter_mut().zip(sites_of).for_each(|(p, &s)| sites.move_one(p, s, moved));
+                })
+            };
+        };
+        let mut covered = [avx2.splat(f64::INFINITY), avx2.splat(f64::NEG_INFINITY)];
+        let mut moved = avx2.run_with(
+            self,
+            (positions, given, sites_of),
+            &mut covered,
+            #[inline(always)]
+            |sites, (positions, given, sites_of), covered| {
+                // SAFETY: the caller's promise.
+                unsafe {
+                    sites.move_blocks(
+                        positions,
+                        given,
+                        sites_of,
+                        #[inline(always)]
+                        |sites, moved, places, sites_of| {
+                            let sites = sites_at(sites.start, sites.n, sites_of);
+                            moved.n += G::exchange(avx2, places, sites, covered);
+                        },
+                    )
+                }
+            },
+        );
+        moved.hold_lanes(covered);
+        moved
+    }
+
+    /// As [`move_all`](Self::move_all), block by block, and by an exchange of several positions.
+    ///
+    /// # Safety
+    /// As for [`move_all`](Self::move_all).
+    #[inline(always)]
+    unsafe fn move_blocks(
+        self,
+        positions: &mut [G::Point],
+        given: Option<&[G::Point]>,
+        sites_of: &[SiteId],
+        mut exchange: impl FnMut(Self, &mut Moved<G>, &mut [G::Point; LANES], &[SiteId; LANES]),
+    ) -> Moved<G> {
+        debug_assert!(sites_of.iter().all(|s| s.index() < self.n));
+        let is_far = self.n * size_of::<Site<G>>() > CACHE_BYTES;
+        let mut moved = Moved::none();
+        for (first, positions) in (0..).step_by(BLOCK).zip(positions.chunks_mut(BLOCK)) {
+            let sites_of = &sites_of[first..];
+            if let Some(given) = given {
+                // SAFETY: these are indices of sites that nobody else uses.
+                let place = |k: usize| unsafe { (*self.start.add(sites_of[k].index())).point };
+                moved.are_good &= stage_good::<G>(positions, &given[first..], place);
+            }
+            let (places, last_places) = positions.as_chunks_mut::<LANES>();
+            let (at, last_at) = sites_of[..LANES * places.len() + last_places.len()].as_chunks::<LANES>();
+            for (k, (places, at)) in places.iter_mut().zip(at).enumerate() {
+                if is_far && let Some(next) = sites_of.get(k * LANES + AHEAD..) {
+                    next.iter().take(LANES).for_each(|s| prefetch_at(self.start.wrapping_add(s.index())));
+                }
+                exchange(self, &mut moved, places, at);
+            }
+            for (p, &s) in last_places.iter_mut().zip(last_at) {
+                // SAFETY: the caller's promise.
+                unsafe { self.move_one(p, s, &mut moved) };
+            }
+        }
+        moved
+    }
+
+    /// Exchanges a position with that of a site.
+    ///
+    /// # Safety
+    /// As for [`move_all`](Self::move_all).
+    #[inline(always)]
+    unsafe fn move_one(self, p: &mut G::Point, s: SiteId, moved: &mut Moved<G>) {
+        moved.hold(p, p);
+        // SAFETY: `s` is the index of a site that nobody else uses.
+        let point = unsafe { &mut (*self.start.add(s.index())).point };
+        moved.n += u64::from(exchange::<G>(point, p));
+    }
+}
