@@ -101,7 +101,7 @@ pub trait Kernel<G: Dimension> {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<G>,
-        ghosts: &[G::Corners; LANES],
+        ghosts: [&G::Corners; LANES],
         o: &G::Point,
         aim: &G::Point,
     ) -> Ray;
@@ -112,7 +112,7 @@ pub trait Kernel<G: Dimension> {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<G>,
-        ghosts: &[G::Corners; LANES],
+        ghosts: [&G::Corners; LANES],
         across: [&[SiteId; LANES]; 3],
     ) -> u32;
 
@@ -129,9 +129,9 @@ pub trait Kernel<G: Dimension> {
     /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
     fn flip(flipper: &mut Flipper<G>, facet: Facet, flips: &mut Flips<G>) -> Result<(), Obstacle>;
 
-    /// Exchanges places with those of sites; returns how many differ, bit by bit. Widens a box, its lower and its upper
-    /// corner, to the places that the sites get: lane `k` of both is of the axis that is `k` modulo the least power of
-    /// two that is not less than the dimension, and of none where there is no such axis.
+    /// Exchanges places with those of sites; returns how many differ, bit by bit. Widens a box, given by its lower and
+    /// its upper corner, to the places that the sites get. The lanes of a corner are x, y, x, y in the plane; in space
+    /// x, y, z and something without a meaning.
     fn exchange(
         avx2: Avx2,
         places: &mut [G::Point; LANES],

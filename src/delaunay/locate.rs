@@ -270,16 +270,25 @@ pub(super) fn list_star<C: Corners>(
     }
     found(first);
     star.spread(first, |cell| {
-        let c = complex.cell(cell);
-        let at = c.index_of(s);
-        // All facets but the one opposite the site. No branch depends on where that is.
-        [1, 2, 3].map(|from| {
-            let other = c.neighbour((at + from) % C::N).cell();
+        let (_, others) = beside(complex, cell, s);
+        others.map(|other| {
             complex.prefetch(other);
             found(other);
             other
         })
     })
+}
+
+/// Facets of a cell in space that are at one of its corners.
+pub(super) const BESIDE: usize = 3;
+
+/// The index of a site in a cell in space, and the cells beyond the facets at that corner. No branch depends on the
+/// index.
+#[inline(always)]
+pub(super) fn beside<C: Corners>(complex: &Complex<C>, c: Slot, s: SiteId) -> (u8, [Slot; BESIDE]) {
+    let cell = complex.cell(c);
+    let at = cell.index_of(s);
+    (at as u8, [1, 2, 3].map(|from| cell.neighbour((at + from) % C::N).cell()))
 }
 
 /// Calls `found` for the cells around a site in the plane, ghost cells included, of which `first` is one, with the

@@ -168,7 +168,7 @@ impl Kernel<Plane> for Plane {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Plane>,
-        ghosts: &[[SiteId; 3]; LANES],
+        ghosts: [&[SiteId; 3]; LANES],
         o: &[f64; 2],
         aim: &[f64; 2],
     ) -> Ray {
@@ -182,7 +182,7 @@ impl Kernel<Plane> for Plane {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Plane>,
-        ghosts: &[[SiteId; 3]; LANES],
+        ghosts: [&[SiteId; 3]; LANES],
         across: [&[SiteId; LANES]; 3],
     ) -> u32 {
         let [a, b] = [0, 1].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));
@@ -243,7 +243,7 @@ impl Kernel<Plane> for Plane {
         [s, t, u, v]: [&mut Site<Plane>; LANES],
         [lower, upper]: &mut [Lanes; 2],
     ) -> u64 {
-        /// How many pairs of bits differ from 3.
+        /// Of the two pairs of bits of a number, how many are not both set.
         const N_PAIRS: [u8; 1 << LANES] = [2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 2, 1, 1, 1, 1, 0];
         let (first, last) = halves(places);
         let new = [avx2.load(first), avx2.load(last)];

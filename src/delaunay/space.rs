@@ -138,7 +138,7 @@ impl Kernel<Space> for Space {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Space>,
-        ghosts: &[[SiteId; 4]; LANES],
+        ghosts: [&[SiteId; 4]; LANES],
         o: &[f64; 3],
         aim: &[f64; 3],
     ) -> Ray {
@@ -152,7 +152,7 @@ impl Kernel<Space> for Space {
         avx2: Avx2,
         f: &StaticFilter,
         sites: Sites<Space>,
-        ghosts: &[[SiteId; 4]; LANES],
+        ghosts: [&[SiteId; 4]; LANES],
         across: [&[SiteId; LANES]; 3],
     ) -> u32 {
         let [a, b, c] = [0, 1, 2].map(|i| places(avx2, sites, ghosts.map(|g| g[i])));

@@ -7,9 +7,9 @@
 //!
 //! Invariant: all marks are 0 before and after.
 //!
-//! Cost: some 6 ns a cell where all is in a cache.
+//! Cost: three marks a cell; a relocation that finds nothing to do spends nearly half of its time here.
 
-use super::locate::{list_ring, list_star};
+use super::locate::{BESIDE, beside, list_ring, list_star};
 use super::{Delaunay, Dimension};
 use crate::complex::{Complex, Corners};
 use crate::error::Result;
@@ -22,9 +22,6 @@ type Entry = (Slot, u8);
 
 /// Nearly all stars have fewer cells: a power of two.
 const FEW: usize = 64;
-
-/// Facets of a cell in space that are at one of its corners.
-const BESIDE: usize = 3;
 
 impl<G: Dimension> Delaunay<G> {
     /// Collects the star of a site. What a relocation reads next is asked for: the sites of the link and those beyond
@@ -81,8 +78,8 @@ impl<G: Dimension> Delaunay<G> {
 /// Whether what is beside a cell of a star in space is in the star: where marks are left, some are missing.
 fn is_whole<C: Corners>(complex: &Complex<C>, star: &[Entry]) -> bool {
     star.iter().all(|&(c, at)| {
-        let others = (1..C::N).map(|from| complex.cell(c).neighbour((usize::from(at) + from) % C::N).cell());
-        others.into_iter().all(|other| star.iter().any(|&(c, _)| c == other))
+        let (_, others) = beside(complex, c, complex.cell(c).corners[usize::from(at)]);
+        others.iter().all(|other| star.iter().any(|(c, _)| c == other))
     })
 }
 
@@ -139,12 +136,4 @@ fn mark_few<C: Corners>(
         next += 1;
     }
     (n, next)
-}
-
-/// The index of a site in a cell, and the cells beyond the facets at that corner. No branch depends on the index.
-#[inline(always)]
-fn beside<C: Corners>(complex: &Complex<C>, c: Slot, s: SiteId) -> (u8, [Slot; BESIDE]) {
-    let cell = complex.cell(c);
-    let at = cell.index_of(s);
-    (at as u8, [1, 2, 3].map(|from| cell.neighbour((at + from) % C::N).cell()))
 }

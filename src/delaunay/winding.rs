@@ -121,8 +121,8 @@ impl<G: Dimension> Delaunay<G> {
                 let mut n_crossings = 0;
                 for four in ghosts.chunks(LANES) {
                     // The last one fills the last lanes.
-                    let corners = [0, 1, 2, 3].map(|k| t.complex.cell(four[k.min(four.len() - 1)]).corners);
-                    let ray = G::ray(avx2, &t.filter, t.view(), &corners, o, aim);
+                    let corners = [0, 1, 2, 3].map(|k| &t.complex.cell(four[k.min(four.len() - 1)]).corners);
+                    let ray = G::ray(avx2, &t.filter, t.view(), corners, o, aim);
                     if ray.inside & (ray.crossing | ray.passing) != ALL {
                         return false;
                     }

@@ -148,7 +148,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                         },
                         #[inline(always)]
                         |movers, places, sites_of| {
-                            // SAFETY: every vertex has a site of its own.
+                            // SAFETY: every vertex has a site of its own, and the sites are borrowed.
                             let sites =
                                 unsafe { sites_at(movers.sites.as_mut_ptr(), movers.sites.len(), sites_of) };
                             G::exchange(avx2, places, sites, &mut [avx2.splat(0.0); 2])

@@ -48,11 +48,11 @@ impl<G: Dimension> Delaunay<G> {
                 for first in (0..ghosts.len()).step_by(LANES) {
                     // The last one fills the last lanes.
                     let four = [0, 1, 2, 3].map(|k| ghosts[(first + k).min(ghosts.len() - 1)]);
-                    let corners = four.map(|g| t.complex.cell(g).corners);
+                    let corners = four.map(|g| &t.complex.cell(g).corners);
                     // There are three ridges in space: in the plane the last two are the same.
                     let [i, j, k] = [0, 1, G::D - 1]
                         .map(|i| four.map(|g| t.complex.apex(t.complex.cell(g).neighbour(i))));
-                    let are_convex = G::are_convex(avx2, &t.filter, t.view(), &corners, [&i, &j, &k]);
+                    let are_convex = G::are_convex(avx2, &t.filter, t.view(), corners, [&i, &j, &k]);
                     for (lane, &g) in four[..LANES.min(ghosts.len() - first)].iter().enumerate() {
                         if are_convex >> lane & 1 == 0 {
                             ghosts[n_kept] = g;

@@ -113,7 +113,7 @@ impl<G: Dimension> Flips<G> {
     pub(in crate::delaunay) fn enter<const N: usize>(&mut self, outer: [Facet; N]) {
         self.changed.push(outer[0].cell());
         self.changed.push(outer[N / 2].cell());
-        // One by one, as they are not in memory yet.
+        // One by one: an array of them would be written first, and then read wider than that, which waits.
         for facet in outer {
             self.suspects.push(facet);
         }

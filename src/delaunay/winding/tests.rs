@@ -30,7 +30,7 @@ fn rays_agree<G: Dimension>(t: &Delaunay<G>, o: &G::Point, aim: &G::Point) -> [u
     let Some(avx2) = Avx2::new() else { return n_certain };
     for four in ghosts(t).chunks_exact(LANES) {
         let corners = [0, 1, 2, 3].map(|k| t.complex.cell(four[k]).corners);
-        let ray = avx2.run(|| G::ray(avx2, &t.filter, t.view(), &corners, o, aim));
+        let ray = avx2.run(|| G::ray(avx2, &t.filter, t.view(), corners.each_ref(), o, aim));
         for (k, &g) in four.iter().enumerate() {
             let is = |bits: u32| bits >> k & 1 == 1;
             let side = G::orientation_with(&t.filter, t.view(), &corners[k], Delaunay::<G>::LAST, o);

@@ -27,13 +27,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<Motion> {
         let Some(avx2) = Avx2::new() else {
             return self.move_all_on_record_by(given, |sites, places, sites_of| {
-                let pairs = std::iter::zip(places, sites_of);
-                let mut distances = [0.0; LANES];
-                std::iter::zip(&mut distances, pairs).for_each(|(distance, (p, &s))| {
-                    *distance = distance_above(&sites[s].point, p);
-                    std::mem::swap(&mut sites[s].point, p);
-                });
-                distances
+                std::array::from_fn(|k| {
+                    let (point, p) = (&mut sites[sites_of[k]].point, &mut places[k]);
+                    let distance = distance_above(point, p);
+                    std::mem::swap(point, p);
+                    distance
+                })
             });
         };
         avx2.run_with(
@@ -46,7 +45,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     given,
                     #[inline(always)]
                     |sites, places, sites_of| {
-                        // SAFETY: every vertex has a site of its own.
+                        // SAFETY: every vertex has a site of its own, and the sites are borrowed.
                         let sites = unsafe { sites_at(sites.as_mut_ptr(), sites.len(), sites_of) };
                         let old = [&sites[0].point, &sites[1].point, &sites[2].point, &sites[3].point];
                         let distances = distances_above(avx2, old, places.each_ref());

@@ -65,26 +65,25 @@ impl<G: Dimension> Watching<G> {
 /// Whether a bi-cell's tolerance is so small, next to its size h and the displacement u of its vertices from one
 /// timestamp to the next, that watching it is cheaper than recomputing stars now and then. Watching those
 /// below θ costs in proportion to θ / h, what is recomputed in proportion to u / θ; so the best θ² is in
-/// proportion to u h. No step is longer, squared, than `most_steps`.
+/// proportion to u h. `longest` is the square of a length that no step exceeds.
 #[inline(always)]
 fn is_soon_beyond<G: Dimension>(
     fixed: &[Fixed<G>],
     vertices: &[VertexId],
     tolerance: f64,
     other_positions: &[G::Point],
-    most_steps: f64,
+    longest: f64,
 ) -> bool {
     let square = squared_distance(fixed[vertices[1]].point(), fixed[vertices[2]].point());
     let t = tolerance * tolerance;
-    let share = constants::<G>().watched_share;
-    // For all but a few this is enough, and it needs only what is at hand.
-    if t * t > share * most_steps * square {
-        return false;
-    }
-    t * t <= share * longest_step(fixed, vertices, other_positions) * square
+    let is_small_for = |step: f64| t * t <= constants::<G>().watched_share * step * square;
+    // Nearly all bi-cells are large enough for the longest step of all. (Where that is infinite, the product may be no
+    // number, which says nothing.)
+    (is_small_for(longest) || longest.is_infinite())
+        && is_small_for(longest_step(fixed, vertices, other_positions))
 }
 
-/// The longest way of a vertex of a bi-cell in the last timestamp, squared.
+/// The longest way of a vertex of a bi-cell in the last timestamp, squared. Out of the loop, which hardly ever asks.
 #[inline(never)]
 fn longest_step<G: Dimension>(
     fixed: &[Fixed<G>],
@@ -114,9 +113,9 @@ impl<G: Dimension> Store<G> for Watching<G> {
         tolerances.fix_all(kernel, n_ids)?;
         watched.grow(kernel.complex().n_slots())?;
         let steps = tolerances.fixed().iter().zip(other_positions);
-        let most_steps = steps.map(|(fixed, p)| squared_distance(fixed.point(), p)).fold(0.0, f64::max);
+        let longest = steps.map(|(fixed, p)| squared_distance(fixed.point(), p)).fold(0.0, f64::max);
         Ok(tolerances.measure_all(kernel, |fixed, facets, vertices, tolerance| {
-            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions, most_steps))
+            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions, longest))
         }))
     }
 
