@@ -44,8 +44,10 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) $(EXAMPLE_NEEDS) pkg-config valgrind dpkg-dev
 	-@.ci/packages chromium
 	-@.ci/packages libtet1.5-dev
-	cargo test
-	DELDRIFT_SCALAR=1 cargo test --lib $(addprefix --test ,$(SCALAR_TOO))
+	cargo test --tests
+	cargo test --doc
+	DELDRIFT_SCALAR=1 cargo test --lib
+	DELDRIFT_SCALAR=1 cargo test --test library -- $(addsuffix ::,$(SCALAR_TOO))
 	cargo test --test ffi -- --ignored
 	$(MAKE) benchmark
 	ctest --test-dir cpp-bench/build --output-on-failure

@@ -1,9 +1,7 @@
 //! Small triangulations against the definition, enumerated in exact integers (see `common/exact.rs`).
 
-mod common;
-
-use common::exact::{Grid, delaunay_cells, orientation, representatives, to_point};
-use common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
+use crate::common::exact::{Grid, delaunay_cells, orientation, representatives, to_point};
+use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
 

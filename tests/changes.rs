@@ -3,12 +3,10 @@
 //! Random histories of every call there is; between two takes come any number of them, and the cells may have been read
 //! or not. `DELDRIFT_SOAK` multiplies the number of seeds.
 
-mod common;
-
-use common::carried::{Carried, some_present, take};
-use common::exact::{Grid, orientation, representatives};
-use common::inputs::{KINDS, Kind, draw, draw_one, quantized, to_grid};
-use common::{
+use crate::common::carried::{Carried, some_present, take};
+use crate::common::exact::{Grid, orientation, representatives};
+use crate::common::inputs::{KINDS, Kind, draw, draw_one, quantized, to_grid};
+use crate::common::{
     CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted, vertex,
     vertices,
 };
@@ -331,15 +329,6 @@ impl<'c, G: Dimension> History<'c, G> {
             assert_eq!(self.t.position(v).ok(), *p, "{}: vertex {v}", self.context());
         }
         let cells = cell_set(&self.t);
-        if std::env::var("DBG").is_ok() {
-            println!(
-                "{} {:?}\n{:?} hidden {:?}\n",
-                self.context(),
-                self.positions,
-                cells,
-                common::carried::hidden_of(&self.t)
-            );
-        }
         assert_same_cells(&cells, &fresh_cells::<G>(&self.positions), || self.context());
         check_adjacency(&self.t, &|| self.context());
         self.check_orientations();

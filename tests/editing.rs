@@ -1,12 +1,10 @@
 //! Insertions and removals staged into commits, with moves and immediate calls in between: the cells are those of a
 //! fresh build after every commit, and a commit that is cancelled leaves everything as it was, staged.
 
-mod common;
-
-use common::exact::representatives;
-use common::history::Snapshot;
-use common::inputs::{Kind, draw, draw_one};
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
+use crate::common::exact::representatives;
+use crate::common::history::Snapshot;
+use crate::common::inputs::{Kind, draw, draw_one};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
 use deldrift::Error;
 use deldrift::motion::Level;
 use deldrift::motion::{Algorithm, CoincidencePolicy, MovingTriangulation, Options};

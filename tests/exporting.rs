@@ -1,16 +1,14 @@
 //! Files for other programs hold the positions and cells that are read, number for number: by readers of the tests'
 //! own, and by meshio and VTK where they can be had.
 
-mod common;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 
-use common::inputs::{KINDS, Kind, draw};
-use common::{Rng, vertex};
+use crate::common::inputs::{KINDS, Kind, draw};
+use crate::common::{Rng, vertex};
 use deldrift::motion::{Field, MovingTriangulation, Options};
 use deldrift::{Dimension, Error, Plane, Space, VertexId};
 

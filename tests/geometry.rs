@@ -1,14 +1,11 @@
 //! Geometry computed from the cells, against exact integers and against brute force over all cells.
 
-mod common;
-#[path = "geometry/listed.rs"]
 mod listed;
-#[path = "geometry/voronoi.rs"]
 mod voronoi;
 
-use common::exact::{Grid, orientation, representatives};
-use common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};
-use common::{Rng, point, seeds};
+use crate::common::exact::{Grid, orientation, representatives};
+use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};
+use crate::common::{Rng, point, seeds};
 use deldrift::motion::{BoundaryFacet, MovingTriangulation, NO_CELL, NO_CORNER, Options};
 use deldrift::{CellId, Dimension, Error, Plane, Space, VertexId};
 use num_bigint::BigInt;

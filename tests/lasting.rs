@@ -6,12 +6,10 @@
 //! use tolerances up a little at a time. In between come partial commits, cancelled and rejected ones, other
 //! algorithms, and calls that take effect at once. `DELDRIFT_SOAK` multiplies the number of seeds.
 
-mod common;
-
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
 
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds};
 use deldrift::Error;
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, CommitReport, Commits, Level, Monitor, MovingTriangulation, Options,

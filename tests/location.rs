@@ -1,9 +1,7 @@
 //! Point location: answers against exact arithmetic over all cells and vertices, on clouds large enough for landmarks,
 //! while points move, come and go.
 
-mod common;
-
-use common::{Rng, point};
+use crate::common::{Rng, point};
 use deldrift::motion::{Level, Location, MovingTriangulation, NO_CELL, Options};
 use deldrift::{CellId, Dimension, Plane, Space, VertexId};
 

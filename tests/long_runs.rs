@@ -1,11 +1,8 @@
 //! Runs of thousands of commits: whatever is kept from commit to commit stays as it is after the first ones. And the
 //! first histories of `make soak`.
 
-mod common;
-#[path = "../soak/histories/mod.rs"]
-mod histories;
-
-use common::{Rng, assert_same_cells, cell_set, fresh_cells};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells};
+use crate::histories;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space};
 

@@ -3,9 +3,7 @@
 //!
 //! Displacements are of the size of tolerances, so that every commit has vertices on both sides of the tests.
 
-mod common;
-
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, vertex};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, vertex};
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, CommitReport, Level, MovingTriangulation, Options, SwitchingRule,
 };

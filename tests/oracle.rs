@@ -1,12 +1,9 @@
 //! Any history against a fresh build: after every commit and every few immediate calls the cells must be
 //! those of a triangulation made at once of the present positions and ids (see `common/history.rs`).
 
-mod common;
-mod metamorphic;
-
-use common::history::{History, Snapshot, nudged};
-use common::inputs::{KINDS, Kind, draw, integer_sphere, on_sphere};
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
+use crate::common::history::{History, Snapshot, nudged};
+use crate::common::inputs::{KINDS, Kind, draw, integer_sphere, on_sphere};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
 use deldrift::Error;
 use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};

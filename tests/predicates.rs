@@ -1,9 +1,7 @@
 //! The predicates against determinants of integers, for coordinates of which no product underflows.
 
-mod exact_oracle;
-
+use crate::exact_oracle::*;
 use deldrift::internals::predicates::*;
-use exact_oracle::*;
 use num_bigint::BigInt;
 use std::array::from_fn;
 use std::cmp::Ordering;

@@ -1,9 +1,7 @@
 //! The predicates at the ends of the range of coordinates, where differences, products and bounds underflow.
 
-mod exact_oracle;
-
+use crate::exact_oracle::*;
 use deldrift::internals::predicates::*;
-use exact_oracle::*;
 use std::array::from_fn;
 use std::cmp::Ordering;
 

@@ -4,10 +4,8 @@
 //! Each history is a sequence of motions, drawn by its seed from those of [`MOTIONS`], on random points or on
 //! a grid, whose ties every motion breaks or makes. `DELDRIFT_SOAK` multiplies the number of seeds.
 
-mod common;
-
-use common::inputs::{on_spheres_within_each_other, on_unit_sphere};
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds, vertex};
+use crate::common::inputs::{on_spheres_within_each_other, on_unit_sphere};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Commits, Level, Location, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
 

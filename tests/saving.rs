@@ -1,15 +1,14 @@
 //! Triangulations that are saved and loaded, or cloned, are like the first, and go on like it; data that are not those
 //! of a triangulation are refused. Oracles: a fresh build, and a reader and writer of the format of the tests' own.
 
-mod common;
-mod saving_format;
-
-use common::history::{History, Snapshot};
-use common::inputs::{KINDS, Kind, draw};
-use common::{Rng, assert_same_cells, carried, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
+use crate::common::history::{History, Snapshot};
+use crate::common::inputs::{KINDS, Kind, draw};
+use crate::common::{
+    Rng, assert_same_cells, carried, cell_set, fresh_cells, ids, point, seeds, vertex, vertices,
+};
+use crate::saving_format::{Parts, seal};
 use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options, Saved};
 use deldrift::{CellId, Damage, Dimension, Error, LoadError, Plane, Space, VertexId};
-use saving_format::{Parts, seal};
 
 fn tracking() -> Options {
     Options { track_changes: true, ..Options::default() }
@@ -283,7 +282,7 @@ fn check_forged<G: Dimension>(bytes: &[u8]) -> bool {
         Ok(t) => {
             t.validate(Level::Delaunay).unwrap_or_else(|violation| panic!("{violation}"));
             assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&positions_of(&t)), || "forged".to_string());
-            common::check_adjacency(&t, &|| "forged".to_string());
+            crate::common::check_adjacency(&t, &|| "forged".to_string());
             true
         }
     }

@@ -1,10 +1,8 @@
 //! Point sets that broke other codes, and a peer: published suites and real inputs, where they are at hand
 //! (see `common/files.rs`), and the plane's triangulations by spade.
 
-mod common;
-
-use common::files::{Json, npy, text};
-use common::{
+use crate::common::files::{Json, npy, text};
+use crate::common::{
     CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, sorted, vertex, vertices,
 };
 use deldrift::Error;

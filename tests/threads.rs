@@ -3,10 +3,8 @@
 //! All threads are used that are asked for, from a few hundred vertices each on, so small inputs are divided as well.
 //! `DELDRIFT_SOAK` multiplies the number of seeds.
 
-mod common;
-
-use common::inputs::{KINDS, Kind, draw};
-use common::{Rng, assert_same_cells, cell_set, check_adjacency, point, seeds};
+use crate::common::inputs::{KINDS, Kind, draw};
+use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, point, seeds};
 use deldrift::Error;
 use deldrift::internals::use_all_threads;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};

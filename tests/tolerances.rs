@@ -3,9 +3,7 @@
 //! Doubles are integers times a common power of two, so inequalities between them are decided in integers. A
 //! bi-cell is its facet followed by both opposing vertices.
 
-mod common;
-
-use common::Rng;
+use crate::common::Rng;
 use deldrift::internals::predicates::{
     BiCells, LANES, delimiter2d, delimiter3d, displacement_limit, distance_above, is_certainly_inside,
     is_path_certainly_outside, orientation_tolerance2d, orientation_tolerance3d, separator3d,

@@ -1,13 +1,11 @@
 //! How much work the algorithms take, in counts: files in `results/work`, one for each kind of input, with a row for
 //! each algorithm, summed over a fixed history. They depend on the processor in one thing alone: whether it has AVX2.
 //!
-//! A change of the library that is for speed, or against it, changes a row. `DELDRIFT_RECORD=1 cargo test --test work`
-//! writes the files again, and with `DELDRIFT_SCALAR=1` those without AVX2.
+//! A change of the library that is for speed, or against it, changes a row. `DELDRIFT_RECORD=1 cargo test --test
+//! library work::` writes the files again, and with `DELDRIFT_SCALAR=1` those without AVX2.
 
-mod common;
-
-use common::inputs::{Kind, draw, on_spheres_within_each_other};
-use common::{Rng, assert_same_cells, cell_set, fresh_cells, point};
+use crate::common::inputs::{Kind, draw, on_spheres_within_each_other};
+use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, point};
 use deldrift::motion::{Algorithm, MovingTriangulation, Options};
 use deldrift::{Dimension, Plane, Space, VertexId};
 use std::fmt::Write;

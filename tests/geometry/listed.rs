@@ -1,7 +1,7 @@
 //! The cells around some vertices, and arrays that are kept for all cells, where only the entries of some are computed.
 
 use super::*;
-use common::inputs::quantized;
+use crate::common::inputs::quantized;
 
 /// Arrays that a program keeps for all cells.
 struct Kept<G: Dimension> {

@@ -1,0 +1,28 @@
+//! Tests of the library from outside, in one program: each program compiles the generic parts of the library again.
+//! Those that need an allocator of their own are programs of their own.
+
+mod brute_force;
+mod changes;
+mod common;
+mod editing;
+mod exact_oracle;
+mod exporting;
+mod geometry;
+#[path = "../soak/histories/mod.rs"]
+mod histories;
+mod lasting;
+mod location;
+mod long_runs;
+mod maintenance;
+mod metamorphic;
+mod oracle;
+mod predicates;
+mod predicates_range;
+mod predicates_suites;
+mod repair;
+mod saving;
+mod saving_format;
+mod suites;
+mod threads;
+mod tolerances;
+mod work;
