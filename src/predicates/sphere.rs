@@ -26,10 +26,11 @@
 //! exceed infinity.
 
 use super::StaticFilter;
-use super::filter::{
-    extents, largest, prepared_bound_2d, prepared_bound_3d, semi_static_bounds_2d, semi_static_bounds_3d,
+use super::filter::{extents, largest, prepared_bound_2d, prepared_bound_3d, semi_static_bounds_3d};
+use super::lengths::{
+    HALF_SPACE_SCALE, LEAST_LENGTH, area_bound_by_length, prepared_bound_by_length_2d,
+    prepared_bound_by_length_3d, volume_bound_by_length,
 };
-use super::lengths::{HALF_SPACE_SCALE, LEAST_LENGTH, prepared_bound_by_lengths};
 use super::vectors::{dot, fused_cross, fused_dot, fused_minor, minus};
 use crate::simd::Real;
 
@@ -109,7 +110,9 @@ pub fn is_side_certain(side: f64, [a, b, c, d, q]: [&[f64; 3]; 5]) -> bool {
 #[inline(always)]
 pub fn side_bound_by_length(length: f32, a: &[f64; 3], q: &[f64; 3]) -> f64 {
     let s = minus(q, a);
-    prepared_bound_by_lengths(length.into(), fused_dot(&s, &s))
+    let length = f64::from(length);
+    let squared = length * length;
+    prepared_bound_by_length_3d(squared, squared * length, fused_dot(&s, &s))
 }
 
 /// The greatest distance of `b`, `c` and `d` from `a`, from above, also after rounding to `f32`; infinite where it is
@@ -124,7 +127,7 @@ pub fn edge_length<T: Real>(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> T
 }
 
 #[inline(always)]
-fn squared_length<T: Real>(a: &[T; 3], b: &[T; 3]) -> T {
+fn squared_length<T: Real, const D: usize>(a: &[T; D], b: &[T; D]) -> T {
     let u = minus(b, a);
     fused_dot(&u, &u)
 }
@@ -135,66 +138,63 @@ fn length_above<T: Real>(squared: T) -> T {
     T::select(length.is_less(squared.splat(LEAST_LENGTH)), squared.splat(f64::INFINITY), length)
 }
 
-/// The bounds of a cell of the plane and of points next to it, by their own differences from its first corner.
+/// The bounds of a cell of the plane and of points next to it, by the lengths of its edges from the first corner.
 #[derive(Clone, Copy)]
 pub struct OwnBounds2d<T> {
-    extents: [T; 2],
+    /// Of the longest edge, or [`LEAST_LENGTH`] if all are shorter.
+    squared: T,
 }
 
 impl<T: Real> OwnBounds2d<T> {
     /// Of a triangle.
     #[inline(always)]
     pub fn new(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Self {
-        OwnBounds2d { extents: extended(minus(b, a).map(T::abs), a, c) }
+        let longest = squared_length(a, b).max(squared_length(a, c));
+        OwnBounds2d { squared: longest.max(longest.splat(LEAST_LENGTH * LEAST_LENGTH)) }
     }
 
     /// What the area exceeds if it is certainly positive.
     #[inline(always)]
     pub fn area(&self) -> T {
-        semi_static_bounds_2d(self.extents)[0]
+        area_bound_by_length(self.squared)
     }
 
     /// What the magnitude of [`side_of_circle`] exceeds if it is certain.
     #[inline(always)]
     pub fn side(&self, a: &[T; 2], q: &[T; 2]) -> T {
-        semi_static_bounds_2d(extended(self.extents, a, q))[1]
+        prepared_bound_by_length_2d(self.squared, squared_length(a, q))
     }
 }
 
 /// As [`OwnBounds2d`], in space.
 #[derive(Clone, Copy)]
 pub struct OwnBounds3d<T> {
-    extents: [T; 3],
+    /// As in the plane.
+    squared: T,
+    /// The third power of the length.
+    cubed: T,
 }
 
 impl<T: Real> OwnBounds3d<T> {
     /// Of a tetrahedron.
     #[inline(always)]
     pub fn new(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Self {
-        OwnBounds3d { extents: extended(extended(minus(b, a).map(T::abs), a, c), a, d) }
+        let longest = squared_length(a, b).max(squared_length(a, c)).max(squared_length(a, d));
+        let squared = longest.max(longest.splat(LEAST_LENGTH * LEAST_LENGTH));
+        OwnBounds3d { squared, cubed: squared * squared.sqrt() }
     }
 
     /// What the volume exceeds if it is certainly positive.
     #[inline(always)]
     pub fn volume(&self) -> T {
-        semi_static_bounds_3d(self.extents)[0]
+        volume_bound_by_length(self.cubed)
     }
 
     /// What the magnitude of [`side_of_sphere`] exceeds if it is certain.
     #[inline(always)]
     pub fn side(&self, a: &[T; 3], q: &[T; 3]) -> T {
-        semi_static_bounds_3d(extended(self.extents, a, q))[1]
+        prepared_bound_by_length_3d(self.squared, self.cubed, squared_length(a, q))
     }
-}
-
-/// Extents that cover the differences from `a` to `q` as well.
-#[inline(always)]
-fn extended<T: Real, const D: usize>(mut extents: [T; D], a: &[T; D], q: &[T; D]) -> [T; D] {
-    let s = minus(q, a);
-    for axis in 0..D {
-        extents[axis] = s[axis].abs().max(extents[axis]);
-    }
-    extents
 }
 
 /// Whether all points of a box are certainly outside the sphere of the positively oriented tetrahedron

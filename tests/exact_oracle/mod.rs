@@ -145,6 +145,7 @@ pub fn lift<T: Integer>(rows: &mut [Vec<T>]) {
 // numbers
 
 #[path = "../common/random.rs"]
+#[allow(clippy::duplicate_mod)] // The fuzz targets take this folder without the other.
 mod random;
 
 /// Random numbers as the predicates' tests need them.
