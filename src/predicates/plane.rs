@@ -71,6 +71,11 @@ fn orient2d_exact(det: f64, points: [&[f64; 2]; 3]) -> f64 {
 #[cold]
 #[inline(never)]
 fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
+    // Most ties of grids. All are found below, too.
+    if det == 0.0 && is_rectangle(points) {
+        tally::count();
+        return det;
+    }
     let extents = extents(points);
     if is_certain(det, incircle_bound(extents), extents) || det.abs() > own_incircle_bound(points, extents) {
         return det;
@@ -87,6 +92,18 @@ pub(super) fn own_incircle_bound([a, b, c, d]: [&[f64; 2]; 4], extents: [f64; 2]
     let dot = |p: &[f64; 2], q: &[f64; 2]| Running::sum(p[0] * q[0], p[1] * q[1]);
     let products = [[cross(&w), dot(&v, &minus(c, b))], [cross(&v), dot(&w, &minus(d, b))]];
     incircle_running_bound(products, extents)
+}
+
+/// Whether these are the corners of a rectangle along the axes, which are on a circle. Without branches, as their order
+/// is any.
+#[inline(always)]
+fn is_rectangle([a, b, c, d]: [&[f64; 2]; 4]) -> bool {
+    let are_pairs =
+        |axis: usize, [[p, q], [r, s]]: [[&[f64; 2]; 2]; 2]| (p[axis] == q[axis]) & (r[axis] == s[axis]);
+    let pairings = [[[a, b], [c, d]], [[a, c], [b, d]], [[a, d], [b, c]]];
+    let [x0, x1, x2] = pairings.map(|pairing| are_pairs(0, pairing));
+    let [y0, y1, y2] = pairings.map(|pairing| are_pairs(1, pairing));
+    (x0 & (y1 | y2)) | (x1 & (y0 | y2)) | (x2 & (y0 | y1))
 }
 
 fn incircle_exact(det: f64, points: [&[f64; 2]; 4], extent: f64) -> f64 {
