@@ -1,5 +1,5 @@
 //! Tests of the library from outside, in one program: each program compiles the generic parts of the library again.
-//! Those that need an allocator of their own are programs of their own.
+//! Only those that need an allocator of their own are apart.
 
 mod brute_force;
 mod changes;

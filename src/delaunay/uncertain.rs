@@ -7,7 +7,7 @@
 //!
 //! The static bound is that of the whole triangulation, and says nothing of cells that are much smaller than others
 //! are. Where it has said nothing of nearly all cells of a block, the next block is evaluated with bounds of its cells'
-//! own, which takes a third longer, until the static bound would do for most of a block.
+//! own, which takes a seventh longer, until the static bound would do for most of a block.
 
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, INFINITE};

@@ -25,8 +25,8 @@
 //! the plane and a nineteenth in space; a vertex taken back costs a placement, some eight vertices rebuilt.
 //! Where more break than is worth mending, the triangulation is rebuilt, at once where that is foreseen
 //! ([`foresight`](super::foresight)). The first repair after a build sorts the cells of a large triangulation, and so
-//! does another when twice as many have been replaced. The moves of all vertices, the sweep and the flips are done by
-//! several threads, all else by one.
+//! does another when twice as many have been replaced. Moving all vertices, finding those that have moved, the sweep
+//! and the flips are done by several threads, all else by one.
 
 use super::Repair;
 use super::places::At;
