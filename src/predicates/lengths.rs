@@ -13,7 +13,8 @@
 //! The magnitudes of a determinant's products add up to the permanent of the magnitudes, which is at most 2/√3 times
 //! the product of the lengths of its three rows (Carlen, Lieb and Loss, 10.4310/MAA.2006.v13.n1.a1). With L for the
 //! longest edge from the first corner, those that belong to s·n thus add up to 2/√3 · 3 L⁴ |s| at most, and those of
-//! |s|² V to 2/√3 · L³ |s|². Since 2 L |s| ≤ L² + |s|², all together are 2/√3 · L³ (5/2 |s|² + 3/2 L²) at most.//!
+//! |s|² V to 2/√3 · L³ |s|². Since 2 L |s| ≤ L² + |s|², all together are 2/√3 · L³ (5/2 |s|² + 3/2 L²) at most.
+//!
 //! Of the volume alone each product has been rounded 8 times: in three differences, twice in a minor, three times in the
 //! scalar product.
 //!

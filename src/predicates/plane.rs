@@ -4,7 +4,7 @@ use super::big::{self, has_room};
 use super::filter::{StaticFilter, extents, incircle_bound, is_certain, largest, orient2d_bound};
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
 use super::running::{Running, incircle_running_bound};
-use super::two_heights::incircle_at_two_heights;
+use super::two_heights::{incircle_at_two_heights, is_rectangle};
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
 use robust::Coord;
@@ -92,18 +92,6 @@ pub(super) fn own_incircle_bound([a, b, c, d]: [&[f64; 2]; 4], extents: [f64; 2]
     let dot = |p: &[f64; 2], q: &[f64; 2]| Running::sum(p[0] * q[0], p[1] * q[1]);
     let products = [[cross(&w), dot(&v, &minus(c, b))], [cross(&v), dot(&w, &minus(d, b))]];
     incircle_running_bound(products, extents)
-}
-
-/// Whether these are the corners of a rectangle along the axes, which are on a circle. Without branches, as their order
-/// is any.
-#[inline(always)]
-fn is_rectangle([a, b, c, d]: [&[f64; 2]; 4]) -> bool {
-    let are_pairs =
-        |axis: usize, [[p, q], [r, s]]: [[&[f64; 2]; 2]; 2]| (p[axis] == q[axis]) & (r[axis] == s[axis]);
-    let pairings = [[[a, b], [c, d]], [[a, c], [b, d]], [[a, d], [b, c]]];
-    let [x0, x1, x2] = pairings.map(|pairing| are_pairs(0, pairing));
-    let [y0, y1, y2] = pairings.map(|pairing| are_pairs(1, pairing));
-    (x0 & (y1 | y2)) | (x1 & (y0 | y2)) | (x2 & (y0 | y1))
 }
 
 fn incircle_exact(det: f64, points: [&[f64; 2]; 4], extent: f64) -> f64 {

@@ -35,6 +35,18 @@ pub(super) fn incircle_at_two_heights(points: [&[f64; 2]; 4]) -> Option<Ordering
     })
 }
 
+/// Whether these are the corners of a rectangle along the axes, which are on a circle. Without branches, as their order
+/// is any.
+#[inline(always)]
+pub(super) fn is_rectangle([a, b, c, d]: [&[f64; 2]; 4]) -> bool {
+    let are_pairs =
+        |axis: usize, [[p, q], [r, s]]: [[&[f64; 2]; 2]; 2]| (p[axis] == q[axis]) & (r[axis] == s[axis]);
+    let pairings = [[[a, b], [c, d]], [[a, c], [b, d]], [[a, d], [b, c]]];
+    let [x0, x1, x2] = pairings.map(|pairing| are_pairs(0, pairing));
+    let [y0, y1, y2] = pairings.map(|pairing| are_pairs(1, pairing));
+    (x0 & (y1 | y2)) | (x1 & (y0 | y2)) | (x2 & (y0 | y1))
+}
+
 /// The sign of the in-sphere determinant, likewise.
 pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering> {
     (0..3).find_map(|axis| {
@@ -114,6 +126,7 @@ mod tests {
     use super::super::big;
     use super::*;
     use crate::random::Rng;
+    use std::collections::BTreeSet;
 
     const CASES: usize = 100_000;
 
@@ -154,6 +167,29 @@ mod tests {
     #[test]
     fn signs_of_circles_are_exact() {
         check(incircle_at_two_heights, |points| sign(big::incircle(1.0, points)));
+    }
+
+    /// Corners of rectangles in any order are called so, and nothing else than ties is.
+    #[test]
+    fn rectangles_are_ties() {
+        let rng = &mut Rng::new(17);
+        let (mut n_rectangles, mut n_others) = (0, 0);
+        for _ in 0..CASES {
+            let n_values = [2 + rng.below(2), 2 + rng.below(2)];
+            let points = few_values::<2, 4>(rng, n_values);
+            let [a, b, c, d] = points;
+            let are_distinct = a != b && a != c && a != d && b != c && b != d && c != d;
+            let values =
+                |axis: usize| points.map(|p| p[axis].to_bits()).into_iter().collect::<BTreeSet<_>>().len();
+            let is_one = is_rectangle(points.each_ref());
+            assert!(!is_one || big::incircle(1.0, points.each_ref()) == 0.0, "{points:?}");
+            if are_distinct {
+                assert_eq!(is_one, values(0) == 2 && values(1) == 2, "{points:?}");
+                n_rectangles += usize::from(is_one);
+                n_others += usize::from(!is_one);
+            }
+        }
+        assert!(n_rectangles > CASES / 100 && n_others > CASES / 100, "{n_rectangles} {n_others}");
     }
 
     #[test]
