@@ -32,7 +32,7 @@
 //! # Underflow
 //!
 //! All bounds but that of `lifted.rs` exceed by far what underflow adds where L is not less than [`LEAST_LENGTH`]. They
-//! grow with L, so that of shorter edges is that of this length.
+//! grow with L, so where all edges are shorter, the bound for edges of that length holds.
 
 use super::filter::{ROUND_UP, UNDERFLOW, UNIT};
 use crate::simd::Real;

@@ -71,7 +71,7 @@ fn orient2d_exact(det: f64, points: [&[f64; 2]; 3]) -> f64 {
 #[cold]
 #[inline(never)]
 fn incircle_uncertain(det: f64, points: [&[f64; 2]; 4]) -> f64 {
-    // Most ties of grids. All are found below, too.
+    // Most ties of grids; without this the stages below would find them.
     if det == 0.0 && is_rectangle(points) {
         tally::count();
         return det;

@@ -6,10 +6,14 @@ use crate::complex::INFINITE;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
-use crate::machine::memory;
+use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::machine::{memory, threads};
 use crate::motion::rebuilding::exchange_position_of;
 use crate::motion::staging::Staging;
 use crate::predicates::squared_distance;
+
+/// To find those of this number of vertices that have moved takes a few times as long as a thread takes to wake up.
+const LISTED_AT_LEAST: usize = 1 << 14;
 
 /// Where a vertex is while a commit is under way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +80,42 @@ impl Places {
         self.queue.push(v);
         self.n_new -= 1;
         Ok(())
+    }
+
+    /// Queues the vertices at new places that are not the old ones, for which there must be room; none of them is taken
+    /// back yet. After an error the queue is as before.
+    pub(super) fn list_new<G: Dimension>(
+        &mut self,
+        kernel: &Delaunay<G>,
+        staging: &Staging<G>,
+        site_of: &[SiteId],
+    ) -> Result<()> {
+        let Self { at, queue, .. } = self;
+        let (old, n) = (staging.positions(), site_of.len());
+        let list = |range, moved: &mut Vec<VertexId>| {
+            VertexId::range(range).try_for_each(|v| {
+                // Sites are in another order than vertices.
+                if let Some(&later) = site_of.get(v.index() + AHEAD) {
+                    prefetch(kernel.sites(), later.index());
+                }
+                let has_moved = at[v] == At::New && kernel.site(site_of[v]).point != old[v];
+                if has_moved { memory::push(moved, v) } else { Ok(()) }
+            })
+        };
+        let n_threads = kernel.threads().for_work(n, LISTED_AT_LEAST, LISTED_AT_LEAST / 64);
+        if n_threads == 1 {
+            return list(0..n, queue);
+        }
+        let parts = threads::for_ranges(n, n_threads, |range| {
+            let mut moved = Vec::new();
+            list(range, &mut moved).map(|()| moved)
+        })?;
+        let before = queue.len();
+        let listed = parts.into_iter().try_for_each(|part| memory::append(queue, &part?));
+        if listed.is_err() {
+            queue.truncate(before);
+        }
+        listed
     }
 
     /// Makes room for this number of vertices more in the queue. It has to fit where the staged vertices are listed,

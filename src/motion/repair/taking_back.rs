@@ -5,16 +5,12 @@ use super::places::At;
 use crate::complex::{Corners, INFINITE};
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::{SiteId, Slot, VertexId};
+use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
-use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::machine::threads;
+use crate::machine::prefetch::prefetch;
 use crate::motion::MovingTriangulation;
 use crate::motion::attempt::Prospect;
 use crate::predicates::squared_distance;
-
-/// Whether this number of vertices have moved takes a few times as long as a thread takes to wake up.
-const ASKED_AT_LEAST: usize = 1 << 14;
 
 /// Cells between those of which one thing and the next are asked for.
 const STEP: usize = 8;
@@ -154,33 +150,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Repair { places, .. } = repair;
         places.reserve(&mut self.staging, places.n_new)?;
         let first = places.queue.len();
-        let Self { kernel, staging, site_of, .. } = &*self;
-        let (before, at, n) = (staging.positions(), &places.at, site_of.len());
-        // Vertices are listed if they have gone to another place. There is room for all in the queue.
-        let list = |range, moved: &mut Vec<VertexId>| {
-            VertexId::range(range).try_for_each(|v| {
-                // Sites are in another order than vertices.
-                if let Some(&later) = site_of.get(v.index() + AHEAD) {
-                    prefetch(kernel.sites(), later.index());
-                }
-                let has_moved = at[v] == At::New && kernel.site(site_of[v]).point != before[v];
-                if has_moved { memory::push(moved, v) } else { Ok(()) }
-            })
-        };
-        let n_threads = self.kernel.threads().for_work(n, ASKED_AT_LEAST, ASKED_AT_LEAST / 64);
-        if n_threads == 1 {
-            list(0..n, &mut places.queue)?;
-        } else {
-            let parts = threads::for_ranges(n, n_threads, |range| {
-                let mut moved = Vec::new();
-                list(range, &mut moved).map(|()| moved)
-            })?;
-            let listed = parts.into_iter().try_for_each(|part| memory::append(&mut places.queue, &part?));
-            if listed.is_err() {
-                places.queue.truncate(first);
-                return listed;
-            }
-        }
+        places.list_new(&self.kernel, &self.staging, &self.site_of)?;
         for &v in &places.queue[first..] {
             self.exchange_position(v);
             places.at[v] = At::Old;
