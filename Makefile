@@ -34,7 +34,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test soak bench report memory large targets calibrate table lint header doc picture install examples
+.PHONY: help test soak bench report memory large targets calibrate table records lint header doc picture install examples
 .PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
@@ -57,6 +57,7 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 
 soak: ## random histories against fresh builds, on two threads: cpp-bench/results/soak.csv (HOURS=1, or ARGS="--seed 7")
 	cargo bench --bench soak -- $(or $(ARGS),--hours $(HOURS) --csv cpp-bench/results/soak.csv)
+	$(if $(ARGS),,.ci/records write cpp-bench/results/environment_soak.txt "make soak HOURS=$(HOURS)")
 
 bench: benchmark ## deldrift beside CGAL: tables, cpp-bench/results/bench.csv and structured.csv (PRESET=quick or full)
 	cpp-bench/run --preset $(PRESET) $(ARGS)
@@ -80,9 +81,11 @@ targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/result
 
 calibrate: ## the constants by which algorithms are chosen: cpp-bench/results/calibrate.csv (ARGS=NAME... for some)
 	MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=-1 cargo bench --bench calibrate -- $(or $(ARGS),--csv cpp-bench/results/calibrate.csv)
+	$(if $(ARGS),,.ci/records write cpp-bench/results/environment_calibrate.txt "make calibrate")
 
 faults: ## calls that fail midway, at every point: tests/results/faults.csv (some five minutes)
 	tests/faults_table
+	.ci/records write tests/results/environment_faults.txt "make faults"
 
 tsan: ## tests of the library's threads under ThreadSanitizer, with a nightly toolchain
 	.ci/nightly tsan
@@ -92,13 +95,19 @@ miri: ## tests of what needs no system under Miri, with a nightly toolchain that
 
 mutants: ## changes of the sources that no test notices: tests/results/mutants.csv (an hour; ARGS="--sample 0" for all)
 	mutants/run $(ARGS)
+	.ci/records write tests/results/environment_mutants.txt "$(strip make mutants $(if $(ARGS),ARGS='$(ARGS)'))"
 
 coverage: ## lines and branches that the tests run: tests/results/coverage.csv (an hour)
 	@.ci/packages llvm-19
 	tests/coverage $(ARGS)
+	.ci/records write tests/results/environment_coverage.txt "$(strip make coverage $(if $(ARGS),ARGS='$(ARGS)'))"
 
-table: ## fill in the tables of README.md, from cpp-bench/results
+table: ## fill in the tables and sentences of README.md that have figures, from the records
 	cpp-bench/readme_table
+	.ci/figures --write
+
+records: ## where the recorded figures come from: command, date, commit, and how many commits to the sources since
+	.ci/records
 
 lint: ## format, clippy, documentation, freshness of the header
 	@.ci/packages g++

@@ -63,7 +63,7 @@ int main(int n_arguments, char **arguments) {
     const double mass = 1 / static_cast<double>(n), greatest = 0.7;
     const int n_steps = 30, n_panels = 3;
     deldrift::Triangulation t(2, start);
-    Picture picture({0, 0}, {1, 1}, 300, n_panels);
+    Picture picture({0, 0}, {1, 1}, 300, n_panels, "density 1/4 (by octaves)", "8");
     double worst_sum = 0, error = 0;
     for (int step = 0; step <= n_steps; step++) {
         const State state = moved(start, greatest * step / n_steps);

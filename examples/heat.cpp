@@ -45,7 +45,7 @@ bool draw(const char *path) {
     const int n = 1000, n_panels = 4, n_steps = 25;
     Heat heat(disk(n), 2e-3);
     Eigen::VectorXd u = (heat.positions().row(0).array() < 0).cast<double>();
-    Picture picture({-1, -1}, {1, 1}, 250, n_panels);
+    Picture picture({-1, -1}, {1, 1}, 250, n_panels, "temperature 0", "1");
     for (int panel = 0; panel < n_panels; panel++) {
         for (int step = 0; panel > 0 && step < n_steps; step++) heat.step(1.0 / (3 * n_steps), u);
         picture.panel("turns: " + std::to_string(panel));

@@ -47,7 +47,7 @@ int main(int n_arguments, char **arguments) {
     const double end = n_arguments > 1 ? std::atof(arguments[1]) : 3.6;
     const double spacing = n_arguments > 2 ? std::atof(arguments[2]) : 0.05;
     DamBreak<DeldriftMesh> dam(spacing);
-    Picture picture({0, 0}, {dam.width, dam.height}, 400, 2);
+    Picture picture({0, 0}, {dam.width, dam.height}, 400, 2, "speed 0", "2.5; orange: the free surface");
     const auto [area, energy] = area_and_energy(dam);
     const int n_frames = 4, n_steps = static_cast<int>(std::lround(end / dam.dt));
     for (int step = 1; step <= n_steps; step++) {

@@ -59,7 +59,7 @@ bool smooth(int n_inside, int n_iterations, Picture *picture) {
 
 int main(int n_arguments, char **arguments) {
     const int n_iterations = n_arguments > 1 ? std::atoi(arguments[1]) : 60;
-    Picture picture({-1, -1}, {1, 1}, 320, 3);
+    Picture picture({-1, -1}, {1, 1}, 320, 3, "quality 1: equilateral", "0: flat");
     const bool are_better = smooth<2>(800, n_iterations, &picture) & smooth<3>(1000, n_iterations, nullptr);
     const bool is_drawn = n_arguments <= 2 || picture.save(arguments[2]);
     return are_better && is_drawn ? 0 : 1;

@@ -9,7 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { DIMENSION = 2, CORNERS = DIMENSION + 1, VERTICES = 500, EXCHANGED = 2, STEPS = 90, SHOWN = 30, PANEL = 3000 };
+enum { DIMENSION = 2, CORNERS = DIMENSION + 1, VERTICES = 500, EXCHANGED = 2, STEPS = 90, SHOWN = 30 };
+enum { PANEL = 3000, GAP = PANEL / 20, LINE = 200, WIDTH = PANEL + STEPS / SHOWN * (PANEL + GAP) };  // of the picture
 enum { IDS = VERTICES + STEPS * EXCHANGED, MOST_CELLS = 2 * IDS };
 
 static void check(deldrift_status status) {
@@ -70,18 +71,32 @@ static deldrift_cells_view follow(deldrift_triangulation *t, size_t *created) {
     return view;
 }
 
-// The cells, the darker the more dye there is in them.
-static void draw(FILE *file, int panel, const deldrift_cells_view *view, const double *positions, const double *areas) {
+static int shade_of(double density) { return 250 - (int)(200 * (density < 1 ? density : 1)); }
+
+// The cells, the darker the more dye there is in them, and below them the number of the step.
+static void draw(FILE *file, int step, const deldrift_cells_view *view, const double *positions, const double *areas) {
+    const int panel = step / SHOWN;
+    fprintf(file, "<text x='%d' y='%d' text-anchor='middle'>step %d</text>\n", panel * (PANEL + GAP) + PANEL / 2,
+            PANEL + LINE, step);
     for (size_t c = 0; c < view->count; c++) {
-        const double density = mass[c] / areas[c];
-        const int shade = 250 - (int)(200 * (density < 1 ? density : 1));
+        const int shade = shade_of(mass[c] / areas[c]);
         fprintf(file, "<path fill='rgb(%d,%d,250)' d='", shade, shade);
         for (size_t i = 0; i < CORNERS; i++) {
             const double *p = positions + (size_t)view->vertices[c * CORNERS + i] * DIMENSION;
-            fprintf(file, "%c%.0f %.0f", i == 0 ? 'M' : 'L', PANEL * (panel * 1.05 + p[0]), PANEL * p[1]);
+            fprintf(file, "%c%.0f %.0f", i == 0 ? 'M' : 'L', panel * (PANEL + GAP) + PANEL * p[0], PANEL * p[1]);
         }
         fprintf(file, "z'/>\n");
     }
+}
+
+// What the shades mean.
+static void draw_key(FILE *file) {
+    const int top = PANEL + 2 * LINE;
+    fprintf(file, "<text x='0' y='%d'>dye per area: 0</text>\n", top + LINE);
+    for (int k = 0; k <= 10; k++)
+        fprintf(file, "<rect x='%d' y='%d' width='%d' height='%d' fill='rgb(%d,%d,250)'/>\n", (9 + k) * LINE, top, LINE,
+                LINE, shade_of(k / 10.0), shade_of(k / 10.0));
+    fprintf(file, "<text x='%d' y='%d'>1</text>\n", 41 * LINE / 2, top + LINE);
 }
 
 int main(int argc, char **argv) {
@@ -91,8 +106,8 @@ int main(int argc, char **argv) {
     check(deldrift_create(DIMENSION, positions, VERTICES, NULL, &t));
     FILE *file = argc > 1 ? fopen(argv[1], "w") : tmpfile();
     if (file == NULL) return 1;
-    fprintf(file, "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %d %d' stroke='gray' stroke-width='4'>\n",
-            PANEL + STEPS / SHOWN * (PANEL + PANEL / 20), PANEL);
+    fprintf(file, "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %d %d'>\n", WIDTH, PANEL + 4 * LINE);
+    fprintf(file, "<style>text{font:180px sans-serif} path,rect{stroke:gray;stroke-width:4}</style>\n");
 
     uint32_t n = VERTICES, oldest = 0;
     size_t created = 0, all = 0, count;
@@ -104,7 +119,7 @@ int main(int argc, char **argv) {
             const bool is_low = positions[view.vertices[c * CORNERS] * DIMENSION + 1] > 0.5;
             sum_before += mass[c] = is_low ? areas[c] : 0;
         }
-        if (step % SHOWN == 0) draw(file, step / SHOWN, &view, positions, areas);
+        if (step % SHOWN == 0) draw(file, step, &view, positions, areas);
         if (step == STEPS) break;
 
         // As many come as go, the oldest ones; all others move. One commit makes all of it.
@@ -125,6 +140,7 @@ int main(int argc, char **argv) {
         view = follow(t, &created);
         all += view.count;
     }
+    draw_key(file);
     fprintf(file, "</svg>\n");
     bool is_kept = fclose(file) == 0;
     for (size_t c = 0; c < view.count; c++) {

@@ -1,4 +1,4 @@
-// Pictures for the examples: panels side by side with triangles, segments and a caption each, written as SVG.
+// Pictures for the examples: panels side by side with triangles, segments and a caption each, and a key of the colours, written as SVG.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@ class Picture {
 public:
     using Point = std::array<double, 2>;
 
-    // Every panel shows the same box, panel_width pixels wide.
-    Picture(Point low, Point high, double panel_width, int n_columns)
-        : low_(low), scale_(panel_width / (high[0] - low[0])), width_(panel_width + gap), n_columns_(n_columns),
+    // Every panel shows the same box, panel_width pixels wide. The key says what the shades mean, from the value 0 to 1.
+    Picture(Point low, Point high, double panel_width, int n_columns, std::string least, std::string most)
+        : least_(std::move(least)), most_(std::move(most)), low_(low), scale_(panel_width / (high[0] - low[0])), width_(panel_width + gap), n_columns_(n_columns),
           height_((high[1] - low[1]) * scale_ + caption_height) {}
 
     // What is drawn from now on goes to a further panel.
@@ -37,21 +37,21 @@ public:
     bool save(const std::string &path) {
         finish_panel();
         const int n_rows = (n_panels_ + n_columns_ - 1) / n_columns_;
-        const std::string size = number(width_ * std::min(n_panels_, n_columns_) + gap) + "\" height=\"" +
-                                 number(height_ * n_rows + gap) + "\"";
+        const double width = width_ * std::min(n_panels_, n_columns_) + gap, height = height_ * n_rows + gap;
+        const std::string size = number(width) + "\" height=\"" + number(height + key_height) + "\"";
         std::ofstream file(path);
         file << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << size << " role=\"img\">\n<style>"
              << "text{font:14px system-ui,'DejaVu Sans',sans-serif;fill:#24292f;text-anchor:middle}"
              << "path{stroke-linejoin:round;stroke-linecap:round;fill:none;stroke:#fff;stroke-width:2}"
              << ".strokes{stroke:#b3470a;stroke-width:12}</style>\n"
-             << "<rect width=\"" << size << " rx=\"10\" fill=\"#fff\"/>\n" << panels_ << "</svg>\n";
+             << "<rect width=\"" << size << " rx=\"10\" fill=\"#fff\"/>\n" << panels_ << key(width / 2, height) << "</svg>\n";
         file.close();
         return file.good();
     }
 
 private:
     static constexpr std::size_t n_shades = 8;
-    static constexpr double gap = 12, caption_height = 34;
+    static constexpr double gap = 12, caption_height = 34, key_height = 30, patch = 22;
     static constexpr double units = 10;  // to a pixel: coordinates are whole numbers
 
     static std::string number(double value) { return std::to_string(std::lround(value)); }
@@ -74,6 +74,22 @@ private:
         return path;
     }
 
+    // The shades in a row, with what the first and the last stand for.
+    std::string key(double middle, double top) const {
+        std::string text;
+        const double left = middle - patch * n_shades / 2;
+        for (std::size_t shade = 0; shade < n_shades; shade++)
+            text += "<rect x=\"" + number(left + patch * static_cast<double>(shade)) + "\" y=\"" + number(top) + "\" width=\"" +
+                    number(patch) + "\" height=\"14\" fill=\"" + shades[shade] + "\"/>";
+        const auto label = [&](double x, const char *anchor, const std::string &words) {
+            text += "<text x=\"" + number(x) + "\" y=\"" + number(top + 12) + "\" style=\"text-anchor:" + anchor + "\">" + words +
+                    "</text>";
+        };
+        label(left - gap, "end", least_);
+        label(middle + patch * n_shades / 2 + gap, "start", most_);
+        return text + "\n";
+    }
+
     void finish_panel() {
         if (n_panels_ == 0) return;
         const int at = n_panels_ - 1;
@@ -92,6 +108,7 @@ private:
 
     static constexpr const char *shades[n_shades] = {"#e3eefa", "#c3dbf0", "#97c2e3", "#68a4d3",
                                                      "#4385c0", "#2867a8", "#164a87", "#0a2f5f"};
+    std::string least_, most_;
     Point low_;
     double scale_, width_;
     int n_columns_, n_panels_ = 0;

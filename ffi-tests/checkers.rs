@@ -83,6 +83,20 @@ fn dependencies_are_accepted_and_planted_ones_are_not() {
     assert!(said.ends_with("9 faults planted, 0 missed\n"), "{said}");
 }
 
+#[test]
+#[ignore = "needs Python 3.11"]
+fn sentences_say_what_the_records_say() {
+    let said = succeed(&mut command(repository(".ci/figures")));
+    assert!(said.ends_with(" sentences, 0 wrong\n"), "{said}");
+}
+
+#[test]
+#[ignore = "needs Python 3.11 and git"]
+fn records_say_where_they_come_from() {
+    let said = succeed(command(repository(".ci/records")).arg("--prove"));
+    assert!(said.ends_with("4 faults planted, 0 missed\n"), "{said}");
+}
+
 fn planted() -> PathBuf {
     repository("ffi-tests/planted/planted.c")
 }

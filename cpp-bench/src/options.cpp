@@ -143,7 +143,9 @@ private:
     void add_outputs() {
         add("--keep-failures", "DIR", options_.keep_failures,
             "write the positions at which a check fails there, as a series to replay");
-        add("--results", "DIR", options_.results, "where CSV files go")->envname("DELDRIFT_BENCH_RESULTS");
+        results_ = add("--results", "DIR", options_.results,
+                       "where CSV files go. Without it, a run of a part (any option but --preset full or quick) writes\n"
+                       "to the folder partial in results, and leaves the records of whole runs as they are");
     }
 
     void add_tasks() {
@@ -196,12 +198,27 @@ private:
         if (!(options_.point_sets.empty() && point_set_sizes_.empty()) && options_.task != Task::structured)
             throw std::runtime_error("--point-set and --point-set-size are for runs with --structured");
         if (!point_set_sizes_.empty()) options_.preset.structured_sizes = point_set_sizes_;
+        if (is_part() && results_->empty()) options_.results += "/partial";
         options_.with_structured =
             options_.task == Task::run && options_.scenarios.empty() && options_.series.empty();
         if (options_.scenarios.empty() && options_.series.empty()) options_.scenarios = known;
     }
 
+    /// Whether this does less than a record has, or something else. The report is continued by its parts.
+    bool is_part() const {
+        if (options_.task == Task::report) return false;
+        const bool is_chosen = !(options_.scenarios.empty() && options_.engines.empty() && options_.targets.empty() &&
+                                 options_.point_sets.empty() && options_.series.empty() && point_set_sizes_.empty());
+        const bool is_shortened = preset_ == "smoke" || n_repeats_ > 0 || n_timestamps_ > 0 || n_checks_ > 0 ||
+                                  n_slow_timestamps_ > 0;
+        const Options whole;
+        return is_chosen || is_shortened || options_.threads != whole.threads || options_.seed != whole.seed ||
+               options_.snap != whole.snap || options_.large_points_2d != whole.large_points_2d ||
+               options_.large_points_3d != whole.large_points_3d;
+    }
+
     Options &options_;
+    CLI::Option *results_ = nullptr;
     CLI::App app_{"deldrift beside CGAL on identical positions.", "cpp-bench/run"};
     std::string preset_ = "quick";
     unsigned n_repeats_ = 0;
@@ -239,6 +256,7 @@ const std::vector<std::string> &target_names() {
 Options parse_options(int n_arguments, char **arguments) {
     Options options;
     if (const char *folder = std::getenv("DELDRIFT_BENCH_DATA")) options.data = folder;
+    if (const char *folder = std::getenv("DELDRIFT_BENCH_RESULTS")) options.results = folder;
     CommandLine(options).parse(n_arguments, arguments);
     return options;
 }

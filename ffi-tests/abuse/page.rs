@@ -56,9 +56,12 @@ The last column has the pointers that are trusted. One that is neither NULL nor 
 
 pub fn page(functions: &[Declaration], trials: &[Trial]) -> String {
     let (n_trials, n_functions) = (trials.len(), functions.len());
+    let n_legal = trials.iter().filter(|trial| trial.status == "DELDRIFT_OK").count();
+    let n_refused = n_trials - n_legal;
     let mut text = format!(
         "# Abuse\n\nWhat comes of wrong calls. The tests make {n_trials} calls of the {n_functions} functions of the \
-         [header](../include/deldrift.h), in 2D\nand in 3D. A call that is refused gives a status that the header \
+         [header](../include/deldrift.h), in 2D\nand in 3D: {n_refused} wrong ones and {n_legal} that are legal, beside \
+         them. A call that is refused gives a status that the header \
          names for the function and a message with the argument,\nthe index and the value, writes no output (but the \
          count of a buffer that is too small), and leaves the triangulation as\nit was: positions, cells in their \
          order, what is staged, sums, and all bytes of `deldrift_save`. The program is made from\nthe header by \
