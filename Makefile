@@ -34,7 +34,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test soak bench report memory large targets calibrate table records lint header doc picture install examples
+.PHONY: help test soak bench report memory large targets calibrate table records sizes lint header doc picture install examples
 .PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
@@ -145,6 +145,11 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/densities 1225 docs/densities.svg
 	build/examples/particle_fem 3.6 0.05 docs/particle_fem.svg
 	build/examples/particle_fem_cgal
+
+sizes: library ## how large the library is, and of what: tests/results/sizes.csv
+	@.ci/packages cmake
+	cmake/sizes
+	.ci/records write tests/results/environment_sizes.txt "make sizes"
 
 install: ## library, headers, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
 	@.ci/packages cmake

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { SIDE = 20, VERTICES = SIDE * SIDE, MOST = 4 * VERTICES };  // MOST: more than there are of anything
 
@@ -136,6 +137,52 @@ static void ask_for_geometry(const deldrift_triangulation *t) {
     expect(count == n_edges && lengths[0] >= 0, "each edge has a Voronoi edge, where the box does not cut it off");
 }
 
+// Whether two triangulations have the same cells under the same indices.
+static bool are_equal(const deldrift_triangulation *a, const deldrift_triangulation *b) {
+    static uint32_t cells[2][3 * MOST];
+    size_t counts[2];
+    check(deldrift_copy_cells(a, cells[0], NULL, MOST, &counts[0]));
+    check(deldrift_copy_cells(b, cells[1], NULL, MOST, &counts[1]));
+    return counts[0] == counts[1] && memcmp(cells[0], cells[1], 3 * counts[0] * sizeof(uint32_t)) == 0;
+}
+
+static void keep_and_write(deldrift_triangulation *t) {
+    deldrift_triangulation *copy, *loaded;
+    check(deldrift_clone(t, &copy));
+    check(deldrift_relocate_vertex(copy, 0, (double[]){0.5, 0.5}));
+    expect(!are_equal(t, copy), "a clone goes on by itself");
+    deldrift_destroy(copy);
+
+    size_t size, count;
+    check(deldrift_save(t, NULL, 0, &size));
+    void *bytes = malloc(size);
+    check(deldrift_save(t, bytes, size, &count));
+    check(deldrift_load(bytes, count, NULL, &loaded));
+    expect(are_equal(t, loaded), "what is loaded is what was saved");
+    deldrift_destroy(loaded);
+    free(bytes);
+    check(deldrift_save_file(t, "tour.deldrift"));
+    check(deldrift_load_file("tour.deldrift", NULL, &loaded));
+    expect(are_equal(t, loaded), "also in a file");
+    deldrift_destroy(loaded);
+
+    static double positions[2 * VERTICES], areas[MOST];
+    check(deldrift_copy_positions(t, positions, VERTICES, &count));
+    check(deldrift_volumes(t, areas, MOST, &count));
+    const deldrift_field place = {"place", positions, 2}, area = {"area", areas, 1};
+    check(deldrift_write_vtu(t, "tour.vtu", &place, 1, &area, 1));  // for ParaView
+    check(deldrift_write_medit(t, "tour.mesh"));                    // for Mmg, FreeFem and Gmsh
+    expect(remove("tour.deldrift") + remove("tour.vtu") + remove("tour.mesh") == 0, "the files are there");
+}
+
+static void ask_for_signs(void) {
+    int32_t sign;
+    check(deldrift_orientation(2, (double[]){0, 0, 1, 1e-300, 2, 2e-300}, &sign));
+    expect(sign == 0, "points on a line are known as such");
+    check(deldrift_orientation(2, (double[]){0, 0, 1, 1e-300, 2, 2.1e-300}, &sign));
+    expect(sign == 1, "and those that are almost on one, too");
+}
+
 int main(void) {
     static double positions[2 * VERTICES];
     for (int i = 0; i < VERTICES; i++) {
@@ -152,6 +199,8 @@ int main(void) {
     change_one_at_a_time(t);
     ask_for_places(t);
     ask_for_geometry(t);
+    keep_and_write(t);
+    ask_for_signs();
     check(deldrift_validate(t, 3));
     check(deldrift_dimension(t, &dimension));
     check(deldrift_memory_bytes(t, &bytes));

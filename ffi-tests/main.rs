@@ -13,6 +13,7 @@
 //! | `coverage.rs` | every function and every status of the header is used by some program |
 //! | `examples.rs` | the examples, with few steps (`--include-ignored`) |
 //! | `functions.rs` | docs/FUNCTIONS.md and docs/ERRORS.md name everything in the header |
+//! | `pages.rs` | programs, links and commands on the pages |
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
 //! | `installation.rs` | programs that find the library or have it as a part; packages (`--include-ignored`) |
 
@@ -25,5 +26,6 @@ mod functions;
 mod header;
 mod installation;
 mod memory;
+mod pages;
 mod programs;
 mod support;
