@@ -1,0 +1,335 @@
+// Every function of the header, called once or more for one set of points, and a number for all that each call gives.
+//
+// The program has its own functions called before and after each call, and in the callbacks. What the calls are given is
+// made before: a tour does no arithmetic of its own with numbers that have a point.
+#ifndef TOUR_H
+#define TOUR_H
+
+#include "state.h"
+
+#include <unistd.h>
+
+enum { TOUR_POINTS = 48, TOUR_STEPS = 160, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+
+// What a tour is given.
+typedef struct {
+    uint32_t dimension, threads;
+    deldrift_algorithm algorithm;
+    size_t n;
+    // Where the points are first; where they go together; where some go alone, and vertices are inserted.
+    double at[TOUR_POINTS * 3], then[TOUR_POINTS * 3], later[TOUR_POINTS * 3];
+    // A box, and the square of a radius.
+    double low[3], high[3], squared_radius;
+} places;
+
+// What its calls have given.
+typedef struct {
+    size_t count;
+    const char *names[TOUR_STEPS];
+    uint64_t given[TOUR_STEPS];
+} record;
+
+// What the program does beside, or NULL.
+static void (*before_call)(void), (*after_call)(const char *name), (*in_callback)(void);
+
+static record *tour_record;
+static deldrift_status tour_status;
+
+// A result of the latest call.
+static void note(const void *bytes, size_t size) {
+    uint64_t *sum = &tour_record->given[tour_record->count - 1];
+    if (tour_status == DELDRIFT_OK) *sum = mixed(*sum, digest_of(bytes, size));
+}
+
+static void begin_step(const char *name) {
+    CHECK(tour_record->count < TOUR_STEPS);
+    tour_record->names[tour_record->count++] = name;
+    if (before_call != NULL) before_call();
+}
+
+static void end_step(const char *name, deldrift_status status) {
+    if (after_call != NULL) after_call(name);
+    CHECK(status != DELDRIFT_INTERNAL_ERROR && status != DELDRIFT_POISONED);
+    tour_status = DELDRIFT_OK;
+    note(&status, sizeof status);
+    tour_status = status;
+    // The message, too, may have numbers in it.
+    if (status != DELDRIFT_OK) {
+        tour_record->given[tour_record->count - 1] += digest_of(deldrift_last_error(), strlen(deldrift_last_error()));
+    }
+}
+
+// A call, whatever its status.
+#define TRY(call)                                                                                   \
+    do {                                                                                            \
+        begin_step(#call);                                                                          \
+        deldrift_status step_status = (call);                                                       \
+        end_step(#call, step_status);                                                               \
+    } while (0)
+
+// A call that must succeed.
+#define GO(call)                                                                                    \
+    do {                                                                                            \
+        TRY(call);                                                                                  \
+        CHECK_STATUS(tour_status, DELDRIFT_OK);                                                     \
+    } while (0)
+
+// A call without a status.
+#define DO(call)                                                                                    \
+    do {                                                                                            \
+        begin_step(#call);                                                                          \
+        call;                                                                                       \
+        end_step(#call, DELDRIFT_OK);                                                               \
+    } while (0)
+
+static bool tour_cancel(void *user_data) {
+    (void)user_data;
+    if (in_callback != NULL) in_callback();
+    return false;
+}
+
+static void tour_progress(void *user_data, double fraction) {
+    (void)user_data;
+    (void)fraction;
+    if (in_callback != NULL) in_callback();
+}
+
+// Room for what calls give.
+static struct {
+    uint32_t ids[TOUR_ROOM], more_ids[TOUR_ROOM];
+    double numbers[TOUR_ROOM], more_numbers[TOUR_ROOM];
+    uint8_t bytes[TOUR_ROOM], saved[TOUR_FILE];
+    deldrift_location locations[TOUR_POINTS];
+} tour_out;
+
+static const char *tour_path(void) {
+    static char path[300];
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/deldrift-tour-%d", folder == NULL ? "/tmp" : folder, (int)getpid());
+    return path;
+}
+
+// What is in the file that the latest call has written.
+static void note_file(void) {
+    FILE *file = fopen(tour_path(), "rb");
+    CHECK(file != NULL);
+    size_t n = fread(tour_out.saved, 1, TOUR_FILE, file);
+    CHECK(n > 0 && n < TOUR_FILE && fclose(file) == 0);
+    note(tour_out.saved, n);
+}
+
+// What can be asked about the cells and vertices of any triangulation.
+static void ask_about(const deldrift_triangulation *t, const places *p) {
+    const uint32_t d = p->dimension, corners = d + 1;
+    uint32_t *ids = tour_out.ids, *more_ids = tour_out.more_ids, one = 0;
+    double *numbers = tour_out.numbers, *more = tour_out.more_numbers, width = 0;
+    uint8_t *bytes = tour_out.bytes;
+    size_t count = 0, n_ids = 0, n_cells = 0;
+    GO(deldrift_id_count(t, &n_ids));
+    note(&n_ids, sizeof n_ids);
+    GO(deldrift_vertex_count(t, &count));
+    note(&count, sizeof count);
+    GO(deldrift_staged_count(t, &count));
+    note(&count, sizeof count);
+    GO(deldrift_memory_bytes(t, &count));
+    GO(deldrift_cell_count(t, &n_cells));
+    note(&n_cells, sizeof n_cells);
+    CHECK(n_ids <= TOUR_POINTS * 2 && n_cells * corners * 3 <= TOUR_ROOM);
+    GO(deldrift_dimension(t, &one));
+    note(&one, sizeof one);
+    deldrift_algorithm algorithm = 0;
+    GO(deldrift_get_algorithm(t, &algorithm));
+    note(&algorithm, sizeof algorithm);
+    uint64_t timestamp = 0;
+    GO(deldrift_timestamp(t, &timestamp));
+    note(&timestamp, sizeof timestamp);
+    deldrift_commit_report sums;
+    GO(deldrift_statistics(t, &sums));
+    note(&sums, sizeof sums);
+    bool present = false;
+    GO(deldrift_is_present(t, 1, &present));
+    note(&present, sizeof present);
+    TRY(deldrift_position(t, 3, numbers));
+    note(numbers, d * sizeof *numbers);
+    GO(deldrift_copy_positions(t, numbers, TOUR_ROOM / d, &count));
+    note(numbers, count * d * sizeof *numbers);
+    deldrift_cells_view cells;
+    GO(deldrift_cells(t, &cells));
+    note(cells.vertices, n_cells * corners * sizeof *cells.vertices);
+    note(cells.neighbours, n_cells * corners * sizeof *cells.neighbours);
+    GO(deldrift_copy_cells(t, ids, more_ids, TOUR_ROOM / corners, &count));
+    note(ids, count * corners * sizeof *ids);
+    deldrift_indices_view changed;
+    GO(deldrift_changed_cells(t, &changed));
+    note(changed.indices, changed.count * sizeof *changed.indices);
+    GO(deldrift_validate(t, 1));
+    GO(deldrift_validate(t, 2));
+    GO(deldrift_validate(t, 3));
+    TRY(deldrift_star(t, 4, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    TRY(deldrift_ordered_star(t, 4, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    TRY(deldrift_tolerance(t, 4, &width));
+    note(&width, sizeof width);
+    GO(deldrift_annulus_widths(t, numbers, TOUR_ROOM, &count));
+    note(numbers, count * sizeof *numbers);
+    for (uint32_t corner = 0; corner < corners; corner++) {
+        TRY(deldrift_standard_delimiter(t, 0, corner, numbers, numbers + 3, numbers + 4));
+        note(numbers, d * sizeof *numbers);
+        note(numbers + 3, 2 * sizeof *numbers);
+        TRY(deldrift_mirror_index(t, 0, corner, &one));
+        note(&one, sizeof one);
+    }
+    deldrift_location location;
+    GO(deldrift_locate(t, p->later, &location));
+    note(&location, sizeof location);
+    GO(deldrift_locate_points(t, p->later, p->n, NULL, tour_out.locations));
+    note(tour_out.locations, p->n * sizeof location);
+    for (size_t k = 0; k < 3; k++) {
+        GO(deldrift_nearest_vertex(t, p->later + k * d, &one));
+        note(&one, sizeof one);
+    }
+    TRY(deldrift_coincident_representative(t, 4, &one));
+    note(&one, sizeof one);
+    GO(deldrift_circumcentres(t, numbers, more, TOUR_ROOM / 3, &count));
+    note(numbers, count * d * sizeof *numbers);
+    note(more, count * sizeof *more);
+    GO(deldrift_volumes(t, numbers, TOUR_ROOM, &count));
+    note(numbers, count * sizeof *numbers);
+    GO(deldrift_mask_by_circumradius(t, p->squared_radius, bytes, TOUR_ROOM, &count));
+    note(bytes, count);
+    GO(deldrift_mask_boundary(t, bytes, n_cells, ids, more_ids, bytes + TOUR_ROOM / 2, TOUR_ROOM / 3, &count));
+    note(ids, count * d * sizeof *ids);
+    GO(deldrift_hull_facets(t, ids, more_ids, bytes, TOUR_ROOM / 3, &count));
+    note(ids, count * d * sizeof *ids);
+    GO(deldrift_edges(t, ids, TOUR_ROOM / 2, &count));
+    note(ids, count * 2 * sizeof *ids);
+    GO(deldrift_vertex_neighbours(t, more_ids, n_ids + 1, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    GO(deldrift_vertex_cells(t, more_ids, n_ids + 1, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    GO(deldrift_mirror_indices(t, bytes, TOUR_ROOM / 4, &count));
+    note(bytes, count * corners);
+    const uint32_t vertices[] = {1, 2};
+    TRY(deldrift_cells_around(t, vertices, 2, ids, TOUR_ROOM, &count));
+    if (tour_status != DELDRIFT_OK) count = 0;
+    note(ids, count * sizeof *ids);
+    GO(deldrift_update_circumcentres(t, ids, count, numbers, more, TOUR_ROOM / 3));
+    note(numbers, TOUR_ROOM / 8 * sizeof *numbers);
+    GO(deldrift_update_volumes(t, ids, count, numbers, TOUR_ROOM));
+    note(numbers, TOUR_ROOM / 8 * sizeof *numbers);
+    GO(deldrift_update_mask_by_circumradius(t, ids, count, p->squared_radius, bytes, TOUR_ROOM));
+    note(bytes, TOUR_ROOM / 8);
+    GO(deldrift_voronoi_volumes(t, NULL, NULL, numbers, TOUR_ROOM, &count));
+    note(numbers, count * sizeof *numbers);
+    TRY(deldrift_voronoi_volumes(t, p->low, p->high, numbers, TOUR_ROOM, &count));
+    note(numbers, count * sizeof *numbers);
+    GO(deldrift_voronoi_facets(t, NULL, NULL, numbers, TOUR_ROOM, &count));
+    note(numbers, count * sizeof *numbers);
+    TRY(deldrift_voronoi_facets(t, p->low, p->high, numbers, TOUR_ROOM, &count));
+    note(numbers, count * sizeof *numbers);
+    for (uint32_t method = 0; method < 2; method++) {
+        TRY(deldrift_interpolate(t, method, p->then, n_ids, 1, p->later, p->n, NULL, NULL, numbers));
+        note(numbers, p->n * sizeof *numbers);
+    }
+}
+
+// Files and copies.
+static void keep(const deldrift_triangulation *t, const places *p, const deldrift_options *options) {
+    size_t size = 0;
+    deldrift_triangulation *made = NULL;
+    GO(deldrift_save(t, tour_out.saved, TOUR_FILE, &size));
+    note(tour_out.saved, size);
+    GO(deldrift_load(tour_out.saved, size, options, &made));
+    ask_about(made, p);
+    DO(deldrift_destroy(made));
+    GO(deldrift_clone(t, &made));
+    DO(deldrift_destroy(made));
+    GO(deldrift_save_file(t, tour_path()));
+    note_file();
+    GO(deldrift_load_file(tour_path(), options, &made));
+    DO(deldrift_destroy(made));
+    const deldrift_field field = {"then", p->then, 1};
+    TRY(deldrift_write_vtu(t, tour_path(), &field, 1, NULL, 0));
+    if (tour_status == DELDRIFT_OK) note_file();
+    GO(deldrift_write_medit(t, tour_path()));
+    note_file();
+    CHECK(unlink(tour_path()) == 0);
+}
+
+// All of it.
+static void make_tour(const places *p, record *made) {
+    const uint32_t d = p->dimension;
+    const size_t n = p->n;
+    memset(made, 0, sizeof *made);
+    memset(&tour_out, 0, sizeof tour_out);
+    tour_record = made;
+    deldrift_options options;
+    DO(deldrift_options_init(&options));
+    options.algorithm = p->algorithm;
+    options.threads = p->threads;
+    options.track_changes = 1;
+    options.cancel = tour_cancel;
+    options.progress = tour_progress;
+    const char *text = NULL;
+    DO(text = deldrift_version());
+    note(text, strlen(text));
+    DO(text = deldrift_status_string(DELDRIFT_OUT_OF_RANGE));
+    note(text, strlen(text));
+    DO(text = deldrift_last_error());
+
+    int32_t sign = 7;
+    for (size_t k = 0; k < 4; k++) {
+        GO(deldrift_orientation(d, p->at + k * d, &sign));
+        note(&sign, sizeof sign);
+    }
+    deldrift_triangulation *t = NULL;
+    GO(deldrift_create(d, p->at, n, &options, &t));
+    deldrift_commit_report report;
+    deldrift_changes changes;
+    GO(deldrift_take_changes(t, &changes));
+    note(changes.stars, changes.star_count * sizeof *changes.stars);
+
+    uint32_t first = 0;
+    GO(deldrift_move_vertex(t, 2, p->then + 2 * d));
+    GO(deldrift_discard_moves(t));
+    GO(deldrift_move_vertices(t, NULL, p->then, n));
+    GO(deldrift_stage_insertions(t, p->later, 3, &first));
+    note(&first, sizeof first);
+    const uint32_t leaving[] = {5, 7};
+    GO(deldrift_stage_removals(t, leaving, 2));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_take_changes(t, &changes));
+    note(changes.created, changes.created_count * sizeof *changes.created);
+    note(changes.stars, changes.star_count * sizeof *changes.stars);
+    for (uint32_t v = 0; v < 4; v++) GO(deldrift_relocate_vertex(t, v, p->later + v * d));
+    for (uint32_t v = 8; v < 11; v++) GO(deldrift_remove_vertex(t, v));
+    for (uint32_t v = 5; v < 8; v++) GO(deldrift_insert_vertex(t, p->at + v * d, &first));
+    ask_about(t, p);
+    GO(deldrift_compact(t, tour_out.ids, TOUR_ROOM, &(size_t){0}));
+    note(tour_out.ids, n * sizeof *tour_out.ids);
+
+    // A few of which each goes elsewhere, and then all of them back.
+    size_t count = 0;
+    GO(deldrift_set_algorithm(t, DELDRIFT_AUTO));
+    for (uint32_t v = 0; v < 3; v++) GO(deldrift_move_vertex(t, v, p->at + (v + 9) * d));
+    GO(deldrift_commit_timestamp(t, &report));
+    note(&report, sizeof report);
+    GO(deldrift_id_count(t, &count));
+    CHECK(count <= n + 1);
+    GO(deldrift_commit_positions(t, p->at, count, &report));
+    note(&report, sizeof report);
+    keep(t, p, &options);
+    DO(deldrift_destroy(t));
+
+    // Calls that are refused: what a number is like is told.
+    uint32_t vertex = 0;
+    t = NULL;
+    GO(deldrift_create(d, p->at, n, NULL, &t));
+    TRY(deldrift_insert_vertex(t, (const double[]){1e-310, 1e300, 0}, &vertex));
+    CHECK(tour_status == DELDRIFT_OUT_OF_RANGE);
+    DO(deldrift_destroy(t));
+}
+
+#endif
