@@ -9,7 +9,9 @@
 #include <immintrin.h>
 #endif
 
-enum { FLUSH = 0x8040, N_SEEDS = 3, SIDE = 12, LARGE_SIDE = 16 };
+// Bits of MXCSR: numbers near zero are zero, as arguments and as results; the flags of all exceptions, which the other
+// unit of the processor would take for news when they are to trap.
+enum { FLUSH = 0x8040, FLAGS = 0x3f, N_SEEDS = 1, SIDE = 12, LARGE_SIDE = 16 };
 
 // What can be seen of an environment.
 typedef struct {
@@ -26,18 +28,14 @@ static environment environment_now(void) {
 }
 
 static void enter(environment e) {
-    fexcept_t flags;
-    CHECK(fesetenv(FE_DFL_ENV) == 0 && fesetround(e.rounding) == 0);
-    // Set together by hand: to raise them would trap.
-    CHECK(fegetexceptflag(&flags, FE_ALL_EXCEPT) == 0);
-    feraiseexcept(e.flags);
-    CHECK(fegetexceptflag(&flags, FE_ALL_EXCEPT) == 0 && fesetexceptflag(&flags, FE_ALL_EXCEPT) == 0);
-    CHECK(feenableexcept(e.traps) != -1);
+    CHECK(fesetenv(FE_DFL_ENV) == 0);
+    CHECK(feraiseexcept(e.flags) == 0);
+    CHECK(fesetround(e.rounding) == 0 && feenableexcept(e.traps) != -1);
 #ifdef __SSE2__
     _mm_setcsr(_mm_getcsr() | e.control);
 #endif
     environment now = environment_now();
-    CHECK(now.rounding == e.rounding && now.traps == e.traps && now.flags == e.flags);
+    CHECK(now.rounding == e.rounding && now.traps == e.traps && (now.flags & e.flags) == e.flags);
 }
 
 static void leave(void) {
@@ -51,7 +49,7 @@ static const environment FOREIGN[] = {
     {FE_TOWARDZERO, 0, 0, 0},
     {FE_TONEAREST, FE_INVALID | FE_DIVBYZERO, 0, 0},
     {FE_TONEAREST, FE_ALL_EXCEPT, 0, 0},
-    {FE_TONEAREST, FE_ALL_EXCEPT, FE_ALL_EXCEPT, 0},
+    {FE_TONEAREST, FE_ALL_EXCEPT, 0, FLAGS},
     {FE_TONEAREST, 0, 0, FLUSH},
     {FE_TOWARDZERO, FE_ALL_EXCEPT, 0, FLUSH},
 };
@@ -99,7 +97,7 @@ static void tours(void) {
     size_t turn = 0;
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
         for (shape s = 0; s < N_SHAPES; s++) {
-            for (uint64_t seed = 1; seed <= N_SEEDS; seed++) {
+            for (uint64_t seed = 1; seed <= N_SEEDS * soak(); seed++) {
                 p = places_of(s, dimension, algorithms[turn++ % (sizeof algorithms / sizeof *algorithms)], seed);
                 before_call = NULL, after_call = NULL, in_callback = NULL;
                 make_tour(&p, &expected);

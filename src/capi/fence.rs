@@ -8,6 +8,9 @@
 //! thread of the library's own it leaves that to the entry that has work done there, where the panic is raised again,
 //! and elsewhere it hands it on unchanged. The shared and the static library bring a standard library of their own,
 //! where no panics but deldrift's arise.
+//!
+//! Inside an entry the floating-point environment is the default one. The caller's is kept, put back in the end with the
+//! flags that it had, and in force while a callback runs. What a callback makes of it is the caller's, too.
 
 use std::cell::{Cell, RefCell};
 use std::ffi::c_char;
@@ -18,23 +21,34 @@ use std::sync::{Once, OnceLock};
 use super::pointers;
 use super::status::{Failure, deldrift_status};
 use super::triangulation::{Kernel, deldrift_triangulation};
+use crate::machine::environment::{self, Environment};
 use crate::machine::threads;
 
 /// Runs the body of an entry.
 pub(super) fn enter(body: impl FnOnce() -> Result<(), Failure>) -> deldrift_status {
     hear_panics();
-    let outside = INSIDE.replace(true);
-    let outcome = panic::catch_unwind(AssertUnwindSafe(body));
-    INSIDE.set(outside);
-    match outcome {
-        Ok(Ok(())) => deldrift_status::DELDRIFT_OK,
-        Ok(Err(failure)) => report(&failure),
-        Err(payload) => {
-            // Its message has been recorded by the hook; to drop an unknown payload might panic again.
-            std::mem::forget(payload);
-            deldrift_status::DELDRIFT_INTERNAL_ERROR
-        }
-    }
+    HERE.with(|here| {
+        let _visit = Visit::new(here);
+        environment::apart(|| match panic::catch_unwind(AssertUnwindSafe(body)) {
+            Ok(Ok(())) => deldrift_status::DELDRIFT_OK,
+            Ok(Err(failure)) => report(&failure),
+            Err(payload) => {
+                // Its message has been recorded by the hook; to drop an unknown payload might panic again.
+                std::mem::forget(payload);
+                deldrift_status::DELDRIFT_INTERNAL_ERROR
+            }
+        })
+    })
+}
+
+/// Calls a function of the program's, in the floating-point environment of the caller.
+pub(super) fn call_back<R>(callback: impl FnOnce() -> R) -> R {
+    HERE.with(|here| {
+        here.callers.get().enter();
+        let answer = environment::apart(callback);
+        here.callers.set(Environment::leave());
+        answer
+    })
 }
 
 /// The status of a failure, whose message is recorded.
@@ -112,10 +126,12 @@ pub(super) unsafe fn change_shortly(
     t: *mut deldrift_triangulation,
     body: impl FnOnce(&mut Kernel) -> bool,
 ) -> bool {
-    // SAFETY: the caller's promise.
-    let handle = unsafe { pointers::reference("t", t.cast_const()) };
-    // SAFETY: as in `read`.
-    handle.is_ok_and(|handle| handle.check_ready().is_ok() && body(unsafe { &mut *handle.kernel() }))
+    environment::in_default(|| {
+        // SAFETY: the caller's promise.
+        let handle = unsafe { pointers::reference("t", t.cast_const()) };
+        // SAFETY: as in `read`.
+        handle.is_ok_and(|handle| handle.check_ready().is_ok() && body(unsafe { &mut *handle.kernel() }))
+    })
 }
 
 /// The message of the last failure on this thread.
@@ -124,9 +140,39 @@ pub(super) fn last_message() -> *const c_char {
 }
 
 thread_local! {
-    /// Whether this thread is inside an entry.
-    static INSIDE: Cell<bool> = const { Cell::new(false) };
+    static HERE: Here = const { Here { is_inside: Cell::new(false), callers: Cell::new(Environment::DEFAULT) } };
     static MESSAGE: RefCell<Message> = const { RefCell::new(Message { bytes: [0; CAPACITY], length: 0 }) };
+}
+
+/// What a thread is in the midst of.
+struct Here {
+    /// Whether it is inside an entry.
+    is_inside: Cell<bool>,
+    /// The floating-point environment that the innermost entry has been called in, or that its callbacks have left.
+    callers: Cell<Environment>,
+}
+
+/// A thread's being inside an entry, and before, perhaps, inside another one, a callback of which has called this one.
+struct Visit<'h> {
+    here: &'h Here,
+    was_inside: bool,
+    callers_before: Environment,
+}
+
+impl<'h> Visit<'h> {
+    #[inline(always)]
+    fn new(here: &'h Here) -> Self {
+        let callers_before = here.callers.replace(Environment::leave());
+        Visit { here, was_inside: here.is_inside.replace(true), callers_before }
+    }
+}
+
+impl Drop for Visit<'_> {
+    #[inline(always)]
+    fn drop(&mut self) {
+        self.here.is_inside.set(self.was_inside);
+        self.here.callers.replace(self.callers_before).enter();
+    }
 }
 
 const CAPACITY: usize = 512;
@@ -200,7 +246,7 @@ type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
 static BEFORE: OnceLock<Hook> = OnceLock::new();
 
 fn hear(panic: &PanicHookInfo<'_>) {
-    if INSIDE.get() {
+    if HERE.with(|here| here.is_inside.get()) {
         record(format_args!("{panic}"));
     } else if !threads::is_worker()
         && let Some(before) = BEFORE.get()

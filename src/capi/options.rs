@@ -4,7 +4,7 @@ use std::ffi::c_void;
 use std::mem::{MaybeUninit, offset_of};
 use std::ptr;
 
-use super::pointers;
+use super::{fence, pointers};
 use super::status::Failure;
 use crate::error::Error;
 use crate::machine::memory;
@@ -225,7 +225,7 @@ impl Callbacks {
     /// Reports progress and asks whether to go on. What the callbacks do with other triangulations is no part of the
     /// call that they are called from.
     fn go_on(&self, fraction: f64) -> bool {
-        tally::uncounted(|| self.ask(fraction))
+        tally::uncounted(|| fence::call_back(|| self.ask(fraction)))
     }
 
     fn ask(&self, fraction: f64) -> bool {

@@ -15,6 +15,7 @@
 //! - *`dlclose`* and `exit`: workers that sleep are ended and joined before the code goes. One that works is left
 //!   alone: a call runs then, and only `exit` may come in between.
 //! - *Signals* to the process are left to the program's own threads.
+//! - *The floating-point environment* of a worker is the default one, whatever that of the thread is that starts it.
 //!
 //! rayon-core would be the alternative. It allocates its threads and its queues of work, and ends the process where
 //! there is no memory; and its threads are neither there in a process that was forked nor ever joined.
@@ -27,6 +28,8 @@ use std::mem::{MaybeUninit, transmute};
 use std::ops::Deref;
 use std::ptr::null_mut;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use super::environment::Environment;
 
 /// Bytes of stack of a worker, as the standard library has it.
 const STACK: usize = 2 << 20;
@@ -285,6 +288,8 @@ impl Shared {
 
 /// What a worker does.
 extern "C" fn work(_: *mut c_void) -> *mut c_void {
+    // A thread has that of the one that starts it.
+    Environment::leave();
     // SAFETY: a question without conditions.
     let thread = unsafe { libc::pthread_self() };
     let own = Worker { thread, next: Cell::new(None), works: Cell::new(false), ends: Cell::new(false) };

@@ -26,6 +26,8 @@ use std::thread;
 
 #[cfg(unix)]
 use super::pool::{self, beside};
+#[cfg(not(unix))]
+use super::environment;
 use super::{memory, processors, tally};
 use crate::error::Result;
 
@@ -165,7 +167,7 @@ fn message(payload: &Box<dyn Any + Send>) -> &str {
 fn beside<A>(work: &mut (dyn FnMut() + Send), a: impl FnOnce() -> A) -> A {
     thread::scope(|scope| {
         // What is not started is not done.
-        let _ = thread::Builder::new().spawn_scoped(scope, work);
+        let _ = thread::Builder::new().spawn_scoped(scope, || environment::in_default(work));
         a()
     })
 }

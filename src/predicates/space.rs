@@ -85,11 +85,7 @@ fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     if let Some(sign) = insphere_sign(points, largest(extents), bound) {
         return with_sign(det, sign);
     }
-    if !has_room(points, 5) {
-        return big::insphere(det, points);
-    }
-    let [a, b, c, d, e] = points.map(coord);
-    -robust::insphere(a, b, c, d, e)
+    big::insphere(det, points)
 }
 
 /// With the differences u, v, w, s from `a` to `b`, `c`, `d`, `e`: minus the determinant with rows (u, |u|²),
