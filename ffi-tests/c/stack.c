@@ -8,7 +8,7 @@
 #include <pthread.h>
 
 // What the header says that a call takes at most, and the smallest stack that it says is enough.
-enum { MOST = 64 << 10, STACK = 128 << 10, MARGIN = 512, N_SEEDS = 8, MOST_NAMES = 300 };
+enum { MOST = 64 << 10, STACK = 128 << 10, MARGIN = 512, N_SEEDS = 8, MOST_NAMES = 300, MANY = 3000 };
 
 static const unsigned char PATTERN = 0xa5;
 
@@ -45,15 +45,7 @@ __attribute__((noinline)) static void measure(const char *name) {
     }
 }
 
-static void *all_shapes(void *unused) {
-    (void)unused;
-    pthread_attr_t own;
-    void *address;
-    size_t size;
-    CHECK(pthread_getattr_np(pthread_self(), &own) == 0);
-    CHECK(pthread_attr_getstack(&own, &address, &size) == 0);
-    CHECK(pthread_attr_destroy(&own) == 0);
-    stack_end = address;
+static void all_shapes(void) {
     static places p;
     static record made;
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
@@ -67,6 +59,75 @@ static void *all_shapes(void *unused) {
             }
         }
     }
+}
+
+// Points on a curve all of whose pairs are edges; a vertex that all others are around; any.
+static void lay_out(double *points, uint32_t dimension, int kind) {
+    uint64_t state = 11;
+    for (size_t v = 0; v < MANY; v++) {
+        double *p = points + v * dimension, length = 0, s = (double)(v % 300 + 1) / 8;
+        for (uint32_t axis = 0; axis < dimension; axis++) {
+            p[axis] = next_random(&state) - 0.5;
+            length += p[axis] * p[axis];
+            if (kind == 1) p[axis] = axis == 0 ? s : axis == 1 ? s * s : s * s * s;
+        }
+        for (uint32_t axis = 0; axis < dimension && kind == 2; axis++) p[axis] = v == 12 ? 0 : p[axis] / sqrt(length);
+    }
+}
+
+// Calls on many points, on several threads, by every algorithm.
+static void many_points(void) {
+    static double at[MANY * 3], then[MANY * 3];
+    static record made;
+    tour_record = &made;
+    const deldrift_algorithm algorithms[] = ALL_ALGORITHMS;
+    for (size_t k = 0; k < 6 * sizeof algorithms / sizeof *algorithms; k++) {
+        uint32_t dimension = 2 + k % 2, v = 0;
+        int kind = (int)(k / 2 % 3);
+        snprintf(where_now, sizeof where_now, "%uD, many, kind %d, algorithm %zu", dimension, kind, k / 6);
+        lay_out(at, dimension, kind);
+        uint64_t state = k;
+        for (size_t i = 0; i < MANY * dimension; i++) then[i] = at[i] + (k % 4 < 2 ? 1e-3 : 0.1) * next_random(&state);
+        deldrift_options options;
+        deldrift_options_init(&options);
+        options.algorithm = algorithms[k / 6];
+        options.threads = 3;
+        size_t n = kind == 1 ? 300 : MANY;
+        deldrift_triangulation *t = NULL, *other = NULL;
+        made.count = 0;
+        GO(deldrift_create(dimension, at, n, &options, &t));
+        for (int step = 0; step < 2; step++) {
+            GO(deldrift_commit_positions(t, step == 0 ? then : at, n, NULL));
+            for (v = 0; v < 30; v += 3) GO(deldrift_move_vertex(t, v, then + (v + 7) * dimension));
+            GO(deldrift_commit_timestamp(t, NULL));
+        }
+        uint32_t leaving[] = {1, 2, 3};
+        GO(deldrift_stage_insertions(t, then, 5, &v));
+        GO(deldrift_stage_removals(t, leaving, 3));
+        GO(deldrift_commit_timestamp(t, NULL));
+        GO(deldrift_relocate_vertex(t, 12, then));
+        GO(deldrift_remove_vertex(t, 12));
+        GO(deldrift_clone(t, &other));
+        GO(deldrift_compact(t, NULL, 0, &(size_t){0}));
+        GO(deldrift_validate(t, 3));
+        DO(deldrift_destroy(other));
+        DO(deldrift_destroy(t));
+    }
+}
+
+static void *measured(void *unused) {
+    (void)unused;
+    pthread_attr_t own;
+    void *address;
+    size_t size;
+    CHECK(pthread_getattr_np(pthread_self(), &own) == 0);
+    CHECK(pthread_attr_getstack(&own, &address, &size) == 0);
+    CHECK(pthread_attr_destroy(&own) == 0);
+    stack_end = address;
+    before_call = paint;
+    after_call = measure;
+    all_shapes();
+    many_points();
     return NULL;
 }
 
@@ -75,15 +136,14 @@ static void on_a_stack_of(size_t size) {
     pthread_t thread;
     CHECK(pthread_attr_init(&attributes) == 0);
     CHECK(pthread_attr_setstacksize(&attributes, size) == 0);
-    CHECK(pthread_create(&thread, &attributes, all_shapes, NULL) == 0);
+    CHECK(pthread_create(&thread, &attributes, measured, NULL) == 0);
     CHECK(pthread_join(thread, NULL) == 0);
     CHECK(pthread_attr_destroy(&attributes) == 0);
 }
 
 int main(int count, char **arguments) {
-    // The first panic hook, the first thread: what happens once happens on the small stack as well.
-    before_call = paint;
-    after_call = measure;
+    // Threads, too, are started from the small stack.
+    CHECK(setenv("DELDRIFT_ALL_THREADS", "1", 1) == 0);
     on_a_stack_of(count > 1 ? (size_t)atoi(arguments[1]) << 10 : STACK);
     size_t most = 0;
     for (size_t k = 0; taken[k].name != NULL; k++) {
