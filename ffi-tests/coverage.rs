@@ -53,6 +53,15 @@ fn every_function_is_called_without_memory() {
     assert!(n_functions > 40, "{n_functions}");
 }
 
+/// A tour is made from foreign floating-point environments, and on little stack.
+#[test]
+fn every_function_is_called_on_a_tour() {
+    let (header, tour) = (text_of("include/deldrift.h"), text_of("ffi-tests/c/tour.h"));
+    let functions = declarations(&header).filter_map(function_name);
+    let missing: Vec<&str> = functions.filter(|name| !tour.contains(&format!("{name}("))).collect();
+    assert!(missing.is_empty(), "no tour calls {missing:?}");
+}
+
 #[test]
 fn every_status_is_asserted() {
     let header = text_of("include/deldrift.h");

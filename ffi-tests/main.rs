@@ -9,6 +9,7 @@
 //! | `programs.rs` | every program under `c/` and `cpp/`, with the shared and with the static library |
 //! | `cgal/both.cpp` | a program for CGAL, which writes the same with deldrift in its place (`--include-ignored`) |
 //! | `c/faults.c`, `c/limits.c`, `c/memory_bytes.c` | calls for which there is no memory, and how much is held |
+//! | `c/environment.c`, `c/stack.c` | calls from foreign floating-point environments, and on little stack |
 //! | `checkers.rs` | each checker finds the faults that are planted for it |
 //! | `coverage.rs` | every function and every status of the header is used by some program |
 //! | `examples.rs` | the examples, with few steps (`--include-ignored`) |

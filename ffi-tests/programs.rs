@@ -1,5 +1,8 @@
 //! Every program, run with either library.
 
+use std::env;
+use std::path::Path;
+
 use crate::support::{
     Linkage, build, command, compiler, fresh_folder, repository, sees_requests, sources, succeed,
 };
@@ -25,7 +28,7 @@ fn cpp_programs_run_with_the_static_library() {
 }
 
 /// Programs that tell what they have tried.
-const REPORTING: [&str; 3] = ["faults.c", "limits.c", "memory_bytes.c"];
+const REPORTING: [&str; 4] = ["faults.c", "limits.c", "memory_bytes.c", "stack.c"];
 
 /// Builds and runs the programs of a language. All others are silent.
 fn run_all(language: &str, linkage: Linkage) {
@@ -43,6 +46,22 @@ fn run_all(language: &str, linkage: Linkage) {
             assert_eq!(said, "", "{}", source.display());
         }
     }
+}
+
+/// A build with all optimisations inlines more, and its frames are others.
+#[test]
+#[ignore = "builds the library again"]
+fn calls_take_as_little_of_the_stack_when_they_are_optimised() {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("it is in the target folder");
+    let cargo = env::var_os("CARGO").unwrap_or("cargo".into());
+    let options = ["build", "--release", "--lib", "--target-dir"];
+    succeed(command(cargo).current_dir(repository(".")).args(options).arg(target));
+    let library = target.join("release/libdeldrift.so");
+    let source = repository("ffi-tests/c/stack.c");
+    let program = fresh_folder("stack").join("stack");
+    let run_path = format!("-Wl,-rpath,{}", target.join("release").display());
+    succeed(compiler(&source).arg(&source).arg("-o").arg(&program).arg(library).arg(run_path).arg("-lm"));
+    println!("{}", succeed(&mut command(program)));
 }
 
 /// One runs, with the ranges and spans of the standard library.

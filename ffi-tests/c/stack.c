@@ -8,7 +8,7 @@
 #include <pthread.h>
 
 // What the header says that a call takes at most, and the smallest stack that it says is enough.
-enum { MOST = 64 << 10, STACK = 128 << 10, MARGIN = 512, N_SEEDS = 8, MOST_NAMES = 300, MANY = 3000 };
+enum { MOST = 80 << 10, STACK = 128 << 10, MARGIN = 512, N_SEEDS = 8, MOST_NAMES = 300, MANY = 3000 };
 
 static const unsigned char PATTERN = 0xa5;
 
@@ -33,9 +33,10 @@ __attribute__((noinline)) static void measure(const char *name) {
     volatile unsigned char here;
     volatile unsigned char *at = stack_end;
     while (at < &here && *at == PATTERN) at++;
-    size_t depth = (size_t)(&here - at), length = strcspn(name, "( ="), k = 0;
+    name = strstr(name, "deldrift_");
+    size_t depth = (size_t)(&here - at), length = strcspn(name, "("), k = 0;
     for (; taken[k].name != NULL; k++) {
-        if (strncmp(taken[k].name, name, length) == 0 && strcspn(taken[k].name, "( =") == length) break;
+        if (strncmp(taken[k].name, name, length) == 0 && strcspn(taken[k].name, "(") == length) break;
     }
     CHECK(k + 1 < MOST_NAMES);
     taken[k].name = name;
@@ -147,7 +148,7 @@ int main(int count, char **arguments) {
     on_a_stack_of(count > 1 ? (size_t)atoi(arguments[1]) << 10 : STACK);
     size_t most = 0;
     for (size_t k = 0; taken[k].name != NULL; k++) {
-        int length = (int)strcspn(taken[k].name, "( =");
+        int length = (int)strcspn(taken[k].name, "(");
         printf("%-40.*s%8zu  %s\n", length, taken[k].name, taken[k].most, taken[k].where);
         if (taken[k].most > most) most = taken[k].most;
     }

@@ -4,8 +4,8 @@ use std::ffi::c_void;
 use std::mem::{MaybeUninit, offset_of};
 use std::ptr;
 
-use super::{fence, pointers};
 use super::status::Failure;
+use super::{fence, pointers};
 use crate::error::Error;
 use crate::machine::memory;
 use crate::machine::tally;

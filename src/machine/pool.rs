@@ -31,7 +31,8 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::environment::Environment;
 
-/// Bytes of stack of a worker, as the standard library has it.
+/// Bytes of stack of a worker, as the standard library has it. It takes few of them, but the variables that the
+/// program has for each of its threads are there as well, and those that are not used are address space alone.
 const STACK: usize = 2 << 20;
 
 /// How many workers there may be.

@@ -24,10 +24,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU8, AtomicUsize, Ordering::Relaxed};
 use std::thread;
 
-#[cfg(unix)]
-use super::pool::{self, beside};
 #[cfg(not(unix))]
 use super::environment;
+#[cfg(unix)]
+use super::pool::{self, beside};
 use super::{memory, processors, tally};
 use crate::error::Result;
 

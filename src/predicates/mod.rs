@@ -17,7 +17,8 @@
 //! 4. *Integer*: where differences are integers that fit, as those of neighbours on a grid are, the determinant
 //!    modulo 2⁶⁴ to 2⁵¹², by the length of the differences (`integer.rs`; not for `orient2d`, whose expansions are
 //!    short).
-//! 5. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`].
+//! 5. *Expansions*: otherwise, Shewchuk's adaptive arithmetic, from the crate [`robust`] (not for `insphere`, whose
+//!    expansions take 170 KiB of the stack and no less time than the next stage).
 //! 6. *Big integers*: where expansions would underflow, the determinant in long integers (`big.rs`).
 //!
 //! The error constants are not quoted but computed by the compiler, from the operation order of each
@@ -44,14 +45,13 @@
 //! # Range
 //!
 //! Coordinates are finite and of magnitude up to [`MAX_MAGNITUDE`], subnormal numbers included. The
-//! arithmetic is that of IEEE 754, rounding to nearest and with gradual underflow: a thread that flushes
-//! subnormal numbers to zero, as some compilers' fast modes arrange, may get wrong signs where extents are so
-//! small that differences or products of them are subnormal.
+//! arithmetic is that of IEEE 754, rounding to nearest and with gradual underflow. Rust takes that for granted;
+//! functions of the C interface see to it, whatever their callers have in force (`machine/environment.rs`).
 //!
 //! - *No overflow.* Differences are at most 2·10⁵⁷, products of five of them 32·10²⁸⁵, and the in-sphere
-//!   determinant is a sum of fewer than 1,000 such products: below 10²⁹⁰. The expansions also multiply raw
-//!   coordinates, which are smaller, and split factors by multiplying them by 2²⁷ + 1, but only factors of
-//!   degree four or less, below 10²⁴². The largest `f64` is 1.8·10³⁰⁸.
+//!   determinant is a sum of fewer than 1,000 such products: below 10²⁹⁰. The expansions split factors by
+//!   multiplying them by 2²⁷ + 1, but only factors of degree three or less, below 10¹⁸². The largest `f64` is
+//!   1.8·10³⁰⁸.
 //! - *Underflow in the filters* is part of their bounds (`filter.rs`). Differences never underflow.
 //! - *Underflow in integers.* Scaling is by powers of two, and checked by scaling back. A value returned is
 //!   kept from underflowing to zero.
@@ -62,7 +62,7 @@
 //!   The bounds by which [`robust`] ends early are products with constants down to 2⁻¹⁰⁵ and may lose 2⁻¹⁰⁷⁵,
 //!   which is less than the 2⁻⁵⁰ or so that Shewchuk rounds these constants up by, of a value of 2⁻⁹⁶⁰. With
 //!   53 significant bits, coordinates are such multiples if they are zero or at least 2⁵²⁻ˡ: 10⁻¹²⁸ in degree
-//!   2 (and for distances), or 10⁻⁸⁰, 10⁻⁵⁶ and 10⁻⁴² in degrees 3, 4 and 5.
+//!   2 (and for distances), or 10⁻⁸⁰ and 10⁻⁵⁶ in degrees 3 and 4.
 //!
 //! # Cost
 //!
@@ -73,7 +73,7 @@
 //! | [`orient2d`] | 7 | 6 u | 0.8 ns | 2.2 ns | | | 7 ns |
 //! | [`incircle`] | 25 | 72 u | 3.5 ns | 5.2 ns | 28 ns | 20 ns | 1,900 ns |
 //! | [`orient3d`] | 23 | 40 u | 2.4 ns | 5.0 ns | 13 ns | 12 ns | 160 ns |
-//! | [`insphere`] | 74 | 756 u | 7.7 ns | 11.5 ns | 79 ns | 46 ns | 2,800 ns |
+//! | [`insphere`] | 74 | 756 u | 7.7 ns | 11.5 ns | 79 ns | 46 ns | |
 //!
 //! `cargo bench --bench predicates` measures them. A *short tie* is one whose differences have few bits.
 
