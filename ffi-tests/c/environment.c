@@ -99,7 +99,7 @@ static void tours(void) {
     size_t turn = 0;
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
         for (shape s = 0; s < N_SHAPES; s++) {
-            for (uint64_t seed = 1; seed <= N_SEEDS * soak(); seed++) {
+            for (uint64_t seed = 1; (double)(seed - 1) < N_SEEDS * soak(); seed++) {
                 p = places_of(s, dimension, algorithms[turn++ % (sizeof algorithms / sizeof *algorithms)], seed);
                 before_call = NULL, after_call = NULL, in_callback = NULL;
                 make_tour(&p, &expected);

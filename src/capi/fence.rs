@@ -311,6 +311,27 @@ mod tests {
     }
 
     #[test]
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    fn panic_leaves_the_environment_of_the_caller() {
+        use crate::machine::environment::tests::{FOREIGN, abroad, is_default_now};
+        let t = square();
+        // SAFETY: `t` lives until its destruction at the end.
+        unsafe {
+            let (status, after) = abroad(|| {
+                let status = change(t, |_| {
+                    assert!(is_default_now());
+                    assert!(call_back(Environment::current) == FOREIGN && is_default_now());
+                    panic!("{} of {}", 1.0 / 3.0, f64::NAN)
+                });
+                (status, Environment::current())
+            });
+            assert_eq!((status, after), (deldrift_status::DELDRIFT_INTERNAL_ERROR, FOREIGN));
+            assert!(message().contains("0.333333333333") && message().contains("of NaN"), "{}", message());
+            deldrift_destroy(t);
+        }
+    }
+
+    #[test]
     fn panic_on_another_thread_is_one_here() {
         let t = square();
         // SAFETY: `t` lives until its destruction at the end.

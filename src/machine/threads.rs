@@ -319,6 +319,14 @@ mod tests {
         join_surely(|| (), || panic!("cell {} went missing", 13));
     }
 
+    #[test]
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    fn other_threads_are_in_the_default_environment() {
+        use crate::machine::environment::tests::{abroad, is_default_now};
+        let (here, there) = abroad(|| join_surely(is_default_now, is_default_now));
+        assert!(!here && there);
+    }
+
     /// Threads are kept, and work is done as well when all have some: by those that have it.
     #[test]
     fn many_threads_have_work() {
