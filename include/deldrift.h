@@ -59,6 +59,18 @@
  * per thread. Where more threads pay, the library starts some of its own and keeps them (see
  * deldrift_options). They handle no signals. A process that is forked off, between calls, has the triangulations
  * but not these threads, and starts its own. dlclose and exit end them.
+ *
+ * Floating point. Every function does, and gives, what it does in the default floating-point environment, whatever that
+ * of the caller is: its rounding, traps, and numbers near zero that count as zero. It leaves the caller's environment as it
+ * is, the flags of exceptions included. A callback runs in the environment of the caller, who has in the end what the
+ * callback has made of it. This is so on x86-64, by MXCSR, and on 64-bit ARM; on other processors calls must come from the
+ * default environment. What is inline in deldrift.hpp and deldrift/cgal.hpp is compiled as a part of the program, and
+ * does its arithmetic in the environment of the program.
+ *
+ * Stack. A call takes at most 80 KiB of the stack of its thread, however many points there are and whatever their
+ * coordinates, if the library is compiled with any optimisation. So a thread that has 128 KiB, as threads of musl do by
+ * default, is enough for a call, but for what callbacks take. The library's own threads have 2 MiB each, of address
+ * space: what they use of it is memory, and no more than that of a call.
  */
 
 #ifndef DELDRIFT_H
