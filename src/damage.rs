@@ -62,6 +62,15 @@ pub enum Damage {
         /// What is there.
         value: f64,
     },
+    /// An id that is not present has a coordinate.
+    Absent {
+        /// The id.
+        vertex: VertexId,
+        /// Which coordinate.
+        axis: usize,
+        /// What is there, in place of NaN.
+        value: f64,
+    },
     /// The vertex that stands for the place of another has a higher id, is not there, or does not stand for its own.
     Representative {
         /// The other.
@@ -135,7 +144,7 @@ pub enum Damage {
         /// The cell.
         cell: CellId,
     },
-    /// The hull winds more than once, or the cells are not those of the Delaunay triangulation.
+    /// The hull is in several parts, winds more than once, or turns its outer side inwards.
     NotATriangulation,
     /// A staged insertion has an id that is taken, or not above that of the insertion before.
     Insertion {
@@ -172,6 +181,9 @@ impl fmt::Display for Damage {
             Position { vertex, axis, value } => {
                 write!(f, "vertex {vertex}, coordinate {axis}, is {value:e}, which is out of range")
             }
+            Absent { vertex, axis, value } => {
+                write!(f, "id {vertex} is not present, but coordinate {axis} is {value:e}, not NaN")
+            }
             Representative { vertex, given } => {
                 write!(f, "vertex {given} cannot stand for the place of vertex {vertex}")
             }
@@ -198,7 +210,9 @@ impl fmt::Display for Damage {
                 "the vertex beyond the facet of cell {cell} opposite corner {corner} is inside the cell's sphere"
             ),
             NotConvex { cell } => write!(f, "the hull is not convex at cell {cell}"),
-            NotATriangulation => write!(f, "the cells are not those of the Delaunay triangulation"),
+            NotATriangulation => {
+                write!(f, "the hull of the cells is in several parts, or winds more than once")
+            }
             Insertion { vertex } => {
                 write!(f, "the id {vertex} of a staged insertion is taken, or out of order")
             }

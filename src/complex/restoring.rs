@@ -3,7 +3,8 @@
 //! The rows may come from anywhere. What is returned is closed and keeps the invariants of the module, and its cells
 //! are oriented alike: those on the two sides of a facet see it from different sides.
 //!
-//! Cost: a pass over the rows, and around each ridge of the hull one over the cells there.
+//! Cost: a pass over the rows, and around each ridge of the hull two over the cells there, whatever the rows hold: they
+//! are gone around only where all gluings are one to one.
 
 use super::free::FreeSlots;
 use super::record::Record;
@@ -14,6 +15,9 @@ use crate::ids::{CellId, SiteId, Slot};
 use crate::machine::aligned::Aligned;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
+
+/// Cells between two calls of a monitor.
+const MONITORED: usize = 1 << 16;
 
 /// Where corner `a` of a cell is in the ghost cell at its facet opposite corner `i`.
 fn place_in_ghost(n: usize, i: usize, a: usize) -> usize {
@@ -65,10 +69,12 @@ fn place_of<N: Corners<CellId>>(row: &N, cell: CellId) -> Option<usize> {
 
 impl<C: Corners> Complex<C> {
     /// The complex of finite cells with these corners, distinct in each, and these neighbours, opposite each corner:
-    /// [`CellId::NONE`] at the hull. Cell k gets slot k, the ghost cells follow.
+    /// [`CellId::NONE`] at the hull. Cell k gets slot k, the ghost cells follow. `monitor` is called with the fraction
+    /// done; if it returns `false`, this ends in [`Error::Cancelled`].
     pub(crate) fn of_rows<N: Corners<CellId>>(
         corners: impl ExactSizeIterator<Item = Result<C, LoadError>>,
         neighbours: &[N],
+        monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Self, LoadError> {
         let n = neighbours.len();
         debug_assert_eq!(corners.len(), n);
@@ -81,12 +87,19 @@ impl<C: Corners> Complex<C> {
         cells.reserve_exact(n + n_ghosts)?;
         memory::reserve_exact(&mut marks, cells.capacity())?;
         free.cover(cells.capacity())?;
-        for corners in corners {
+        let all = (2 * n + n_ghosts) as f64;
+        let mut go_on = |done: usize| {
+            let is_wanted = !done.is_multiple_of(MONITORED) || monitor(done as f64 / all);
+            if is_wanted { Ok(()) } else { Err(Error::Cancelled) }
+        };
+        for (c, corners) in corners.enumerate() {
+            go_on(c)?;
             cells.push(Cell { corners: corners?, ..Cell::free() });
         }
         marks.resize(n + n_ghosts, 0);
         let mut complex = Complex { cells, marks, free, n_ghosts, record: Record::default() };
         for (c, row) in neighbours.iter().enumerate() {
+            go_on(n + c)?;
             if let Some(later) = neighbours.get(c + AHEAD) {
                 for i in 0..C::N {
                     prefetch(&complex.cells, later[i].index());
@@ -98,6 +111,7 @@ impl<C: Corners> Complex<C> {
             }
         }
         for g in n..n + n_ghosts {
+            go_on(n + g)?;
             complex.glue_ghost(Slot::at(g), n);
         }
         Ok(complex)

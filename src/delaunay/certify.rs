@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use super::uncertain::Doubts;
 use super::{Delaunay, Dimension, Failures};
 use crate::complex::{Cell, Corners, Facet, INFINITE};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::machine::threads;
@@ -21,6 +21,9 @@ use crate::simd::{Avx2, LANES};
 
 /// A sweep of this number of cells takes a few times as long as a thread takes to wake up.
 const SWEPT_AT_LEAST: usize = 1 << 14;
+
+/// Cells that a thread sweeps between two calls of a monitor.
+const SWEPT_UNASKED: usize = 1 << 16;
 
 /// Bytes of cells above which they are asked for in advance. Measured; more than for arrays that are read in no order
 /// at all ([`prefetch::CACHE_BYTES`](crate::machine::prefetch)), as most neighbours are stored close by.
@@ -51,27 +54,65 @@ impl<G: Dimension> Delaunay<G> {
         before: Option<&[G::Point]>,
     ) -> Result<bool> {
         failures.clear();
-        let n = self.complex.n_slots();
-        let n_threads = self.threads.for_work(n, SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
         let n_failed = AtomicUsize::new(0);
-        if n_threads == 1 {
-            self.sweep_range(0..n, failures, most, before, &n_failed)?;
-        } else {
-            let parts = threads::for_ranges(n, n_threads, |range| {
-                let mut failures = Failures::default();
-                self.sweep_range(range, &mut failures, most, before, &n_failed).map(|()| failures)
-            })?;
-            for part in parts {
-                failures.append(&part?)?;
-            }
-        }
+        self.sweep_slots(0..self.complex.n_slots(), failures, most, before, &n_failed)?;
         if n_failed.into_inner() > most {
             return Ok(false);
         }
+        self.end_sweep(failures)?;
+        Ok(true)
+    }
+
+    /// Checks every certificate of the finite cells once, and lists the ghosts; ends early where a cell has failed.
+    /// `monitor` is called with the fraction done; if it returns `false`, this ends in [`Error::Cancelled`].
+    pub(super) fn sweep_monitored(
+        &mut self,
+        failures: &mut Failures,
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<()> {
+        failures.clear();
+        let (n, n_failed) = (self.complex.n_slots(), AtomicUsize::new(0));
+        let step = SWEPT_UNASKED * self.threads.for_work(n, SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
+        for first in (0..n).step_by(step) {
+            if !monitor(first as f64 / n as f64) {
+                return Err(Error::Cancelled);
+            }
+            let range = first..n.min(first + step);
+            self.sweep_slots(range, failures, 0, None, &n_failed)?;
+            if !failures.cells.is_empty() {
+                return Ok(());
+            }
+        }
+        self.end_sweep(failures)
+    }
+
+    /// After all cells have been swept.
+    fn end_sweep(&mut self, failures: &mut Failures) -> Result<()> {
         memory::append(&mut failures.open_ghosts, &failures.ghosts)?;
         failures.may_wind_twice = true;
         self.certificates += self.n_certificates();
-        Ok(true)
+        Ok(())
+    }
+
+    /// Sweeps the cells of a range by as many threads as pay.
+    fn sweep_slots(
+        &self,
+        range: Range<usize>,
+        failures: &mut Failures,
+        most: usize,
+        before: Option<&[G::Point]>,
+        n_failed: &AtomicUsize,
+    ) -> Result<()> {
+        let n_threads = self.threads.for_work(range.len(), SWEPT_AT_LEAST, SWEPT_AT_LEAST / 64);
+        if n_threads == 1 {
+            return self.sweep_range(range, failures, most, before, n_failed);
+        }
+        let parts = threads::for_ranges(range.len(), n_threads, |part| {
+            let mut failures = Failures::default();
+            let part = range.start + part.start..range.start + part.end;
+            self.sweep_range(part, &mut failures, most, before, n_failed).map(|()| failures)
+        })?;
+        parts.into_iter().try_for_each(|part| failures.append(&part?))
     }
 
     /// How many certificates the finite cells have: an orientation each, and half an empty sphere for each facet.

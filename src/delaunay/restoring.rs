@@ -1,17 +1,38 @@
 //! A triangulation from cells that are known already, as those that have been saved: nothing is triangulated, and
 //! everything is checked.
 //!
-//! Cost: the sort of a fresh build, a pass over the cells to glue them, and a [sweep](super::certify) of all
-//! certificates.
+//! Cost: the sort of a fresh build, a pass over the cells to glue them, a [sweep](super::certify) of all certificates,
+//! and one over the hull, whatever the cells are. Time and memory are in proportion to their number and that of the
+//! positions, but for the sort's `n log n`.
 
 use super::{Delaunay, Dimension, Failures, Site};
 use crate::complex::{Complex, Corners};
 use crate::damage::{Damage, LoadError};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::machine::threads::Threads;
+
+/// Parts of the work that are done when sites are sorted, and when cells are glued to each other.
+const SORTED: f64 = 0.3;
+const GLUED: f64 = 0.7;
+
+/// The part of the checks that is done when all cells have been swept.
+const SWEPT: f64 = 0.9;
+
+/// Sites without cells that are entered, and ghosts that are looked at, between two calls of a monitor.
+const ENTERED: usize = 1 << 16;
+
+/// Ends in an error if a monitor does not want to go on.
+fn go_on(monitor: &mut dyn FnMut(f64) -> bool, fraction: f64) -> Result<()> {
+    if monitor(fraction) { Ok(()) } else { Err(Error::Cancelled) }
+}
+
+/// A monitor of a part of the work.
+fn part_of(monitor: &mut dyn FnMut(f64) -> bool, from: f64, to: f64) -> impl FnMut(f64) -> bool {
+    move |fraction| monitor(from + (to - from) * fraction)
+}
 
 /// Cells as programs know them: the vertices of each, and its neighbours.
 #[derive(Clone, Copy, Debug)]
@@ -24,14 +45,17 @@ impl<G: Dimension> Delaunay<G> {
     /// The triangulation of these cells: cell k is in slot k. `positions` are by vertex id, and all are in range;
     /// `is_site` tells which vertices stand for their places. Also the site of each of these.
     ///
-    /// The rows may hold anything. What is returned is the Delaunay triangulation of the sites.
+    /// The rows may hold anything. What is returned is the Delaunay triangulation of the sites. `monitor` is called with
+    /// the fraction done; if it returns `false`, this ends in [`Error::Cancelled`].
     pub(crate) fn of_rows(
         positions: &[G::Point],
         is_site: impl Fn(VertexId) -> bool + Copy + Sync,
         rows: Rows<'_, G>,
         threads: Threads,
+        monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<(Self, Vec<SiteId>), LoadError> {
         let mut t = Delaunay::on(threads)?;
+        go_on(monitor, 0.0)?;
         let vertices = 0..positions.len() as u32;
         let n = vertices.clone().filter(|&v| is_site(VertexId::new(v))).count();
         let own = vertices.filter(move |&v| is_site(VertexId::new(v)));
@@ -50,20 +74,25 @@ impl<G: Dimension> Delaunay<G> {
             }
         }
         drop(sorted);
+        go_on(monitor, SORTED)?;
         t.parts = parts;
         t.tighten_filter();
         if rows.corners.is_empty() {
-            t.enter_flat()?;
+            t.enter_flat(&mut part_of(monitor, SORTED, 1.0))?;
             return Ok((t, site_of));
         }
-        t.enter_rows(rows, &site_of)?;
-        t.check_restored()?;
+        t.enter_rows(rows, &site_of, &mut part_of(monitor, SORTED, GLUED))?;
+        t.check_restored(&mut part_of(monitor, GLUED, 1.0))?;
         Ok((t, site_of))
     }
 
     /// Enters all sites where there are no cells; they must be in one hyperplane.
-    fn enter_flat(&mut self) -> Result<(), LoadError> {
-        for s in SiteId::range(1..self.sites.len()) {
+    fn enter_flat(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<(), LoadError> {
+        let n_sites = self.sites.len();
+        for s in SiteId::range(1..n_sites) {
+            if s.index() % ENTERED == 0 {
+                go_on(monitor, s.index() as f64 / n_sites as f64)?;
+            }
             let Site { point, id, .. } = *self.site(s);
             if let Some(other) = self.flat.enter(s, &point)? {
                 return Err(Damage::SamePlace { vertex: self.site(other).id, other: id }.into());
@@ -76,7 +105,12 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Makes the cells of rows.
-    fn enter_rows(&mut self, rows: Rows<'_, G>, site_of: &[SiteId]) -> Result<(), LoadError> {
+    fn enter_rows(
+        &mut self,
+        rows: Rows<'_, G>,
+        site_of: &[SiteId],
+        monitor: &mut dyn FnMut(f64) -> bool,
+    ) -> Result<(), LoadError> {
         let sites = &mut self.sites;
         let corners = rows.corners.iter().enumerate().map(|(c, row)| {
             let later = [rows.corners.get(c + 2 * AHEAD), rows.corners.get(c + AHEAD)];
@@ -102,7 +136,7 @@ impl<G: Dimension> Delaunay<G> {
             }
             Ok(corners)
         });
-        self.complex = Complex::of_rows(corners, rows.neighbours)?;
+        self.complex = Complex::of_rows(corners, rows.neighbours, monitor)?;
         self.recent = Slot::new(0);
         // The ghosts follow the finite cells. Without any the cells are closed, and cannot all be positive.
         self.sites[0].cell = Slot::at(rows.corners.len().min(self.complex.n_slots() - 1));
@@ -113,58 +147,27 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Checks that the cells, which are closed and oriented alike, are the Delaunay triangulation of the sites.
-    fn check_restored(&mut self) -> Result<(), LoadError> {
+    fn check_restored(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<(), LoadError> {
         let mut failures = Failures::default();
-        let are_positive = self.sweep(&mut failures, 0, None)?;
+        self.sweep_monitored(&mut failures, &mut part_of(monitor, 0.0, SWEPT))?;
         if let Some(&c) = failures.cells.iter().min() {
             return Err(Damage::NotPositive { cell: CellId::new(c.get()) }.into());
         }
-        debug_assert!(are_positive);
         if let Some(facet) = failures.facets.first() {
             let cell = CellId::new(facet.cell().get());
             return Err(Damage::NotDelaunay { cell, corner: facet.index() }.into());
         }
-        self.check_ridges(&mut failures, |_| None)?;
-        if let Some(ridge) = failures.ridges.first() {
-            let behind = self.complex.cell(ridge.cell()).neighbour(Self::LAST).cell();
-            return Err(Damage::NotConvex { cell: CellId::new(behind.get()) }.into());
+        for first in (0..failures.ghosts.len()).step_by(ENTERED) {
+            go_on(monitor, SWEPT + (1.0 - SWEPT) * first as f64 / failures.ghosts.len() as f64)?;
+            failures.open_ghosts.clear();
+            let some = failures.ghosts[first..].iter().take(ENTERED);
+            failures.open_ghosts.extend(some);
+            self.check_ridges(&mut failures, |_| None)?;
+            if let Some(ridge) = failures.ridges.first() {
+                let behind = self.complex.cell(ridge.cell()).neighbour(Self::LAST).cell();
+                return Err(Damage::NotConvex { cell: CellId::new(behind.get()) }.into());
+            }
         }
-        if self.winds_once(&failures.ghosts) || self.has_cells_of_a_build()? {
-            Ok(())
-        } else {
-            Err(Damage::NotATriangulation.into())
-        }
-    }
-
-    /// Whether a fresh build has the same cells, and as many ghosts: where the hull could not be seen to wind once, as
-    /// that of cells so thin that no double lies inside any. A facet has one other cell to be glued to or none, so
-    /// cells with as many ghosts are glued alike.
-    fn has_cells_of_a_build(&self) -> Result<bool> {
-        let mut build = Delaunay::<G>::on(self.threads)?;
-        memory::reserve_exact(&mut build.sites, self.sites.len() - 1)?;
-        build.sites.extend(self.sites[1..].iter().map(|site| Site::new(site.point, site.id)));
-        build.parts = self.parts.copy()?;
-        let merges = build.rebuild(&mut |_| true)?;
-        let sizes = |t: &Self| (t.complex.n_finite(), t.complex.n_ghosts());
-        if !merges.is_empty() || sizes(&build) != sizes(self) {
-            return Ok(false);
-        }
-        let (own, others) = (self.sorted_cells()?, build.sorted_cells()?);
-        Ok(own == others)
-    }
-
-    /// The vertices of all finite cells, ascending in each, and the cells in ascending order.
-    fn sorted_cells(&self) -> Result<Vec<G::Vertices>> {
-        let mut all = Vec::new();
-        memory::reserve_exact(&mut all, self.complex.n_finite())?;
-        all.extend(self.complex.finite().map(|c| {
-            let corners = self.complex.cell(c).corners;
-            let mut ids = G::Vertices::filled(VertexId::NONE);
-            (0..G::Corners::N).for_each(|i| ids[i] = self.site(corners[i]).id);
-            ids.as_mut().sort_unstable();
-            ids
-        }));
-        all.sort_unstable();
-        Ok(all)
+        if self.winds_once(&failures.ghosts) { Ok(()) } else { Err(Damage::NotATriangulation.into()) }
     }
 }

@@ -207,9 +207,8 @@ impl<G: Dimension> Delaunay<G> {
         if !self.has_cells() {
             return Ok(());
         }
-        // If every cell is so thin that no double lies inside, only convexity is checked.
-        let inner = self.inner_point();
-        let mut ghosts = 0usize;
+        let inner = self.inner();
+        let (mut ghosts, mut crossings) = (0, 0);
         for c in self.complex.live().filter(|&c| self.complex.cell(c).is_ghost()) {
             ghosts += 1;
             let cell = self.complex.cell(c);
@@ -227,29 +226,17 @@ impl<G: Dimension> Delaunay<G> {
                 })?;
             }
             if let Some(o) = &inner {
-                let inside =
-                    G::orientation_with(&self.filter, self.view(), &cell.corners, Self::LAST, o) < 0.0;
-                ensure(inside, level, || {
+                ensure(self.is_inside(c, o), level, || {
                     text!("the hull facet {} turns its outer side inwards", self.describe(c))
                 })?;
+                crossings += usize::from(self.is_crossed(c, o));
             }
         }
         ensure(ghosts == self.complex.n_ghosts(), level, || {
             text!("{ghosts} hull facets, {} counted", self.complex.n_ghosts())
         })?;
-        match &inner {
-            Some(o) => self.check_winding(o),
-            None => Ok(()),
-        }
-    }
-
-    /// A ray from `o` crosses exactly one hull facet.
-    fn check_winding(&self, o: &G::Point) -> Check {
-        let slots = Slot::range(0..self.complex.n_slots());
-        let ghosts = slots.filter(|&c| self.complex.is_live(c) && self.complex.cell(c).is_ghost());
-        let (crossings, aim) = self.crossings_of(ghosts, o);
-        ensure(crossings == 1, Level::Embedding, || {
-            text!("the ray from {o:?} towards {aim:?} crosses {crossings} hull facets, not one")
+        ensure(inner.is_none() || crossings == 1, level, || {
+            text!("a ray from inside a cell crosses {crossings} hull facets, not one")
         })
     }
 

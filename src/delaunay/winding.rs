@@ -1,17 +1,31 @@
 //! How often the hull winds around a point inside.
 //!
-//! A hull that is convex at every ridge is the boundary of a convex set, but may cover it more than once. A ray from a
-//! point strictly inside a cell crosses as many of its facets as it winds. The point must be on the inner side of each.
+//! A hull that is convex at every ridge is the boundary of convex sets, but may have several parts, or cover one more than
+//! once. Let a point strictly inside a cell be on the inner side of every facet. Seen from there facets that share a
+//! ridge are on different sides of it, so each part of the hull covers the directions of all rays, and nearly all of
+//! them equally often: a ray that meets no ridge crosses as many facets as the parts wind in all. If it crosses one,
+//! there is one part, and it winds once.
 //!
-//! Nearly all of these signs are certain by the static bound. So four facets are looked at together, and all of them
-//! again, one by one and exactly, only where a sign of one is not.
+//! Nearly always all signs for a point and a ray in doubles are certain by the static bound: four facets are looked at
+//! together. Where a sign is not, or no double is inside a cell, the point has no coordinates: it is
 //!
-//! Cost: `D + 1` orientations a facet, which have all differences and half of their minors in common.
+//! ```text
+//! c₀ + ε (c₁ - c₀) + ε² (c₂ - c₀) + ...      c: the corners of a cell, ε: above zero, below any number
+//! ```
+//!
+//! which is inside, however thin the cell. An orientation with it is a sum of those with the corners in its place, with
+//! weights 1, ε, ε², ... up to smaller ones, so its sign is that of the first which is not zero. The ray goes along the
+//! last axis. It meets no ridge, unless that is parallel to it and so behind facets that have no breadth: seen along the
+//! axis the corners are not all on the line of a ridge.
+//!
+//! Cost: `D + 1` orientations a facet, which have all differences and half of their minors in common; exactly, `D + 1`
+//! times as many at most. Nothing is asked for.
 
-use super::{Delaunay, Dimension, order};
+use super::kernel::Kernel;
+use super::{Delaunay, Dimension, Plane};
 use crate::complex::Corners;
 use crate::ids::Slot;
-use crate::predicates::StaticFilter;
+use crate::predicates::{self, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 /// Where a ray from a point goes, past facets or through them: bits by facet of what is certain.
@@ -48,31 +62,43 @@ impl Ray {
 }
 
 /// A point of a box, drawn by a fixed rule.
-fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point, attempt: u32) -> G::Point {
+fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point) -> G::Point {
     let mut aim = G::Point::default();
     for k in 0..G::D {
-        let hash = (u64::from(attempt) * 3 + k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
+        let hash = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
         let share = hash as f64 / (1u64 << 53) as f64;
         aim[k] = lower[k] + share * (upper[k] - lower[k]);
     }
     aim
 }
 
-/// A point of a curve that meets any hyperplane in at most as many points as there are dimensions.
-fn aim_on_curve<G: Dimension>(step: u32) -> G::Point {
-    let mut aim = G::Point::default();
-    let mut power = 1.0;
-    for k in 0..G::D {
-        power *= f64::from(step);
-        aim[k] = power;
-    }
-    aim
+/// A point strictly inside a cell, infinitesimally far from its first corner.
+pub(super) struct Inner<'p, G: Dimension> {
+    corners: [&'p G::Point; 4],
+    /// Error bounds for places without their last coordinates.
+    shadows: StaticFilter,
 }
 
-/// Aims in the box of the hull that are tried: the first nearly always serves.
-const AIMS_IN_BOX: u32 = 64;
-/// Aims on the curve: the third powers of smaller numbers are exact.
-const AIMS_ON_CURVE: u32 = 1 << 17;
+impl<G: Dimension> Inner<'_, G> {
+    /// The sign at this point of an affine function, by its values at the corners.
+    fn sign(&self, value: impl Fn(&G::Point) -> f64) -> f64 {
+        let values = self.corners[..G::Corners::N].iter().map(|corner| value(corner));
+        values.into_iter().find(|&value| value != 0.0).unwrap_or(0.0)
+    }
+
+    /// Whether the point, seen along the last axis, is surrounded by the corners of a facet in positive order.
+    fn is_behind(&self, facet: &[&G::Point]) -> bool {
+        if G::D == 2 {
+            let [from, to] = [facet[0][0], facet[1][0]];
+            return self.sign(|corner| corner[0] - from) > 0.0 && self.sign(|corner| to - corner[0]) > 0.0;
+        }
+        let shadow = |p: &G::Point| [p[0], p[1]];
+        [[0, 1], [1, 2], [2, 0]].iter().all(|&[i, j]| {
+            let (from, to) = (shadow(facet[i]), shadow(facet[j]));
+            self.sign(|corner| predicates::orient2d(&self.shadows, &from, &to, &shadow(corner))) > 0.0
+        })
+    }
+}
 
 impl<G: Dimension> Delaunay<G> {
     /// A point strictly inside some finite cell.
@@ -93,24 +119,49 @@ impl<G: Dimension> Delaunay<G> {
         is_inside.then_some(o)
     }
 
-    /// Whether the hull, which is convex at every ridge, winds once around a point inside a cell; `false` also if these
-    /// are not all ghost cells, or if every cell is so thin that no double lies inside.
+    /// Whether the hull, which is convex at every ridge, is in one part and winds once around a point inside a cell; not
+    /// if these are not all ghost cells. All finite cells must be positive.
     pub(crate) fn winds_once(&self, ghosts: &[Slot]) -> bool {
         let are_all = ghosts.len() == self.complex.n_ghosts();
         are_all
-            && self.inner_point().is_some_and(|o| {
-                let is_inside = |&g: &Slot| {
-                    let corners = &self.complex.cell(g).corners;
-                    G::orientation_with(&self.filter, self.view(), corners, Self::LAST, &o) < 0.0
-                };
-                self.surely_winds_once(ghosts, &o)
-                    || ghosts.iter().all(is_inside) && self.crossings_of(ghosts.iter().copied(), &o).0 == 1
-            })
+            && (self.inner_point().is_some_and(|o| self.surely_winds_once(ghosts, &o))
+                || self.exactly_winds_once(ghosts))
     }
 
-    /// The same, of ghosts that are all there are, and a point inside a cell, if static bounds show it.
+    /// The same, of ghosts that are all there are.
+    fn exactly_winds_once(&self, ghosts: &[Slot]) -> bool {
+        let Some(o) = self.inner() else { return false };
+        let mut n_crossings = 0;
+        ghosts.iter().all(|&g| {
+            n_crossings += usize::from(self.is_crossed(g, &o));
+            n_crossings <= 1 && self.is_inside(g, &o)
+        }) && n_crossings == 1
+    }
+
+    /// A point strictly inside a finite cell, which must be positive.
+    pub(super) fn inner(&self) -> Option<Inner<'_, G>> {
+        let cell = self.complex.finite().next()?;
+        let corners = self.view().points(&self.complex.cell(cell).corners);
+        let [lower, upper] = [&self.lower, &self.upper].map(|p| [p[0], p[1]]);
+        Some(Inner { corners, shadows: Plane::filter(&lower, &upper) })
+    }
+
+    /// Whether a point is strictly on the inner side of the facet of a ghost cell.
+    pub(super) fn is_inside(&self, ghost: Slot, o: &Inner<'_, G>) -> bool {
+        let corners = &self.complex.cell(ghost).corners;
+        o.sign(|corner| G::orientation_with(&self.filter, self.view(), corners, Self::LAST, corner)) < 0.0
+    }
+
+    /// Whether the ray from a point, which is on the inner side of the facet of a ghost cell, along the last axis, one
+    /// way for all facets, crosses it.
+    pub(super) fn is_crossed(&self, ghost: Slot, o: &Inner<'_, G>) -> bool {
+        let facet = self.view().points(&self.complex.cell(ghost).corners);
+        o.is_behind(&facet[..G::D])
+    }
+
+    /// As [`exactly_winds_once`](Self::exactly_winds_once), with a point inside a cell, if static bounds show it.
     fn surely_winds_once(&self, ghosts: &[Slot], o: &G::Point) -> bool {
-        let aim = aim_in::<G>(&self.lower, &self.upper, 0);
+        let aim = aim_in::<G>(&self.lower, &self.upper);
         let Some(avx2) = Avx2::new().filter(|_| self.is_covered(&aim)) else { return false };
         avx2.run_with(
             self,
@@ -131,72 +182,6 @@ impl<G: Dimension> Delaunay<G> {
                 n_crossings == 1
             },
         )
-    }
-
-    /// How many of the ghosts' facets, all of which have `o` on their inner side, a ray from `o` that meets no ridge
-    /// crosses, and a point on it. `o` must be in the box of the filter.
-    ///
-    /// Where the hull is a few roundings wide, its box may have no other aims than `o` and points behind ridges. Of
-    /// those on the curve, each ridge is in the way of as many as there are dimensions at most, since it is in one
-    /// hyperplane with `o`.
-    pub(super) fn crossings_of(
-        &self,
-        ghosts: impl Iterator<Item = Slot> + Clone,
-        o: &G::Point,
-    ) -> (usize, G::Point) {
-        let aim = aim_in::<G>(&self.lower, &self.upper, 0);
-        if self.is_covered(&aim)
-            && let Some(crossings) = self.crossings(&self.filter, ghosts.clone(), o, &aim)
-        {
-            return (crossings, aim);
-        }
-        // The box of the hull: that of the filter may be far wider.
-        let corners = ghosts.clone().map(|g| &self.complex.cell(g).corners.as_ref()[..Self::LAST]);
-        let places = corners.flatten().map(|&s| &self.site(s).point);
-        let (lower, upper) = order::bounding_box::<G>(places).unwrap_or_default();
-        let in_box = (0..AIMS_IN_BOX).map(|attempt| aim_in::<G>(&lower, &upper, attempt));
-        let mut aims = in_box.chain((1..AIMS_ON_CURVE).map(aim_on_curve::<G>));
-        let crossings = |aim: G::Point| {
-            // Aims may be out of the box of the triangulation's filter.
-            let (lower, upper) = order::bounding_box::<G>([&lower, &upper, o, &aim].into_iter())?;
-            let filter = G::filter(&lower, &upper);
-            Some((self.crossings(&filter, ghosts.clone(), o, &aim)?, aim))
-        };
-        aims.find_map(crossings).unwrap_or((0, *o))
-    }
-
-    /// How many facets the ray from `o` through `aim` crosses; `None` if it meets a ridge.
-    fn crossings(
-        &self,
-        filter: &StaticFilter,
-        ghosts: impl Iterator<Item = Slot>,
-        o: &G::Point,
-        aim: &G::Point,
-    ) -> Option<usize> {
-        let mut crossings = 0;
-        for c in ghosts {
-            crossings += usize::from(self.is_crossed(filter, c, o, aim)?);
-        }
-        Some(crossings)
-    }
-
-    /// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side;
-    /// `None` if it meets the boundary of the facet, or there is no ray.
-    fn is_crossed(&self, filter: &StaticFilter, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
-        let mut is_crossed = Some(true);
-        for i in 0..G::D {
-            let mut points = self.view().points(&self.complex.cell(ghost).corners);
-            (points[i], points[Self::LAST]) = (aim, o);
-            // The facet of a ghost is oriented as seen from outside: negative, with a point on the inner side.
-            let sign = G::orient(filter, &points[..G::Corners::N]);
-            if sign > 0.0 {
-                return Some(false);
-            }
-            if sign == 0.0 {
-                is_crossed = None;
-            }
-        }
-        is_crossed
     }
 }
 

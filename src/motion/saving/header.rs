@@ -18,8 +18,8 @@ const CHECKSUM: usize = 4;
 
 const N_SUMS: usize = 12;
 
-/// Sums that no program reaches are refused, so that no later one overflows.
-const GREATEST_SUM: u64 = 1 << 62;
+/// Sums above this are saved as this, and refused: no program reaches it, and so none that has been loaded overflows.
+const GREATEST_SUM: u64 = (1 << 62) - 1;
 
 /// How much there is of everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,8 +55,8 @@ impl Header {
         bytes[12..16].copy_from_slice(&self.dimension.to_le_bytes());
         let size = self.size().expect("what is in memory has a size");
         let counts = [self.ids, self.cells, self.moves, self.insertions, self.removals].map(|n| n as u64);
-        let numbers = std::iter::once(size).chain(counts).chain([self.statistics.timestamp]);
-        let numbers = numbers.chain(sums(&self.statistics));
+        let numbers = std::iter::once(size).chain(counts).chain([self.statistics.timestamp.min(GREATEST_SUM)]);
+        let numbers = numbers.chain(sums(&self.statistics).map(|sum| sum.min(GREATEST_SUM)));
         for (place, number) in bytes[16..].chunks_exact_mut(8).zip(numbers) {
             place.copy_from_slice(&number.to_le_bytes());
         }
@@ -105,7 +105,7 @@ impl Header {
         let mut numbers = [0; 1 + N_SUMS];
         for (at, place) in (64..).step_by(8).zip(&mut numbers) {
             *place = number(at);
-            if *place >= GREATEST_SUM {
+            if *place > GREATEST_SUM {
                 return Err(Damage::Sum { offset: at, value: *place });
             }
         }

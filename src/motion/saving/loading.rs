@@ -57,18 +57,22 @@ impl<'d> Reader<'d> {
     }
 }
 
-/// Checks where the present vertices are, and what stands for their places; returns how many there are.
+/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere; returns how
+/// many are present.
 fn check_vertices<G: Dimension>(
     positions: &[G::Point],
     representatives: &[VertexId],
 ) -> Result<usize, Damage> {
     let mut n_present = 0;
     for (vertex, &first) in VertexId::range(0..positions.len()).zip(representatives) {
+        let p = &positions[vertex];
         if first == VertexId::NONE {
+            if let Some(axis) = (0..G::D).find(|&axis| !p[axis].is_nan()) {
+                return Err(Damage::Absent { vertex, axis, value: p[axis] });
+            }
             continue;
         }
         n_present += 1;
-        let p = &positions[vertex];
         if let Some(axis) = (0..G::D).find(|&axis| !is_in_range(p[axis])) {
             return Err(Damage::Position { vertex, axis, value: p[axis] });
         }
@@ -91,13 +95,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// It gives the same cells as the one that was saved, after the same calls: cells created by them may have other
     /// indices.
     ///
-    /// Cost: the sort of a fresh build, and a few passes over the data.
+    /// Cost: the sort of a fresh build, and a few passes over the data, whatever they hold; memory for at most 16 times
+    /// as many bytes. The monitor of the options is called.
     ///
     /// # Errors
     /// [`LoadError::Data`] if it is not one of this dimension, or the bytes are none at all;
-    /// [`Error::OutOfMemory`], [`Error::TooManyVertices`], [`Error::TooManyCells`], and [`Error::Coincident`] if there
-    /// are hidden vertices, and the options reject that.
-    pub fn load(saved: &Saved<'_>, options: Options) -> Result<Self, LoadError> {
+    /// [`Error::OutOfMemory`], [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`], and
+    /// [`Error::Coincident`] if there are hidden vertices, and the options reject that.
+    pub fn load(saved: &Saved<'_>, mut options: Options) -> Result<Self, LoadError> {
         let Saved { header, data } = saved;
         if header.dimension != G::D as u32 {
             return Err(Damage::Dimension { given: header.dimension }.into());
@@ -116,7 +121,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         let rows = Rows { corners: &corners, neighbours: &neighbours };
         let is_site = |v: VertexId| representatives[v] == v;
         let threads = Threads::at_most(options.threads);
-        let (kernel, mut site_of) = Delaunay::of_rows(&positions, is_site, rows, threads)?;
+        let mut unmonitored = |_| true;
+        let monitor: &mut dyn FnMut(f64) -> bool = match &mut options.monitor {
+            Some(monitor) => monitor,
+            None => &mut unmonitored,
+        };
+        let (kernel, mut site_of) = Delaunay::of_rows(&positions, is_site, rows, threads, monitor)?;
         drop(positions);
         for (v, &first) in VertexId::range(0..header.ids).zip(&representatives) {
             if first != VertexId::NONE && first != v {
