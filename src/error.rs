@@ -96,6 +96,15 @@ pub enum Error {
         /// What is wanted.
         wanted: &'static str,
     },
+    /// A field to be written cannot be called so.
+    InvalidName {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What is wanted.
+        wanted: &'static str,
+    },
     /// Two vertices would be at the same place while
     /// [`CoincidencePolicy::Reject`](crate::motion::CoincidencePolicy::Reject) is in force.
     Coincident {
@@ -154,6 +163,9 @@ impl fmt::Display for Error {
             }
             Error::InvalidValue { argument, index, value, wanted } => {
                 write!(f, "{argument}[{index}] is {value}, but must be {wanted}")
+            }
+            Error::InvalidName { argument, index, wanted } => {
+                write!(f, "name of {argument}[{index}] must be {wanted}")
             }
             Error::Coincident { vertex, other } => {
                 write!(f, "vertices {vertex} and {other} are at the same place, which the options reject")

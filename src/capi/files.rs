@@ -1,13 +1,16 @@
 //! Files, by the system's own calls: those of the standard library ask for memory that cannot be refused, for long
 //! paths and for messages.
 
+mod signals;
+mod writing;
+
 use std::ffi::{CStr, c_int};
 use std::fmt;
-use std::io::Write;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::mem::MaybeUninit;
 
 use crate::error::{Error, Result};
 use crate::machine::memory;
+pub(super) use writing::NewFile;
 
 /// Why a file cannot be read or written.
 #[derive(Debug)]
@@ -23,6 +26,13 @@ pub(super) enum FileError {
         /// The number of its error.
         code: c_int,
     },
+    /// What is at a path is nothing that can be read to its end.
+    Special {
+        /// Where, as much as there was memory for.
+        path: String,
+        /// What it is.
+        kind: &'static str,
+    },
 }
 
 impl From<Error> for FileError {
@@ -35,6 +45,9 @@ impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             FileError::Call(error) => write!(f, "{error}"),
+            FileError::Special { path, kind } => {
+                write!(f, "cannot read \"{path}\": it is {kind}, and only regular files are read")
+            }
             FileError::System { action, path, code } => {
                 let mut text = [0; 128];
                 // SAFETY: the buffer is as long as that, and the message ends in it.
@@ -57,20 +70,35 @@ fn failure(action: &'static str, path: &CStr) -> FileError {
 }
 
 fn refusal(action: &'static str, path: &CStr, code: c_int) -> FileError {
+    FileError::System { action, path: shown(path), code }
+}
+
+/// Bytes of a path that a message has room for.
+const SHOWN: usize = 200;
+
+/// A path in a message: the end of a long one, which tells more than its beginning.
+fn shown(path: &CStr) -> String {
     // In place of what is no text come marks.
-    struct Path<'p>(&'p CStr);
+    struct Path<'p>(&'p [u8]);
     impl fmt::Display for Path<'_> {
         fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            self.0.to_bytes().utf8_chunks().try_for_each(|chunk| {
+            self.0.utf8_chunks().try_for_each(|chunk| {
                 let mark = if chunk.invalid().is_empty() { "" } else { "\u{fffd}" };
                 write!(f, "{}{mark}", chunk.valid())
             })
         }
     }
-    FileError::System { action, path: memory::text(format_args!("{}", Path(path))), code }
+    let path = path.to_bytes();
+    let Some(n_left_out) = path.len().checked_sub(SHOWN).filter(|&n| n > 0) else {
+        return memory::text(format_args!("{}", Path(path)));
+    };
+    let end = &path[n_left_out..];
+    // Not from within a character.
+    let start = end.iter().take(4).take_while(|&&byte| byte >> 6 == 0b10).count();
+    memory::text(format_args!("...{}", Path(&end[start..])))
 }
 
-/// Calls the system again while a signal interrupts it.
+/// Calls the system again while a signal interrupts it; nothing if it refuses.
 fn again(mut call: impl FnMut() -> isize) -> Option<usize> {
     loop {
         if let Ok(done) = usize::try_from(call()) {
@@ -88,22 +116,29 @@ struct Descriptor(c_int);
 impl Descriptor {
     /// Opens a file; `named` is the path that the caller knows.
     fn open(path: &CStr, flags: c_int, action: &'static str, named: &CStr) -> Result<Self, FileError> {
-        const MODE: libc::c_uint = 0o666;
+        Self::open_with(path, flags, 0o666, action, named)
+    }
+
+    /// Opens a file, which gets a mode, as far as the process allows it, if it is new.
+    fn open_with(
+        path: &CStr,
+        flags: c_int,
+        mode: libc::c_uint,
+        action: &'static str,
+        named: &CStr,
+    ) -> Result<Self, FileError> {
         // SAFETY: the path ends in a NUL.
-        let opened = again(|| unsafe { libc::open(path.as_ptr(), flags | libc::O_CLOEXEC, MODE) as isize });
+        let opened = again(|| unsafe { libc::open(path.as_ptr(), flags | libc::O_CLOEXEC, mode) as isize });
         opened.map(|number| Descriptor(number as c_int)).ok_or_else(|| failure(action, named))
     }
 
-    fn write(&self, mut bytes: &[u8], path: &CStr) -> Result<(), FileError> {
-        while !bytes.is_empty() {
-            // SAFETY: that many bytes are there.
-            match again(|| unsafe { libc::write(self.0, bytes.as_ptr().cast(), bytes.len()) }) {
-                Some(0) => return Err(refusal("write", path, libc::EIO)),
-                Some(n) => bytes = &bytes[n..],
-                None => return Err(failure("write", path)),
-            }
-        }
-        Ok(())
+    /// What the system knows of it.
+    fn status(&self) -> Option<libc::stat> {
+        let mut status = MaybeUninit::uninit();
+        // SAFETY: the file is open, and there is room for the answer.
+        let is_known = unsafe { libc::fstat(self.0, status.as_mut_ptr()) } == 0;
+        // SAFETY: it has been written.
+        is_known.then(|| unsafe { status.assume_init() })
     }
 }
 
@@ -114,116 +149,70 @@ impl Drop for Descriptor {
     }
 }
 
-/// A file that takes the place of the one at a path when it is complete: whatever happens before, that one stays.
-pub(super) struct NewFile<'p> {
-    path: &'p CStr,
-    file: Descriptor,
-    /// Where it is until then, a path that ends in a NUL; none for a device or pipe, which is written at once.
-    temporary: Option<Vec<u8>>,
-}
-
-/// A path beside another one.
-fn path_beside(path: &CStr, number: u32) -> Result<Vec<u8>> {
-    let path = path.to_bytes();
-    let folder = path.iter().rposition(|&byte| byte == b'/').map_or(0, |at| at + 1);
-    let mut name = [0; 64];
-    let mut rest = &mut name[..];
-    // There is room, so it does not fail.
-    let _ = write!(rest, ".deldrift-{}-{number}.tmp\0", std::process::id());
-    let left = rest.len();
-    let mut beside = Vec::new();
-    memory::reserve_exact(&mut beside, folder + name.len() - left)?;
-    beside.extend_from_slice(&path[..folder]);
-    beside.extend_from_slice(&name[..name.len() - left]);
-    Ok(beside)
-}
-
-fn c_str(path: &[u8]) -> &CStr {
-    CStr::from_bytes_until_nul(path).expect("it ends in a NUL")
-}
-
-/// What the system knows of the file at a path, if there is one.
-fn kind_of(path: &CStr) -> Option<libc::mode_t> {
-    let mut status = std::mem::MaybeUninit::<libc::stat>::uninit();
+/// What the system knows of the file at a path, to which symbolic links lead, if there is one.
+fn status_of(path: &CStr) -> Option<libc::stat> {
+    let mut status = MaybeUninit::uninit();
     // SAFETY: the path ends in a NUL, and there is room for the answer.
     let is_there = unsafe { libc::stat(path.as_ptr(), status.as_mut_ptr()) } == 0;
     // SAFETY: it has been written.
-    is_there.then(|| unsafe { status.assume_init() }.st_mode & libc::S_IFMT)
+    is_there.then(|| unsafe { status.assume_init() })
 }
 
-impl<'p> NewFile<'p> {
-    pub(super) fn create(path: &'p CStr) -> Result<Self, FileError> {
-        static NUMBER: AtomicU32 = AtomicU32::new(0);
-        let kind = kind_of(path);
-        if kind == Some(libc::S_IFDIR) {
-            return Err(refusal("write", path, libc::EISDIR));
+/// What a file is that is none with an end.
+fn special_kind(status: &libc::stat) -> Option<&'static str> {
+    match status.st_mode & libc::S_IFMT {
+        libc::S_IFREG => None,
+        libc::S_IFDIR => Some("a directory"),
+        libc::S_IFIFO => Some("a pipe"),
+        libc::S_IFSOCK => Some("a socket"),
+        _ => Some("a device"),
+    }
+}
+
+/// A regular file to be read.
+pub(super) struct OldFile<'p> {
+    path: &'p CStr,
+    file: Descriptor,
+    size: u64,
+}
+
+impl<'p> OldFile<'p> {
+    /// Opens a file, unless it is a pipe, device, socket or directory.
+    pub(super) fn open(path: &'p CStr) -> Result<Self, FileError> {
+        let special = |kind| FileError::Special { path: shown(path), kind };
+        // To open a device may do something.
+        if let Some(kind) = status_of(path).and_then(|status| special_kind(&status)) {
+            return Err(special(kind));
         }
-        if kind.is_some_and(|kind| kind != libc::S_IFREG) {
-            let file = Descriptor::open(path, libc::O_WRONLY | libc::O_NOCTTY, "open", path)?;
-            return Ok(NewFile { path, file, temporary: None });
+        // What is there may have changed: a pipe would be waited for.
+        let flags = libc::O_RDONLY | libc::O_NOCTTY | libc::O_NONBLOCK;
+        let file = Descriptor::open(path, flags, "open", path)?;
+        let Some(status) = file.status() else { return Err(failure("read", path)) };
+        match special_kind(&status) {
+            Some(kind) => Err(special(kind)),
+            None => Ok(OldFile { path, file, size: u64::try_from(status.st_size).unwrap_or(0) }),
         }
-        loop {
-            let temporary = path_beside(path, NUMBER.fetch_add(1, Relaxed))?;
-            let flags = libc::O_WRONLY | libc::O_CREAT | libc::O_EXCL;
-            match Descriptor::open(c_str(&temporary), flags, "create", path) {
-                Ok(file) => return Ok(NewFile { path, file, temporary: Some(temporary) }),
-                // Left behind by a process of the same number.
-                Err(FileError::System { code: libc::EEXIST, .. }) => {}
-                Err(error) => return Err(error),
+    }
+
+    /// How many bytes it has.
+    pub(super) fn size(&self) -> u64 {
+        self.size
+    }
+
+    /// Appends the next bytes, `n` unless it ends before.
+    pub(super) fn read(&self, bytes: &mut Vec<u8>, n: usize) -> Result<(), FileError> {
+        memory::reserve_exact(bytes, n)?;
+        let end = bytes.len() + n;
+        while bytes.len() < end {
+            let (left, room) = (end - bytes.len(), bytes.spare_capacity_mut());
+            // SAFETY: there is room for that many bytes.
+            match again(|| unsafe { libc::read(self.file.0, room.as_mut_ptr().cast(), left) }) {
+                Some(0) => break,
+                // SAFETY: that many have just been written behind the last one.
+                Some(n) => unsafe { bytes.set_len(bytes.len() + n) },
+                None => return Err(failure("read", self.path)),
             }
         }
-    }
-
-    /// Writes more bytes.
-    pub(super) fn put(&mut self, bytes: &[u8]) -> Result<(), FileError> {
-        self.file.write(bytes, self.path)
-    }
-
-    /// Everything is written: the file takes its place.
-    pub(super) fn finish(mut self) -> Result<(), FileError> {
-        let Some(temporary) = &self.temporary else { return Ok(()) };
-        // SAFETY: it is open.
-        if again(|| unsafe { libc::fsync(self.file.0) as isize }).is_none() {
-            return Err(failure("write", self.path));
-        }
-        // SAFETY: both paths end in a NUL.
-        if unsafe { libc::rename(temporary.as_ptr().cast(), self.path.as_ptr()) } != 0 {
-            return Err(failure("replace", self.path));
-        }
-        self.temporary = None;
         Ok(())
-    }
-}
-
-impl Drop for NewFile<'_> {
-    fn drop(&mut self) {
-        if let Some(temporary) = &self.temporary {
-            // SAFETY: the path ends in a NUL.
-            unsafe { libc::unlink(temporary.as_ptr().cast()) };
-        }
-    }
-}
-
-/// All bytes of a file.
-pub(super) fn read(path: &CStr) -> Result<Vec<u8>, FileError> {
-    let file = Descriptor::open(path, libc::O_RDONLY | libc::O_NOCTTY, "open", path)?;
-    let mut status = std::mem::MaybeUninit::<libc::stat>::uninit();
-    // SAFETY: the file is open, and there is room for the answer.
-    let is_known = unsafe { libc::fstat(file.0, status.as_mut_ptr()) } == 0;
-    // SAFETY: it has been written.
-    let size = if is_known { unsafe { status.assume_init() }.st_size } else { 0 };
-    let mut bytes = Vec::new();
-    // One more, so that its end is found without more room.
-    memory::reserve_exact(&mut bytes, usize::try_from(size).unwrap_or(0).saturating_add(1))?;
-    loop {
-        memory::reserve(&mut bytes, 1)?;
-        let room = bytes.spare_capacity_mut();
-        // SAFETY: there is room for that many bytes.
-        match again(|| unsafe { libc::read(file.0, room.as_mut_ptr().cast(), room.len()) }) {
-            Some(0) => return Ok(bytes),
-            // SAFETY: that many have just been written behind the last one.
-            Some(n) => unsafe { bytes.set_len(bytes.len() + n) },
-            None => return Err(failure("read", path)),
-        }
     }
 }

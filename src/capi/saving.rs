@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_char, c_void};
 use std::mem::MaybeUninit;
 
 use super::fence;
-use super::files::{self, NewFile};
+use super::files::{NewFile, OldFile};
 use super::options::deldrift_options;
 use super::pointers::{self, Room, copy_out};
 use super::status::{Failure, deldrift_status};
@@ -104,16 +104,16 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
 /// whose cells have been read, it keeps the arrays of deldrift_cells.
 ///
 /// data: size bytes, with any alignment, read during the call only. options: as for deldrift_create. They are not
-/// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are not
-/// called.
+/// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are called.
 ///
-/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data. These may be any: what is not
-/// a Delaunay triangulation, exactly, is refused, even if the checksum is right.
+/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16 times
+/// as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused, even if
+/// the checksum is right.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. May be called from any number of
-/// threads at once.
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
+/// any number of threads at once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_load(
     data: *const c_void,
@@ -161,11 +161,31 @@ unsafe fn path_of<'a>(path: *const c_char) -> Result<&'a CStr, Failure> {
     Ok(unsafe { CStr::from_ptr(path) })
 }
 
+/// The bytes of a file that begins like that of a triangulation, and is as long as it says there; not if either is
+/// wrong, so that no more is read than there is room for by its header.
+fn bytes_of(file: &OldFile<'_>) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    file.read(&mut bytes, Saved::HEADER)?;
+    let size = Saved::size_by(&bytes, file.size());
+    let size = size.map_err(|damage| Failure::Data { argument: "path", damage })?;
+    // One more, which there is only if somebody writes to it.
+    memory::reserve_exact(&mut bytes, size - Saved::HEADER + 1)?;
+    file.read(&mut bytes, size - Saved::HEADER)?;
+    file.read(&mut bytes, 1)?;
+    Ok(bytes)
+}
+
 /// Saves the triangulation to a file, as deldrift_save does.
 ///
 /// path: of a file that is made, or replaced. The bytes go to a new file in the same folder, which takes the place of
-/// the old one when it is complete and stored, so that after a failure or a crash there is either; a symbolic link is
-/// replaced itself. A device or a pipe is written at once.
+/// the old one when it is complete and stored, so that after a failure or a crash there is either; only if the process
+/// is killed the new file may be left behind. A file that is replaced keeps its mode, and its owner, group and POSIX
+/// access control list where the system allows that; where it does not, nobody is allowed more than before. Other
+/// attributes are not kept. A symbolic link is replaced itself, and another hard link keeps what it has. A device or a
+/// pipe is written at once, and what is full is waited for; a named pipe that nobody reads is refused.
+///
+/// A pipe that is no longer read, and the limit on the size of files, are errors like any other: SIGPIPE and SIGXFSZ of
+/// these writes do not reach the process, whose handlers stay as they are.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
@@ -185,11 +205,13 @@ pub unsafe extern "C" fn deldrift_save_file(
 
 /// Makes a triangulation of a file that deldrift_save_file has written, to *out, as deldrift_load does.
 ///
-/// The file is read as a whole, so that memory for it is needed during the call, too.
+/// Its header is read first, and the rest only if that is right and the file as long as it says; it is read as a whole
+/// then, so that memory for it is needed during the call, too. Pipes, devices, sockets and directories are refused with
+/// DELDRIFT_IO_ERROR.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS, DELDRIFT_IO_ERROR,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY. May be called from any number of threads at once.
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_load_file(
     path: *const c_char,
@@ -201,7 +223,7 @@ pub unsafe extern "C" fn deldrift_load_file(
         fence::enter(|| {
             let out = pointers::output("out", out)?;
             let options = deldrift_options::read(options)?;
-            let data = files::read(path_of(path)?)?;
+            let data = bytes_of(&OldFile::open(path_of(path)?)?)?;
             load("path", &data, options, out)
         })
     }
@@ -211,7 +233,8 @@ pub unsafe extern "C" fn deldrift_load_file(
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct deldrift_field {
-    /// What it is called: UTF-8, with a NUL at the end.
+    /// What it is called: UTF-8, with a NUL at the end; without control characters, U+FFFE and U+FFFF, which XML does
+    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells.
     pub name: *const c_char,
     /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
     /// index.
@@ -253,6 +276,7 @@ unsafe fn fields_of<'a>(
         })?;
         read.push(Field { name, components: field.components, values });
     }
+    Field::check_names(argument, &read)?;
     Ok(read)
 }
 

@@ -256,6 +256,7 @@ impl Failure {
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,
+                Error::InvalidName { .. } => DELDRIFT_INVALID_FIELD,
                 Error::Coincident { .. } => DELDRIFT_COINCIDENT,
                 Error::TooManyVertices { .. } => DELDRIFT_TOO_MANY_VERTICES,
                 Error::TooManyCells { .. } => DELDRIFT_TOO_MANY_CELLS,

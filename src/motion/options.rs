@@ -67,7 +67,7 @@ pub struct Options {
     pub track_changes: bool,
     /// Rule of [`Algorithm::RebuildingTolerance`].
     pub switching: SwitchingRule,
-    /// Progress and cancellation, of creation and of commits.
+    /// Progress and cancellation, of creation, loading and commits.
     pub monitor: Option<Monitor>,
 }
 

@@ -7,6 +7,7 @@ use super::rank;
 use crate::complex::Corners;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
+use crate::machine::memory;
 use crate::motion::MovingTriangulation;
 use crate::motion::chunks::Chunks;
 
@@ -21,7 +22,32 @@ pub struct Field<'f> {
     pub values: &'f [f64],
 }
 
-/// A text in the value of an attribute.
+/// What the array of vertex ids is called.
+const VERTEX: &str = "vertex";
+
+impl Field<'_> {
+    /// Checks that fields of vertices, or those of cells, have different names of characters that XML has.
+    pub(crate) fn check_names(argument: &'static str, fields: &[Field<'_>]) -> Result<()> {
+        let refuse = |index, wanted| Err(Error::InvalidName { argument, index, wanted });
+        let is_odd = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+        if let Some(index) = fields.iter().position(|field| field.name.contains(is_odd)) {
+            return refuse(index, "without control characters, U+FFFE and U+FFFF, which XML does not have");
+        }
+        if argument == "vertex_fields"
+            && let Some(index) = fields.iter().position(|field| field.name == VERTEX)
+        {
+            return refuse(index, "another than \"vertex\", which is that of the ids");
+        }
+        let mut order = Vec::new();
+        memory::reserve_exact(&mut order, fields.len())?;
+        order.extend(0..fields.len());
+        order.sort_unstable_by_key(|&index| (fields[index].name, index));
+        let again = order.windows(2).find(|pair| fields[pair[0]].name == fields[pair[1]].name);
+        again.map_or(Ok(()), |pair| refuse(pair[1], "another than those of the fields before"))
+    }
+}
+
+/// A text in the value of an attribute: of characters that XML has.
 struct Attribute<'t>(&'t str);
 
 impl fmt::Display for Attribute<'_> {
@@ -31,8 +57,6 @@ impl fmt::Display for Attribute<'_> {
             '<' => f.write_str("&lt;"),
             '>' => f.write_str("&gt;"),
             '"' => f.write_str("&quot;"),
-            // XML has no others.
-            c if c.is_control() => f.write_char('\u{fffd}'),
             c => f.write_char(c),
         })
     }
@@ -65,14 +89,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// 0 in the plane, and their ids as an array `vertex`.
     ///
     /// # Errors
-    /// [`Error::WrongCount`] if a field has no or too few numbers, or too many; [`Error::OutOfMemory`]; both before the
-    /// first byte; and those of `put`, with which it ends.
+    /// [`Error::InvalidName`] if a field is called what XML does not have, or as another one;
+    /// [`Error::WrongCount`] if one has no or too few numbers, or too many; [`Error::OutOfMemory`]; all before the first
+    /// byte; and those of `put`, with which it ends.
     pub fn write_vtu<E: From<Error>>(
         &self,
         vertex_fields: &[Field<'_>],
         cell_fields: &[Field<'_>],
         put: impl FnMut(&[u8]) -> Result<(), E>,
     ) -> Result<(), E> {
+        Field::check_names("vertex_fields", vertex_fields)?;
+        Field::check_names("cell_fields", cell_fields)?;
         let (cells, ranks) = (self.cells()?, self.ranks()?);
         let sides = [(vertex_fields, self.id_count()), (cell_fields, cells.corners.len())];
         for (fields, n) in sides {
@@ -93,9 +120,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             chunks.point::<G>(&self.kernel.site(self.site_of[v]).point)?;
             (G::D..3).try_for_each(|_| chunks.write(0_f64.to_le_bytes()))?;
         }
-        size(&mut chunks, 4 * G::Corners::N * n_cells)?;
+        size(&mut chunks, 8 * G::Corners::N * n_cells)?;
         for row in cells.corners {
-            row.as_ref().iter().try_for_each(|&v| chunks.numbers(&[rank(&ranks, v)]))?;
+            row.as_ref().iter().try_for_each(|&v| chunks.write(u64::from(rank(&ranks, v)).to_le_bytes()))?;
         }
         size(&mut chunks, 8 * n_cells)?;
         (1..=n_cells as u64).try_for_each(|k| chunks.write((k * G::Corners::N as u64).to_le_bytes()))?;
@@ -134,11 +161,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         ))?;
         directory.array("Float64", "Points", 3, 24 * n)?;
         directory.chunks.text(format_args!("</Points>\n<Cells>\n"))?;
-        directory.array("UInt32", "connectivity", 1, 4 * G::Corners::N * n_cells)?;
+        // VTK 9.0 wants one type for both, of those that it has for itself.
+        directory.array("Int64", "connectivity", 1, 8 * G::Corners::N * n_cells)?;
         directory.array("Int64", "offsets", 1, 8 * n_cells)?;
         directory.array("UInt8", "types", 1, n_cells)?;
         directory.chunks.text(format_args!("</Cells>\n<PointData>\n"))?;
-        directory.array("UInt32", "vertex", 1, 4 * n)?;
+        directory.array("UInt32", VERTEX, 1, 4 * n)?;
         directory.fields(vertex_fields, n)?;
         directory.chunks.text(format_args!("</PointData>\n<CellData>\n"))?;
         directory.fields(cell_fields, n_cells)?;

@@ -63,8 +63,9 @@ impl Header {
         bytes
     }
 
-    /// Reads it, and checks that the data are as long as it says, and that their checksum is right.
-    pub(super) fn read(data: &[u8]) -> Result<Self, Damage> {
+    /// Reads it, and checks that the data are as long as it says, of which `given` bytes are there, and these are the
+    /// first.
+    pub(super) fn read(data: &[u8], given: u64) -> Result<Self, Damage> {
         let n_magic = MAGIC.len().min(data.len());
         if data[..n_magic] != MAGIC[..n_magic] {
             return Err(Damage::Foreign);
@@ -72,20 +73,14 @@ impl Header {
         if data.len() < SIZE {
             return Err(Damage::NoHeader { given: data.len(), wanted: SIZE });
         }
-        let word = |at: usize| u32::from_le_bytes(data[at..at + 4].try_into().expect("four bytes"));
         let number = |at: usize| u64::from_le_bytes(data[at..at + 8].try_into().expect("eight bytes"));
-        if word(8) != VERSION {
-            return Err(Damage::Version { given: word(8), latest: VERSION });
+        if word(data, 8) != VERSION {
+            return Err(Damage::Version { given: word(data, 8), latest: VERSION });
         }
-        if number(16) != data.len() as u64 {
-            return Err(Damage::Size { given: data.len(), wanted: number(16) });
+        if number(16) != given {
+            return Err(Damage::Size { given: given as usize, wanted: number(16) });
         }
-        let end = data.len() - CHECKSUM;
-        let wanted = crc32fast::hash(&data[..end]);
-        if word(end) != wanted {
-            return Err(Damage::Checksum { given: word(end), wanted });
-        }
-        let dimension = word(12);
+        let dimension = word(data, 12);
         if !matches!(dimension, 2 | 3) {
             return Err(Damage::Dimension { given: dimension });
         }
@@ -113,6 +108,18 @@ impl Header {
         header.statistics = of_sums(timestamp, sums);
         Ok(header)
     }
+}
+
+/// The number of four bytes at a place.
+fn word(data: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(data[at..at + 4].try_into().expect("four bytes"))
+}
+
+/// Checks the checksum at the end of data whose header is right.
+pub(super) fn check_sum(data: &[u8]) -> Result<(), Damage> {
+    let end = data.len() - CHECKSUM;
+    let (given, wanted) = (word(data, end), crc32fast::hash(&data[..end]));
+    if given == wanted { Ok(()) } else { Err(Damage::Checksum { given, wanted }) }
 }
 
 /// The sums, in the order in which they are saved.

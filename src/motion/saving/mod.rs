@@ -27,7 +27,23 @@ impl<'d> Saved<'d> {
     /// # Errors
     /// What is wrong with them.
     pub fn of(data: &'d [u8]) -> Result<Self, Damage> {
-        Ok(Saved { header: Header::read(data)?, data })
+        let header = Header::read(data, data.len() as u64)?;
+        header::check_sum(data)?;
+        Ok(Saved { header, data })
+    }
+
+    /// Bytes of the header.
+    pub const HEADER: usize = header::SIZE;
+
+    /// The size of all data by their header, or as much of it as there is, if that is right and there are as many bytes:
+    /// so much is to be read.
+    ///
+    /// # Errors
+    /// What is wrong with the header.
+    pub fn size_by(header: &[u8], given: u64) -> Result<usize, Damage> {
+        let header = Header::read(header, given)?;
+        // It is one that is given.
+        Ok(header.size().and_then(|size| usize::try_from(size).ok()).unwrap_or(usize::MAX))
     }
 
     /// The dimension of the triangulation, 2 or 3.
