@@ -1,5 +1,5 @@
 //! Files for other programs hold the positions and cells that are read, number for number: by readers of the tests'
-//! own, and by meshio and VTK where they can be had.
+//! own, and by meshio, VTK and Gmsh where they can be had.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -42,6 +42,16 @@ fn vtu<G: Dimension>(
         Ok(())
     })?;
     Ok(bytes)
+}
+
+fn medit<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let written = t.write_medit::<Error>(|more| {
+        bytes.extend_from_slice(more);
+        Ok(())
+    });
+    written.expect("room");
+    bytes
 }
 
 /// The value of an attribute.
@@ -131,20 +141,17 @@ fn grids_hold_what_is_read<G: Dimension>() {
             })
             .collect();
         assert_eq!(points, expected, "{kind:?}");
-        let numbers = |name, section| {
-            grid.array(section, name, "UInt32", 1).into_iter().map(u32::from_le_bytes).collect::<Vec<_>>()
-        };
-        let names = numbers("vertex", "PointData");
-        assert_eq!(VertexId::of_numbers(&names), ids, "{kind:?}");
-        let corners: Vec<VertexId> =
-            numbers("connectivity", "Cells").iter().map(|&k| ids[k as usize]).collect();
+        let names = grid.array("PointData", "vertex", "UInt32", 1).into_iter().map(u32::from_le_bytes);
+        assert_eq!(VertexId::of_numbers(&names.collect::<Vec<_>>()), ids, "{kind:?}");
+        // Old versions of VTK want one type for both.
+        let longs = |name| grid.array("Cells", name, "Int64", 1).into_iter().map(i64::from_le_bytes);
+        let corners: Vec<VertexId> = longs("connectivity").map(|k| ids[k as usize]).collect();
         assert_eq!(
             corners,
             cells.iter().flat_map(|row| row.as_ref().to_vec()).collect::<Vec<_>>(),
             "{kind:?}"
         );
-        let offsets = grid.array("Cells", "offsets", "Int64", 1).into_iter().map(i64::from_le_bytes);
-        assert!(offsets.eq((1..=cells.len() as i64).map(|k| k * (G::D as i64 + 1))), "{kind:?}");
+        assert!(longs("offsets").eq((1..=cells.len() as i64).map(|k| k * (G::D as i64 + 1))), "{kind:?}");
         let types = grid.array("Cells", "types", "UInt8", 1);
         assert_eq!(types, vec![[if G::D == 2 { 5 } else { 10 }]; cells.len()], "{kind:?}");
         let own: Vec<f64> = ids.iter().map(|&v| heights[v.index()]).collect();
@@ -172,13 +179,7 @@ fn meshes_hold_what_is_read<G: Dimension>() {
     for (kind, n, removes) in KINDS.iter().map(|&kind| (kind, 60, true)).chain([(Kind::Random, 0, false)]) {
         let t = make::<G>(kind, n, removes);
         let (ids, cells) = (present(&t), t.cells().expect("room").corners);
-        let mut bytes = Vec::new();
-        let written = t.write_medit::<Error>(|more| {
-            bytes.extend_from_slice(more);
-            Ok(())
-        });
-        written.expect("room");
-        let text = String::from_utf8(bytes).expect("text");
+        let text = String::from_utf8(medit(&t)).expect("text");
         let mut lines = text.lines();
         let mut expect = |line: &str| assert_eq!(lines.next(), Some(line), "{kind:?}");
         expect("MeshVersionFormatted 2");
@@ -216,40 +217,67 @@ fn meshes_hold_what_is_read_in_space() {
     meshes_hold_what_is_read::<Space>();
 }
 
-/// What a package of Python reads of a file: points, cells, ids and a field, one number after the other.
-const READERS: [(&str, &str); 2] = [
+/// What a package of Python reads of a file of a kind: points of three coordinates, cells, ids, and a field of the cells
+/// where the kind has them, one number after the other.
+const READERS: [(&str, &str, &str); 4] = [
     (
         "meshio",
-        "import meshio, sys
-m = meshio.read(sys.argv[1])
-numbers = [m.points, m.cells[0].data, m.point_data['vertex'], m.cell_data['size'][0]]",
+        "vtu",
+        "import meshio
+m = meshio.read(path)
+numbers = [m.points, m.cells[0].data, m.point_data['vertex'], m.cell_data['size'][0]]
+numbers = [list(rows.reshape(-1)) for rows in numbers]",
     ),
     (
         "vtk",
-        "import sys, vtk
-from vtk.util.numpy_support import vtk_to_numpy as numpy
+        "vtu",
+        "import vtk
 reader = vtk.vtkXMLUnstructuredGridReader()
-reader.SetFileName(sys.argv[1])
+reader.SetFileName(path)
 reader.Update()
 m = reader.GetOutput()
-numbers = [numpy(m.GetPoints().GetData()), numpy(m.GetCells().GetConnectivityArray()),
-           numpy(m.GetPointData().GetArray('vertex')), numpy(m.GetCellData().GetArray('size'))]
 assert all(m.GetCellType(c) == (5 if m.GetCell(c).GetNumberOfPoints() == 3 else 10) for c in range(m.GetNumberOfCells()))
+arrays = [m.GetPoints().GetData(), m.GetCells().GetConnectivityArray(), m.GetPointData().GetArray('vertex'),
+          m.GetCellData().GetArray('size')]
+numbers = [[a.GetValue(k) for k in range(a.GetNumberOfValues())] for a in arrays]
 assert m.GetNumberOfCells() == len(numbers[3])",
+    ),
+    (
+        "meshio",
+        "mesh",
+        "import meshio
+m = meshio.read(path)
+points = [list(p) + [0.0] * (3 - len(p)) for p in m.points]
+numbers = [sum(points, []), list(m.cells[0].data.reshape(-1)), list(m.point_data['medit:ref'])]",
+    ),
+    (
+        "gmsh",
+        "mesh",
+        "import gmsh
+gmsh.initialize()
+gmsh.option.setNumber('General.Terminal', 0)
+gmsh.open(path)
+tags, x, _ = gmsh.model.mesh.getNodes()
+assert sorted(tags) == list(range(1, len(tags) + 1))
+x = [x[3 * k:3 * k + 3] for k in range(len(tags))]
+points = [p for _, p in sorted(zip(tags, x), key=lambda pair: pair[0])]
+_, _, nodes = gmsh.model.mesh.getElements()
+numbers = [[c for p in points for c in p], [k - 1 for k in nodes[0]]]",
     ),
 ];
 
-fn files_are_read_by<G: Dimension>(package: &str, reader: &str, folder: &Path) {
+fn files_are_read_by<G: Dimension>(python: &str, (package, kind, reader): (&str, &str, &str), folder: &Path) {
     let t = make::<G>(Kind::Random, 60, true);
     let (ids, cells) = (present(&t), t.cells().expect("room").corners);
     let sizes: Vec<f64> = (0..cells.len()).map(|c| 0.1 * c as f64).collect();
     let size = Field { name: "size", components: 1, values: &sizes };
-    let path = folder.join(format!("{package}{}.vtu", G::D));
-    fs::write(&path, vtu(&t, &[], &[size]).expect("room")).expect("a file");
+    let path = folder.join(format!("{package}{}.{kind}", G::D));
+    let bytes = if kind == "vtu" { vtu(&t, &[], &[size]).expect("room") } else { medit(&t) };
+    fs::write(&path, bytes).expect("a file");
     let script = format!(
-        "{reader}\nfor rows in numbers:\n    for x in rows.reshape(-1):\n        print(repr(float(x)))"
+        "import sys\npath = sys.argv[1]\n{reader}\nfor row in numbers:\n    for x in row:\n        print(repr(float(x)))"
     );
-    let output = Command::new("python3").arg("-c").arg(script).arg(&path).env("PYTHONPATH", folder).output();
+    let output = Command::new(python).arg("-c").arg(script).arg(&path).env("PYTHONPATH", folder).output();
     let output = output.expect("python");
     assert!(output.status.success(), "{package}: {}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("text");
@@ -262,35 +290,73 @@ fn files_are_read_by<G: Dimension>(package: &str, reader: &str, folder: &Path) {
     }
     let rank = |v: &VertexId| ids.binary_search(v).expect("present") as f64;
     let corners = cells.iter().flat_map(|row| row.as_ref().iter().map(rank).collect::<Vec<_>>());
-    let rest = corners.chain(ids.iter().map(|v| f64::from(v.get()))).chain(sizes.iter().copied());
-    assert!(numbers.eq(rest), "{package}");
+    let expected = corners.chain(ids.iter().map(|v| f64::from(v.get()))).chain(sizes.iter().copied());
+    let numbers: Vec<f64> = numbers.collect();
+    let expected: Vec<f64> = expected.take(numbers.len()).collect();
+    assert!(numbers == expected && numbers.len() >= cells.len() * (G::D + 1), "{package}, {kind}");
 }
 
-/// Reads files with packages of Python that are there, or that pip can fetch quickly; says which are neither.
+/// Reads files with packages of Python that are there, or that pip can fetch quickly; says which are neither. More
+/// interpreters, with older versions of VTK, can be named in the environment, with colons between them.
 #[test]
-fn grids_are_read_by_meshio_and_vtk() {
-    for (package, reader) in READERS {
+fn files_are_read_by_meshio_vtk_and_gmsh() {
+    let more = std::env::var("DELDRIFT_PYTHONS").unwrap_or_default();
+    let pythons: Vec<&str> = ["python3"].into_iter().chain(more.split(':').filter(|p| !p.is_empty())).collect();
+    for reader in READERS {
+        let (package, ..) = reader;
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("python-{package}"));
         fs::create_dir_all(&folder).expect("a folder");
-        let imports = || {
-            let mut python = Command::new("python3");
+        let imports = |python: &str| {
+            let mut python = Command::new(python);
             python.arg("-c").arg(format!("import {package}")).env("PYTHONPATH", &folder);
             python.output().is_ok_and(|output| output.status.success())
         };
-        // VTK is large.
-        if !imports() && package == "meshio" {
+        // The others are large.
+        if !imports("python3") && package == "meshio" {
             let mut pip = Command::new("python3");
             pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--retries", "0"]);
             // What fails shows in the next import.
             let _ = pip.args(["--timeout", "10", "--target"]).arg(&folder).arg(package).output();
         }
-        if !imports() {
+        let having: Vec<&str> = pythons.iter().copied().filter(|python| imports(python)).collect();
+        if having.is_empty() {
             // Not by a macro, whose text is not shown where the test passes.
             let text = format!("skipped: the package {package} of Python is not there\n");
             std::io::stderr().write_all(text.as_bytes()).expect("it can be told");
-            continue;
         }
-        files_are_read_by::<Plane>(package, reader, &folder);
-        files_are_read_by::<Space>(package, reader, &folder);
+        for python in having {
+            files_are_read_by::<Plane>(python, reader, &folder);
+            files_are_read_by::<Space>(python, reader, &folder);
+        }
     }
+}
+
+/// Names that XML does not have, and names that are there already.
+#[test]
+fn names_of_fields_are_different_and_of_xml() {
+    let t = make::<Plane>(Kind::Random, 10, false);
+    let (at_vertices, in_cells) = (vec![0.0; t.id_count()], vec![0.0; t.cell_count()]);
+    let wrong = |names: &[&str], index: usize| {
+        let of = |values| -> Vec<Field> { names.iter().map(|name| Field { name, components: 1, values }).collect() };
+        let results = [vtu(&t, &of(&at_vertices), &[]), vtu(&t, &[], &of(&in_cells))];
+        for (result, argument) in results.into_iter().zip(["vertex_fields", "cell_fields"]) {
+            let error = result.expect_err("a wrong name");
+            let Error::InvalidName { argument: given, index: at, .. } = error else { panic!("{error}") };
+            assert_eq!((given, at), (argument, index), "{names:?}");
+        }
+    };
+    let odd = (0..0x20).chain(0x7f..0xa0).chain([0xfffe, 0xffff]).filter_map(char::from_u32);
+    odd.for_each(|c| wrong(&["a", &format!("b{c}"), "c"], 1));
+    wrong(&["a", "b", "a", "b"], 2);
+    wrong(&["", "b", ""], 2);
+    let names = ["a", "A", "a ", "\u{a0}", "\u{d7ff}\u{e000}\u{fffd}\u{10000}\u{10ffff}", "Vertex", ""];
+    let of = |values| -> Vec<Field> { names.iter().map(|name| Field { name, components: 1, values }).collect() };
+    let grid = Grid::read(&vtu(&t, &of(&at_vertices), &of(&in_cells)).expect("room"));
+    for name in names {
+        assert_eq!(grid.doubles("PointData", name, 1), at_vertices);
+        assert_eq!(grid.doubles("CellData", name, 1), in_cells);
+    }
+    let vertex = Field { name: "vertex", components: 1, values: &at_vertices };
+    assert!(matches!(vtu(&t, &[vertex], &[]), Err(Error::InvalidName { index: 0, .. })));
+    assert!(vtu(&t, &[], &[Field { values: &in_cells, ..vertex }]).is_ok());
 }

@@ -4,11 +4,13 @@
 
 #[path = "common/random.rs"]
 mod random;
+#[path = "saving_format/mod.rs"]
+mod saving_format;
 
 use deldrift::Error;
 use deldrift::internals::{Delaunay, Insertion, Shortcut, SiteId, Slot};
 use deldrift::motion::Level;
-use deldrift::motion::{Algorithm, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, MovingTriangulation, Options, Saved};
 use deldrift::{Dimension, Plane, Space, VertexId};
 use random::Rng;
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -29,12 +31,15 @@ thread_local! {
     static HAS_FAILED: Cell<bool> = const { Cell::new(false) };
     /// Bytes that this thread has asked for and not given back.
     static HELD: Cell<usize> = const { Cell::new(0) };
+    /// The most of them at a time, as signed numbers: what other threads have asked for may be given back here.
+    static MOST_HELD: Cell<isize> = const { Cell::new(0) };
 }
 
 /// What an allocation returns, counted.
 fn counted(memory: *mut u8, before: usize, after: usize) -> *mut u8 {
     if !memory.is_null() {
         HELD.set(HELD.get().wrapping_add(after).wrapping_sub(before));
+        MOST_HELD.set(MOST_HELD.get().max(HELD.get() as isize));
     }
     memory
 }
@@ -459,5 +464,57 @@ fn triangulations_hold_what_they_say() {
     for algorithm in Algorithm::ALL {
         holds_what_it_says::<Plane>(algorithm);
         holds_what_it_says::<Space>(algorithm);
+    }
+}
+
+/// Bytes that a load holds at most, and the processor time that it takes, in seconds.
+fn cost_of_loading(dimension: usize, bytes: &[u8]) -> (usize, f64) {
+    let options = Options { threads: 1, ..Options::default() };
+    let before = HELD.get() as isize;
+    MOST_HELD.set(before);
+    let start = processor_time();
+    let saved = Saved::of(bytes).expect("its header is right");
+    // What is wrong is tested elsewhere.
+    match dimension {
+        2 => drop(MovingTriangulation::<Plane>::load(&saved, options)),
+        _ => drop(MovingTriangulation::<Space>::load(&saved, options)),
+    }
+    let time = processor_time() - start;
+    assert_eq!(HELD.get() as isize, before);
+    ((MOST_HELD.get() - before) as usize, time)
+}
+
+/// Of this thread.
+fn processor_time() -> f64 {
+    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
+    // SAFETY: there is room for the answer.
+    assert_eq!(unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &mut time) }, 0);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// Memory and time of loading follow the size of the data, whatever these are: 16 bytes a byte at most, and eight times
+/// the data take less than three times as long for each byte.
+#[test]
+fn loading_costs_in_proportion_to_the_data() {
+    for dimension in [2, 3] {
+        let all = |n: usize| {
+            let mut all = saving_format::forged::of_wrong_hulls(dimension, n);
+            all.extend(saving_format::forged::legal(dimension, n));
+            all
+        };
+        for ((name, small), (_, large)) in all(4_000).into_iter().zip(all(32_000)) {
+            let times = [small, large].map(|parts| {
+                let bytes = parts.bytes();
+                let (held, _) = cost_of_loading(dimension, &bytes);
+                let share = held as f64 / bytes.len() as f64;
+                println!("{dimension}D, {name}: {} bytes, {share:.1} held for each", bytes.len());
+                assert!(share < 16.0, "{dimension}D, {name}: {held} bytes for {}", bytes.len());
+                let times = (0..3).map(|_| cost_of_loading(dimension, &bytes).1);
+                times.fold(f64::INFINITY, f64::min) / bytes.len() as f64
+            });
+            let ratio = times[1] / times[0];
+            println!("{dimension}D, {name}: {:.1} ns a byte, {ratio:.2} times as much in the long run", 1e9 * times[0]);
+            assert!(ratio < 3.0, "{dimension}D, {name}: {times:?}");
+        }
     }
 }

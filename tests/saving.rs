@@ -6,7 +6,7 @@ use crate::common::inputs::{KINDS, Kind, draw};
 use crate::common::{
     Rng, assert_same_cells, carried, cell_set, fresh_cells, ids, point, seeds, vertex, vertices,
 };
-use crate::saving_format::{Parts, seal};
+use crate::saving_format::{Parts, forged, seal};
 use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options, Saved};
 use deldrift::{CellId, Damage, Dimension, Error, LoadError, Plane, Space, VertexId};
 
@@ -561,4 +561,123 @@ fn hidden_vertices_are_refused_where_the_options_reject_them() {
     let loaded = MovingTriangulation::<Plane>::load(&Saved::of(&bytes).expect("saved"), options);
     let coincident = Error::Coincident { vertex: vertex(1), other: vertex(3) };
     assert_eq!(loaded.err(), Some(LoadError::Call(coincident)));
+}
+
+/// Hulls in parts, or that wind more than once, of cells that are right one by one.
+#[test]
+fn wrong_hulls_are_refused() {
+    for dimension in [2, 3] {
+        for n in [2 * (dimension + 1), 40, 400] {
+            for (name, parts) in forged::of_wrong_hulls(dimension, n) {
+                let load = |bytes: &[u8]| match dimension {
+                    2 => load::<Plane>(bytes).err(),
+                    _ => load::<Space>(bytes).err(),
+                };
+                let wanted = LoadError::Data(Damage::NotATriangulation);
+                assert_eq!(load(&parts.bytes()), Some(wanted), "{name}, {dimension}D, {n}");
+            }
+            for (name, parts) in forged::legal(dimension, n) {
+                let bytes = parts.bytes();
+                let again = match dimension {
+                    2 => load::<Plane>(&bytes).map(|t| t.saved()),
+                    _ => load::<Space>(&bytes).map(|t| t.saved()),
+                };
+                assert!(again.is_ok_and(|again| again.expect("room") == bytes), "{name}, {dimension}D, {n}");
+            }
+        }
+    }
+}
+
+/// The monitor is asked all the way, with fractions that do not fall, and ends the call whenever it is.
+fn loading_is_monitored<G: Dimension>(n: usize) {
+    use std::sync::{Arc, Mutex};
+    let rng = &mut Rng::new(8);
+    let spread = draw::<G>(Kind::Random, n, rng);
+    let line: Vec<G::Point> = (0..2 * n).map(|i| point::<G>(|_| i as f64)).collect();
+    for points in [spread, line] {
+        let t = MovingTriangulation::<G>::new(&points, Options::default()).expect("a build");
+        let bytes = t.saved().expect("room");
+        let load = |stops_at: usize| {
+            let asked = Arc::new(Mutex::new(Vec::new()));
+            let own = asked.clone();
+            let monitor = move |fraction: f64| {
+                let mut asked = own.lock().expect("one at a time");
+                asked.push(fraction);
+                asked.len() != stops_at
+            };
+            let options = Options { monitor: Some(Box::new(monitor)), ..Options::default() };
+            let loaded = MovingTriangulation::<G>::load(&Saved::of(&bytes).expect("saved"), options);
+            let asked = asked.lock().expect("it is over").clone();
+            (loaded, asked)
+        };
+        let (loaded, asked) = load(0);
+        assert_eq!(loaded.expect("saved").saved().expect("room"), bytes);
+        assert!(asked.len() > 3 && asked.is_sorted() && asked.iter().all(|f| (0.0..=1.0).contains(f)), "{asked:?}");
+        for k in 1..=asked.len() {
+            let (loaded, asked) = load(k);
+            assert_eq!(loaded.err(), Some(LoadError::Call(Error::Cancelled)), "{k}");
+            assert_eq!(asked.len(), k);
+        }
+    }
+}
+
+#[test]
+fn loading_is_monitored_in_the_plane() {
+    loading_is_monitored::<Plane>(60_000);
+}
+
+#[test]
+fn loading_is_monitored_in_space() {
+    loading_is_monitored::<Space>(20_000);
+}
+
+/// As great sums as are loaded: what is saved after commits is loaded as well.
+#[test]
+fn the_greatest_sums_are_saved_and_loaded() {
+    let greatest = (1 << 62) - 1;
+    let mut parts = parts_of::<Plane>(&[[0.0, 0.0], [4.0, 0.0], [5.0, 5.0], [0.0, 4.0]]);
+    parts.sums = [greatest; 13];
+    let mut bytes = parts.bytes();
+    for step in 0..5 {
+        let mut t = load::<Plane>(&bytes).unwrap_or_else(|error| panic!("{step}: {error}"));
+        assert_eq!((t.timestamp(), t.statistics().moved), (greatest, greatest));
+        for k in 0..3 {
+            t.move_vertices(&ids([k]), &[[f64::from(k), 0.25 + f64::from(step)]]).expect("a move");
+            t.commit_timestamp().expect("a commit");
+        }
+        t.insert_vertex(&[2.0, 2.0 + f64::from(step)]).expect("an insertion");
+        t.remove_vertex(vertex(4 + step)).expect("a removal");
+        assert_eq!((t.timestamp(), t.statistics().moved), (greatest + 3, greatest + 3));
+        bytes = t.saved().expect("room");
+        assert_eq!(Parts::read(&bytes).sums, [greatest; 13]);
+    }
+    for k in 0..13 {
+        let mut parts = parts.clone();
+        parts.sums[k] += 1;
+        assert_eq!(damage_of::<Plane>(&parts), Damage::Sum { offset: 64 + 8 * k, value: greatest + 1 });
+    }
+}
+
+/// Ids that are not present are nowhere.
+#[test]
+fn absent_ids_have_no_position() {
+    let mut t = MovingTriangulation::<Space>::new(
+        &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2; 3]],
+        Options::default(),
+    )
+    .expect("a build");
+    t.remove_vertex(vertex(4)).expect("a removal");
+    t.stage_insertions(&[[0.5; 3]]).expect("room");
+    let parts = Parts::read(&t.saved().expect("room"));
+    for (absent, axis) in [(4, 0), (4, 1), (4, 2), (5, 0), (5, 1), (5, 2)] {
+        for value in [0.0, 0.2, f64::INFINITY, -1e300] {
+            let mut parts = parts.clone();
+            parts.positions[3 * absent + axis] = value;
+            let wanted = Damage::Absent { vertex: vertex(absent as u32), axis, value };
+            assert_eq!(damage_of::<Space>(&parts), wanted);
+        }
+        let mut parts = parts.clone();
+        parts.positions[3 * absent + axis] = -f64::NAN;
+        assert!(load::<Space>(&parts.bytes()).is_ok());
+    }
 }

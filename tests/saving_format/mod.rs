@@ -1,5 +1,7 @@
 //! The bytes of a saved triangulation as docs/FORMAT.md describes them, read and written without the library.
 
+pub mod forged;
+
 /// What they hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parts {
