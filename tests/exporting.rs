@@ -301,7 +301,8 @@ fn files_are_read_by<G: Dimension>(python: &str, (package, kind, reader): (&str,
 #[test]
 fn files_are_read_by_meshio_vtk_and_gmsh() {
     let more = std::env::var("DELDRIFT_PYTHONS").unwrap_or_default();
-    let pythons: Vec<&str> = ["python3"].into_iter().chain(more.split(':').filter(|p| !p.is_empty())).collect();
+    let pythons: Vec<&str> =
+        ["python3"].into_iter().chain(more.split(':').filter(|p| !p.is_empty())).collect();
     for reader in READERS {
         let (package, ..) = reader;
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("python-{package}"));
@@ -337,7 +338,9 @@ fn names_of_fields_are_different_and_of_xml() {
     let t = make::<Plane>(Kind::Random, 10, false);
     let (at_vertices, in_cells) = (vec![0.0; t.id_count()], vec![0.0; t.cell_count()]);
     let wrong = |names: &[&str], index: usize| {
-        let of = |values| -> Vec<Field> { names.iter().map(|name| Field { name, components: 1, values }).collect() };
+        let of = |values| -> Vec<Field> {
+            names.iter().map(|name| Field { name, components: 1, values }).collect()
+        };
         let results = [vtu(&t, &of(&at_vertices), &[]), vtu(&t, &[], &of(&in_cells))];
         for (result, argument) in results.into_iter().zip(["vertex_fields", "cell_fields"]) {
             let error = result.expect_err("a wrong name");
@@ -350,7 +353,8 @@ fn names_of_fields_are_different_and_of_xml() {
     wrong(&["a", "b", "a", "b"], 2);
     wrong(&["", "b", ""], 2);
     let names = ["a", "A", "a ", "\u{a0}", "\u{d7ff}\u{e000}\u{fffd}\u{10000}\u{10ffff}", "Vertex", ""];
-    let of = |values| -> Vec<Field> { names.iter().map(|name| Field { name, components: 1, values }).collect() };
+    let of =
+        |values| -> Vec<Field> { names.iter().map(|name| Field { name, components: 1, values }).collect() };
     let grid = Grid::read(&vtu(&t, &of(&at_vertices), &of(&in_cells)).expect("room"));
     for name in names {
         assert_eq!(grid.doubles("PointData", name, 1), at_vertices);

@@ -4,6 +4,7 @@
 
 #[path = "common/random.rs"]
 mod random;
+#[allow(dead_code)] // Nothing is read here.
 #[path = "saving_format/mod.rs"]
 mod saving_format;
 
@@ -513,7 +514,10 @@ fn loading_costs_in_proportion_to_the_data() {
                 times.fold(f64::INFINITY, f64::min) / bytes.len() as f64
             });
             let ratio = times[1] / times[0];
-            println!("{dimension}D, {name}: {:.1} ns a byte, {ratio:.2} times as much in the long run", 1e9 * times[0]);
+            println!(
+                "{dimension}D, {name}: {:.1} ns a byte, {ratio:.2} times as much in the long run",
+                1e9 * times[0]
+            );
             assert!(ratio < 3.0, "{dimension}D, {name}: {times:?}");
         }
     }

@@ -7,6 +7,7 @@ mod common;
 mod editing;
 mod exact_oracle;
 mod exporting;
+mod format;
 mod geometry;
 #[path = "../soak/histories/mod.rs"]
 mod histories;

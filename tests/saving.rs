@@ -612,7 +612,10 @@ fn loading_is_monitored<G: Dimension>(n: usize) {
         };
         let (loaded, asked) = load(0);
         assert_eq!(loaded.expect("saved").saved().expect("room"), bytes);
-        assert!(asked.len() > 3 && asked.is_sorted() && asked.iter().all(|f| (0.0..=1.0).contains(f)), "{asked:?}");
+        assert!(
+            asked.len() > 3 && asked.is_sorted() && asked.iter().all(|f| (0.0..=1.0).contains(f)),
+            "{asked:?}"
+        );
         for k in 1..=asked.len() {
             let (loaded, asked) = load(k);
             assert_eq!(loaded.err(), Some(LoadError::Call(Error::Cancelled)), "{k}");

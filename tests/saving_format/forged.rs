@@ -64,7 +64,8 @@ pub fn shells(dimension: usize, n: usize) -> Parts {
 
 /// The same cell again and again, of other vertices at the same places.
 pub fn one_place(dimension: usize, n: usize) -> Parts {
-    let corner = |k: usize| (0..dimension).map(move |axis| f64::from(u8::from(k % (dimension + 1) == axis + 1)));
+    let corner =
+        |k: usize| (0..dimension).map(move |axis| f64::from(u8::from(k % (dimension + 1) == axis + 1)));
     apart(dimension, (0..n).flat_map(corner).collect())
 }
 

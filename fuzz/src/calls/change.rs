@@ -267,6 +267,8 @@ impl History<'_> {
         if way == 0 {
             self.ok(|| c!(deldrift_clone(t, &mut other)));
         } else {
+            // What is loaded from is not in use by that call.
+            self.callback.calls_back.set(false);
             let options = options(&mut self.s, &self.callback);
             let hides = options.coincidence == 1 && !self.m.hidden().is_empty();
             let wanted = if hides { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };

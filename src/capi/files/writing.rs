@@ -54,9 +54,8 @@ fn has_no_list() -> bool {
 fn copy_access_list(path: &CStr, file: &Descriptor) -> bool {
     let mut list = [0; 4096];
     // SAFETY: both texts end in a NUL, and there is room for that many bytes.
-    let n = unsafe {
-        libc::getxattr(path.as_ptr(), ACCESS_LIST.as_ptr(), list.as_mut_ptr().cast(), list.len())
-    };
+    let n =
+        unsafe { libc::getxattr(path.as_ptr(), ACCESS_LIST.as_ptr(), list.as_mut_ptr().cast(), list.len()) };
     let is_done = match usize::try_from(n) {
         // SAFETY: that many bytes have been written.
         Ok(n) => unsafe { libc::fsetxattr(file.0, ACCESS_LIST.as_ptr(), list.as_ptr().cast(), n, 0) == 0 },

@@ -55,7 +55,8 @@ impl Header {
         bytes[12..16].copy_from_slice(&self.dimension.to_le_bytes());
         let size = self.size().expect("what is in memory has a size");
         let counts = [self.ids, self.cells, self.moves, self.insertions, self.removals].map(|n| n as u64);
-        let numbers = std::iter::once(size).chain(counts).chain([self.statistics.timestamp.min(GREATEST_SUM)]);
+        let numbers =
+            std::iter::once(size).chain(counts).chain([self.statistics.timestamp.min(GREATEST_SUM)]);
         let numbers = numbers.chain(sums(&self.statistics).map(|sum| sum.min(GREATEST_SUM)));
         for (place, number) in bytes[16..].chunks_exact_mut(8).zip(numbers) {
             place.copy_from_slice(&number.to_le_bytes());
