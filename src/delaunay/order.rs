@@ -75,6 +75,11 @@ pub fn hilbert_order<'p, G: Dimension>(
 /// This number of items, and runs of one key up to this length, stay unsorted: a walk through them is short anyway.
 pub const SHORT_RUN: usize = 8;
 
+/// Extents below this are [scaled up](UP) first.
+const SMALL: f64 = 1e-100;
+/// A power of two that makes any number a normal one, and none below [`SMALL`] great.
+const UP: f64 = f64::from_bits((1023 + 600) << 52);
+
 /// The items have the same key and are ascending; `spare` is as long, or there are [`MAX_COMPARED`] of them.
 fn sort_in_box<'p, G: Dimension>(
     point: impl Fn(u32) -> &'p G::Point + Copy,
@@ -91,12 +96,14 @@ fn sort_in_box<'p, G: Dimension>(
     // Several boxes of the grid to a point of a uniform set, and keys of 32 bits at most.
     let per_axis = ((keyed.len() as f64).log2() / G::D as f64).ceil() as u32 + 2;
     let bits = if G::D == 2 { per_axis.next_multiple_of(4).min(16) } else { per_axis.min(10) };
-    let scale = ((1u64 << bits) - 1) as f64 / extent;
+    // Of small extents the scale would be infinite.
+    let up = if extent < SMALL { UP } else { 1.0 };
+    let scale = ((1u64 << bits) - 1) as f64 / (extent * up);
     for k in keyed.iter_mut() {
         let p = point(k.item());
         let mut cell = [0u32; 3];
         for axis in 0..G::D {
-            cell[axis] = ((p[axis] - lower[axis]) * scale) as u32;
+            cell[axis] = ((p[axis] - lower[axis]) * up * scale) as u32;
         }
         let key = if G::D == 2 { hilbert_key_2(cell[0], cell[1], bits) } else { hilbert_key_3(cell, bits) };
         k.0 = u64::from(key) << 32 | u64::from(k.item());

@@ -116,3 +116,20 @@ fn rounds_are_a_permutation() {
         assert!(order.into_iter().eq(SiteId::range(1..n + 1)), "{n}");
     }
 }
+
+/// The smallest numbers there are come in the order of as many whole ones.
+#[test]
+fn subnormal_extents_are_sorted_as_others() {
+    let rng = &mut Rng::new(12);
+    let whole: Vec<[f64; 2]> =
+        (0..5_000).map(|_| std::array::from_fn(|_| (rng.unit() * 1e6).floor())).collect();
+    let order = |unit: f64| {
+        let points: Vec<[f64; 2]> = whole.iter().map(|p| p.map(|x| x * unit)).collect();
+        let items = (0..whole.len() as u32).map(Keyed::new).collect();
+        let sorted = hilbert_order::<Plane>(items, |k| &points[k as usize]).expect("room for it");
+        sorted.into_iter().map(Keyed::item).collect::<Vec<_>>()
+    };
+    for unit in [f64::from_bits(1), 2.0_f64.powi(-1000), 2.0_f64.powi(-350), 2.0_f64.powi(150)] {
+        assert_eq!(order(unit), order(1.0), "{unit:e}");
+    }
+}
