@@ -11,6 +11,7 @@ use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
+use crate::machine::pace::ASKED_EVERY;
 use crate::predicates::{StaticFilter, distance_above, squared_distance};
 
 /// A vertex that is hidden by one of a lower id at the same place.
@@ -22,7 +23,7 @@ pub struct Merge {
     pub site: SiteId,
 }
 
-/// Insertions between two calls of a monitor.
+/// Insertions between two calls of a monitor, unless they take much [work](ASKED_EVERY).
 const MONITORED: usize = 1024;
 
 /// Number of distances in a sample.
@@ -239,23 +240,31 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
         let mut coincident = Vec::new();
+        // Cells made, and crossed by walks, since the monitor was called.
+        let mut work = 0;
         for (done, &s) in order.iter().enumerate() {
-            if done % MONITORED == 0 {
+            if done % MONITORED == 0 || work >= ASKED_EVERY {
+                work = 0;
                 if !monitor(done as f64 / order.len() as f64) {
                     return Err(Error::Cancelled);
                 }
-                if BUILD {
-                    cavity.scratch.adapt();
-                }
             }
+            if BUILD && done % MONITORED == 0 {
+                cavity.scratch.adapt();
+            }
+            let steps = cavity.steps;
             if self.site(s).cell != Slot::NONE {
                 continue;
             }
             match self.insert_into_cells::<BUILD>(cavity, s, self.recent)? {
-                Insertion::New => self.record(cavity.scratch.made()),
+                Insertion::New => {
+                    work += cavity.scratch.made().len() as u64;
+                    self.record(cavity.scratch.made());
+                }
                 Insertion::Coincident(t) => memory::push(&mut coincident, (s, t))?,
                 Insertion::Spans => unreachable!("there are cells"),
             }
+            work += cavity.steps - steps;
         }
         Ok(coincident)
     }
@@ -265,20 +274,25 @@ impl<G: Dimension> Delaunay<G> {
         if coincident.is_empty() {
             return Ok(Vec::new());
         }
-        // All are dropped first: a change of id may have to look at every live site.
+        // All are dropped first: a change of id may have to look at every live site. So it is made once for a place.
         let (mut ids, mut merges) = (Vec::new(), Vec::new());
-        memory::collect(&mut ids, coincident.iter().map(|&(s, _)| self.site(s).id))?;
+        memory::collect(&mut ids, coincident.iter().map(|&(s, t)| (t, self.site(s).id)))?;
         memory::reserve_exact(&mut merges, coincident.len())?;
         memory::reserve(&mut self.free_sites, coincident.len())?;
         for &(s, _) in &coincident {
             self.drop_site(s);
         }
-        for (id, (_, t)) in ids.into_iter().zip(coincident) {
-            let at = self.site(t).id;
-            merges.push(Merge { hidden: id.max(at), site: t });
-            if id < at {
-                self.rename_site(t, id)?;
+        ids.sort_unstable();
+        for there in ids.chunk_by(|(t, _), (other, _)| t == other) {
+            let (site, lowest) = there[0];
+            let before = self.site(site).id;
+            if lowest < before {
+                self.rename_site(site, lowest)?;
             }
+            // All but the lowest are hidden, in its place the one that was there.
+            let of_lowest = Merge { hidden: lowest.max(before), site };
+            merges.push(of_lowest);
+            merges.extend(there[1..].iter().map(|&(_, hidden)| Merge { hidden, site }));
         }
         Ok(merges)
     }

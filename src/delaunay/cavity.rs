@@ -78,6 +78,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Inserts a site that has been added; `near` is a cell to walk from, [`Slot::NONE`] for any. A coincident site is
     /// dropped; after an error the site is live and in no cell.
     pub fn insert_site(&mut self, s: SiteId, near: Slot) -> Result<Insertion> {
+        self.go_on()?;
         // For the index, should the site be dropped.
         memory::reserve(&mut self.free_sites, 1)?;
         let q = self.site(s).point;
@@ -85,10 +86,13 @@ impl<G: Dimension> Delaunay<G> {
         let inserted = if self.has_cells() {
             let near = if near == Slot::NONE { self.recent } else { near };
             let mut cavity = std::mem::take(&mut self.cavity);
+            let before = cavity.steps;
             let inserted = self.insert_into_cells::<false>(&mut cavity, s, near);
             if inserted == Ok(Insertion::New) {
                 self.record(cavity.scratch.made());
+                self.pace.count(cavity.scratch.made().len());
             }
+            self.pace.count((cavity.steps - before) as usize);
             self.cavity = cavity;
             inserted
         } else {

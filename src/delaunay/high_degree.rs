@@ -12,6 +12,7 @@ use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
+use crate::machine::pace::Pace;
 use crate::machine::threads::Threads;
 
 /// What is across a facet of a new cell.
@@ -31,7 +32,10 @@ impl<G: Dimension> Delaunay<G> {
     #[cold]
     pub(super) fn remove_high_degree(&mut self, hole: &Hole<G>) -> Result<()> {
         self.link_sites += hole.sites.len() as u64;
-        let filling = self.filling(hole)?;
+        let mut pace = std::mem::take(&mut self.pace);
+        let filling = self.filling(hole, &mut pace);
+        self.pace = pace;
+        let filling = filling?;
         let mut slots = Vec::new();
         memory::reserve_exact(&mut slots, filling.len())?;
         self.reserve_record(filling.len())?;
@@ -60,8 +64,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// Cells that fill the hole.
-    fn filling(&self, hole: &Hole<G>) -> Result<Filling<G::Corners>> {
-        let (local, globals) = self.link_alone(&hole.sites)?;
+    fn filling(&self, hole: &Hole<G>, pace: &mut Pace) -> Result<Filling<G::Corners>> {
+        let (local, globals) = self.link_alone(&hole.sites, pace)?;
         if !local.has_cells() {
             return self.flat_filling(&hole.link);
         }
@@ -90,6 +94,10 @@ impl<G: Dimension> Delaunay<G> {
         places[first.index()] = 0;
         let mut filling = Vec::new();
         while let Some(&c) = inside.get(filling.len()) {
+            pace.count(1);
+            if pace.is_due() && self.is_in_change() {
+                pace.ask_again()?;
+            }
             let corners = corners_of(c);
             let mut facets = Of::<G>::filled(Across::Old(Facet::NONE));
             for i in 0..G::Corners::N {
@@ -111,7 +119,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// The triangulation of the link's sites, and the site of each of its own.
-    fn link_alone(&self, link: &[SiteId]) -> Result<(Self, Vec<SiteId>)> {
+    fn link_alone(&self, link: &[SiteId], pace: &mut Pace) -> Result<(Self, Vec<SiteId>)> {
         let mut local = Delaunay::<G>::on(Threads::ONE)?;
         local.reserve_sites(link.len())?;
         let mut by_id = Vec::new();
@@ -122,7 +130,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         by_id.sort_unstable();
         local.sort_sites()?;
-        local.rebuild(&mut |_| true)?;
+        local.rebuild(&mut |_| !self.is_in_change() || pace.ask_again().is_ok())?;
         let mut globals = Vec::new();
         memory::reserve_exact(&mut globals, local.sites.len())?;
         globals.push(INFINITE);

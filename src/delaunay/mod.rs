@@ -95,6 +95,7 @@ use crate::complex::{Complex, Corners, Facet};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
+use crate::machine::pace::Pace;
 use crate::machine::prefetch::prefetch;
 use crate::machine::threads::Threads;
 use crate::predicates::StaticFilter;
@@ -150,6 +151,8 @@ pub struct Delaunay<G: Dimension> {
     /// Sites of links that have been triangulated in removals of vertices of high degree.
     link_sites: u64,
     threads: Threads,
+    /// Whom long changes ask whether to go on.
+    pace: Pace,
 }
 
 impl<G: Dimension> Default for Delaunay<G> {
@@ -199,6 +202,7 @@ impl<G: Dimension> Delaunay<G> {
             certificates: 0,
             link_sites: 0,
             threads,
+            pace: Pace::default(),
         }
     }
 
@@ -331,6 +335,23 @@ impl<G: Dimension> Delaunay<G> {
         self.sites[s].point = point;
     }
 
+    /// Whom long changes ask whether to go on.
+    pub(crate) fn pace_mut(&mut self) -> &mut Pace {
+        &mut self.pace
+    }
+
+    /// Asks whether to go on, where that is due. A step of a change begins with it, so that none is half made.
+    #[inline(always)]
+    fn go_on(&mut self) -> Result<()> {
+        if self.pace.is_due() { self.ask() } else { Ok(()) }
+    }
+
+    #[cold]
+    fn ask(&mut self) -> Result<()> {
+        // What is no part of a change could not be taken back.
+        if self.is_in_change() { self.pace.ask_again() } else { Ok(()) }
+    }
+
     /// How many threads a call may use.
     pub(crate) fn threads(&self) -> Threads {
         self.threads
@@ -418,5 +439,6 @@ impl<G: Dimension> Delaunay<G> {
             + memory::bytes_of_made(&self.side_by_side, SideBySide::memory_bytes)
             + self.log.memory_bytes()
             + self.changed.as_ref().map_or(0, memory::bytes_of)
+            + self.pace.memory_bytes()
     }
 }

@@ -53,6 +53,7 @@ impl<G: Dimension> Delaunay<G> {
         id: VertexId,
         shortcut: Shortcut,
     ) -> Result<Relocation> {
+        self.go_on()?;
         self.cover(q, q);
         self.gather_star(s)?;
         self.reserve_record(self.star.len())?;

@@ -133,6 +133,7 @@ impl<G: Dimension> Delaunay<G> {
 
     /// Removes a live site.
     pub fn remove_site(&mut self, s: SiteId) -> Result<()> {
+        self.go_on()?;
         self.log_site(s)?;
         if !self.has_cells() {
             self.remove_flat(s);
@@ -140,12 +141,46 @@ impl<G: Dimension> Delaunay<G> {
             return Ok(());
         }
         self.gather_star(s)?;
+        self.remove_site_of_star(s)
+    }
+
+    /// Removes a live site unless its degree is high, so that its link would have to be triangulated; whether it has.
+    pub(crate) fn remove_site_unless_high(&mut self, s: SiteId) -> Result<bool> {
+        if !self.has_cells() {
+            return self.remove_site(s).map(|()| true);
+        }
+        self.go_on()?;
+        self.gather_star(s)?;
+        if self.gathered_degree() > MAX_LINK {
+            return Ok(false);
+        }
+        self.log_site(s)?;
+        self.remove_site_of_star(s).map(|()| true)
+    }
+
+    /// Removes the site whose star has been gathered, and which is logged.
+    fn remove_site_of_star(&mut self, s: SiteId) -> Result<()> {
         self.remove_gathered(s)?;
         if self.complex.n_finite() == 0 {
             self.become_flat(s)?;
         }
         self.drop_site(s);
         Ok(())
+    }
+
+    /// How many sites of links the removal of a live site would triangulate: none where its degree is not high. A pass
+    /// over its star.
+    pub(crate) fn link_sites_of(&mut self, s: SiteId) -> Result<usize> {
+        if !self.has_cells() {
+            return Ok(0);
+        }
+        self.gather_star(s)?;
+        Ok(Some(self.gathered_degree()).filter(|&degree| degree > MAX_LINK).unwrap_or(0))
+    }
+
+    /// How many sites the link of the gathered star has, the ghost vertex included: it is a sphere.
+    fn gathered_degree(&self) -> usize {
+        if G::D == 2 { self.star.len() } else { self.star.len() / 2 + 2 }
     }
 
     /// Removes the site whose star has been gathered from the cells; the site stays live.

@@ -55,6 +55,7 @@ impl<G: Dimension> Delaunay<G> {
         if is_far {
             self.prefetch_link();
         }
+        self.pace.count(self.star.len());
         Ok(())
     }
 

@@ -58,8 +58,14 @@ impl<G: Dimension> Delaunay<G> {
         debug_assert!(!self.log.is_on);
         self.complex.begin_record()?;
         self.log.is_on = true;
+        self.pace.begin();
         (self.log.lower, self.log.upper) = (self.lower, self.upper);
         Ok(())
+    }
+
+    /// Whether a change is under way.
+    pub(super) fn is_in_change(&self) -> bool {
+        self.log.is_on
     }
 
     /// The box in which the sites were before the change, while there is one.

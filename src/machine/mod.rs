@@ -6,6 +6,7 @@
 pub(crate) mod aligned;
 pub(crate) mod environment;
 pub mod memory;
+pub(crate) mod pace;
 #[cfg(unix)]
 mod pool;
 pub mod prefetch;

@@ -64,7 +64,7 @@ pub(super) enum Edited {
 pub(super) enum SingleEdits {
     /// All have been made.
     Made,
-    /// A vertex has left the hyperplane of all others, so that a kernel has to be built. Some have been made, and have
-    /// to be undone.
+    /// A vertex has left the hyperplane of all others, or more takes longer than a build: a kernel has to be built. Some
+    /// have been made, and have to be undone.
     NeedBuild,
 }

@@ -19,8 +19,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
         let Options { algorithm, threads, coincidence, track_changes, switching, .. } = self.options;
+        let mut kernel = self.kernel.copied()?;
+        kernel.pace_mut().set_monitor(monitor);
         Ok(MovingTriangulation {
-            kernel: self.kernel.copied()?,
+            kernel,
             site_of: memory::copy_of(&self.site_of)?,
             hidden: self.hidden.copied()?,
             n_present: self.n_present,
@@ -30,7 +32,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             switching: self.switching.clone(),
             repair: None,
             auto: self.auto.clone(),
-            options: Options { algorithm, threads, coincidence, track_changes, switching, monitor },
+            options: Options { algorithm, threads, coincidence, track_changes, switching, monitor: None },
             statistics: self.statistics,
             n_moved: self.n_moved,
             sorted_stride: self.sorted_stride,

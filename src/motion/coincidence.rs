@@ -1,6 +1,7 @@
 //! Vertices at the same place: the lowest id represents it, the others are [hidden](super::hidden) until they move
 //! apart.
 
+use super::transaction::{Event, VertexBefore};
 use super::{CoincidencePolicy, MovingTriangulation};
 use crate::delaunay::{Dimension, Place};
 use crate::error::{Error, Result};
@@ -22,21 +23,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn hide(&mut self, vertex: VertexId, s: SiteId) -> Result<()> {
         self.hidden.reserve(self.site_of.len())?;
         self.transaction.reserve_displaced(self.hidden.count() + 1)?;
+        self.transaction.reserve_log()?;
         let representative = self.kernel.site(s).id;
-        self.log_vertex(vertex)?;
-        if vertex > representative {
-            let before = self.hidden.before(representative, vertex);
-            self.log_vertex(before)?;
-            self.note_visibility(vertex, false)?;
-            self.hidden.set_next(vertex, self.hidden.next(before));
-            self.hidden.set_next(before, vertex);
-        } else {
-            self.note_visibility(representative, false)?;
+        self.note_visibility(vertex.max(representative), false)?;
+        if vertex < representative {
             self.kernel.rename_site(s, vertex)?;
-            self.hidden.set_next(vertex, representative);
         }
+        // From here on nothing fails.
+        self.transaction.log(VertexBefore {
+            vertex,
+            site: self.site_of[vertex],
+            event: Event::Joined { representative },
+        });
+        self.hidden.join(representative, vertex);
         self.site_of[vertex] = s;
-        self.hidden.set_count(self.hidden.count() + 1);
         Ok(())
     }
 
@@ -44,20 +44,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn leave(&mut self, vertex: VertexId) -> Result<()> {
         let s = self.site_of[vertex];
         self.kernel.log_site(s)?;
+        self.transaction.reserve_log()?;
         let representative = self.kernel.site(s).id;
-        self.log_vertex(vertex)?;
+        let next = self.hidden.first_behind(representative);
         if vertex == representative {
-            let next = self.hidden.next(vertex);
             self.note_visibility(next, true)?;
             self.kernel.rename_site(s, next)?;
         } else {
-            let before = self.hidden.before(representative, vertex);
-            self.log_vertex(before)?;
             self.note_visibility(vertex, true)?;
-            self.hidden.set_next(before, self.hidden.next(vertex));
         }
-        self.hidden.set_next(vertex, VertexId::NONE);
-        self.hidden.set_count(self.hidden.count() - 1);
+        // From here on nothing fails.
+        let left = if vertex == representative { next } else { representative };
+        self.transaction.log(VertexBefore { vertex, site: s, event: Event::Parted { representative: left } });
+        self.hidden.part(representative, vertex);
         Ok(())
     }
 

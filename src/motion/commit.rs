@@ -2,6 +2,7 @@
 
 use super::algorithms::for_algorithms;
 use super::attempt::Edited;
+use super::outlook::Outlook;
 use super::regions::Filter;
 use super::staging::Given;
 use super::{Algorithm, CommitReport, MovingTriangulation};
@@ -26,6 +27,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut report = CommitReport::default();
         let before = self.evaluations();
         self.staging.set_applied(0);
+        self.staging.tidy();
         if self.edits.are_none() {
             self.staging.forget_full_list(self.n_present);
         } else {
@@ -81,13 +83,18 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Brings the staged vertices to their new positions.
     fn advance(&mut self, mut given: Given<'_, G>, report: &mut CommitReport) -> Result<()> {
-        self.commit_by(self.options.algorithm, &mut given, report)?;
+        // Without cells nothing is looked at but this, and by rebuilding not even that.
+        let algorithm = self.options.algorithm;
+        let may_rest = !self.kernel.has_cells() && algorithm != Algorithm::Rebuilding;
+        if !may_rest || self.outlook(&given, false) != Outlook::AtRest {
+            self.commit_by(algorithm, &mut given, report)?;
+        }
         self.reject_coincidence()
     }
 
     /// Tells the monitor how far the work is; whether to go on.
     pub(super) fn monitor(&mut self, fraction: f64) -> bool {
-        self.options.monitor.as_mut().is_none_or(|monitor| monitor(fraction))
+        self.kernel.pace_mut().ask(fraction)
     }
 }
 

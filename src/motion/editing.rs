@@ -2,7 +2,7 @@
 //!
 //! A staged insertion gets its id at once; the vertex is present from the commit on. The commit removes and inserts
 //! first, at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or
-//! go it rebuilds. Either way all of it is one transaction.
+//! go, or those that go have more neighbours in all than there are vertices, it rebuilds. Either way all of it is one transaction.
 
 use super::attempt::{Edited, SingleEdits};
 use super::constants::constants;
@@ -57,8 +57,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             self.edits.remove(vertex);
         }
-        let edits = &self.edits;
-        self.staging.unstage_all(|v| edits.is_leaving(v));
+        vertices.iter().for_each(|&vertex| self.staging.unstage(vertex));
         Ok(())
     }
 
@@ -111,8 +110,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn edit_cells(&mut self, report: &mut CommitReport) -> Result<SingleEdits> {
         self.order_insertions()?;
         self.with_regions(report, |t, report| {
+            let mut most_link_sites = None;
             for k in 0..t.edits.removals().len() {
-                t.remove_present(t.edits.removals()[k])?;
+                let vertex = t.edits.removals()[k];
+                if !t.remove_unless_high(vertex)? {
+                    let most = match most_link_sites {
+                        Some(most) => most,
+                        None if t.are_links_too_large(k)? => return Ok(SingleEdits::NeedBuild),
+                        None => *most_link_sites.insert(t.kernel.link_sites() + t.n_present as u64),
+                    };
+                    if t.kernel.link_sites() > most {
+                        return Ok(SingleEdits::NeedBuild);
+                    }
+                    t.remove_present(vertex)?;
+                }
                 report.removed += 1;
             }
             let mut near = Slot::NONE;
@@ -143,9 +154,45 @@ impl<G: Dimension> MovingTriangulation<G> {
         } else {
             self.kernel.remove_site(s)?;
         }
+        self.note_removed(vertex);
+        Ok(())
+    }
+
+    /// Takes a vertex out unless its degree is high; whether it has.
+    fn remove_unless_high(&mut self, vertex: VertexId) -> Result<bool> {
+        let s = self.site_of[vertex];
+        if self.is_shared(s) {
+            self.remove_present(vertex)?;
+            return Ok(true);
+        }
+        self.log_vertex(vertex)?;
+        if !self.kernel.remove_site_unless_high(s)? {
+            return Ok(false);
+        }
+        self.note_removed(vertex);
+        Ok(true)
+    }
+
+    fn note_removed(&mut self, vertex: VertexId) {
         self.site_of[vertex] = SiteId::NONE;
         self.n_present -= 1;
-        Ok(())
+    }
+
+    /// Whether to triangulate the links of those vertices of high degree that are still to be removed, from the `k`-th
+    /// removal on, takes longer than to build all: whether they have more sites.
+    #[cold]
+    fn are_links_too_large(&mut self, k: usize) -> Result<bool> {
+        let mut n_sites = 0;
+        for k in k..self.edits.removals().len() {
+            let s = self.site_of[self.edits.removals()[k]];
+            if !self.is_shared(s) {
+                n_sites += self.kernel.link_sites_of(s)?;
+            }
+            if n_sites > self.n_present {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Puts the insertions along a Hilbert curve, so that each walk begins near its end.

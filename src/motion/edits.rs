@@ -10,15 +10,18 @@ use crate::machine::memory;
 pub(super) struct Edits<G: Dimension> {
     insertions: Vec<(VertexId, G::Point)>,
     removals: Vec<VertexId>,
-    /// By vertex id, whether a removal is staged; ids beyond the end have none.
-    is_leaving: Vec<bool>,
+    /// By vertex id, where among the removals it is, [`u32::MAX`] for those that stay; so do ids beyond the end.
+    place: Vec<u32>,
 }
 
 impl<G: Dimension> Default for Edits<G> {
     fn default() -> Self {
-        Edits { insertions: Vec::new(), removals: Vec::new(), is_leaving: Vec::new() }
+        Edits { insertions: Vec::new(), removals: Vec::new(), place: Vec::new() }
     }
 }
+
+/// The place among the removals of a vertex that stays.
+const STAYS: u32 = u32::MAX;
 
 impl<G: Dimension> Edits<G> {
     /// Whether nothing waits.
@@ -30,14 +33,14 @@ impl<G: Dimension> Edits<G> {
     /// Whether the removal of a vertex is staged.
     #[inline(always)]
     pub(super) fn is_leaving(&self, vertex: VertexId) -> bool {
-        !self.removals.is_empty() && self.is_leaving.get(vertex.index()).copied().unwrap_or(false)
+        !self.removals.is_empty() && self.place.get(vertex.index()).is_some_and(|&place| place != STAYS)
     }
 
     /// Forgets all that waits.
     pub(super) fn clear(&mut self) {
         self.insertions.clear();
         for &v in &self.removals {
-            self.is_leaving[v] = false;
+            self.place[v.index()] = STAYS;
         }
         self.removals.clear();
     }
@@ -45,8 +48,11 @@ impl<G: Dimension> Edits<G> {
     /// Forgets the removal of a vertex.
     pub(super) fn forget_removal(&mut self, vertex: VertexId) {
         if self.is_leaving(vertex) {
-            self.is_leaving[vertex] = false;
-            self.removals.retain(|&v| v != vertex);
+            let place = std::mem::replace(&mut self.place[vertex.index()], STAYS);
+            self.removals.swap_remove(place as usize);
+            if let Some(&last) = self.removals.get(place as usize) {
+                self.place[last.index()] = place;
+            }
         }
     }
 
@@ -88,19 +94,19 @@ impl<G: Dimension> Edits<G> {
     /// Makes room for `n` more removals of `n_ids` vertices.
     pub(super) fn reserve_removals(&mut self, n: usize, n_ids: usize) -> Result<()> {
         memory::reserve(&mut self.removals, n)?;
-        memory::lengthen(&mut self.is_leaving, n_ids, false)
+        memory::lengthen(&mut self.place, n_ids, STAYS)
     }
 
     /// Stages the removal of a vertex, for which there is room.
     pub(super) fn remove(&mut self, vertex: VertexId) {
-        self.is_leaving[vertex] = true;
+        self.place[vertex.index()] = self.removals.len() as u32;
         self.removals.push(vertex);
     }
 
     /// Takes back all but the first `n` removals.
     pub(super) fn truncate_removals(&mut self, n: usize) {
         for v in self.removals.drain(n..) {
-            self.is_leaving[v] = false;
+            self.place[v.index()] = STAYS;
         }
     }
 
@@ -110,25 +116,25 @@ impl<G: Dimension> Edits<G> {
         insertions.iter_mut().for_each(|(id, _)| *id = ids[*id]);
         let mut removals = memory::copy_of(&self.removals)?;
         removals.iter_mut().for_each(|v| *v = ids[*v]);
-        let mut is_leaving = Vec::new();
+        let mut place = Vec::new();
         if !removals.is_empty() {
-            memory::lengthen(&mut is_leaving, n, false)?;
-            removals.iter().for_each(|&v| is_leaving[v] = true);
+            memory::lengthen(&mut place, n, STAYS)?;
+            (0..).zip(&removals).for_each(|(k, v)| place[v.index()] = k);
         }
-        Ok(Edits { insertions, removals, is_leaving })
+        Ok(Edits { insertions, removals, place })
     }
 
     pub(super) fn copied(&self) -> Result<Self> {
         Ok(Edits {
             insertions: memory::copy_of(&self.insertions)?,
             removals: memory::copy_of(&self.removals)?,
-            is_leaving: memory::copy_of(&self.is_leaving)?,
+            place: memory::copy_of(&self.place)?,
         })
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
         self.insertions.capacity() * size_of::<(VertexId, G::Point)>()
             + self.removals.capacity() * 4
-            + self.is_leaving.capacity()
+            + self.place.capacity() * 4
     }
 }

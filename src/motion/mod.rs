@@ -56,6 +56,7 @@ mod moves;
 mod moving;
 mod options;
 mod ordering;
+mod outlook;
 mod placement;
 mod query;
 mod reading;

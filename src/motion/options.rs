@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::Algorithm;
 use crate::delaunay::Dimension;
+pub use crate::machine::pace::Monitor;
 
 /// When *rebuilding + tolerance* swaps from the one to the other: by default as in the report. (`make calibrate`
 /// measures other values.)
@@ -43,9 +44,6 @@ pub enum CoincidencePolicy {
     Reject,
 }
 
-/// Called now and then with the fraction of the work done, from 0 to 1; returning `false` cancels.
-pub type Monitor = Box<dyn FnMut(f64) -> bool + Send + Sync>;
-
 /// Options of a triangulation.
 #[derive(Default)]
 pub struct Options {
@@ -67,7 +65,7 @@ pub struct Options {
     pub track_changes: bool,
     /// Rule of [`Algorithm::RebuildingTolerance`].
     pub switching: SwitchingRule,
-    /// Progress and cancellation, of creation, loading and commits.
+    /// Progress and cancellation, of creation, loading, commits, and immediate calls that take long.
     pub monitor: Option<Monitor>,
 }
 

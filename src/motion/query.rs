@@ -307,7 +307,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn memory_bytes(&self) -> usize {
         self.kernel.memory_bytes()
             + memory::bytes_of(&self.site_of)
-            + self.options.monitor.as_ref().map_or(0, |monitor| size_of_val(&**monitor))
             + self.staging.memory_bytes()
             + self.regions.memory_bytes()
             + memory::bytes_of_made(&self.repair, Repair::memory_bytes)

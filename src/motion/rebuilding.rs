@@ -64,14 +64,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.build_and_adopt(next, spread, report)
     }
 
-    /// Triangulates all sites where they are, those that are in no cell included; not to be cancelled.
+    /// Triangulates all sites where they are, those that are in no cell included.
     pub(super) fn rebuild_as_is(&mut self, report: &mut CommitReport) -> Result<()> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(drop);
-        self.build_and_adopt_unmonitored(next, spread, report)
+        self.build_and_adopt(next, spread, report)
     }
 
-    /// Triangulates all vertices, one of them at another place; not to be cancelled.
+    /// Triangulates all vertices, one of them at another place.
     pub(super) fn rebuild_with(
         &mut self,
         vertex: VertexId,
@@ -82,20 +82,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let spread = self.spread_hidden(&mut next).map(|spread| {
             next.set_point(self.own_site(&spread, vertex), *q);
         });
-        self.build_and_adopt_unmonitored(next, spread, report)
-    }
-
-    /// As [`build_and_adopt`](Self::build_and_adopt), for immediate calls.
-    fn build_and_adopt_unmonitored(
-        &mut self,
-        next: Delaunay<G>,
-        is_ready: Result<()>,
-        report: &mut CommitReport,
-    ) -> Result<()> {
-        let monitor = self.options.monitor.take();
-        let done = self.build_and_adopt(next, is_ready, report);
-        self.options.monitor = monitor;
-        done
+        self.build_and_adopt(next, spread, report)
     }
 
     /// Puts the site of a vertex in a new kernel where it is staged; whether it was elsewhere.
@@ -162,12 +149,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             (stride, keeps_sites) = (next.mean_stride(), false);
         }
         next.restore_parts();
-        let mut unmonitored = |_| true;
-        let merges = match &mut self.options.monitor {
-            Some(monitor) => next.rebuild(monitor)?,
-            None => next.rebuild(&mut unmonitored)?,
-        };
-        let hidden = self.hide_merged(next, merges)?;
+        let pace = self.kernel.pace_mut();
+        let merges = next.rebuild(&mut |fraction| pace.ask(fraction))?;
+        let hidden = self.hide_merged(next, &merges)?;
         if self.takes_changes {
             self.note_visibilities_of(next, &hidden)?;
         }
@@ -175,8 +159,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok((hidden, stride, keeps_sites))
     }
 
-    /// The chains of hidden vertices, unless the options reject them.
-    pub(super) fn hide_merged(&self, kernel: &Delaunay<G>, merges: Vec<Merge>) -> Result<Hidden> {
+    /// The trees of hidden vertices, unless the options reject them.
+    pub(super) fn hide_merged(&self, kernel: &Delaunay<G>, merges: &[Merge]) -> Result<Hidden> {
         let hidden = Hidden::of_merges(merges, self.site_of.len(), |s| kernel.site(s).id)?;
         if self.options.coincidence == CoincidencePolicy::Reject
             && let Some((vertex, other)) = hidden.first_pair()
@@ -197,20 +181,21 @@ impl<G: Dimension> MovingTriangulation<G> {
             if self.is_present(representative) && self.is_hidden(representative) {
                 self.note_visibility(representative, true)?;
             }
-            let mut v = hidden.next(representative);
-            while v != VertexId::NONE {
-                if !self.is_present(v) || !self.is_hidden(v) {
-                    self.note_visibility(v, false)?;
+            let mut noted = Ok(());
+            hidden.for_all_behind(representative, |v| {
+                if noted.is_ok() && (!self.is_present(v) || !self.is_hidden(v)) {
+                    noted = self.note_visibility(v, false);
                 }
-                v = hidden.next(v);
-            }
+            });
+            noted?;
         }
         Ok(())
     }
 
     /// Puts a new kernel, which is complete, in the place of the present one; unless its sites have the indices from
     /// before, [`find_sites`](Self::find_sites) must follow. Cannot fail.
-    pub(super) fn adopt(&mut self, next: Delaunay<G>, hidden: Hidden, stride: f64) {
+    pub(super) fn adopt(&mut self, mut next: Delaunay<G>, hidden: Hidden, stride: f64) {
+        *next.pace_mut() = std::mem::take(self.kernel.pace_mut());
         self.kernel = next;
         self.hidden = hidden;
         self.sorted_stride = stride;
@@ -220,12 +205,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Finds the site of each vertex.
     pub(super) fn find_sites(&mut self) {
-        for s in self.kernel.live_sites() {
-            let mut v = self.kernel.site(s).id;
-            while v != VertexId::NONE {
-                self.site_of[v] = s;
-                v = self.hidden.next(v);
-            }
+        let Self { kernel, hidden, site_of, .. } = self;
+        for s in kernel.live_sites() {
+            hidden.for_all_at(kernel.site(s).id, |v| site_of[v] = s);
         }
     }
 

@@ -16,8 +16,10 @@ pub(super) struct Staging<G: Dimension> {
     positions: Vec<G::Point>,
     /// By vertex id; all false while whole.
     is_staged: Vec<bool>,
-    /// Staged vertices in the order of the calls. While whole: those that a commit has queued.
+    /// Staged vertices in the order of the calls. While whole: those that a commit has queued. Moves that were
+    /// forgotten one by one stay listed until the list is [tidied](Self::tidy): to find each would take a pass.
     vertices: Vec<VertexId>,
+    n_forgotten: usize,
     /// How many of the listed vertices are at their new positions, while a commit is under way.
     applied: usize,
     is_whole: bool,
@@ -75,6 +77,7 @@ impl<G: Dimension> Default for Staging<G> {
             positions: Vec::new(),
             is_staged: Vec::new(),
             vertices: Vec::new(),
+            n_forgotten: 0,
             applied: 0,
             is_whole: false,
             others_applied: false,
@@ -94,7 +97,7 @@ impl<G: Dimension> Staging<G> {
         &mut self.positions
     }
 
-    /// The listed vertices. The first of them, as many as are [applied](Self::applied), are at their new positions.
+    /// The listed vertices, after the list has been [tidied](Self::tidy). The first of them, as many as are [applied](Self::applied), are at their new positions.
     #[inline(always)]
     pub(super) fn vertices(&self) -> &[VertexId] {
         &self.vertices
@@ -140,7 +143,7 @@ impl<G: Dimension> Staging<G> {
 
     /// A vertex of which a move is staged.
     pub(super) fn first_staged(&self) -> Option<VertexId> {
-        if self.is_whole { Some(VertexId::new(0)) } else { self.vertices.first().copied() }
+        if self.is_whole { Some(VertexId::new(0)) } else { self.listed().next() }
     }
 
     /// Whether all vertices are staged, and not listed.
@@ -150,7 +153,21 @@ impl<G: Dimension> Staging<G> {
 
     /// Number of staged vertices.
     pub(super) fn count(&self) -> usize {
-        if self.is_whole { self.positions.len() } else { self.vertices.len() }
+        if self.is_whole { self.positions.len() } else { self.vertices.len() - self.n_forgotten }
+    }
+
+    /// The staged vertices of a staging that is not whole, in the order of the calls.
+    pub(super) fn listed(&self) -> impl Iterator<Item = VertexId> {
+        self.vertices.iter().copied().filter(|&v| self.is_staged[v])
+    }
+
+    /// Takes forgotten moves out of the list.
+    pub(super) fn tidy(&mut self) {
+        if self.n_forgotten > 0 {
+            let is_staged = &self.is_staged;
+            self.vertices.retain(|&v| is_staged[v]);
+            self.n_forgotten = 0;
+        }
     }
 
     /// Makes a list of all of `n_present` vertices whole.
@@ -261,6 +278,9 @@ impl<G: Dimension> Staging<G> {
             self.vertices[kept..].iter().for_each(|&v| self.is_staged[v] = false);
         }
         self.vertices.truncate(kept);
+        if kept == 0 {
+            self.n_forgotten = 0;
+        }
     }
 
     /// Forgets all moves; returns how many there were.
@@ -282,22 +302,12 @@ impl<G: Dimension> Staging<G> {
         self.is_staged.truncate(n_ids);
     }
 
-    /// Forgets the moves of some vertices. The staging must not be whole.
-    pub(super) fn unstage_all(&mut self, is_one: impl Fn(VertexId) -> bool) {
-        debug_assert!(!self.is_whole);
-        let is_staged = &mut self.is_staged;
-        self.vertices.retain(|&v| {
-            let goes = is_one(v);
-            is_staged[v] &= !goes;
-            !goes
-        });
-    }
-
-    /// Forgets the move of one vertex. The staging must not be whole.
+    /// Forgets the move of a vertex, which is not staged again before the next commit. The staging must not be whole.
     pub(super) fn unstage(&mut self, vertex: VertexId) {
+        debug_assert!(!self.is_whole);
         if self.is_staged(vertex) {
             self.is_staged[vertex] = false;
-            self.vertices.retain(|&v| v != vertex);
+            self.n_forgotten += 1;
         }
     }
 
@@ -308,13 +318,15 @@ impl<G: Dimension> Staging<G> {
         if self.count() == 0 {
             return Ok(staging);
         }
-        staging.reserve(n, self.vertices.len())?;
+        staging.reserve(n, self.count())?;
         staging.is_whole = self.is_whole;
         for (v, &id) in ids.iter().enumerate().filter(|(_, id)| **id != VertexId::NONE) {
             staging.positions[id] = self.positions[v];
             staging.is_staged[id] = self.is_staged[v];
         }
-        staging.vertices.extend(self.vertices.iter().map(|&v| ids[v]));
+        if !self.is_whole {
+            staging.vertices.extend(self.listed().map(|v| ids[v]));
+        }
         Ok(staging)
     }
 
@@ -324,6 +336,7 @@ impl<G: Dimension> Staging<G> {
             positions: memory::copy_of(&self.positions)?,
             is_staged: memory::copy_of(&self.is_staged)?,
             vertices: memory::copy_of(&self.vertices)?,
+            n_forgotten: self.n_forgotten,
             applied: self.applied,
             is_whole: self.is_whole,
             others_applied: self.others_applied,

@@ -5,18 +5,28 @@ use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
-/// Where a vertex was: its site, and the next vertex there.
+/// The site at which a vertex was, and what it has done since.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VertexBefore {
     pub(super) vertex: VertexId,
     pub(super) site: SiteId,
-    pub(super) next: VertexId,
+    pub(super) event: Event,
 }
 
-/// Numbers of hidden vertices, of those present, and of events of visibility.
+/// What a vertex has done.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Event {
+    /// It has got a site of its own, or lost it.
+    Alone,
+    /// It has joined those that this one represented.
+    Joined { representative: VertexId },
+    /// It has parted from those that this one represents.
+    Parted { representative: VertexId },
+}
+
+/// Numbers of vertices present, and of events of visibility.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Counts {
-    pub(super) hidden: usize,
     pub(super) present: usize,
     pub(super) visibilities: usize,
 }
@@ -73,9 +83,15 @@ impl<G: Dimension> Transaction<G> {
         self.before
     }
 
-    /// Keeps where a vertex was.
-    pub(super) fn log(&mut self, before: VertexBefore) -> Result<()> {
-        memory::push(&mut self.vertices, before)
+    /// Makes room in the log for one vertex.
+    pub(super) fn reserve_log(&mut self) -> Result<()> {
+        memory::reserve(&mut self.vertices, 1)
+    }
+
+    /// Keeps where a vertex was; there is [room](Self::reserve_log).
+    pub(super) fn log(&mut self, before: VertexBefore) {
+        debug_assert!(self.vertices.len() < self.vertices.capacity());
+        self.vertices.push(before);
     }
 
     /// Takes where a vertex was out of the log, the last one first.

@@ -39,6 +39,7 @@ pub struct MovingTriangulation<G: Dimension> {
     /// Once there was one.
     pub(super) repair: Option<Box<Repair>>,
     pub(super) auto: Auto,
+    /// Without the monitor, which the kernel has.
     pub(super) options: Options,
     pub(super) statistics: CommitReport,
     /// Moves and insertions since the kernel's static filter was made as sharp as possible.
@@ -77,12 +78,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// vertices are hidden.
     #[inline(always)]
     pub(super) fn of_parts(
-        kernel: Delaunay<G>,
+        mut kernel: Delaunay<G>,
         site_of: Vec<SiteId>,
         hidden: Hidden,
         n_present: usize,
-        options: Options,
+        mut options: Options,
     ) -> Self {
+        kernel.pace_mut().set_monitor(options.monitor.take());
         MovingTriangulation {
             sorted_stride: 0.0,
             kernel,
@@ -152,12 +154,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut self.site_of, positions.len())?;
         self.site_of.resize(positions.len(), SiteId::NONE);
         self.sorted_stride = self.kernel.mean_stride();
-        let mut unmonitored = |_| true;
-        let merges = match &mut self.options.monitor {
-            Some(monitor) => self.kernel.rebuild(monitor)?,
-            None => self.kernel.rebuild(&mut unmonitored)?,
-        };
-        self.hidden = self.hide_merged(&self.kernel, merges)?;
+        let mut pace = std::mem::take(self.kernel.pace_mut());
+        let merges = self.kernel.rebuild(&mut |fraction| pace.ask(fraction));
+        *self.kernel.pace_mut() = pace;
+        let merges = merges?;
+        self.hidden = self.hide_merged(&self.kernel, &merges)?;
         self.statistics.coincident = self.hidden.count() as u64;
         self.find_sites();
         Ok(())

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! What is kept for undoing: the rows of cells and the sites that were removed, added or renamed
-//! ([`Delaunay::begin`]), the site and the successor of each vertex that came to or left a shared place, and, of a
+//! ([`Delaunay::begin`]), the site of each vertex that came to or left a place, and with whom, and, of a
 //! commit, where the moved vertices were ([`staging`](super::staging): applying a move exchanges the two positions). A
 //! [rebuilding](super::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
 //!
@@ -16,7 +16,7 @@
 
 use super::MovingTriangulation;
 use super::constants::constants;
-use super::transaction::{Counts, VertexBefore};
+use super::transaction::{Counts, Event, VertexBefore};
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
@@ -43,17 +43,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.transaction.reserve_displaced(self.hidden.count())?;
         self.kernel.begin()?;
         self.transaction.begin(Counts {
-            hidden: self.hidden.count(),
             present: self.n_present,
             visibilities: self.views.visibilities().shortened_len(self.site_of.len()),
         });
         Ok(())
     }
 
-    /// Keeps where a vertex is before it comes to or leaves a shared place.
+    /// Keeps the site of a vertex before it gets one of its own, or loses it.
     pub(super) fn log_vertex(&mut self, vertex: VertexId) -> Result<()> {
-        let (site, next) = (self.site_of[vertex], self.hidden.next(vertex));
-        self.transaction.log(VertexBefore { vertex, site, next })
+        self.transaction.reserve_log()?;
+        self.transaction.log(VertexBefore { vertex, site: self.site_of[vertex], event: Event::Alone });
+        Ok(())
     }
 
     /// Makes a change visible to who reads the cells. Cannot fail.
@@ -75,12 +75,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(super) fn undo(&mut self) {
         debug_assert!(!self.transaction.has_rebuilt(), "nothing fails after a new kernel is in place");
         self.take_moves_back();
-        while let Some(VertexBefore { vertex, site, next }) = self.transaction.pop_logged() {
+        while let Some(VertexBefore { vertex, site, event }) = self.transaction.pop_logged() {
             self.site_of[vertex] = site;
-            self.hidden.set_next(vertex, next);
+            match event {
+                Event::Alone => {}
+                Event::Joined { representative } => self.hidden.part(representative.min(vertex), vertex),
+                Event::Parted { representative } => self.hidden.join(representative, vertex),
+            }
         }
         let before = self.transaction.before();
-        self.hidden.set_count(before.hidden);
         self.n_present = before.present;
         self.views.visibilities().truncate(before.visibilities);
         self.kernel.undo();

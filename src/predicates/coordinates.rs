@@ -4,6 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
 use super::bicells::Tolerances;
+use super::integer::two_difference;
 use super::measures::Measures;
 use crate::simd::{Avx2, LANES, Lanes};
 
@@ -34,6 +35,9 @@ pub trait Array: Sized {
     fn flattened_mut(points: &mut [Self]) -> &mut [f64];
     /// Each coordinate of several points, in lanes.
     fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]>;
+    /// The vector to this point from another, if no coordinate of it is rounded; of points that are not finite none is
+    /// known.
+    fn exact_difference(&self, other: &Self) -> Option<Self>;
 }
 
 impl<const D: usize> Array for [f64; D] {
@@ -48,5 +52,11 @@ impl<const D: usize> Array for [f64; D] {
     #[inline(always)]
     fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]> {
         avx2.points(points)
+    }
+
+    #[inline(always)]
+    fn exact_difference(&self, other: &Self) -> Option<Self> {
+        let parts: [_; D] = std::array::from_fn(|axis| two_difference(self[axis], other[axis]));
+        parts.iter().all(|&(_, tail)| tail == 0.0).then(|| parts.map(|(rounded, _)| rounded))
     }
 }

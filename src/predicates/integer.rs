@@ -153,7 +153,8 @@ fn in_units(x: f64, lowest: i32) -> Option<i128> {
 }
 
 /// Rounded difference and its error (Knuth).
-fn two_difference(a: f64, b: f64) -> (f64, f64) {
+#[inline(always)]
+pub(super) fn two_difference(a: f64, b: f64) -> (f64, f64) {
     let difference = a - b;
     let b_part = a - difference;
     let a_part = difference + b_part;

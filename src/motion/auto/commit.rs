@@ -6,6 +6,7 @@ use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::attempt::Attempt;
 use crate::motion::constants::{Constants, constants};
+use crate::motion::outlook::Outlook;
 use crate::motion::regions::Filter;
 use crate::motion::staging::Given;
 use crate::motion::{Algorithm, CommitReport, MovingTriangulation, SwitchingRule};
@@ -27,6 +28,18 @@ impl<G: Dimension> MovingTriangulation<G> {
             } else {
                 self.commit_by_placement_or_rebuilding(given, report)
             };
+        }
+        if !self.keeps_for_scope() {
+            let is_way_due = self.auto.is_rebuild_due() || self.auto.scope() != Scope::All;
+            match self.outlook(given, is_way_due) {
+                Outlook::AtRest => return Ok(()),
+                Outlook::Together if self.staging.is_whole() && self.hidden.count() == 0 => {
+                    return self.commit_together(given, report);
+                }
+                // Neither tells how all will move.
+                Outlook::Together | Outlook::FewMove => return self.commit_by_repair(given, report),
+                Outlook::Unknown => {}
+            }
         }
         let before = self.evaluations();
         if self.auto.take_rebuild() {
@@ -50,6 +63,25 @@ impl<G: Dimension> MovingTriangulation<G> {
         repaired?;
         let swept = (self.kernel.n_certificates(), slowdown);
         self.auto.learn::<G>(self.n_present, swept, report, repair, evaluations);
+        Ok(())
+    }
+
+    /// Whether what the scope in force wants is kept: then a commit in which little happens takes hardly any time.
+    fn keeps_for_scope(&self) -> bool {
+        let wanted = match self.auto.scope() {
+            Scope::All => return false,
+            Scope::Slack => Filter::Slack,
+            Scope::Watched => Filter::Watch,
+        };
+        self.regions.kept_for() == Some(wanted)
+    }
+
+    /// Moves all vertices of a whole staging, which go by one exact vector. Whatever the cells are a function of stays
+    /// as it is but for that, so they stay. No two vertices may share a site.
+    fn commit_together(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
+        self.regions.invalidate();
+        report.moved = self.move_all_staged(given)?;
+        report.unchanged = report.moved;
         Ok(())
     }
 

@@ -8,6 +8,10 @@
 //! | otherwise | repair, which rebuilds where too much fails |
 //! | after such a rebuild | rebuilding, for a while |
 //!
+//! **What is known before** decides before anything that the last commits have found: where nothing moves, nothing is
+//! done; where all vertices move by exactly the same vector, the cells stay; and few vertices that move are placed,
+//! also while commits are rebuilt or a cheaper way is due to be tried ([`outlook`](super::outlook)).
+//!
 //! **Checking everything or not.** Few flips in the last commits announce that most bi-cells have tolerance left. To
 //! compute that of all costs eight sweeps. What is recomputed after that, and watched, is counted and weighed by
 //! measured costs ([`constants`](super::constants)). When it has cost more than the expensive way would have, by a

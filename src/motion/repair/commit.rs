@@ -142,6 +142,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let mut is_triangulation = repair.failures.is_triangulation();
         for round in 0..constants.max_rounds {
+            if !self.monitor(0.5) {
+                return Err(Error::Cancelled);
+            }
             repair.suspects.clear();
             is_triangulation = is_triangulation || round == 0 && self.untangle(repair, most)?;
             if !is_triangulation {

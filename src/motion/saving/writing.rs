@@ -86,9 +86,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The vertices of which moves are staged, in the order of the calls.
     fn staged_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
-        let n_listed = if self.staging.is_whole() { 0 } else { self.staging.count() };
-        let all = VertexId::range(0..self.staging.count() - n_listed);
-        all.chain(self.staging.vertices()[..n_listed].iter().copied())
+        let n_unlisted = if self.staging.is_whole() { self.staging.count() } else { 0 };
+        VertexId::range(0..n_unlisted).chain(self.staging.listed())
     }
 
     /// All bytes that [`save`](Self::save) writes.
