@@ -1,6 +1,8 @@
 //! Tests of the library from outside, in one program: each program compiles the generic parts of the library again.
 //! Only those that need an allocator of their own are apart.
 
+mod asking;
+mod at_rest;
 mod brute_force;
 mod changes;
 mod common;

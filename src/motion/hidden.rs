@@ -37,7 +37,7 @@ pub(super) struct Hidden {
     branches: Vec<Branches>,
     count: usize,
     /// Levels looked at so far: the work of coming and going.
-    #[cfg(any(test, feature = "internals"))]
+    #[cfg(test)]
     steps: u64,
 }
 
@@ -156,14 +156,14 @@ impl Hidden {
 
     #[inline(always)]
     fn count_step(&mut self) {
-        #[cfg(any(test, feature = "internals"))]
+        #[cfg(test)]
         {
             self.steps += 1;
         }
     }
 
     /// Levels looked at so far.
-    #[cfg(any(test, feature = "internals"))]
+    #[cfg(test)]
     pub(super) fn steps(&self) -> u64 {
         self.steps
     }
@@ -201,7 +201,7 @@ impl Hidden {
         Ok(Hidden {
             branches: memory::copy_of(&self.branches)?,
             count: self.count,
-            #[cfg(any(test, feature = "internals"))]
+            #[cfg(test)]
             steps: self.steps,
         })
     }
