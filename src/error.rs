@@ -56,6 +56,18 @@ pub enum Error {
         /// What was given.
         vertex: VertexId,
     },
+    /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is, so that
+    /// it is not there after it.
+    StagedVertex {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What was given.
+        vertex: VertexId,
+        /// What is staged.
+        staged: StagedEdit,
+    },
     /// There is no cell of this index.
     NoSuchCell {
         /// Parameter at fault.
@@ -84,6 +96,8 @@ pub enum Error {
         given: usize,
         /// Length wanted.
         wanted: usize,
+        /// How many of these are for vertices whose insertion is staged.
+        coming: usize,
     },
     /// A number that has no meaning for its argument.
     InvalidValue {
@@ -136,6 +150,15 @@ pub enum Error {
     ChangesNotTracked,
 }
 
+/// What is staged for a vertex beside a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StagedEdit {
+    /// It is inserted by the next commit.
+    Insertion,
+    /// It is removed by the next commit.
+    Removal,
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -152,14 +175,26 @@ impl fmt::Display for Error {
             Error::RemovedVertex { argument, index, vertex } => {
                 write!(f, "{argument}[{index}] is {vertex}, a vertex that has been removed")
             }
+            Error::StagedVertex { argument, index, vertex, staged } => {
+                let (staged, until) = match staged {
+                    StagedEdit::Insertion => ("insertion", "it is not there before the next commit"),
+                    StagedEdit::Removal => ("removal", "it goes at the next commit"),
+                };
+                write!(f, "{argument}[{index}] is {vertex}, a vertex whose {staged} is staged: {until}")
+            }
             Error::NoSuchCell { argument, index, cell, cells } => {
                 write!(f, "{argument}[{index}] is {cell}, but there are {cells} cells")
             }
             Error::DuplicateMove { argument, index, vertex } => {
                 write!(f, "{argument}[{index}] is {vertex}, a vertex whose move is already staged")
             }
-            Error::WrongCount { argument, given, wanted } => {
-                write!(f, "{argument} is {given}, but must be {wanted}")
+            Error::WrongCount { argument, given, wanted, coming } => {
+                write!(f, "{argument} is {given}, but must be {wanted}")?;
+                match coming {
+                    0 => Ok(()),
+                    1 => write!(f, ", with one vertex whose insertion is staged"),
+                    n => write!(f, ", with {n} vertices whose insertion is staged"),
+                }
             }
             Error::InvalidValue { argument, index, value, wanted } => {
                 write!(f, "{argument}[{index}] is {value}, but must be {wanted}")

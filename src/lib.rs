@@ -32,7 +32,7 @@ mod simd;
 
 pub use damage::{Damage, LoadError};
 pub use delaunay::{Dimension, Plane, Space};
-pub use error::{Error, Result};
+pub use error::{Error, Result, StagedEdit};
 pub use ids::{CellId, VertexId};
 pub use predicates::Coordinates;
 

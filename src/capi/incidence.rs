@@ -183,7 +183,7 @@ pub unsafe extern "C" fn deldrift_mirror_index(
 /// is too small. NULL with capacity 0 asks for the count alone.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
 /// change the first call also does what the first deldrift_cells does; else the cost is that of the star.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_ordered_star(
@@ -235,8 +235,8 @@ impl Lists {
         unsafe {
             let count = pointers::output("count", room.count)?;
             if !offsets.is_null() && offset_count != wanted {
-                let argument = "offset_count";
-                return Err(Error::WrongCount { argument, given: offset_count, wanted }.into());
+                let (argument, given, coming) = ("offset_count", offset_count, t.staged_edits().0);
+                return Err(Error::WrongCount { argument, given, wanted, coming }.into());
             }
             if entries.is_null() && room.capacity > 0 {
                 return Err(Wrong::Null.in_argument(argument));

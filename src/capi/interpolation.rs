@@ -63,8 +63,8 @@ pub unsafe extern "C" fn deldrift_interpolate(
                 let method = method_of(method)?;
                 let wanted = t.id_count();
                 if value_count != wanted {
-                    let argument = "value_count";
-                    return Err(Error::WrongCount { argument, given: value_count, wanted }.into());
+                    let (argument, given, coming) = ("value_count", value_count, t.staged_edits().0);
+                    return Err(Error::WrongCount { argument, given, wanted, coming }.into());
                 }
                 let values = pointers::array("values", values, numbers("values", value_count, n_values)?)?;
                 let positions = points_for(t, "positions", positions, count)?;

@@ -78,8 +78,8 @@ impl From<CommitReport> for deldrift_commit_report {
 /// position: 2 or 3 numbers, read during the call only.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_move_vertex(
     t: *mut deldrift_triangulation,
@@ -101,14 +101,16 @@ pub unsafe extern "C" fn deldrift_move_vertex(
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
 ///
 /// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
-/// deldrift_id_count, vertices from count on are not staged, and entries of removed vertices are not read.
+/// deldrift_id_count, and vertices from count on are not staged. The entry of a vertex whose insertion is staged is
+/// where it will be inserted, in place of where it would have been; entries of removed vertices, and of those whose
+/// removal is staged, are not read.
 /// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
 /// and may be NULL if count is 0, when nothing is staged.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE (also
-/// within vertices), DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called
-/// at the same time as any other call on t.
+/// DELDRIFT_WRONG_COUNT if there are more positions than ids, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
+/// DELDRIFT_STAGED_VERTEX for one in vertices, DELDRIFT_DUPLICATE_MOVE (also within vertices), DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_move_vertices(
     t: *mut deldrift_triangulation,
@@ -140,9 +142,14 @@ pub unsafe extern "C" fn deldrift_move_vertices(
 /// next commit on, which makes them together with the staged moves and removals.
 ///
 /// positions: count points, read during the call only; may be NULL if count is 0. first_vertex: receives
-/// the id of the first, which is one above the highest given so far; the others follow it in their order.
-/// The ids count in deldrift_id_count from now on. deldrift_discard_moves forgets the insertions; ids are
-/// given again then if none higher has been given since.
+/// the id of the first, which is one above the highest given so far; the others follow it in their order. It must not
+/// be NULL, even if count is 0: then it receives the id that would be given next.
+///
+/// The ids count in deldrift_id_count from now on, but until the commit the vertices are not present
+/// (deldrift_is_present): functions that take an id return DELDRIFT_STAGED_VERTEX for them. Where they will be is told
+/// by deldrift_copy_positions, and changed by deldrift_move_vertices without a list of ids and by
+/// deldrift_commit_positions. deldrift_discard_moves forgets the insertions; ids are given again then if none higher has
+/// been given since.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
@@ -168,13 +175,19 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
 }
 
 /// Stages the removal of count vertices: all of them, or none if it fails. The next commit removes them,
-/// together with the staged moves and insertions. Moves staged for them are forgotten, and none can be
-/// staged any more; deldrift_discard_moves forgets the removals.
+/// together with the staged moves and insertions; until then the vertices are present, and can be asked about, and
+/// relocated or removed at once. Moves staged for them are forgotten, and none can be staged any more
+/// (DELDRIFT_STAGED_VERTEX; their entries in arrays without a list of ids are not read). deldrift_discard_moves forgets
+/// the removals.
 ///
 /// vertices: count ids, each at most once, read during the call only; may be NULL if count is 0.
 ///
+/// The commit removes them one by one, or rebuilds where that takes less: where many go, or those with 64 neighbours and
+/// more that go have more neighbours in all than there are vertices.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (also if its removal is staged), DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX (its removal is staged already, or its
+/// insertion is), DELDRIFT_OUT_OF_MEMORY.
 /// Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_stage_removals(
@@ -237,15 +250,15 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 /// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
 /// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
 ///
-/// positions: count points, one for each id (count must be deldrift_id_count); entries of
-/// removed vertices are not read. Read during the call only. report: as for deldrift_commit_timestamp.
-/// Ends all views.
+/// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
+/// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
+/// removal is staged, are not read. Read during the call only. report: as for deldrift_commit_timestamp. Ends all views.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, and no move is
-/// staged. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is
+/// staged, and insertions and removals are staged as before. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_commit_positions(
     t: *mut deldrift_triangulation,
@@ -274,10 +287,12 @@ pub unsafe extern "C" fn deldrift_commit_positions(
 ///
 /// position: 2 or 3 numbers, read during the call only.
 ///
+/// Cost: that of the cells around the vertex, before and after. As for deldrift_remove_vertex these can be many.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE if a move of this vertex is staged,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of this
+/// vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
 /// on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_relocate_vertex(
@@ -326,7 +341,7 @@ unsafe fn relocate_in_fence(
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
 /// on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_insert_vertex(
@@ -347,11 +362,15 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
     }
 }
 
-/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again before a
+/// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
 /// deldrift_compact, nor is all of its memory. Ends all views.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D that
+/// may have as many cells as half the square of their number, as where all points are on the moment curve; each ten to
+/// twenty thousand of them the callbacks are called.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
+/// insertion is staged, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
 /// on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_remove_vertex(
@@ -373,7 +392,8 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///
 /// map: receives the new id of each old one, DELDRIFT_NONE for removed vertices: a buffer with room for
-/// capacity ids; NULL with capacity 0 if it is not wanted. count: receives the number of old ids
+/// capacity ids; NULL with capacity 0 if it is not wanted, NULL with another is DELDRIFT_NULL_ARGUMENT. Vertices whose
+/// insertion is staged get new ids as well. count: receives the number of old ids
 /// (deldrift_id_count before the call), which is also written when the buffer is too small: then nothing
 /// has been compacted.
 ///
@@ -447,6 +467,7 @@ fn of_one(mut error: Error) -> Error {
         Error::NotFinite { argument, .. } | Error::OutOfRange { argument, .. } => *argument = "position",
         Error::NoSuchVertex { argument, .. }
         | Error::RemovedVertex { argument, .. }
+        | Error::StagedVertex { argument, .. }
         | Error::DuplicateMove { argument, .. } => *argument = "vertex",
         _ => {}
     }

@@ -44,10 +44,11 @@ pub type CoincidenceCode = u32;
 /// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
 /// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
 ///
-/// The callbacks are called from inside deldrift_create and deldrift_commit_timestamp, on the thread
-/// that called these, one at a time, and not after deldrift_destroy. They must return normally (no
-/// exception, no longjmp) and must not use the triangulation that is being created or committed: such
-/// calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
+/// The callbacks are called from inside deldrift_create, deldrift_commit_timestamp and deldrift_commit_positions, and
+/// from inside deldrift_relocate_vertex, deldrift_insert_vertex and deldrift_remove_vertex where one of these takes
+/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not after
+/// deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that is
+/// being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
 /// must live as long as the triangulation.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -67,10 +68,12 @@ pub struct deldrift_options {
     pub coincidence: CoincidenceCode,
     /// 1 keeps what deldrift_changed_cells needs, at some cost for each commit; 0, the default, does not.
     pub track_changes: u32,
-    /// Called now and then during long calls; when it returns true, the call ends in DELDRIFT_CANCELLED
-    /// and has had no effect. NULL, the default, never cancels.
+    /// Called now and then during long calls, by the work done, at least once for some ten thousand cells made or
+    /// looked at one by one; when it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the
+    /// default, never cancels.
     pub cancel: Option<unsafe extern "C" fn(user_data: *mut c_void) -> bool>,
-    /// Called now and then during long calls with the part of the work that is done, from 0 to 1. NULL
+    /// Called just before cancel would be, with the part of the work that is done, from 0 to 1, as far as that is
+    /// known: it need not change from one call to the next, and begins again where a commit goes on by rebuilding. NULL
     /// is the default.
     pub progress: Option<unsafe extern "C" fn(user_data: *mut c_void, fraction: f64)>,
     /// Handed to the callbacks as it is.

@@ -54,7 +54,8 @@ pub enum deldrift_location_kind {
     DELDRIFT_LOCATION_CELL = 1,
     /// Outside the convex hull: index is that of a cell with a hull facet that faces the place.
     DELDRIFT_LOCATION_OUTSIDE = 2,
-    /// There are no cells, as the vertices do not span the dimension: index is DELDRIFT_NONE.
+    /// There are no cells, as the vertices do not span the dimension, and no vertex is at the place: index is
+    /// DELDRIFT_NONE. At the place of a vertex the kind is DELDRIFT_LOCATION_VERTEX, with or without cells.
     DELDRIFT_LOCATION_NO_CELLS = 3,
 }
 
@@ -131,7 +132,7 @@ pub unsafe extern "C" fn deldrift_cells(
 ///
 /// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
 /// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone.
+/// too small. NULL for both with capacity 0 asks for the count alone, with another it is DELDRIFT_NULL_ARGUMENT.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -173,8 +174,8 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call
-/// also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
 /// than a cache holds, stars are read fastest in the order of the ids.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_star(
@@ -209,7 +210,7 @@ pub unsafe extern "C" fn deldrift_star(
 /// cells. Computed from the star of the vertex, whatever the algorithm in force.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_tolerance(
     t: *const deldrift_triangulation,
@@ -374,7 +375,8 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
 /// The lowest id among the vertices at the place of this one, to *representative: the one that is a
 /// corner of cells. It is the vertex itself unless the vertex is hidden.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
+/// insertion is staged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_coincident_representative(
     t: *const deldrift_triangulation,

@@ -22,7 +22,7 @@ pub unsafe extern "C" fn deldrift_vertex_count(
 }
 
 /// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
-/// ids are below it, those of removed vertices too.
+/// ids are below it, those of removed vertices and of staged insertions too.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
@@ -59,7 +59,9 @@ pub unsafe extern "C" fn deldrift_staged_count(
 }
 
 /// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
-/// for later calls included, and without what the system's allocator adds to each of its arrays.
+/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any call
+/// on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
+/// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
@@ -96,7 +98,8 @@ pub unsafe extern "C" fn deldrift_statistics(
     unsafe { tell!(t, report, t => t.statistics().into()) }
 }
 
-/// Whether a vertex of this id is present, to *present: false if it has been removed or never was.
+/// Whether a vertex of this id is present, to *present: false if it has been removed, or never was, or only its
+/// insertion is staged; true if only its removal is.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
@@ -111,7 +114,8 @@ pub unsafe extern "C" fn deldrift_is_present(
 
 /// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
+/// insertion is staged. Constant time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_position(
     t: *const deldrift_triangulation,
@@ -130,7 +134,9 @@ pub unsafe extern "C" fn deldrift_position(
     }
 }
 
-/// The positions of all ids, in their order, 2 or 3 numbers each; those of removed vertices are NaN.
+/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp, of
+/// vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can be
+/// changed and handed to deldrift_commit_positions.
 ///
 /// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
 /// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -165,9 +171,9 @@ pub(super) fn pointer_for<G: Dimension>(_t: &MovingTriangulation<G>, positions: 
     positions.cast()
 }
 
-/// The position of a vertex, NaN if it has been removed.
+/// The position of a vertex, or where it will be inserted, NaN if it has been removed.
 fn position_or_nan<G: Dimension>(t: &MovingTriangulation<G>, vertex: VertexId) -> G::Point {
-    t.position(vertex).unwrap_or_else(|_| {
+    t.position_or_goal(vertex).unwrap_or_else(|| {
         let mut nowhere = G::Point::default();
         (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
         nowhere

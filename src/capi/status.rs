@@ -43,7 +43,8 @@ pub enum deldrift_status {
     DELDRIFT_REMOVED_VERTEX = 11,
     /// A move of this vertex is already staged for the next timestamp.
     DELDRIFT_DUPLICATE_MOVE = 12,
-    /// An array without a list of ids has more entries than there are ids.
+    /// An array has another number of entries than there have to be: one for each id, cell or component; or, without a
+    /// list of ids, more entries than there are ids.
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
@@ -79,6 +80,9 @@ pub enum deldrift_status {
     DELDRIFT_IO_ERROR = 28,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
     DELDRIFT_INVALID_FIELD = 29,
+    /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
+    /// and it can be neither moved with that commit nor removed twice. The message says which.
+    DELDRIFT_STAGED_VERTEX = 30,
 }
 
 use deldrift_status::*;
@@ -88,7 +92,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 30] = [
+    const ALL: [deldrift_status; 31] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -119,6 +123,7 @@ impl deldrift_status {
         DELDRIFT_INVALID_DATA,
         DELDRIFT_IO_ERROR,
         DELDRIFT_INVALID_FIELD,
+        DELDRIFT_STAGED_VERTEX,
     ];
 
     fn text(self) -> &'static CStr {
@@ -153,6 +158,7 @@ impl deldrift_status {
             DELDRIFT_INVALID_DATA => c"the data are not those of a saved triangulation",
             DELDRIFT_IO_ERROR => c"a file cannot be read or written",
             DELDRIFT_INVALID_FIELD => c"a field is invalid",
+            DELDRIFT_STAGED_VERTEX => c"the insertion or removal of the vertex is staged",
         }
     }
 }
@@ -252,6 +258,7 @@ impl Failure {
                 Error::OutOfRange { .. } => DELDRIFT_OUT_OF_RANGE,
                 Error::NoSuchVertex { .. } => DELDRIFT_NO_SUCH_VERTEX,
                 Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
+                Error::StagedVertex { .. } => DELDRIFT_STAGED_VERTEX,
                 Error::NoSuchCell { .. } => DELDRIFT_NO_SUCH_FACET,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,

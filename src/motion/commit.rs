@@ -8,6 +8,7 @@ use super::staging::Given;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
+use crate::machine::memory;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Makes the staged positions the next timestamp.
@@ -53,7 +54,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Makes the positions given the next timestamp: as [`move_all`](Self::move_all) and
-    /// [`commit_timestamp`](Self::commit_timestamp). On an error no move is staged.
+    /// [`commit_timestamp`](Self::commit_timestamp). On an error no move is staged, and insertions are staged as before.
     ///
     /// # Errors
     /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.
@@ -61,14 +62,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(vertex) = self.staging.first_staged() {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }
-        let done = if self.expect_whole(positions.len())? {
-            self.commit_given(Given::all(positions))
-        } else {
-            self.move_all(positions)?;
-            self.commit_timestamp()
-        };
+        if self.expect_whole(positions.len())? {
+            let done = self.commit_given(Given::all(positions));
+            if done.is_err() {
+                self.staging.clear();
+            }
+            return done;
+        }
+        let before = memory::copy_of(self.edits.insertions())?;
+        self.move_all(positions)?;
+        let done = self.commit_timestamp();
         if done.is_err() {
             self.staging.clear();
+            self.edits.restore_insertions(before);
         }
         done
     }

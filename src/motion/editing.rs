@@ -45,7 +45,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// more can be staged.
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`]; [`Error::RemovedVertex`] also if the removal is staged already; [`Error::OutOfMemory`].
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`]; [`Error::StagedVertex`] if the removal is staged already, or
+    /// the insertion; [`Error::OutOfMemory`].
     pub fn stage_removals(&mut self, vertices: &[VertexId]) -> Result<()> {
         self.staging.list()?;
         self.edits.reserve_removals(vertices.len(), self.site_of.len())?;
@@ -108,7 +109,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Removes and inserts one vertex after the other.
     fn edit_cells(&mut self, report: &mut CommitReport) -> Result<SingleEdits> {
-        self.order_insertions()?;
+        let insertions = self.ordered_insertions()?;
         self.with_regions(report, |t, report| {
             let mut most_link_sites = None;
             for k in 0..t.edits.removals().len() {
@@ -127,8 +128,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 report.removed += 1;
             }
             let mut near = Slot::NONE;
-            for k in 0..t.edits.insertions().len() {
-                let (id, q) = t.edits.insertions()[k];
+            for (id, q) in insertions {
                 let s = t.kernel.add_site(q, id)?;
                 t.log_vertex(id)?;
                 t.site_of[id] = s;
@@ -195,8 +195,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(false)
     }
 
-    /// Puts the insertions along a Hilbert curve, so that each walk begins near its end.
-    fn order_insertions(&mut self) -> Result<()> {
+    /// The insertions along a Hilbert curve, so that each walk begins near its end.
+    fn ordered_insertions(&self) -> Result<Vec<(VertexId, G::Point)>> {
         let insertions = self.edits.insertions();
         let mut keyed = Vec::new();
         memory::reserve_exact(&mut keyed, insertions.len())?;
@@ -205,8 +205,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut ordered = Vec::new();
         memory::reserve_exact(&mut ordered, insertions.len())?;
         ordered.extend(keyed.iter().map(|k| insertions[k.item() as usize]));
-        self.edits.reorder_insertions(ordered);
-        Ok(())
+        Ok(ordered)
     }
 
     /// Triangulates the vertices that stay, at their new positions, and those that come.

@@ -56,7 +56,7 @@ impl<G: Dimension> Edits<G> {
         }
     }
 
-    /// The insertions that wait: ids and positions.
+    /// The insertions that wait: ids, ascending, and positions.
     #[inline(always)]
     pub(super) fn insertions(&self) -> &[(VertexId, G::Point)] {
         &self.insertions
@@ -73,21 +73,41 @@ impl<G: Dimension> Edits<G> {
         memory::reserve(&mut self.insertions, n)
     }
 
-    /// Stages an insertion, for which there is room.
+    /// Stages an insertion, for which there is room, of an id above those of the others.
     pub(super) fn insert(&mut self, id: VertexId, position: G::Point) {
         self.insertions.push((id, position));
     }
 
-    /// Puts the insertions in another order.
-    pub(super) fn reorder_insertions(&mut self, ordered: Vec<(VertexId, G::Point)>) {
-        debug_assert_eq!(ordered.len(), self.insertions.len());
-        self.insertions = ordered;
+    /// Whether the insertion of a vertex is staged.
+    pub(super) fn is_coming(&self, vertex: VertexId) -> bool {
+        self.insertion(vertex).is_some()
+    }
+
+    /// Where a vertex will be inserted, if its insertion is staged.
+    pub(super) fn insertion(&self, vertex: VertexId) -> Option<&G::Point> {
+        let at = self.insertions.binary_search_by_key(&vertex, |&(id, _)| id).ok()?;
+        Some(&self.insertions[at].1)
+    }
+
+    /// Vertices that will be inserted will be where these positions say, of the first ids; they have been checked.
+    pub(super) fn place_insertions(&mut self, positions: &[G::Point]) {
+        for (id, place) in &mut self.insertions {
+            let Some(position) = positions.get(id.index()) else { return };
+            for axis in 0..G::D {
+                // Places have no negative zeros.
+                place[axis] = position[axis] + 0.0;
+            }
+        }
+    }
+
+    /// Puts the insertions back as they were.
+    pub(super) fn restore_insertions(&mut self, before: Vec<(VertexId, G::Point)>) {
+        debug_assert_eq!(before.len(), self.insertions.len());
+        self.insertions = before;
     }
 
     /// Forgets the insertions; returns their ids, descending.
     pub(super) fn forget_insertions(&mut self) -> impl Iterator<Item = VertexId> {
-        // A commit that failed has put them in another order.
-        self.insertions.sort_unstable_by_key(|&(id, _)| id);
         self.insertions.drain(..).rev().map(|(id, _)| id)
     }
 

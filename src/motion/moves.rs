@@ -11,7 +11,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::WrongCount`] if the lengths differ; [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
-    /// [`Error::DuplicateMove`] if a move of the vertex is staged already, [`Error::NotFinite`],
+    /// [`Error::StagedVertex`], [`Error::DuplicateMove`] if a move of the vertex is staged already, [`Error::NotFinite`],
     /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
     pub fn move_vertices(&mut self, vertices: &[VertexId], positions: &[G::Point]) -> Result<()> {
         if vertices.len() != positions.len() {
@@ -19,6 +19,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 argument: "count",
                 given: positions.len(),
                 wanted: vertices.len(),
+                coming: 0,
             });
         }
         self.staging.reserve(self.site_of.len(), vertices.len())?;
@@ -37,29 +38,23 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::WrongCount`] if `positions` has another length; otherwise as [`move_first`](Self::move_first).
     pub fn move_all(&mut self, positions: &[G::Point]) -> Result<()> {
-        if positions.len() != self.site_of.len() {
-            return Err(Error::WrongCount {
-                argument: "count",
-                given: positions.len(),
-                wanted: self.site_of.len(),
-            });
+        if positions.len() == self.site_of.len() {
+            self.move_first(positions)
+        } else {
+            Err(self.wrong_count(positions.len()))
         }
-        self.move_first(positions)
     }
 
-    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. Entries of
-    /// removed vertices are not read.
+    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. One whose insertion is staged
+    /// will be inserted there. Entries of removed vertices are not read, nor are those of vertices whose removal is
+    /// staged.
     ///
     /// # Errors
     /// [`Error::WrongCount`] if there are more `positions` than ids; otherwise as
     /// [`move_vertices`](Self::move_vertices).
     pub fn move_first(&mut self, positions: &[G::Point]) -> Result<()> {
         if positions.len() > self.site_of.len() {
-            return Err(Error::WrongCount {
-                argument: "count",
-                given: positions.len(),
-                wanted: self.site_of.len(),
-            });
+            return Err(self.wrong_count(positions.len()));
         }
         let n_ids = self.site_of.len();
         if self.can_stage_whole(positions.len()) {
@@ -72,15 +67,30 @@ impl<G: Dimension> MovingTriangulation<G> {
         let before = self.staging.vertices().len();
         for (index, position) in positions.iter().enumerate() {
             let vertex = VertexId::at(index);
-            if self.site_of[vertex] == SiteId::NONE || self.edits.is_leaving(vertex) {
+            let staged = if self.site_of[vertex] != SiteId::NONE {
+                if self.edits.is_leaving(vertex) {
+                    continue;
+                }
+                self.stage("vertices", index, vertex, position)
+            } else if self.edits.is_coming(vertex) {
+                check_position::<G>("positions", index, position).map(drop)
+            } else {
                 continue;
-            }
-            if let Err(error) = self.stage("vertices", index, vertex, position) {
+            };
+            if let Err(error) = staged {
                 self.staging.truncate(before);
                 return Err(error);
             }
         }
+        self.edits.place_insertions(positions);
         Ok(())
+    }
+
+    /// There are more positions than ids, or another number of them where there must be one for each.
+    #[cold]
+    fn wrong_count(&self, given: usize) -> Error {
+        let (wanted, coming) = (self.site_of.len(), self.staged_edits().0);
+        Error::WrongCount { argument: "count", given, wanted, coming }
     }
 
     /// Whether moves of the first `n` vertices can be staged whole.

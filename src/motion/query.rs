@@ -75,6 +75,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
+    /// Where a vertex of this id is at the current timestamp, or where it will be inserted if that is staged.
+    pub fn position_or_goal(&self, vertex: VertexId) -> Option<G::Point> {
+        match self.site_of.get(vertex.index()) {
+            Some(&s) if s != SiteId::NONE => Some(self.kernel.site(s).point),
+            _ => self.edits.insertion(vertex).copied(),
+        }
+    }
+
     /// Indices of the finite cells around the place of a vertex, in no particular order, in `out`, which is cleared
     /// first.
     ///

@@ -15,7 +15,7 @@ use super::switching::Switching;
 use super::transaction::Transaction;
 use super::views::Views;
 use crate::delaunay::{Delaunay, Dimension};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, StagedEdit};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
@@ -118,7 +118,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<SiteId> {
         let s = self.present_site(argument, index, vertex)?;
         if self.edits.is_leaving(vertex) {
-            return Err(Error::RemovedVertex { argument, index, vertex });
+            return Err(Error::StagedVertex { argument, index, vertex, staged: StagedEdit::Removal });
         }
         Ok(s)
     }
@@ -131,9 +131,21 @@ impl<G: Dimension> MovingTriangulation<G> {
         vertex: VertexId,
     ) -> Result<SiteId> {
         match self.site_of.get(vertex.index()) {
-            None => Err(Error::NoSuchVertex { argument, index, vertex, ids: self.site_of.len() }),
-            Some(&SiteId::NONE) => Err(Error::RemovedVertex { argument, index, vertex }),
-            Some(&s) => Ok(s),
+            Some(&s) if s != SiteId::NONE => Ok(s),
+            _ => Err(self.absent(argument, index, vertex)),
+        }
+    }
+
+    /// Why a vertex is not there.
+    #[cold]
+    fn absent(&self, argument: &'static str, index: usize, vertex: VertexId) -> Error {
+        let ids = self.site_of.len();
+        if vertex.index() >= ids {
+            Error::NoSuchVertex { argument, index, vertex, ids }
+        } else if self.edits.is_coming(vertex) {
+            Error::StagedVertex { argument, index, vertex, staged: StagedEdit::Insertion }
+        } else {
+            Error::RemovedVertex { argument, index, vertex }
         }
     }
 

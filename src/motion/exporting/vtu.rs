@@ -101,13 +101,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         Field::check_names("vertex_fields", vertex_fields)?;
         Field::check_names("cell_fields", cell_fields)?;
         let (cells, ranks) = (self.cells()?, self.ranks()?);
-        let sides = [(vertex_fields, self.id_count()), (cell_fields, cells.corners.len())];
-        for (fields, n) in sides {
+        let n_coming = self.staged_edits().0;
+        let sides = [(vertex_fields, self.id_count(), n_coming), (cell_fields, cells.corners.len(), 0)];
+        for (fields, n, coming) in sides {
             for field in fields {
                 let wanted = n.saturating_mul(field.components);
                 if field.components == 0 || field.values.len() != wanted {
                     let given = field.values.len();
-                    return Err(Error::WrongCount { argument: "values", given, wanted }.into());
+                    let coming = coming.saturating_mul(field.components);
+                    return Err(Error::WrongCount { argument: "values", given, wanted, coming }.into());
                 }
             }
         }

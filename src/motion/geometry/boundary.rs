@@ -60,7 +60,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if given == wanted {
             Ok(())
         } else {
-            Err(Error::WrongCount { argument: "mask_count", given, wanted })
+            Err(Error::WrongCount { argument: "mask_count", given, wanted, coming: 0 })
         }
     }
 

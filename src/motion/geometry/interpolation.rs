@@ -61,7 +61,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let VertexValues { values, n_values } = given;
         let wanted = self.id_count() * n_values;
         if values.len() != wanted {
-            return Err(Error::WrongCount { argument: "the length of values", given: values.len(), wanted });
+            let (given, coming) = (values.len(), self.staged_edits().0 * n_values);
+            return Err(Error::WrongCount { argument: "the length of values", given, wanted, coming });
         }
         for (index, position) in positions.iter().enumerate() {
             check_position::<G>("positions", index, position)?;

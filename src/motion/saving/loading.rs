@@ -179,6 +179,7 @@ fn of_staged(error: Error, vertices: &[VertexId]) -> LoadError {
     match error {
         Error::NoSuchVertex { vertex, .. }
         | Error::RemovedVertex { vertex, .. }
+        | Error::StagedVertex { vertex, .. }
         | Error::DuplicateMove { vertex, .. } => Damage::Staged { vertex }.into(),
         Error::NotFinite { index, axis, value, .. } | Error::OutOfRange { index, axis, value, .. } => {
             Damage::Position { vertex: vertices[index], axis, value }.into()

@@ -37,15 +37,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`], before the first byte; and those of `put`, with which it ends.
     pub fn save<E: From<Error>>(&self, mut put: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
         let cells = self.cells()?;
-        let mut insertions = memory::copy_of(self.edits.insertions())?;
-        insertions.sort_unstable_by_key(|&(id, _)| id);
+        let insertions = self.edits.insertions();
         let mut checksum = crc32fast::Hasher::new();
         let mut chunks = Chunks::new(|bytes: &[u8]| {
             checksum.update(bytes);
             put(bytes)
         });
-        self.save_places(&insertions, &mut chunks)?;
-        self.save_numbers(cells, &insertions, &mut chunks)?;
+        self.save_places(insertions, &mut chunks)?;
+        self.save_numbers(cells, insertions, &mut chunks)?;
         chunks.end()?;
         put(&checksum.finalize().to_le_bytes())
     }
