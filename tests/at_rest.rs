@@ -73,7 +73,7 @@ fn what_is_known_decides<G: Dimension>(n_shared: usize) {
     for n_leaps in 2..12 {
         let context = format!("{}D, {n_shared} shared, after {n_leaps} leaps", G::D);
         let (mut t, mut positions) = after_leaps::<G>(n_leaps, n_shared);
-        let mut expect = |t: &mut MovingTriangulation<G>, positions: &[G::Point], moved, what: &str| {
+        let expect = |t: &mut MovingTriangulation<G>, positions: &[G::Point], moved, what: &str| {
             let report = commit(t, positions);
             assert_eq!((report.moved, report.rebuilds), (moved, 0), "{what}, {context}");
             check(t, positions, &context);
@@ -129,7 +129,7 @@ fn edits_of_vertices_at_rest_are_no_reason_to_rebuild() {
 #[test]
 fn lines_rest() {
     let line: Vec<_> = (0..50).map(|k| [f64::from(k), 2.0 * f64::from(k)]).collect();
-    for &algorithm in Algorithm::ALL {
+    for algorithm in Algorithm::ALL {
         let options = Options { algorithm, ..Options::default() };
         let mut t = MovingTriangulation::<Plane>::new(&line, options).expect("room");
         for _ in 0..3 {

@@ -5,9 +5,9 @@ use crate::common::exact::representatives;
 use crate::common::history::Snapshot;
 use crate::common::inputs::{Kind, draw, draw_one};
 use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
-use deldrift::Error;
 use deldrift::motion::Level;
-use deldrift::motion::{Algorithm, CoincidencePolicy, MovingTriangulation, Options};
+use deldrift::motion::{Algorithm, CoincidencePolicy, MovingTriangulation, Options, Saved};
+use deldrift::{Error, StagedEdit};
 use deldrift::{Dimension, Plane, Space, VertexId};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -249,15 +249,110 @@ fn ids_of_discarded_insertions_are_given_again() {
     assert_eq!((t.id_count(), t.stage_insertions(&[[0.0, 1.0]])), (2, Ok(vertex(2))));
     assert_eq!(
         t.stage_removals(&ids([0, 2])),
-        Err(Error::RemovedVertex { argument: "vertices", index: 1, vertex: vertex(2) })
+        Err(Error::StagedVertex {
+            argument: "vertices",
+            index: 1,
+            vertex: vertex(2),
+            staged: StagedEdit::Insertion
+        })
     );
     assert_eq!(t.staged_edits(), (1, 0));
     t.stage_removals(&[vertex(0)]).expect("it is present");
-    let again = Error::RemovedVertex { argument: "vertices", index: 0, vertex: vertex(0) };
+    let staged = StagedEdit::Removal;
+    let again = Error::StagedVertex { argument: "vertices", index: 0, vertex: vertex(0), staged };
     assert_eq!(t.stage_removals(&[vertex(0)]), Err(again.clone()));
     assert_eq!(t.move_vertices(&[vertex(0)], &[[5.0, 5.0]]), Err(again));
     t.commit_timestamp().expect("room");
     assert_eq!((t.vertex_count(), t.is_present(vertex(0)), t.is_present(vertex(2))), (2, false, true));
+}
+
+/// Positions by id say where vertices whose insertion is staged will be; those of vertices whose removal is staged are
+/// not read. The oracle is a fresh build of what was said last.
+#[test]
+fn positions_of_all_ids_place_staged_insertions() {
+    let start = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.0, 2.0]];
+    // Few edits, that are made one by one, and many, for which all is rebuilt.
+    for n in [40, 0] {
+        let mut points = start.to_vec();
+        points.extend((0..n).map(|k| [f64::from(k) * 0.1, 5.0 + f64::from(k * k) * 0.01]));
+        let mut t = MovingTriangulation::<Plane>::new(&points, Options::default()).expect("a build");
+        let first = t.stage_insertions(&[[2.0, 2.0], [3.0, -0.0]]).expect("room");
+        t.stage_removals(&[vertex(1)]).expect("it is there");
+        assert_eq!([first, vertex(1)].map(|v| t.position_or_goal(v)), [Some([2.0, 2.0]), Some([4.0, 0.0])]);
+        let mut all = points.clone();
+        all.extend([[7.0, 7.0], [3.0, -0.0]]);
+        all[1] = [f64::NAN; 2];
+        // All or nothing.
+        let mut bad = all.clone();
+        bad[first.index() + 1][1] = f64::INFINITY;
+        let index = first.index() + 1;
+        let error = Error::NotFinite { argument: "positions", index, axis: 1, value: f64::INFINITY };
+        for staged in [t.move_all(&bad), t.commit_positions(&bad).map(drop)] {
+            assert_eq!(staged, Err(error.clone()));
+        }
+        assert_eq!((t.staged_count(), t.position_or_goal(first)), (0, Some([2.0, 2.0])));
+        let (given, wanted) = (points.len(), all.len());
+        let error = Error::WrongCount { argument: "count", given, wanted, coming: 2 };
+        assert!(error.to_string().ends_with("with 2 vertices whose insertion is staged"), "{error}");
+        assert_eq!(t.commit_positions(&points).map(drop), Err(error));
+        let report = t.commit_positions(&all).expect("room");
+        assert_eq!((report.moved, report.inserted, report.removed), (0, 2, 1));
+        let mut left: Vec<_> = all.into_iter().map(Some).collect();
+        left[1] = None;
+        assert_eq!(t.position(first), Ok([7.0, 7.0]));
+        assert_same_cells(&cell_set(&t), &fresh_cells::<Plane>(&left), || format!("{n} more"));
+        // Without a commit in the same call, and then moved again.
+        let second = t.stage_insertions(&[[-3.0, 1.0]]).expect("room");
+        left.push(Some([-2.0, -1.0]));
+        let places: Vec<_> = left.iter().map(|p| p.unwrap_or([f64::NAN; 2])).collect();
+        t.move_all(&places).expect("good places");
+        assert_eq!(t.position_or_goal(second), Some([-2.0, -1.0]));
+        t.commit_timestamp().expect("room");
+        assert_same_cells(&cell_set(&t), &fresh_cells::<Plane>(&left), || format!("{n} more, again"));
+    }
+}
+
+/// A step in one call that is refused leaves staged insertions where they were.
+#[test]
+fn refused_positions_leave_staged_insertions_in_place() {
+    let start = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.0, 2.0]];
+    let options = Options { coincidence: CoincidencePolicy::Reject, ..Options::default() };
+    let mut t = MovingTriangulation::<Plane>::new(&start, options).expect("a build");
+    let first = t.stage_insertions(&[[2.0, 2.0]]).expect("room");
+    let mut all = start.to_vec();
+    all.push([4.0, 4.0]);
+    let error = Error::Coincident { vertex: vertex(2), other: first };
+    assert_eq!(t.commit_positions(&all).map(drop), Err(error));
+    assert_eq!((t.staged_count(), t.staged_edits(), t.position_or_goal(first)), (0, (1, 0), Some([2.0, 2.0])));
+    t.commit_timestamp().expect("room");
+    assert_eq!(t.position(first), Ok([2.0, 2.0]));
+}
+
+/// Moves and removals that are forgotten one by one are forgotten, whatever is asked for in between.
+#[test]
+fn moves_of_removed_vertices_are_forgotten() {
+    let points: Vec<_> = (0..40).map(|k| [f64::from(k), f64::from(k * k % 17)]).collect();
+    let mut t = MovingTriangulation::<Plane>::new(&points, Options::default()).expect("a build");
+    let aims: Vec<_> = points.iter().map(|p| [p[0] + 0.25, p[1]]).collect();
+    t.move_all(&aims).expect("good places");
+    t.stage_removals(&ids([3, 9, 20])).expect("they are there");
+    t.stage_removals(&ids([39])).expect("it is there");
+    t.remove_vertex(vertex(9)).expect("it is there");
+    t.remove_vertex(vertex(12)).expect("it is there");
+    assert_eq!((t.staged_count(), t.staged_edits()), (35, (0, 3)));
+    let mut copies = vec![t.try_clone(None).expect("room")];
+    let bytes = t.saved().expect("room");
+    let saved = Saved::of(&bytes).expect("good data");
+    copies.push(MovingTriangulation::load(&saved, Options::default()).expect("good data"));
+    copies.push(t);
+    for mut t in copies {
+        assert_eq!((t.staged_count(), t.staged_edits()), (35, (0, 3)));
+        let report = t.commit_timestamp().expect("room");
+        assert_eq!((report.moved, report.removed), (35, 3));
+        let mut left: Vec<_> = aims.iter().copied().map(Some).collect();
+        [3, 9, 12, 20, 39].iter().for_each(|&v| left[v] = None);
+        assert_same_cells(&cell_set(&t), &fresh_cells::<Plane>(&left), || "committed".into());
+    }
 }
 
 /// Ids of discarded insertions are given again, unless others have been given since.

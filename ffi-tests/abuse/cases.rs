@@ -268,12 +268,13 @@ impl Cases<'_> {
         let removes = self.function.name == "deldrift_stage_removals";
         // Those that only read do not mind what is staged, nor what is listed twice.
         let reads = !self.function.changes_t();
-        let twice = if removes { "REMOVED_VERTEX" } else { "DUPLICATE_MOVE" };
+        let twice = if removes { "STAGED_VERTEX" } else { "DUPLICATE_MOVE" };
         for (column, given, value, status, said) in [
             ("id", "the number of ids", "(uint32_t)n_ids", "NO_SUCH_VERTEX", "%u\", (unsigned)n_ids"),
             ("id", "UINT32_MAX", "UINT32_MAX", "NO_SUCH_VERTEX", "4294967295\""),
             ("removed", "a removed vertex", "REMOVED", "REMOVED_VERTEX", "5\""),
-            ("removed", "one to be removed", "LEAVING", "REMOVED_VERTEX", "6\""),
+            ("removed", "one to be removed", "LEAVING", "STAGED_VERTEX", "6\""),
+            ("removed", "one to be inserted", "COMING", "STAGED_VERTEX", "13\""),
             ("value", "one twice", "0", twice, "0\""),
         ] {
             let wrong = format!("bad_ids(1, {value})");
@@ -327,6 +328,7 @@ impl Cases<'_> {
                     ("id", "the number of ids", "(uint32_t)n_ids", "NO_SUCH_VERTEX"),
                     ("id", "UINT32_MAX", "UINT32_MAX", "NO_SUCH_VERTEX"),
                     ("removed", "a removed vertex", "REMOVED", "REMOVED_VERTEX"),
+                    ("removed", "one to be inserted", "COMING", "STAGED_VERTEX"),
                 ] {
                     if role == Role::AnyId {
                         self.legal(column, at, given, value);

@@ -11,7 +11,7 @@
 #include <stdarg.h>
 #include <unistd.h>
 
-enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, ROOM = 1024, BYTES = 16384 };
+enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, COMING = COUNT, ROOM = 1024, BYTES = 16384 };
 
 // All that calls write to.
 typedef struct {

@@ -164,7 +164,7 @@ static void edits_are_staged_all_or_none(void) {
     size_t ids = 0;
     CHECK_STATUS(deldrift_stage_insertions(t, bad, 2, &first), DELDRIFT_NOT_FINITE);
     CHECK_MESSAGE("positions[1], coordinate 1");
-    CHECK_STATUS(deldrift_stage_removals(t, twice, 2), DELDRIFT_REMOVED_VERTEX);
+    CHECK_STATUS(deldrift_stage_removals(t, twice, 2), DELDRIFT_STAGED_VERTEX);
     CHECK_MESSAGE("vertices[1] is 4");
     CHECK_STATUS(deldrift_stage_removals(t, unknown, 2), DELDRIFT_NO_SUCH_VERTEX);
     OK(deldrift_stage_removals(t, NULL, 0));
@@ -173,7 +173,7 @@ static void edits_are_staged_all_or_none(void) {
     CHECK(first == 5 && ids == 5);
     OK(deldrift_stage_insertions(t, good, 2, &first));
     OK(deldrift_stage_removals(t, twice, 1));
-    CHECK_STATUS(deldrift_move_vertex(t, 4, good), DELDRIFT_REMOVED_VERTEX);
+    CHECK_STATUS(deldrift_move_vertex(t, 4, good), DELDRIFT_STAGED_VERTEX);
     OK(deldrift_discard_moves(t));
     OK(deldrift_id_count(t, &ids));
     CHECK(first == 5 && ids == 5);

@@ -71,7 +71,7 @@ impl History<'_> {
         let (t, Some(v)) = (self.t, self.some()) else { return };
         let q = self.nudged(v);
         let wanted = if self.m.leaving.contains(&v) {
-            DELDRIFT_REMOVED_VERTEX
+            DELDRIFT_STAGED_VERTEX
         } else if self.m.staged.contains_key(&v) {
             DELDRIFT_DUPLICATE_MOVE
         } else {
@@ -103,12 +103,15 @@ impl History<'_> {
         if self.s.below(2) == 0 && moves.len() == self.m.present().count() {
             let mut numbers = vec![f64::NAN; n * d];
             moves.iter().for_each(|(v, q)| numbers[*v as usize * d..][..d].copy_from_slice(&q[..d]));
+            let coming = self.goals_of_coming();
+            coming.iter().for_each(|(v, q)| numbers[*v as usize * d..][..d].copy_from_slice(&q[..d]));
             let is_double = moves.iter().any(|(v, _)| self.m.staged.contains_key(v));
             let wanted = if is_double { DELDRIFT_DUPLICATE_MOVE } else { DELDRIFT_OK };
             self.expect(wanted, || c!(deldrift_move_vertices(t, null(), numbers.as_ptr(), n)));
             if wanted == DELDRIFT_OK {
                 let leaving = &self.m.leaving;
                 self.m.staged.extend(moves.into_iter().filter(|(v, _)| !leaving.contains(v)));
+                self.m.coming = coming;
             }
         } else {
             let moves: Vec<(u32, Place)> = moves.into_iter().filter(|&(v, _)| self.is_free(v)).collect();
@@ -134,6 +137,17 @@ impl History<'_> {
         self.m.coming.extend((first..).zip(places));
         self.m.positions.resize(self.m.positions.len() + count, None);
         self.check();
+    }
+
+    /// Where vertices whose insertion is staged are to be now: some elsewhere.
+    fn goals_of_coming(&mut self) -> Vec<(u32, Place)> {
+        let mut coming = self.m.coming.clone();
+        for (_, q) in &mut coming {
+            if self.s.below(2) == 0 {
+                *q = self.place();
+            }
+        }
+        coming
     }
 
     pub(super) fn stage_removals(&mut self) {
@@ -191,6 +205,10 @@ impl History<'_> {
         let (t, d, n) = (self.t, self.m.d, self.m.positions.len());
         let mut numbers = vec![f64::NAN; n * d];
         let mut after = self.m.committed();
+        for (v, q) in self.goals_of_coming() {
+            numbers[v as usize * d..][..d].copy_from_slice(&q[..d]);
+            after[v as usize] = Some(q);
+        }
         for v in self.m.present() {
             numbers[v as usize * d..][..d].copy_from_slice(&self.m.at(v).expect("present")[..d]);
         }

@@ -151,11 +151,17 @@ impl History<'_> {
             let (mut present, mut representative) = (true, 77);
             self.is_ok(c!(deldrift_is_present(t, v, &mut present)));
             assert_eq!(present, wanted.is_some(), "vertex {v} is present");
-            let absent = if v as usize == n { DELDRIFT_NO_SUCH_VERTEX } else { DELDRIFT_REMOVED_VERTEX };
+            let absent = match m.goal(v) {
+                Some(_) => DELDRIFT_STAGED_VERTEX,
+                None if v as usize == n => DELDRIFT_NO_SUCH_VERTEX,
+                None => DELDRIFT_REMOVED_VERTEX,
+            };
             let status = c!(deldrift_coincident_representative(t, v, &mut representative));
             let Some(p) = wanted else {
                 assert_eq!((status, representative), (absent, 77), "vertex {v}");
-                assert!(v as usize == n || numbers[v as usize * m.d..][..m.d].iter().all(|x| x.is_nan()));
+                let goal = m.goal(v).unwrap_or([f64::NAN; 3]);
+                let is_there = |(x, y): (&f64, &f64)| x.to_bits() == y.to_bits() || x.is_nan() && y.is_nan();
+                assert!(v as usize == n || numbers[v as usize * m.d..][..m.d].iter().zip(&goal).all(is_there));
                 continue;
             };
             assert_eq!((status, representative), (DELDRIFT_OK, representatives[v as usize]), "vertex {v}");

@@ -39,6 +39,15 @@ impl Model {
         self.positions.get(v as usize).copied().flatten()
     }
 
+    /// Where a vertex will be inserted, if that is staged.
+    pub fn goal(&self, v: u32) -> Option<Place> {
+        self.coming.iter().find(|&&(id, _)| id == v).map(|&(_, p)| p)
+    }
+
+    pub fn is_coming(&self, v: u32) -> bool {
+        self.goal(v).is_some()
+    }
+
     /// The lowest id at a place.
     pub fn first_at(&self, p: &Place) -> Option<u32> {
         self.positions.iter().position(|q| q.as_ref() == Some(p)).map(|v| v as u32)

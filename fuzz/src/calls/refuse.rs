@@ -32,11 +32,12 @@ impl History<'_> {
     /// An id that names no vertex, and what is said of it.
     fn absent(&mut self) -> (u32, deldrift_status) {
         let n = self.m.positions.len() as u32;
-        let removed: Vec<u32> = (0..n).filter(|&v| self.m.at(v).is_none()).collect();
-        if removed.is_empty() || self.s.below(2) == 0 {
+        let absent: Vec<u32> = (0..n).filter(|&v| self.m.at(v).is_none()).collect();
+        if absent.is_empty() || self.s.below(2) == 0 {
             (self.s.pick(&[n, n + 1, u32::MAX, u32::MAX - 1]), DELDRIFT_NO_SUCH_VERTEX)
         } else {
-            (removed[self.s.below(removed.len())], DELDRIFT_REMOVED_VERTEX)
+            let v = absent[self.s.below(absent.len())];
+            (v, if self.m.is_coming(v) { DELDRIFT_STAGED_VERTEX } else { DELDRIFT_REMOVED_VERTEX })
         }
     }
 
@@ -66,7 +67,7 @@ impl History<'_> {
             self.expect(DELDRIFT_DUPLICATE_MOVE, || {
                 c!(deldrift_move_vertices(t, twice.as_ptr(), numbers.as_ptr(), 2))
             });
-            self.expect(DELDRIFT_REMOVED_VERTEX, || c!(deldrift_stage_removals(t, twice.as_ptr(), 2)));
+            self.expect(DELDRIFT_STAGED_VERTEX, || c!(deldrift_stage_removals(t, twice.as_ptr(), 2)));
         }
     }
 
