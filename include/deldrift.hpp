@@ -105,7 +105,8 @@ public:
     void move_vertex(std::uint32_t vertex, span<const double> position) {
         check(deldrift_move_vertex(native(), vertex, point(position)));
     }
-    // positions: those of the first ids, as many as there are, or of the ids in vertices.
+    // positions: those of the first ids, as many as there are, or of the ids in vertices. Without ids, the entry of a
+    // vertex whose insertion is staged is where it will be inserted.
     void move_vertices(const Positions &positions) {
         const span<const double> numbers = gathered(positions);
         check(deldrift_move_vertices(native(), nullptr, numbers.data(), count_of("positions", numbers)));
@@ -122,7 +123,8 @@ public:
         return report;
     }
 
-    // positions: those of all ids, without moves staged before.
+    // positions: those of all ids, without moves staged before. A vertex whose insertion is staged is inserted at its
+    // entry.
     deldrift_commit_report commit_positions(const Positions &positions) {
         const span<const double> numbers = gathered(positions);
         deldrift_commit_report report;

@@ -54,8 +54,9 @@ fn after_leaps<G: Dimension>(n_leaps: usize, n_shared: usize) -> (MovingTriangul
     let rng = &mut Rng::new(n_leaps as u64);
     let n = 1_500;
     let mut draw = || -> Vec<G::Point> {
-        let mut points: Vec<_> =
-            (0..n - n_shared).map(|_| point::<G>(|_| rng.below(1 << 20) as f64 / f64::from(1 << 20))).collect();
+        let mut points: Vec<_> = (0..n - n_shared)
+            .map(|_| point::<G>(|_| rng.below(1 << 20) as f64 / f64::from(1 << 20)))
+            .collect();
         points.extend_from_within(..n_shared);
         points
     };

@@ -7,8 +7,8 @@ use crate::common::inputs::{Kind, draw, draw_one};
 use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, ids, point, seeds, vertex, vertices};
 use deldrift::motion::Level;
 use deldrift::motion::{Algorithm, CoincidencePolicy, MovingTriangulation, Options, Saved};
-use deldrift::{Error, StagedEdit};
 use deldrift::{Dimension, Plane, Space, VertexId};
+use deldrift::{Error, StagedEdit};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
@@ -323,7 +323,10 @@ fn refused_positions_leave_staged_insertions_in_place() {
     all.push([4.0, 4.0]);
     let error = Error::Coincident { vertex: vertex(2), other: first };
     assert_eq!(t.commit_positions(&all).map(drop), Err(error));
-    assert_eq!((t.staged_count(), t.staged_edits(), t.position_or_goal(first)), (0, (1, 0), Some([2.0, 2.0])));
+    assert_eq!(
+        (t.staged_count(), t.staged_edits(), t.position_or_goal(first)),
+        (0, (1, 0), Some([2.0, 2.0]))
+    );
     t.commit_timestamp().expect("room");
     assert_eq!(t.position(first), Ok([2.0, 2.0]));
 }

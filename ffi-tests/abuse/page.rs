@@ -12,7 +12,11 @@ const COLUMNS: [(&str, &str, &str); 15] = [
     ("misaligned", "misaligned", "a pointer is an odd address"),
     ("dimension", "dimension", "a dimension other than 2 and 3, or not one of the function"),
     ("id", "id", "an id, a cell or a corner that does not exist"),
-    ("removed", "removed", "the id of a vertex that has been removed, or is to be, or is only to be inserted"),
+    (
+        "removed",
+        "removed",
+        "the id of a vertex that has been removed, or is to be, or is only to be inserted",
+    ),
     ("nan", "NaN", "a number is NaN"),
     ("infinite", "infinite", "a number is infinite"),
     ("range", "range", "a coordinate is 2e57 or -2e57"),

@@ -26,15 +26,15 @@ static void coming_vertices_are_not_there(void) {
     static const double place[] = {2, 2}, aim[] = {7, 7};
     uint32_t first = 77, coming = 5, number = 77;
     size_t count = 77, ids = 0, vertices = 0;
-    double numbers[12];
+    double values[12];
     OK(deldrift_stage_insertions(t, place, 1, &first));
     OK(deldrift_id_count(t, &ids));
     OK(deldrift_vertex_count(t, &vertices));
     CHECK(first == coming && ids == 6 && vertices == 5 && !is_present(t, coming));
-    INSERTION_IS_STAGED(deldrift_position(t, coming, numbers));
+    INSERTION_IS_STAGED(deldrift_position(t, coming, values));
     INSERTION_IS_STAGED(deldrift_star(t, coming, NULL, 0, &count));
     INSERTION_IS_STAGED(deldrift_ordered_star(t, coming, NULL, 0, &count));
-    INSERTION_IS_STAGED(deldrift_tolerance(t, coming, numbers));
+    INSERTION_IS_STAGED(deldrift_tolerance(t, coming, values));
     INSERTION_IS_STAGED(deldrift_coincident_representative(t, coming, &number));
     INSERTION_IS_STAGED(deldrift_cells_around(t, &coming, 1, NULL, 0, &count));
     INSERTION_IS_STAGED(deldrift_move_vertex(t, coming, aim));
@@ -48,11 +48,11 @@ static void coming_vertices_are_not_there(void) {
     OK(deldrift_locate(t, place, &location));
     CHECK(location.kind == DELDRIFT_LOCATION_CELL);
     // In arrays by id it is absent, but its place is told.
-    OK(deldrift_voronoi_volumes(t, NULL, NULL, numbers, 6, &count));
-    CHECK(count == 6 && isnan(numbers[5]));
-    OK(deldrift_copy_positions(t, numbers, 6, &count));
-    CHECK(count == 6 && numbers[10] == 2 && numbers[11] == 2);
-    CHECK_STATUS(deldrift_commit_positions(t, numbers, 5, NULL), DELDRIFT_WRONG_COUNT);
+    OK(deldrift_voronoi_volumes(t, NULL, NULL, values, 6, &count));
+    CHECK(count == 6 && isnan(values[5]));
+    OK(deldrift_copy_positions(t, values, 6, &count));
+    CHECK(count == 6 && values[10] == 2 && values[11] == 2);
+    CHECK_STATUS(deldrift_commit_positions(t, values, 5, NULL), DELDRIFT_WRONG_COUNT);
     CHECK_MESSAGE("count is 5, but must be 6, with one vertex whose insertion is staged");
     deldrift_destroy(t);
 }
@@ -64,21 +64,21 @@ static void coming_vertices_are_placed_by_positions_of_all(void) {
         static const double place[] = {2, 2};
         uint32_t first = 77;
         size_t count = 77, staged = 77;
-        double numbers[12];
+        double values[12];
         deldrift_commit_report report;
         OK(deldrift_stage_insertions(t, place, 1, &first));
-        OK(deldrift_copy_positions(t, numbers, 6, &count));
-        numbers[10] = NAN;
-        CHECK_STATUS(deldrift_move_vertices(t, NULL, numbers, 6), DELDRIFT_NOT_FINITE);
-        CHECK_STATUS(deldrift_commit_positions(t, numbers, 6, NULL), DELDRIFT_NOT_FINITE);
+        OK(deldrift_copy_positions(t, values, 6, &count));
+        values[10] = NAN;
+        CHECK_STATUS(deldrift_move_vertices(t, NULL, values, 6), DELDRIFT_NOT_FINITE);
+        CHECK_STATUS(deldrift_commit_positions(t, values, 6, NULL), DELDRIFT_NOT_FINITE);
         CHECK_MESSAGE("positions[5], coordinate 0");
         OK(deldrift_staged_count(t, &staged));
         CHECK(staged == 0);
-        numbers[10] = numbers[11] = 7;
+        values[10] = values[11] = 7;
         if (in_one) {
-            OK(deldrift_commit_positions(t, numbers, 6, &report));
+            OK(deldrift_commit_positions(t, values, 6, &report));
         } else {
-            OK(deldrift_move_vertices(t, NULL, numbers, 6));
+            OK(deldrift_move_vertices(t, NULL, values, 6));
             OK(deldrift_commit_timestamp(t, &report));
         }
         CHECK(report.inserted == 1 && report.moved == 0);
@@ -140,6 +140,20 @@ static void leaving_vertices_are_removed_at_once(void) {
     deldrift_destroy(t);
 }
 
+// All that can be read.
+typedef struct {
+    numbers numbers;
+    arrays arrays;
+} state;
+
+static state look(const deldrift_triangulation *t) {
+    return (state){numbers_of(t), arrays_of(t)};
+}
+
+static bool are_equal(state a, state b) {
+    return memcmp(&a, &b, sizeof a) == 0;
+}
+
 typedef struct {
     deldrift_triangulation *t;
     size_t calls, last;
@@ -173,12 +187,10 @@ static void callbacks_come_from_steps_in_one_call(void) {
     a = (asked){t, 0, 0, -1};
     OK(deldrift_commit_positions(t, others, count, NULL));
     CHECK(a.calls > 0 && a.fraction >= 0 && a.fraction <= 1);
-    state before, after;
-    look(t, &before);
+    const state before = look(t);
     a = (asked){t, 0, 1, -1};
     CHECK_STATUS(deldrift_commit_positions(t, positions, count, NULL), DELDRIFT_CANCELLED);
-    look(t, &after);
-    CHECK(memcmp(&before, &after, sizeof before) == 0);
+        CHECK(are_equal(before, look(t)));
     deldrift_destroy(t);
     free(positions);
     free(others);
@@ -201,17 +213,14 @@ static void callbacks_come_from_calls_on_one_vertex(void) {
     options.cancel = cancel;
     options.user_data = &a;
     deldrift_triangulation *t = create(3, curve, N, &options);
-    state before, after;
-    look(t, &before);
+    const state before = look(t);
     for (size_t last = 1; last < 4; last++) {
         a = (asked){t, 0, last, -1};
         CHECK_STATUS(deldrift_remove_vertex(t, 7), DELDRIFT_CANCELLED);
-        look(t, &after);
-        CHECK(a.calls == last && memcmp(&before, &after, sizeof before) == 0);
+                CHECK(a.calls == last && are_equal(before, look(t)));
         a = (asked){t, 0, last, -1};
         CHECK_STATUS(deldrift_relocate_vertex(t, 7, aim), DELDRIFT_CANCELLED);
-        look(t, &after);
-        CHECK(a.calls == last && memcmp(&before, &after, sizeof before) == 0);
+                CHECK(a.calls == last && are_equal(before, look(t)));
     }
     a = (asked){t, 0, 0, -1};
     OK(deldrift_relocate_vertex(t, 7, aim));
@@ -318,14 +327,12 @@ static void memory_may_grow_where_nothing_else_changes(void) {
     size_t bytes = memory_bytes(t);
     cells_of(t);
     CHECK(memory_bytes(t) > bytes);
-    state before, after;
-    look(t, &before);
+    const state before = look(t);
     bytes = memory_bytes(t);
     a = (asked){t, 0, 1, -1};
     CHECK_STATUS(deldrift_commit_positions(t, others, count, NULL), DELDRIFT_CANCELLED);
     CHECK(memory_bytes(t) > bytes);
-    look(t, &after);
-    CHECK(memcmp(&before, &after, sizeof before) == 0);
+        CHECK(are_equal(before, look(t)));
     bytes = memory_bytes(t);
     size_t ids = 0;
     OK(deldrift_compact(t, NULL, 0, &ids));

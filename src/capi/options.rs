@@ -68,9 +68,10 @@ pub struct deldrift_options {
     pub coincidence: CoincidenceCode,
     /// 1 keeps what deldrift_changed_cells needs, at some cost for each commit; 0, the default, does not.
     pub track_changes: u32,
-    /// Called now and then during long calls, by the work done, at least once for some ten thousand cells made or
-    /// looked at one by one; when it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the
-    /// default, never cancels.
+    /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
+    /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
+    /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
+    /// never cancels.
     pub cancel: Option<unsafe extern "C" fn(user_data: *mut c_void) -> bool>,
     /// Called just before cancel would be, with the part of the work that is done, from 0 to 1, as far as that is
     /// known: it need not change from one call to the next, and begins again where a commit goes on by rebuilding. NULL

@@ -24,7 +24,10 @@ pub(crate) struct Pace {
 
 impl fmt::Debug for Pace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Pace").field("work", &self.work).field("fraction", &self.fraction).finish_non_exhaustive()
+        f.debug_struct("Pace")
+            .field("work", &self.work)
+            .field("fraction", &self.fraction)
+            .finish_non_exhaustive()
     }
 }
 

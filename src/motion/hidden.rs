@@ -213,7 +213,9 @@ impl Hidden {
             memory::lengthen(&mut representatives, n, VertexId::NONE)?;
         }
         // Who is above another has a lower id.
-        for (&id, branches) in ids.iter().zip(&self.branches).filter(|(_, branches)| **branches != NO_BRANCHES) {
+        for (&id, branches) in
+            ids.iter().zip(&self.branches).filter(|(_, branches)| **branches != NO_BRANCHES)
+        {
             if representatives[id] == VertexId::NONE {
                 representatives[id] = id;
             }
@@ -279,7 +281,10 @@ mod tests {
                 events.push((v, before));
                 let first = *there.first().expect("some are there");
                 assert_eq!(hidden.count(), there.len() - 1);
-                assert_eq!(hidden.first_behind(first), there.iter().nth(1).copied().unwrap_or(VertexId::NONE));
+                assert_eq!(
+                    hidden.first_behind(first),
+                    there.iter().nth(1).copied().unwrap_or(VertexId::NONE)
+                );
                 let pair = there.iter().nth(1).map(|&second| (first, second));
                 assert_eq!(hidden.first_pair(), pair);
                 if step % (1 + n_ids / 16) == 0 {

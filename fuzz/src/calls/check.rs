@@ -161,7 +161,9 @@ impl History<'_> {
                 assert_eq!((status, representative), (absent, 77), "vertex {v}");
                 let goal = m.goal(v).unwrap_or([f64::NAN; 3]);
                 let is_there = |(x, y): (&f64, &f64)| x.to_bits() == y.to_bits() || x.is_nan() && y.is_nan();
-                assert!(v as usize == n || numbers[v as usize * m.d..][..m.d].iter().zip(&goal).all(is_there));
+                assert!(
+                    v as usize == n || numbers[v as usize * m.d..][..m.d].iter().zip(&goal).all(is_there)
+                );
                 continue;
             };
             assert_eq!((status, representative), (DELDRIFT_OK, representatives[v as usize]), "vertex {v}");
