@@ -83,10 +83,9 @@ impl<G: Dimension> Delaunay<G> {
         self.parts = parts;
         match built {
             Ok(coincident) => Ok(Some(coincident)),
-            Err(_) if is_cancelled => Err(Error::Cancelled),
             Err(_) => {
                 self.flat.clear();
-                Ok(None)
+                if is_cancelled { Err(Error::Cancelled) } else { Ok(None) }
             }
         }
     }
