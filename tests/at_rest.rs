@@ -93,6 +93,13 @@ fn what_is_known_decides<G: Dimension>(n_shared: usize) {
         check(&t, &positions, &context);
         commit(&mut t, &before);
         check(&t, &before, &context);
+        // With an id that is nobody's.
+        t.remove_vertex(VertexId::new(900)).expect("a vertex");
+        let mut left: Vec<_> = before.iter().map(|p| point::<G>(|k| p[k] - 0.5)).map(Some).collect();
+        left[900] = None;
+        let report = commit(&mut t, &left.iter().map(|p| p.unwrap_or_default()).collect::<Vec<_>>());
+        assert_eq!((report.moved, report.rebuilds), (left.len() as u64 - 1, 0), "{context}");
+        assert_same_cells(&cell_set(&t), &fresh_cells::<G>(&left), || context.clone());
     }
 }
 

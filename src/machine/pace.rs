@@ -20,6 +20,8 @@ pub(crate) struct Pace {
     work: u64,
     /// What it was told last.
     fraction: f64,
+    /// Whether it is not asked before anything is done.
+    skips_start: bool,
 }
 
 impl fmt::Debug for Pace {
@@ -40,7 +42,12 @@ impl Pace {
     /// A call begins.
     #[inline(always)]
     pub(crate) fn begin(&mut self) {
-        (self.work, self.fraction) = (0, 0.0);
+        (self.work, self.fraction, self.skips_start) = (0, 0.0, false);
+    }
+
+    /// In the call that has begun, which mostly is a short one, nobody is asked before anything is done.
+    pub(crate) fn skip_start(&mut self) {
+        self.skips_start = true;
     }
 
     /// Counts work.
@@ -58,6 +65,9 @@ impl Pace {
     /// Tells how far the work is; whether to go on.
     pub(crate) fn ask(&mut self, fraction: f64) -> bool {
         (self.work, self.fraction) = (0, fraction);
+        if self.skips_start && fraction == 0.0 {
+            return true;
+        }
         self.monitor.as_mut().is_none_or(|monitor| monitor(fraction))
     }
 

@@ -64,20 +64,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.build_and_adopt(next, spread, report)
     }
 
-    /// Triangulates all sites where they are, those that are in no cell included.
+    /// Triangulates all sites where they are, those that are in no cell included, in a call on one vertex.
     pub(super) fn rebuild_as_is(&mut self, report: &mut CommitReport) -> Result<()> {
+        self.kernel.pace_mut().skip_start();
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(drop);
         self.build_and_adopt(next, spread, report)
     }
 
-    /// Triangulates all vertices, one of them at another place.
+    /// Triangulates all vertices, one of them at another place, in a call on it.
     pub(super) fn rebuild_with(
         &mut self,
         vertex: VertexId,
         q: &G::Point,
         report: &mut CommitReport,
     ) -> Result<()> {
+        self.kernel.pace_mut().skip_start();
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(|spread| {
             next.set_point(self.own_site(&spread, vertex), *q);

@@ -33,11 +33,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             let is_way_due = self.auto.is_rebuild_due() || self.auto.scope() != Scope::All;
             match self.outlook(given, is_way_due) {
                 Outlook::AtRest => return Ok(()),
-                Outlook::Together if self.staging.is_whole() && self.hidden.count() == 0 => {
-                    return self.commit_together(given, report);
-                }
-                // Neither tells how all will move.
-                Outlook::Together | Outlook::FewMove => return self.commit_by_repair(given, report),
+                Outlook::Together => return self.commit_together(given, report),
+                // They do not tell how all will move.
+                Outlook::FewMove => return self.commit_by_repair(given, report),
                 Outlook::Unknown => {}
             }
         }
@@ -76,13 +74,45 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.regions.kept_for() == Some(wanted)
     }
 
-    /// Moves all vertices of a whole staging, which go by one exact vector. Whatever the cells are a function of stays
-    /// as it is but for that, so they stay. No two vertices may share a site.
+    /// Moves all vertices, which go by one exact vector. Whatever the cells are a function of stays as it is but for
+    /// that, so they stay.
     fn commit_together(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
         self.regions.invalidate();
-        report.moved = self.move_all_staged(given)?;
-        report.unchanged = report.moved;
+        if self.staging.is_whole() && self.hidden.count() == 0 {
+            self.move_all_staged(given)?;
+        } else {
+            self.stage_given(given)?;
+            self.staging.list()?;
+            self.move_listed_together();
+        }
+        (report.moved, report.unchanged) = (self.n_present as u64, self.n_present as u64);
         Ok(())
+    }
+
+    /// Moves all vertices, which are listed, with those that share their sites.
+    fn move_listed_together(&mut self) {
+        let n = self.staging.vertices().len();
+        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
+        // Those that are hidden first: where they are is where their sites still are.
+        for k in 0..n {
+            let v = self.staging.vertices()[k];
+            let site = self.kernel.site(self.site_of[v]);
+            if site.id != v {
+                self.staging.positions_mut()[v] = site.point;
+            }
+        }
+        for k in 0..n {
+            let v = self.staging.vertices()[k];
+            if self.kernel.site(self.site_of[v]).id == v {
+                let p = self.staging.positions()[v];
+                for axis in 0..G::D {
+                    (lower[axis], upper[axis]) = (lower[axis].min(p[axis]), upper[axis].max(p[axis]));
+                }
+                self.exchange_position(v);
+            }
+        }
+        self.staging.set_applied(n);
+        self.kernel.cover(&lower, &upper);
     }
 
     /// Commits by watching or by slack, if that is in force.
