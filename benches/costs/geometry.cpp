@@ -1,0 +1,243 @@
+// Calls that compute arrays of the cells: measures, lists, Voronoi cells, interpolation.
+#include "measure.hpp"
+
+namespace costs {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// One timed call of what fills arrays of all cells.
+template <typename One>
+void of_cells(Context &c, One one) {
+    std::size_t count;
+    const std::size_t n = c.cells();
+    c.meter.time([&] { must(one(n, &count)); });
+    c.meter.count(double(c.n + n));
+}
+
+/// ... for which one needs to know how many entries there are.
+template <typename Number, typename One>
+void counted(Context &c, std::size_t per_entry, One one) {
+    std::size_t count;
+    must(one(static_cast<Number *>(nullptr), 0, &count));
+    std::vector<Number> room(count * per_entry + 1);
+    c.meter.time([&] { must(one(room.data(), count, &count)); });
+    c.meter.count(double(c.n + c.cells() + count));
+}
+
+std::vector<double> numbers(const Context &c, std::size_t per_cell) { return std::vector<double>(c.cells() * per_cell + 1); }
+
+double median_radius(Context &c) {
+    std::vector<double> radii = numbers(c, 1);
+    std::size_t count;
+    must(deldrift_circumcentres(c.t, nullptr, radii.data(), c.cells(), &count));
+    std::nth_element(radii.begin(), radii.begin() + std::ptrdiff_t(count / 2), radii.end());
+    return radii[count / 2];
+}
+
+Ids all_cells(const Context &c) {
+    Ids cells;
+    for (std::size_t i = c.cells(); i-- > 0;) cells.push_back(std::uint32_t(i));
+    return cells;
+}
+
+Ids all_vertices(const Context &c) {
+    Ids ids;
+    for (std::size_t i = c.n; i-- > 0;) ids.push_back(std::uint32_t(i));
+    return ids;
+}
+
+/// Within the box of all vertices, made so much larger on every side.
+template <int percent>
+void voronoi_volumes(Context &c) {
+    const auto [low, high] = c.box(percent / 100.0);
+    std::vector<double> volumes(c.n);
+    std::size_t count;
+    c.meter.time([&, low = low.data(), high = high.data()] {
+        must(deldrift_voronoi_volumes(c.t, low, high, volumes.data(), c.n, &count));
+    });
+    c.meter.count(double(c.n + c.cells()));
+}
+
+template <int percent>
+void voronoi_facets(Context &c) {
+    const auto [low, high] = c.box(percent / 100.0);
+    counted<double>(c, 1, [&, low = low.data(), high = high.data()](double *to, std::size_t room, std::size_t *count) {
+        return deldrift_voronoi_facets(c.t, low, high, to, room, count);
+    });
+}
+
+void interpolate(Context &c, deldrift_interpolation method, const Points &places) {
+    const std::vector<double> values(c.n, 1.0);
+    const std::size_t count = places.size() / c.dimension;
+    std::vector<double> results(count);
+    c.meter.time([&] {
+        must(deldrift_interpolate(c.t, method, values.data(), c.n, 1, places.data(), count, nullptr, nullptr,
+                                  results.data()));
+    });
+    c.meter.count(double(c.n + count));
+    if (method == DELDRIFT_INTERPOLATION_LINEAR || c.cells() == 0) return;
+    // A natural neighbour is a vertex that a vertex at the place would share an edge with.
+    for (std::size_t i = 0; i < count; ++i) {
+        deldrift_location location;
+        must(deldrift_locate(c.t, &places[i * c.dimension], &location));
+        if (location.kind != DELDRIFT_LOCATION_CELL) continue;
+        std::uint32_t v;
+        const double before = double(c.cells());
+        must(deldrift_insert_vertex(c.t, &places[i * c.dimension], &v));
+        const double created = double(c.star(v));
+        c.meter.count(created + std::max(0.0, before + created - double(c.cells())));
+        must(deldrift_remove_vertex(c.t, v));
+    }
+}
+
+}  // namespace
+
+std::vector<Call> geometry_calls() {
+    return {
+        {"deldrift_circumcentres", "", [](Context &c) {
+             std::vector<double> centres = numbers(c, c.dimension), radii = numbers(c, 1);
+             of_cells(c, [&](std::size_t n, std::size_t *count) {
+                 return deldrift_circumcentres(c.t, centres.data(), radii.data(), n, count);
+             });
+         }},
+        {"deldrift_volumes", "", [](Context &c) {
+             std::vector<double> volumes = numbers(c, 1);
+             of_cells(c, [&](std::size_t n, std::size_t *count) {
+                 return deldrift_volumes(c.t, volumes.data(), n, count);
+             });
+         }},
+        {"deldrift_mask_by_circumradius", "the median", [](Context &c) {
+             const double radius = median_radius(c);
+             std::vector<std::uint8_t> mask(c.cells() + 1);
+             of_cells(c, [&](std::size_t n, std::size_t *count) {
+                 return deldrift_mask_by_circumradius(c.t, radius < infinity ? radius : 1, mask.data(), n, count);
+             });
+         }},
+        {"deldrift_mask_boundary", "every second cell", [](Context &c) {
+             std::vector<std::uint8_t> mask(c.cells() + 1);
+             for (std::size_t i = 0; i < mask.size(); i += 2) mask[i] = 1;
+             counted<std::uint32_t>(c, c.dimension, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_mask_boundary(c.t, mask.data(), c.cells(), to, nullptr, nullptr, room, count);
+             });
+         }},
+        {"deldrift_hull_facets", "", [](Context &c) {
+             counted<std::uint32_t>(c, c.dimension, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_hull_facets(c.t, to, nullptr, nullptr, room, count);
+             });
+         }},
+        {"deldrift_edges", "", [](Context &c) {
+             counted<std::uint32_t>(c, 2, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_edges(c.t, to, room, count);
+             });
+         }},
+        {"deldrift_vertex_neighbours", "", [](Context &c) {
+             Ids offsets(c.n + 1);
+             counted<std::uint32_t>(c, 1, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_vertex_neighbours(c.t, to ? offsets.data() : nullptr, c.n + 1, to, room, count);
+             });
+         }},
+        {"deldrift_vertex_cells", "", [](Context &c) {
+             Ids offsets(c.n + 1);
+             counted<std::uint32_t>(c, 1, [&](std::uint32_t *to, std::size_t room, std::size_t *count) {
+                 return deldrift_vertex_cells(c.t, to ? offsets.data() : nullptr, c.n + 1, to, room, count);
+             });
+         }},
+        {"deldrift_mirror_indices", "", [](Context &c) {
+             std::vector<std::uint8_t> mirrors(c.cells() * c.corners() + 1);
+             of_cells(c, [&](std::size_t n, std::size_t *count) {
+                 return deldrift_mirror_indices(c.t, mirrors.data(), n, count);
+             });
+         }},
+        {"deldrift_mirror_index", "one facet of each cell", [](Context &c) {
+             std::uint32_t mirror;
+             of_cells(c, [&](std::size_t n, std::size_t *) {
+                 for (std::size_t cell = 0; cell < n; ++cell)
+                     must(deldrift_mirror_index(c.t, std::uint32_t(cell), std::uint32_t(cell % 3), &mirror));
+                 return deldrift_status(DELDRIFT_OK);
+             });
+         }},
+        {"deldrift_cells_around", "all vertices, one by one", [](Context &c) {
+             Ids room(c.cells() + 1);
+             std::size_t count;
+             for (std::uint32_t v = 0; v < c.n; ++v) {
+                 c.meter.time([&] { must(deldrift_cells_around(c.t, &v, 1, room.data(), room.size(), &count)); });
+                 c.meter.count(1 + double(count));
+             }
+         }},
+        {"deldrift_cells_around", "all vertices", [](Context &c) {
+             const Ids ids = all_vertices(c);
+             Ids room(c.cells() + 1);
+             of_cells(c, [&](std::size_t, std::size_t *count) {
+                 return deldrift_cells_around(c.t, ids.data(), ids.size(), room.data(), room.size(), count);
+             });
+         }},
+        {"deldrift_cells_around", "one vertex, as often as there are vertices", [](Context &c) {
+             const Ids ids(c.n, 0);
+             Ids room(c.cells() + 1);
+             std::size_t count;
+             c.meter.time([&] {
+                 must(deldrift_cells_around(c.t, ids.data(), ids.size(), room.data(), room.size(), &count));
+             });
+             c.meter.count(double(c.n + count));
+         }},
+        {"deldrift_update_circumcentres", "all", [](Context &c) {
+             std::vector<double> centres = numbers(c, c.dimension), radii = numbers(c, 1);
+             const Ids cells = all_cells(c);
+             of_cells(c, [&](std::size_t n, std::size_t *) {
+                 return deldrift_update_circumcentres(c.t, cells.data(), n, centres.data(), radii.data(), n);
+             });
+         }},
+        {"deldrift_update_volumes", "all", [](Context &c) {
+             std::vector<double> volumes = numbers(c, 1);
+             const Ids cells = all_cells(c);
+             of_cells(c, [&](std::size_t n, std::size_t *) {
+                 return deldrift_update_volumes(c.t, cells.data(), n, volumes.data(), n);
+             });
+         }},
+        {"deldrift_update_mask_by_circumradius", "all", [](Context &c) {
+             std::vector<std::uint8_t> mask(c.cells() + 1);
+             const Ids cells = all_cells(c);
+             of_cells(c, [&](std::size_t n, std::size_t *) {
+                 return deldrift_update_mask_by_circumradius(c.t, cells.data(), n, 1, mask.data(), n);
+             });
+         }},
+        {"deldrift_voronoi_volumes", "without a box", [](Context &c) {
+             std::vector<double> volumes(c.n);
+             std::size_t count;
+             c.meter.time([&] {
+                 must(deldrift_voronoi_volumes(c.t, nullptr, nullptr, volumes.data(), c.n, &count));
+             });
+             c.meter.count(double(c.n + c.cells()));
+         }},
+        {"deldrift_voronoi_volumes", "in a box around all", voronoi_volumes<10>},
+        {"deldrift_voronoi_volumes", "in a box inside", voronoi_volumes<-20>},
+        {"deldrift_voronoi_facets", "without a box", [](Context &c) {
+             counted<double>(c, 1, [&](double *to, std::size_t room, std::size_t *count) {
+                 return deldrift_voronoi_facets(c.t, nullptr, nullptr, to, room, count);
+             });
+         }},
+        {"deldrift_voronoi_facets", "in a box around all", voronoi_facets<10>},
+        {"deldrift_voronoi_facets", "in a box inside", voronoi_facets<-20>},
+        {"deldrift_interpolate", "linear, anywhere, as many places as vertices", [](Context &c) {
+             interpolate(c, DELDRIFT_INTERPOLATION_LINEAR, c.many(c.n, &Context::anywhere));
+         }},
+        {"deldrift_interpolate", "natural neighbours, anywhere, for one vertex in eight", [](Context &c) {
+             interpolate(c, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, c.many(c.some(), &Context::anywhere));
+         }},
+        {"deldrift_interpolate", "natural neighbours, at vertices, for one in eight", [](Context &c) {
+             interpolate(c, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, c.many(c.some(), &Context::elsewhere));
+         }},
+        {"deldrift_orientation", "nearly flat", [](Context &c) {
+             std::int32_t sign;
+             Points p;
+             for (std::size_t i = 0; i <= c.dimension; ++i) Context::append(p, Points(c.dimension, double(i) / 3));
+             c.meter.time([&] {
+                 for (std::size_t i = 0; i < c.n; ++i) must(deldrift_orientation(c.dimension, p.data(), &sign));
+             });
+             c.meter.count(double(c.n));
+         }},
+    };
+}
+
+}  // namespace costs

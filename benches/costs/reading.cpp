@@ -1,0 +1,258 @@
+// Calls that read what there is: states, cells, stars, places.
+#include "measure.hpp"
+
+namespace costs {
+namespace {
+
+/// A call in constant time, as often as there are vertices.
+template <typename One>
+void for_all(Context &c, One one) {
+    c.meter.time([&] {
+        for (std::uint32_t v = 0; v < c.n; ++v) one(v);
+    });
+    c.meter.count(double(c.n));
+}
+
+/// A call that fills an array of `length` numbers; its input or output has `units` vertices and cells.
+template <typename Number, typename One>
+void fill(Context &c, std::size_t length, double units, One one) {
+    std::vector<Number> room(std::max<std::size_t>(1, length));
+    std::size_t count;
+    c.meter.time([&] { must(one(room.data(), &count)); });
+    c.meter.count(units);
+}
+
+/// All changed by the same: one vertex after the other relocated, and `read` timed after each.
+template <typename Read>
+void after_relocations(Context &c, Read read) {
+    for (std::size_t i = 0; i < c.some(); ++i) {
+        const std::uint32_t v = c.some_vertex(i);
+        const double before = double(c.star(v));
+        must(deldrift_relocate_vertex(c.t, v, c.elsewhere().data()));
+        c.meter.time([&] { read(v); });
+        c.meter.count(1 + before + double(c.star(v)));
+    }
+}
+
+template <std::uint32_t level>
+void validate(Context &c) {
+    c.meter.time([&] { must(deldrift_validate(c.t, level)); });
+    c.meter.count(double(c.n + c.cells()));
+}
+
+void locate_points(Context &c, const Points &p) {
+    std::vector<deldrift_location> locations(p.size() / c.dimension);
+    c.meter.time([&] {
+        must(deldrift_locate_points(c.t, p.data(), locations.size(), nullptr, locations.data()));
+    });
+    c.meter.count(double(locations.size()));
+}
+
+}  // namespace
+
+std::vector<Call> reading_calls() {
+    return {
+        {"deldrift_status_string", "",
+         [](Context &c) { for_all(c, [&](std::uint32_t v) { deldrift_status_string(deldrift_status(v % 30)); }); }},
+        {"deldrift_last_error", "after a call that failed", [](Context &c) {
+             for_all(c, [&](std::uint32_t) {
+                 double p[3];
+                 deldrift_position(c.t, DELDRIFT_NONE, p);
+                 deldrift_last_error();
+             });
+         }},
+        {"deldrift_version", "", [](Context &c) { for_all(c, [&](std::uint32_t) { deldrift_version(); }); }},
+        {"deldrift_options_init", "", [](Context &c) {
+             deldrift_options options;
+             for_all(c, [&](std::uint32_t) { deldrift_options_init(&options); });
+         }},
+        {"deldrift_dimension", "", [](Context &c) {
+             std::uint32_t dimension;
+             for_all(c, [&](std::uint32_t) { must(deldrift_dimension(c.t, &dimension)); });
+         }},
+        {"deldrift_get_algorithm", "", [](Context &c) {
+             deldrift_algorithm algorithm;
+             for_all(c, [&](std::uint32_t) { must(deldrift_get_algorithm(c.t, &algorithm)); });
+         }},
+        {"deldrift_vertex_count", "", [](Context &c) {
+             std::size_t count;
+             for_all(c, [&](std::uint32_t) { must(deldrift_vertex_count(c.t, &count)); });
+         }},
+        {"deldrift_id_count", "", [](Context &c) {
+             std::size_t count;
+             for_all(c, [&](std::uint32_t) { must(deldrift_id_count(c.t, &count)); });
+         }},
+        {"deldrift_cell_count", "",
+         [](Context &c) { for_all(c, [&](std::uint32_t) { c.cells(); }); }},
+        {"deldrift_staged_count", "all are staged", [](Context &c) {
+             std::size_t count;
+             must(deldrift_move_vertices(c.t, nullptr, c.points.data(), c.n));
+             for_all(c, [&](std::uint32_t) { must(deldrift_staged_count(c.t, &count)); });
+         }},
+        {"deldrift_memory_bytes", "", [](Context &c) {
+             std::size_t bytes;
+             for_all(c, [&](std::uint32_t) { must(deldrift_memory_bytes(c.t, &bytes)); });
+         }},
+        {"deldrift_timestamp", "", [](Context &c) {
+             std::uint64_t timestamp;
+             for_all(c, [&](std::uint32_t) { must(deldrift_timestamp(c.t, &timestamp)); });
+         }},
+        {"deldrift_statistics", "", [](Context &c) {
+             deldrift_commit_report report;
+             for_all(c, [&](std::uint32_t) { must(deldrift_statistics(c.t, &report)); });
+         }},
+        {"deldrift_is_present", "all", [](Context &c) {
+             bool present;
+             for_all(c, [&](std::uint32_t v) { must(deldrift_is_present(c.t, v, &present)); });
+         }},
+        {"deldrift_position", "all", [](Context &c) {
+             double p[3];
+             for_all(c, [&](std::uint32_t v) { must(deldrift_position(c.t, v, p)); });
+         }},
+        {"deldrift_coincident_representative", "all", [](Context &c) {
+             std::uint32_t r;
+             for_all(c, [&](std::uint32_t v) { must(deldrift_coincident_representative(c.t, v, &r)); });
+         }},
+        {"deldrift_copy_positions", "", [](Context &c) {
+             fill<double>(c, c.n * c.dimension, double(c.n), [&](double *to, std::size_t *count) {
+                 return deldrift_copy_positions(c.t, to, c.n, count);
+             });
+         }},
+        {"deldrift_cells", "the first", [](Context &c) {
+             deldrift_destroy(c.t);
+             c.t = c.create(c.options());
+             c.meter.reset();
+             deldrift_cells_view view;
+             c.meter.time([&] { must(deldrift_cells(c.t, &view)); });
+             c.meter.count(double(c.n + view.count));
+         }},
+        {"deldrift_cells", "nothing has changed, as often as there are vertices",
+         [](Context &c) { for_all(c, [&](std::uint32_t) { c.view(); }); }},
+        {"deldrift_cells", "after each of some relocations",
+         [](Context &c) { after_relocations(c, [&](std::uint32_t) { c.view(); }); }},
+        {"deldrift_cells", "after all have moved far away", [](Context &c) {
+             const double before = double(c.cells());
+             must(deldrift_commit_positions(c.t, c.many(c.n, &Context::elsewhere).data(), c.n, nullptr));
+             c.meter.reset();
+             c.meter.time([&] { c.view(); });
+             c.meter.count(before + double(c.n + c.cells()));
+         }},
+        {"deldrift_copy_cells", "", [](Context &c) {
+             const std::size_t n = c.cells();
+             Ids vertices(n * c.corners() + 1), neighbours(n * c.corners() + 1);
+             std::size_t count;
+             c.meter.time([&] { must(deldrift_copy_cells(c.t, vertices.data(), neighbours.data(), n, &count)); });
+             c.meter.count(double(c.n + n));
+         }},
+        {"deldrift_star", "all", [](Context &c) {
+             const std::size_t n = c.cells();
+             Ids room(n + 1);
+             std::size_t count;
+             for_all(c, [&](std::uint32_t v) {
+                 must(deldrift_star(c.t, v, room.data(), n, &count));
+                 c.meter.count(double(count));
+             });
+         }},
+        {"deldrift_star", "after each of some relocations", [](Context &c) {
+             after_relocations(c, [&](std::uint32_t v) { c.star(v); });
+         }},
+        {"deldrift_ordered_star", "all", [](Context &c) {
+             const std::size_t n = c.cells();
+             Ids room(n + 1);
+             std::size_t count;
+             for_all(c, [&](std::uint32_t v) {
+                 must(deldrift_ordered_star(c.t, v, room.data(), n, &count));
+                 c.meter.count(double(count));
+             });
+         }, 2},
+        {"deldrift_tolerance", "all", [](Context &c) {
+             double tolerance;
+             for_all(c, [&](std::uint32_t v) { must(deldrift_tolerance(c.t, v, &tolerance)); });
+             c.meter.count(double(c.cells()));
+         }},
+        {"deldrift_annulus_widths", "", [](Context &c) {
+             const std::size_t n = c.cells() * c.corners();
+             fill<double>(c, n, double(c.n + c.cells()),
+                          [&](double *to, std::size_t *count) { return deldrift_annulus_widths(c.t, to, n, count); });
+         }},
+        {"deldrift_standard_delimiter", "one facet of each cell", [](Context &c) {
+             double centre[3], radius, tolerance;
+             const auto n = std::uint32_t(c.cells());
+             c.meter.time([&] {
+                 for (std::uint32_t cell = 0; cell < n; ++cell)
+                     deldrift_standard_delimiter(c.t, cell, cell % 3, centre, &radius, &tolerance);
+             });
+             c.meter.count(double(c.n + n));
+         }},
+        {"deldrift_locate", "anywhere, as many places as vertices", [](Context &c) {
+             deldrift_location location;
+             const Points p = c.many(c.n, &Context::anywhere);
+             for_all(c, [&](std::uint32_t v) { must(deldrift_locate(c.t, &p[v * c.dimension], &location)); });
+         }},
+        {"deldrift_locate", "at vertices", [](Context &c) {
+             deldrift_location location;
+             for_all(c, [&](std::uint32_t v) { must(deldrift_locate(c.t, c.place(v), &location)); });
+         }},
+        {"deldrift_locate", "outside", [](Context &c) {
+             deldrift_location location;
+             for_all(c, [&](std::uint32_t v) {
+                 Points p(c.place(v), c.place(v) + c.dimension);
+                 for (double &x : p) x = 3 * x + 5;
+                 must(deldrift_locate(c.t, p.data(), &location));
+             });
+         }},
+        {"deldrift_locate_points", "anywhere", [](Context &c) { locate_points(c, c.many(c.n, &Context::anywhere)); }},
+        {"deldrift_locate_points", "near vertices, by id", [](Context &c) { locate_points(c, c.all_nearby()); }},
+        {"deldrift_nearest_vertex", "anywhere, as many places as vertices", [](Context &c) {
+             std::uint32_t nearest;
+             const Points p = c.many(c.n, &Context::anywhere);
+             for_all(c, [&](std::uint32_t v) { must(deldrift_nearest_vertex(c.t, &p[v * c.dimension], &nearest)); });
+         }},
+        {"deldrift_nearest_vertex", "near vertices", [](Context &c) {
+             std::uint32_t nearest;
+             const Points p = c.all_nearby();
+             for_all(c, [&](std::uint32_t v) { must(deldrift_nearest_vertex(c.t, &p[v * c.dimension], &nearest)); });
+         }},
+        {"deldrift_nearest_vertex", "outside", [](Context &c) {
+             std::uint32_t nearest;
+             for_all(c, [&](std::uint32_t v) {
+                 Points p(c.place(v), c.place(v) + c.dimension);
+                 for (double &x : p) x = 3 * x + 5;
+                 must(deldrift_nearest_vertex(c.t, p.data(), &nearest));
+             });
+         }},
+        {"deldrift_changed_cells", "after each of some commits", [](Context &c) {
+             deldrift_options options = c.options();
+             options.track_changes = 1;
+             deldrift_destroy(c.t);
+             c.t = c.create(options);
+             c.meter.reset();
+             for (std::size_t i = 0; i < c.some(); ++i) {
+                 const std::uint32_t v = c.some_vertex(i);
+                 must(deldrift_move_vertex(c.t, v, c.nearby(v).data()));
+                 must(deldrift_commit_timestamp(c.t, nullptr));
+                 c.view();
+                 deldrift_indices_view view;
+                 c.meter.time([&] { must(deldrift_changed_cells(c.t, &view)); });
+                 c.meter.count(1 + double(view.count));
+             }
+         }},
+        {"deldrift_changed_cells", "after all have moved", [](Context &c) {
+             deldrift_options options = c.options();
+             options.track_changes = 1;
+             deldrift_destroy(c.t);
+             c.t = c.create(options);
+             must(deldrift_commit_positions(c.t, c.many(c.n, &Context::elsewhere).data(), c.n, nullptr));
+             c.view();
+             c.meter.reset();
+             deldrift_indices_view view;
+             c.meter.time([&] { must(deldrift_changed_cells(c.t, &view)); });
+             c.meter.count(double(c.n + view.count));
+         }},
+        {"deldrift_validate", "level 1", validate<1>},
+        {"deldrift_validate", "level 2", validate<2>},
+        {"deldrift_validate", "level 3", validate<3>},
+    };
+}
+
+}  // namespace costs
