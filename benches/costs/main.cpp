@@ -3,20 +3,23 @@
 //
 //     costs --sets                    the sets: name, size in 2D and in 3D (0: there is none), description
 //     costs --calls                   the rows: function, what for
-//     costs FOLDER LIMIT SET DIMENSION N [FUNCTION WHAT]
-//                                     a line of CSV for each row, or for one; files are written to FOLDER
-#include <sys/resource.h>
-#include <sys/wait.h>
+//     costs FOLDER LIMIT SET DIMENSION N
+//                                     a line of CSV for each row that standard input has, as --calls prints them;
+//                                     calls may take LIMIT seconds each, and write files to FOLDER
 #include <malloc.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <iostream>
+#include <set>
 
 #include "measure.hpp"
 
@@ -61,9 +64,16 @@ struct Outcome {
     Measured measured;
 };
 
-[[noreturn]] void be_child(Context &c, const Call &call, int to) {
-    const rlimit limit{most_memory, most_memory};
-    setrlimit(RLIMIT_AS, &limit);
+/// The process is ended when it has used a processor for so many seconds.
+void limit_time(double limit) {
+    const itimerval timer{{0, 0}, {time_t(limit), suseconds_t(1e6 * (limit - std::floor(limit)))}};
+    setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
+[[noreturn]] void be_child(Context &c, const Call &call, int to, double limit) {
+    const rlimit memory{most_memory, most_memory};
+    setrlimit(RLIMIT_AS, &memory);
+    limit_time(limit);
     try {
         const Measured measured = measure(c, call);
         if (write(to, &measured, sizeof measured) == ssize_t(sizeof measured)) _exit(0);
@@ -73,7 +83,7 @@ struct Outcome {
     _exit(1);
 }
 
-/// Runs a call in a process that is ended after `limit` seconds.
+/// Runs a call in a process that is ended after `limit` seconds on a processor, or ten times that by the clock.
 Outcome run_in_child(Context &c, const Call &call, double limit) {
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe to a child process");
@@ -82,12 +92,12 @@ Outcome run_in_child(Context &c, const Call &call, double limit) {
     if (child < 0) throw std::runtime_error("no child process");
     if (child == 0) {
         close(ends[0]);
-        be_child(c, call, ends[1]);
+        be_child(c, call, ends[1], limit);
     }
     close(ends[1]);
     pollfd ready{ends[0], POLLIN, 0};
     Outcome outcome{"ok", {}};
-    if (poll(&ready, 1, int(1000 * limit)) == 0) {
+    if (poll(&ready, 1, int(10000 * limit)) == 0) {
         kill(child, SIGKILL);
         outcome.status = "too_long";
     } else if (read(ends[0], &outcome.measured, sizeof outcome.measured) != ssize_t(sizeof outcome.measured)) {
@@ -96,20 +106,24 @@ Outcome run_in_child(Context &c, const Call &call, double limit) {
     close(ends[0]);
     int status = 0;
     waitpid(child, &status, 0);
-    if (WIFSIGNALED(status) && outcome.status == "failed") outcome.status = "signal_" + std::to_string(WTERMSIG(status));
+    if (WIFSIGNALED(status) && outcome.status == "failed")
+        outcome.status = WTERMSIG(status) == SIGPROF ? "too_long" : "signal_" + std::to_string(WTERMSIG(status));
     return outcome;
 }
 
+std::string row_of(const Call &call) { return std::string(call.function) + '\t' + call.what; }
+
 void print(const std::string &set, const Context &c, const Call &call, const Outcome &outcome) {
     const Measured &m = outcome.measured;
-    std::printf("%s,%u,%zu,%s,%s,%s,%.9f,%.0f,%.0f,%.9f,%.0f,%.0f\n", set.c_str(), c.dimension, c.n, call.function,
-                ("\"" + std::string(call.what) + "\"").c_str(), outcome.status.c_str(), m.seconds, m.units, m.asks,
-                m.longest_gap, m.held_bytes, m.peak_bytes);
+    std::printf("%s,%u,%zu,%s,\"%s\",%s,%.9f,%.0f,%.0f,%.9f,%.0f,%.0f\n", set.c_str(), c.dimension, c.n, call.function,
+                call.what, outcome.status.c_str(), m.seconds, m.units, m.asks, m.longest_gap, m.held_bytes, m.peak_bytes);
     std::fflush(stdout);
 }
 
-/// Rows of the calls that are wanted; where the set cannot be triangulated in time there is but the one of that.
-void measure_all(char **arguments, const Call *only) {
+/// Where the set cannot be triangulated in time there is but the row of that.
+void measure_all(char **arguments) {
+    std::set<std::string> wanted;
+    for (std::string line; std::getline(std::cin, line);) wanted.insert(line);
     const double limit = std::atof(arguments[1]);
     const std::string set = arguments[2];
     const auto dimension = unsigned(std::atoi(arguments[3]));
@@ -120,8 +134,7 @@ void measure_all(char **arguments, const Call *only) {
     if (created.status != "ok") return print(set, c, calls.front(), created);
     c.triangulate();
     for (const Call &call : calls) {
-        const bool is_wanted = !only || (std::strcmp(only->function, call.function) == 0 && std::strcmp(only->what, call.what) == 0);
-        if (!is_wanted || (call.dimension != 0 && call.dimension != dimension)) continue;
+        if (wanted.count(row_of(call)) == 0 || (call.dimension != 0 && call.dimension != dimension)) continue;
         c.meter = Meter();
         print(set, c, call, run_in_child(c, call, limit));
     }
@@ -133,7 +146,7 @@ void list_sets() {
 }
 
 void list_calls() {
-    for (const Call &call : all_calls()) std::printf("%s\t%s\n", call.function, call.what);
+    for (const Call &call : all_calls()) std::printf("%s\n", row_of(call).c_str());
 }
 
 }  // namespace
@@ -144,9 +157,8 @@ int main(int count, char **arguments) {
         const std::string first = count > 1 ? arguments[1] : "";
         if (count == 2 && first == "--sets") return costs::list_sets(), 0;
         if (count == 2 && first == "--calls") return costs::list_calls(), 0;
-        if (count != 6 && count != 8) throw std::runtime_error("arguments: FOLDER LIMIT SET DIMENSION N [FUNCTION WHAT]");
-        const costs::Call only{arguments[6], count == 8 ? arguments[7] : "", nullptr};
-        costs::measure_all(arguments + 1, count == 8 ? &only : nullptr);
+        if (count != 6) throw std::runtime_error("arguments: --sets, --calls, or FOLDER LIMIT SET DIMENSION N");
+        costs::measure_all(arguments + 1);
     } catch (const std::exception &error) {
         std::cerr << "error: " << error.what() << '\n';
         return 1;

@@ -109,6 +109,9 @@ struct Context {
     void triangulate() {
         t = create(options());
         find_spacing();
+        // The first search makes a tree for later ones.
+        std::uint32_t nearest;
+        must(deldrift_nearest_vertex(t, points.data(), &nearest));
     }
 
     std::size_t cells() const {

@@ -70,12 +70,12 @@ inline const std::vector<Set> &all_sets() {
              const auto side = static_cast<std::size_t>(std::ceil(std::pow(double(n), 1.0 / dimension) - 1e-9));
              for (unsigned k = 0; k < dimension; ++k, i /= side) p[k] = double(i % side);
          }},
-        {"moment", "the moment curve (t, t², t³), where every two vertices share an edge in space: n²/2 cells", {0, 150},
+        {"moment", "the moment curve (t, t², t³), where every two vertices share an edge in space: n²/2 cells", {0, 100},
          [](std::size_t i, std::size_t n, unsigned, Random &, double *p) {
              const double t = double(i + 1) / double(n);
              p[0] = t, p[1] = t * t, p[2] = t * t * t;
          }},
-        {"skew_lines", "two skew lines (in the plane two parallel ones): n²/4 cells in space", {4000, 200},
+        {"skew_lines", "two skew lines (in the plane two parallel ones): n²/4 cells in space", {4000, 150},
          [](std::size_t i, std::size_t n, unsigned dimension, Random &, double *p) {
              const double t = 2 * double(i / 2) / double(n) - 0.5;
              p[i % 2 && dimension == 3 ? 1 : 0] = t;
@@ -99,7 +99,7 @@ inline const std::vector<Set> &all_sets() {
          [](std::size_t i, std::size_t n, unsigned dimension, Random &, double *p) {
              if (i > 0) on_sphere(i - 1, n - 1, dimension, p);
          }},
-        {"magnitudes", "near a line, ladders of magnitudes from 1 down to 1e-60", {1000, 150},
+        {"magnitudes", "near a line, ladders of magnitudes from 1 down to 1e-60", {1000, 125},
          [](std::size_t i, std::size_t n, unsigned dimension, Random &random, double *p) {
              const std::size_t rungs = 31;
              const double r = std::pow(10.0, -60.0 * double(i / (n / rungs + 1)) / double(rungs - 1));
