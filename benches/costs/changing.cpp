@@ -138,7 +138,7 @@ std::vector<Call> changing_calls() {
              const Points moved = c.all_nearby();
              c.meter.time([&] {
                  for (std::uint32_t v = 0; v < c.n; ++v) must(deldrift_move_vertex(c.t, v, &moved[v * c.dimension]));
-             });
+             }, c.n);
              c.meter.count(double(c.n));
          }},
         {"deldrift_move_vertices", "all", [](Context &c) {
@@ -154,7 +154,7 @@ std::vector<Call> changing_calls() {
              std::uint32_t v;
              c.meter.time([&] {
                  for (std::size_t i = 0; i < c.n; ++i) must(deldrift_stage_insertions(c.t, c.place(i), 1, &v));
-             });
+             }, c.n);
              c.meter.count(double(c.n));
          }},
         {"deldrift_stage_removals", "all", [](Context &c) {
@@ -166,7 +166,7 @@ std::vector<Call> changing_calls() {
         {"deldrift_stage_removals", "all, one by one", [](Context &c) {
              c.meter.time([&] {
                  for (std::uint32_t v = 0; v < c.n; ++v) must(deldrift_stage_removals(c.t, &v, 1));
-             });
+             }, c.n);
              c.meter.count(double(c.n));
          }},
         {"deldrift_discard_moves", "all moved, half as many inserted, some removed", [](Context &c) {
@@ -189,7 +189,7 @@ std::vector<Call> changing_calls() {
         {"deldrift_commit_timestamp", "nothing staged, as often as there are vertices", [](Context &c) {
              c.meter.time([&] {
                  for (std::size_t i = 0; i < c.n; ++i) must(deldrift_commit_timestamp(c.t, nullptr));
-             });
+             }, c.n);
              c.meter.count(double(c.n));
          }},
         {"deldrift_commit_timestamp", "one vertex nearby, for one in eight",

@@ -54,6 +54,7 @@ Measured measure(Context &c, const Call &call) {
     measured.peak_bytes = std::max(0.0, from_status("VmHWM") - before);
     std::size_t held = 0;
     if (c.t) must(deldrift_memory_bytes(c.t, &held));
+    measured.size = c.t ? double(c.ids() + c.cells()) : measured.units;
     measured.held_bytes = double(held);
     return measured;
 }
@@ -115,8 +116,8 @@ std::string row_of(const Call &call) { return std::string(call.function) + '\t' 
 
 void print(const std::string &set, const Context &c, const Call &call, const Outcome &outcome) {
     const Measured &m = outcome.measured;
-    std::printf("%s,%u,%zu,%s,\"%s\",%s,%.9f,%.0f,%.0f,%.9f,%.0f,%.0f\n", set.c_str(), c.dimension, c.n, call.function,
-                call.what, outcome.status.c_str(), m.seconds, m.units, m.asks, m.longest_gap, m.held_bytes, m.peak_bytes);
+    std::printf("%s,%u,%zu,%s,\"%s\",%s,%.9f,%.0f,%.0f,%.9f,%.0f,%.0f,%.0f\n", set.c_str(), c.dimension, c.n, call.function,
+                call.what, outcome.status.c_str(), m.seconds, m.units, m.asks, m.longest_gap, m.size, m.held_bytes, m.peak_bytes);
     std::fflush(stdout);
 }
 

@@ -26,6 +26,8 @@ struct Measured {
     double units;
     /// How often the callbacks were called, and the longest time within one timed call without.
     double asks, longest_gap;
+    /// Vertices and cells there are afterwards, which memory should be in proportion to.
+    double size;
     /// What the triangulation holds afterwards, and what the process had more at most than before.
     double held_bytes, peak_bytes;
 };
@@ -33,14 +35,15 @@ struct Measured {
 /// Times calls, and the gaps between two calls of a callback.
 class Meter {
 public:
+    /// Times `call`, which makes so many calls, alike and short ones if it is not one.
     template <typename Call>
-    void time(Call call) {
+    void time(Call call, std::size_t calls = 1) {
         const double start = now();
         last_ = start;
         call();
         const double end = now();
         seconds_ += end - start;
-        gap_ = std::max(gap_, end - last_);
+        gap_ = std::max(gap_, (end - last_) / double(calls));
     }
     void asked() {
         const double at = now();
@@ -52,7 +55,7 @@ public:
     /// Further input or output of what is timed.
     void count(double units) { units_ += units; }
     double elapsed() const { return seconds_; }
-    Measured measured() const { return {seconds_, units_, asks_, gap_, 0, 0}; }
+    Measured measured() const { return {seconds_, units_, asks_, gap_, 0, 0, 0}; }
 
 private:
     /// Of this thread on a processor, which other programs do not add to.

@@ -9,7 +9,7 @@ template <typename One>
 void for_all(Context &c, One one) {
     c.meter.time([&] {
         for (std::uint32_t v = 0; v < c.n; ++v) one(v);
-    });
+    }, c.n);
     c.meter.count(double(c.n));
 }
 
@@ -181,7 +181,7 @@ std::vector<Call> reading_calls() {
              c.meter.time([&] {
                  for (std::uint32_t cell = 0; cell < n; ++cell)
                      deldrift_standard_delimiter(c.t, cell, cell % 3, centre, &radius, &tolerance);
-             });
+             }, n + 1);
              c.meter.count(double(c.n + n));
          }},
         {"deldrift_locate", "anywhere, as many places as vertices", [](Context &c) {

@@ -37,6 +37,9 @@ const LONG_WALK: u64 = 40;
 /// A goal no farther than this number of edges is reached in a few steps.
 const SHORT_IN_EDGES: f64 = 2.0;
 
+/// ... unless the shortest edge of the cell is shorter by far: then there may be any number of cells in between.
+const SHORT_IN_SHORTEST_EDGES: f64 = 16.0;
+
 /// A place more than this number of edges from a site is away from it: some fifty sites are nearer in the plane.
 const AWAY_IN_EDGES: f64 = 4.0;
 
@@ -258,7 +261,9 @@ impl<G: Dimension> Delaunay<G> {
         let [p, other] = [0, 1].map(|i| self.place(self.complex.cell(near).corners[i]));
         let to_near = squared_distance(p, q);
         // Then the walk is shorter than the way down the tree.
-        if to_near <= SHORT_IN_EDGES * SHORT_IN_EDGES * squared_distance(p, other) {
+        if to_near <= SHORT_IN_EDGES * SHORT_IN_EDGES * squared_distance(p, other)
+            && to_near <= SHORT_IN_SHORTEST_EDGES * SHORT_IN_SHORTEST_EDGES * self.shortest_edge(near)
+        {
             return near;
         }
         let s = self.landmarks.near::<G>(q);
@@ -266,6 +271,17 @@ impl<G: Dimension> Delaunay<G> {
             Some(site) if is_in_cells(site) && squared_distance(&site.point, q) < to_near => site.cell,
             _ => near,
         }
+    }
+
+    /// The square of the shortest edge of a cell, or of the facet of a ghost cell, at its first corner or its second one.
+    /// In space there is another one, but a cell that is much longer than wide has a short edge among these.
+    #[inline(always)]
+    fn shortest_edge(&self, cell: Slot) -> f64 {
+        let corners = &self.complex.cell(cell).corners;
+        let n = G::D + usize::from(!self.complex.cell(cell).is_ghost());
+        let edge = |i: usize, j: usize| squared_distance(self.place(corners[i]), self.place(corners[j]));
+        let shortest = (1..n).map(|i| edge(0, i)).fold(f64::INFINITY, f64::min);
+        if n > 2 { shortest.min(edge(1, 2)) } else { shortest }
     }
 
     /// The next walk to `q` begins at a site, which may have gone, if that is nearer than `near`, where it would begin.
