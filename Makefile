@@ -34,7 +34,8 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test soak bench report memory large targets calibrate table records sizes lint header doc picture install examples
+.PHONY: help test soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
+.PHONY: examples
 .PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
@@ -82,6 +83,10 @@ targets: benchmark ## special cases beside the speed-up wanted: cpp-bench/result
 calibrate: ## the constants by which algorithms are chosen: cpp-bench/results/calibrate.csv (ARGS=NAME... for some)
 	MALLOC_MMAP_MAX_=0 MALLOC_TRIM_THRESHOLD_=-1 cargo bench --bench calibrate -- $(or $(ARGS),--csv cpp-bench/results/calibrate.csv)
 	$(if $(ARGS),,.ci/records write cpp-bench/results/environment_calibrate.txt "make calibrate")
+
+costs: library ## how time grows, of every function on sets that are hard: docs/COSTS.md, cpp-bench/results/costs.csv
+	@.ci/packages g++
+	benches/costs/run $(ARGS)
 
 faults: ## calls that fail midway, at every point: tests/results/faults.csv (some five minutes)
 	tests/faults_table

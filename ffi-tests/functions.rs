@@ -1,4 +1,4 @@
-//! docs/FUNCTIONS.md and docs/ERRORS.md: they name everything that the header has, and what they say is so.
+//! docs/FUNCTIONS.md, docs/COSTS.md and docs/ERRORS.md: they name everything that the header has, and what they say is so.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -10,10 +10,11 @@ use crate::support::{repository, text_of};
 
 const TABLE: &str = "docs/FUNCTIONS.md";
 
-/// A function of the header, and the first sentence of its documentation.
+/// A function of the header, the first sentence of its documentation, and all of it in one line.
 struct Function {
     name: String,
     summary: String,
+    documentation: String,
 }
 
 /// With `DELDRIFT_UPDATE_HEADER=1` the table is written instead.
@@ -34,6 +35,22 @@ fn table_of_functions_is_what_the_header_says() {
         assert_eq!(summary, function.summary, "{TABLE} is stale: run make header and commit it");
         assert!(calls(linked(test), function) > 0, "{test} does not call {name}");
         assert!(calls(linked(example), function) > 0, "{example} does not call {name}");
+    }
+}
+
+/// What each costs is said in the header, and measured: by a row of the program that `make costs` runs, and in the table
+/// that it has written.
+#[test]
+fn every_function_says_what_it_costs_and_is_measured() {
+    let rows: String = ["changing", "reading", "geometry", "files"]
+        .map(|part| text_of(&format!("benches/costs/{part}.cpp")))
+        .concat();
+    let page = text_of("docs/COSTS.md");
+    let (_, tables) = page.split_once("## Exponents in the plane").expect("the page has tables");
+    for Function { name, documentation, .. } in functions() {
+        assert!(documentation.contains(" Cost: "), "{name} does not say what it costs");
+        assert!(rows.contains(&format!("{{\"{name}\", ")), "no row of benches/costs is about {name}");
+        assert!(tables.contains(&format!("| `{name}` |")), "docs/COSTS.md is stale: run make costs");
     }
 }
 
@@ -64,7 +81,11 @@ fn functions() -> Vec<Function> {
                 .find(|&at| !documentation[..at].ends_with('.'))
                 .map_or(documentation.len(), |at| at + 1);
             let summary = documentation[..end].trim().replace('*', "\\*").replace('|', "\\|");
-            functions.push(Function { name: name.to_string(), summary });
+            functions.push(Function {
+                name: name.to_string(),
+                summary,
+                documentation: documentation.clone(),
+            });
         }
         if line.is_empty() {
             documentation.clear();

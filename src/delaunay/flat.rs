@@ -142,15 +142,24 @@ impl<G: Dimension> Delaunay<G> {
         let q = self.site(s).point;
         self.flat.places.remove(&key::<G>(&q));
         if self.flat.basis.sites().contains(&s) {
-            self.find_flat_basis(s);
+            // Those that stay span no more than all did.
+            self.find_basis(s, self.flat.basis.n);
         }
     }
 
     /// Finds a basis of the live sites but one.
     pub(super) fn find_flat_basis(&mut self, except: SiteId) {
+        self.find_basis(except, G::D + 1);
+    }
+
+    /// Finds a basis of the live sites but one, which has `most` sites at most. It begins with those behind that one:
+    /// where sites go in their order, the ones before it have gone.
+    fn find_basis(&mut self, except: SiteId, most: usize) {
         self.flat.basis = Basis::default();
-        for s in SiteId::range(1..self.sites.len()) {
-            if s != except && self.site(s).is_live() && self.extend_basis(s) {
+        let n = self.sites.len();
+        let first = if except == SiteId::NONE { 1 } else { except.index() };
+        for s in SiteId::range(first..n).chain(SiteId::range(1..first)) {
+            if s != except && self.site(s).is_live() && (self.extend_basis(s) || self.flat.basis.n == most) {
                 break;
             }
         }

@@ -18,6 +18,7 @@
 use std::sync::RwLock;
 use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering::Relaxed};
 
+use super::site::Sites;
 use super::{Delaunay, Dimension, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -61,7 +62,7 @@ pub(super) struct Landmarks {
 /// A complete binary tree: below node `k` are `2 k` and `2 k + 1`, and the root is 1.
 #[derive(Debug)]
 struct Tree {
-    /// Of each inner node, where half of the sites below it begin, with the axis in the lowest two bits.
+    /// Of each inner node, what is between the halves of the sites below it, with the axis in the lowest two bits.
     splits: Vec<f64>,
     /// A site of each leaf.
     leaves: Vec<AtomicU32>,
@@ -103,7 +104,10 @@ impl Tree {
                 let middle = part.len() / 2;
                 let (_, item, _) =
                     part.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
-                splits.push(split(item.0[axis], axis));
+                let upper = item.0[axis];
+                let lower = part[..middle].iter().map(|item| item.0[axis]).fold(f64::NEG_INFINITY, f64::max);
+                // In the middle between the two halves: a goal between them goes to the nearer one.
+                splits.push(split(f64::midpoint(lower, upper), axis));
             }
         }
         let mut leaves = Vec::new();
@@ -147,6 +151,13 @@ fn widest<G: Dimension>(items: &[(G::Point, SiteId)]) -> usize {
     (0..G::D).max_by(|a, b| extent(a).total_cmp(&extent(b))).unwrap_or_default()
 }
 
+/// Of the corners of a cell the one that is nearest to `q`: from another one, where the cell is long, walks to goals
+/// beside `q` would not be short.
+fn nearest<G: Dimension>(sites: Sites<'_, G>, corners: &[SiteId], q: &G::Point) -> SiteId {
+    let distance = |&s: &SiteId| squared_distance(sites.point(s), q);
+    corners.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(SiteId::NONE)
+}
+
 impl Landmarks {
     pub(super) fn memory_bytes(&self) -> usize {
         let tree = self.tree.read().ok();
@@ -174,12 +185,18 @@ impl Landmarks {
         tree.leaves_of::<G, N>(places).map(|leaf| [site(leaf), site(leaf ^ 1)])
     }
 
-    /// Enters a walk of `steps` steps to `q`, near the site `s`, while other threads walk, too: they would wait for a
-    /// new tree.
+    /// Enters a walk of `steps` steps to `q`, which has ended in a finite cell of these corners, while other threads
+    /// walk, too: they would wait for a new tree.
     #[inline(always)]
-    pub(super) fn follow_beside_others<G: Dimension>(&self, q: &G::Point, s: SiteId, steps: u64) {
+    pub(super) fn follow_beside_others<G: Dimension>(
+        &self,
+        sites: Sites<'_, G>,
+        q: &G::Point,
+        corners: &G::Corners,
+        steps: u64,
+    ) {
         if steps > SHORT_WALK {
-            self.replace::<G>(q, s);
+            self.replace::<G>(q, nearest::<G>(sites, corners.as_ref(), q));
         }
     }
 
@@ -226,16 +243,7 @@ impl Landmarks {
         Ok(())
     }
 
-    /// Enters a walk of `steps` steps to `q`, near the site `s`.
-    #[inline(always)]
-    fn follow<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
-        if steps > SHORT_WALK {
-            self.follow_long(sites, q, s, steps);
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
+    /// Enters a long walk of `steps` steps to `q`, near the site `s`.
     fn follow_long<G: Dimension>(&self, sites: &[Site<G>], q: &G::Point, s: SiteId, steps: u64) {
         self.replace::<G>(q, s);
         let beyond = steps.saturating_sub(LONG_WALK) as usize;
@@ -273,6 +281,12 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// A site in cells that is near `q`, if one is known that was.
+    pub(crate) fn landmark(&self, q: &G::Point) -> Option<SiteId> {
+        let s = self.landmarks.near::<G>(q);
+        self.sites.get(s.index()).filter(|site| is_in_cells(site)).map(|_| s)
+    }
+
     /// The square of the shortest edge of a cell, or of the facet of a ghost cell, at its first corner or its second one.
     /// In space there is another one, but a cell that is much longer than wide has a short edge among these.
     #[inline(always)]
@@ -308,8 +322,19 @@ impl<G: Dimension> Delaunay<G> {
     /// Enters a walk to `q` that has ended in `cell` after `steps` steps.
     #[inline(always)]
     pub(super) fn note_walk(&self, q: &G::Point, cell: Slot, steps: u64) {
+        if steps > SHORT_WALK {
+            self.note_long_walk(q, cell, steps);
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn note_long_walk(&self, q: &G::Point, cell: Slot, steps: u64) {
+        let cell = self.complex.cell(cell);
         // The last corner of a ghost cell is the ghost vertex.
-        self.landmarks.follow(&self.sites, q, self.complex.cell(cell).corners[0], steps);
+        let n = G::D + usize::from(!cell.is_ghost());
+        let s = nearest::<G>(self.view(), &cell.corners.as_ref()[..n], q);
+        self.landmarks.follow_long(&self.sites, q, s, steps);
     }
 }
 
@@ -320,25 +345,35 @@ mod tests {
     use crate::machine::threads::Threads;
     use crate::random::Rng;
 
-    fn place<G: Dimension>(rng: &mut Rng, is_clustered: bool) -> G::Point {
+    /// How places lie.
+    #[derive(Clone, Copy, Debug)]
+    enum Kind {
+        Even,
+        Clustered,
+        /// On two parallel lines: all cells are long.
+        OnLines,
+    }
+
+    fn place<G: Dimension>(rng: &mut Rng, kind: Kind) -> G::Point {
         let mut p = G::Point::default();
         let centre = rng.within(0, 9) as f64;
         for axis in 0..G::D {
-            p[axis] = if is_clustered {
-                (centre * (axis + 3) as f64) % 10.0 + 1e-4 * rng.unit()
-            } else {
-                rng.unit()
+            p[axis] = match kind {
+                Kind::Even => rng.unit(),
+                Kind::Clustered => (centre * (axis + 3) as f64) % 10.0 + 1e-4 * rng.unit(),
+                Kind::OnLines if axis == 0 => rng.unit(),
+                Kind::OnLines => rng.within(0, 1) as f64,
             };
         }
         p
     }
 
     /// Cells crossed, in the mean, by walks to random places.
-    fn mean_steps<G: Dimension>(t: &Delaunay<G>, rng: &mut Rng, is_clustered: bool) -> f64 {
+    fn mean_steps<G: Dimension>(t: &Delaunay<G>, rng: &mut Rng, kind: Kind) -> f64 {
         let n = 500;
         let mut steps = 0;
         for _ in 0..n {
-            let q = place::<G>(rng, is_clustered);
+            let q = place::<G>(rng, kind);
             let start = t.cell_towards(&q, t.recent);
             t.walk(&G::filter(&t.lower, &t.upper), &q, start, &mut steps);
         }
@@ -346,20 +381,20 @@ mod tests {
     }
 
     /// Walks become short by themselves.
-    fn walks_become_short<G: Dimension>(is_clustered: &[bool]) {
-        for &is_clustered in is_clustered {
+    fn walks_become_short<G: Dimension>(kinds: &[Kind]) {
+        for &kind in kinds {
             let rng = &mut Rng::new(1);
             let mut t = Delaunay::<G>::on(Threads::ONE).expect("room");
             let n = 20_000;
-            let places = std::iter::repeat_with(|| place::<G>(rng, is_clustered)).take(n).collect::<Vec<_>>();
+            let places = std::iter::repeat_with(|| place::<G>(rng, kind)).take(n).collect::<Vec<_>>();
             t.add_sites(&places).expect("room");
             t.rebuild(&mut |_| true).expect("room");
-            let without = mean_steps(&t, rng, is_clustered);
+            let without = mean_steps(&t, rng, kind);
             for _ in 0..2000 {
-                t.locate(&place::<G>(rng, is_clustered), Slot::NONE);
+                t.locate(&place::<G>(rng, kind), Slot::NONE);
             }
-            let with = mean_steps(&t, rng, is_clustered);
-            assert!(without > 20.0 && with < 12.0, "{without} steps, then {with}");
+            let with = mean_steps(&t, rng, kind);
+            assert!(without > 20.0 && with < 12.0, "{kind:?}: {without} steps, then {with}");
         }
     }
 
@@ -367,14 +402,14 @@ mod tests {
     fn relocations_become_short<G: Dimension>() {
         let rng = &mut Rng::new(2);
         let n = 5_000;
-        let places = std::iter::repeat_with(|| place::<G>(rng, false)).take(n).collect::<Vec<_>>();
+        let places = std::iter::repeat_with(|| place::<G>(rng, Kind::Even)).take(n).collect::<Vec<_>>();
         let mut t = Delaunay::<G>::on(Threads::ONE).expect("room");
         t.add_sites(&places).expect("room");
         t.rebuild(&mut |_| true).expect("room");
         let mut mean_steps = |n: usize| {
             let before = t.cavity.steps;
             for s in SiteId::range(1..n + 1) {
-                let (q, id) = (place::<G>(rng, false), t.site(s).id);
+                let (q, id) = (place::<G>(rng, Kind::Even), t.site(s).id);
                 t.relocate_site(s, &q, id, Shortcut::Flips).expect("room");
             }
             (t.cavity.steps - before) as f64 / n as f64
@@ -392,11 +427,11 @@ mod tests {
 
     #[test]
     fn walks_become_short_in_the_plane() {
-        walks_become_short::<Plane>(&[false, true]);
+        walks_become_short::<Plane>(&[Kind::Even, Kind::Clustered, Kind::OnLines]);
     }
 
     #[test]
     fn walks_become_short_in_space() {
-        walks_become_short::<Space>(&[false]);
+        walks_become_short::<Space>(&[Kind::Even]);
     }
 }

@@ -203,7 +203,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             Place::Cell(c) | Place::Outside(c) => {
                 let corners = self.kernel.complex().cell(c).corners;
                 let finite = corners.as_ref().iter().copied().filter(|&s| s != INFINITE);
-                finite.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
+                // Where cells are long, a landmark can be nearer than the corners of the one that holds the point.
+                let near = finite.chain(self.kernel.landmark(&q));
+                near.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
             }
         };
         // Some neighbour of a vertex that is not the nearest is nearer; the nearest ones are on an empty sphere

@@ -180,7 +180,7 @@ impl<G: Dimension> Shared<'_, G> {
                     continue 'cells;
                 }
             }
-            self.landmarks.follow_beside_others::<G>(q, cell.corners[0], steps);
+            self.landmarks.follow_beside_others::<G>(self.sites, q, &cell.corners, steps);
             return Ok(slot);
         }
     }
