@@ -82,6 +82,8 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
 /// call it as often or as rarely as it likes, without track_changes too. Ends all views; deldrift_cells takes constant
 /// time after it.
 ///
+/// Cost: what has changed; of the first call n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 /// Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]

@@ -22,6 +22,8 @@ use crate::motion::{BoundaryFacet, MovingTriangulation};
 /// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
 /// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
 ///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
 #[unsafe(no_mangle)]
@@ -62,6 +64,8 @@ pub unsafe extern "C" fn deldrift_circumcentres(
 /// positive. (Below the least normal number, 2.2e-308, they are less accurate.) One pass over the cells; nearly flat
 /// ones take up to a microsecond each.
 ///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
 #[unsafe(no_mangle)]
@@ -94,6 +98,8 @@ pub unsafe extern "C" fn deldrift_volumes(
 /// Exact: every entry is that of an exact comparison of squared_radius, as given, with the squared radius of the
 /// circle or sphere through the positions. One pass over the cells; where the two nearly agree, a cell takes a
 /// microsecond.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that
 /// is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
@@ -132,6 +138,8 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
 ///
 /// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells.
 ///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
 /// deldrift_cells does.
@@ -164,6 +172,8 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
 /// The facets of the convex hull, as deldrift_mask_boundary gives them if all cells are in the mask.
 ///
 /// facets, cells, corners, capacity, count: as there. One pass over the cells; constant time for the count alone.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.

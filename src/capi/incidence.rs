@@ -18,6 +18,8 @@ use crate::motion::{MovingTriangulation, Rows};
 ///
 /// Takes some passes over the cells, and memory for the cells of each vertex while it runs.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
 #[unsafe(no_mangle)]
@@ -50,6 +52,8 @@ pub unsafe extern "C" fn deldrift_edges(
 /// for both asks for the count alone, in constant time.
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
+///
+/// Cost: n + m, and d log d for the d neighbours of each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
@@ -86,6 +90,8 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
 /// deldrift_cells does.
@@ -116,6 +122,8 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
 ///
 /// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
 /// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does. One pass over
@@ -149,6 +157,8 @@ pub unsafe extern "C" fn deldrift_mirror_indices(
 ///
 /// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
 /// After a change the first call also does what the first deldrift_cells does; else constant time.
 #[unsafe(no_mangle)]
@@ -181,6 +191,8 @@ pub unsafe extern "C" fn deldrift_mirror_index(
 ///
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: the cells of the star.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a

@@ -39,6 +39,9 @@ pub type InterpolationCode = u32;
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
+/// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
+/// sphere has the position inside.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// method that this version does not have, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of
 /// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also does what the first

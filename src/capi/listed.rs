@@ -21,6 +21,8 @@ use crate::ids::{CellId, VertexId};
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
+/// Cost: the cells of the stars, and k log k for the k of them; m at most.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
 /// what the first deldrift_cells does; else the cost is that of the stars, and for many vertices at most that of a pass
@@ -60,6 +62,8 @@ pub unsafe extern "C" fn deldrift_cells_around(
 /// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
 /// neighbours; beyond that the pass of deldrift_circumcentres is faster.
 ///
+/// Cost: cell_count.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
 /// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
 /// what the first deldrift_cells does; else the cost is that of the cells listed.
@@ -98,6 +102,8 @@ pub unsafe extern "C" fn deldrift_update_circumcentres(
 /// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update and its
 /// accuracy. volumes: an array with room for capacity numbers.
 ///
+/// Cost: cell_count.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
 /// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
 /// what the first deldrift_cells does; else the cost is that of the cells listed.
@@ -134,6 +140,8 @@ pub unsafe extern "C" fn deldrift_update_volumes(
 /// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
 ///
 /// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
+///
+/// Cost: cell_count.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,

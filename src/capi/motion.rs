@@ -77,6 +77,8 @@ impl From<CommitReport> for deldrift_commit_report {
 ///
 /// position: 2 or 3 numbers, read during the call only.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
@@ -106,6 +108,8 @@ pub unsafe extern "C" fn deldrift_move_vertex(
 /// removal is staged, are not read.
 /// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
 /// and may be NULL if count is 0, when nothing is staged.
+///
+/// Cost: count.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_WRONG_COUNT if there are more positions than ids, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
@@ -151,6 +155,8 @@ pub unsafe extern "C" fn deldrift_move_vertices(
 /// deldrift_commit_positions. deldrift_discard_moves forgets the insertions; ids are given again then if none higher has
 /// been given since.
 ///
+/// Cost: count, in the mean over many calls.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
 /// be called at the same time as any other call on t.
@@ -185,6 +191,8 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
 /// The commit removes them one by one, or rebuilds where that takes less: where many go, or those with 64 neighbours and
 /// more that go have more neighbours in all than there are vertices.
 ///
+/// Cost: count, in the mean over many calls.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX (its removal is staged already, or its
 /// insertion is), DELDRIFT_OUT_OF_MEMORY.
@@ -207,6 +215,8 @@ pub unsafe extern "C" fn deldrift_stage_removals(
 
 /// Forgets all staged moves, insertions and removals.
 ///
+/// Cost: what is staged.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) -> deldrift_status {
@@ -224,6 +234,10 @@ pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) 
 /// timestamp too.
 ///
 /// report: receives what was done; may be NULL. Ends all views.
+///
+/// Cost: of k staged moves, insertions and removals at most k times that of deldrift_relocate_vertex, or that of
+/// deldrift_create, whichever the algorithm chooses; of none, constant. While there are no cells, that of
+/// deldrift_create.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
 /// reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
@@ -253,6 +267,8 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
 /// removal is staged, are not read. Read during the call only. report: as for deldrift_commit_timestamp. Ends all views.
+///
+/// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
@@ -287,7 +303,8 @@ pub unsafe extern "C" fn deldrift_commit_positions(
 ///
 /// position: 2 or 3 numbers, read during the call only.
 ///
-/// Cost: that of the cells around the vertex, before and after. As for deldrift_remove_vertex these can be many.
+/// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be many.
+/// While there are no cells, that of deldrift_create.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of this
@@ -338,6 +355,8 @@ unsafe fn relocate_in_fence(
 ///
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
 /// the highest ever given, or left by the latest deldrift_compact.
+///
+/// Cost: that of deldrift_locate, and the cells created and removed.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
@@ -399,6 +418,8 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
 ///
 /// Takes no longer than a rebuild, and while it runs the memory of a second
 /// triangulation.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.

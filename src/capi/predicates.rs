@@ -16,6 +16,8 @@ use crate::predicates::{StaticFilter, orient2d, orient3d};
 /// The cells of a triangulation have orientation 1. With another point in the place of a corner it tells on which
 /// side of the opposite facet that point lies: 1 on the side of the cell, 0 on the facet's line or plane.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE. Constant time, some nanoseconds except close to 0. May be called from any number of threads
 /// at once.

@@ -118,6 +118,8 @@ fn hint(kind: u32, index: u32) -> Option<Location> {
 /// fewer: then the last ones take the free indices (see deldrift_take_changes). Calls on several threads are
 /// legal, the first included.
 ///
+/// Cost: m for the first call of all; after a change what has changed; else constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells(
@@ -133,6 +135,8 @@ pub unsafe extern "C" fn deldrift_cells(
 /// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
 /// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
 /// too small. NULL for both with capacity 0 asks for the count alone, with another it is DELDRIFT_NULL_ARGUMENT.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -173,6 +177,8 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
+/// Cost: the cells of the star.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
@@ -209,6 +215,8 @@ pub unsafe extern "C" fn deldrift_star(
 /// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
 /// cells. Computed from the star of the vertex, whatever the algorithm in force.
 ///
+/// Cost: the cells of the star.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
 /// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
@@ -232,6 +240,8 @@ pub unsafe extern "C" fn deldrift_tolerance(
 /// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D)
 /// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
 /// for the count alone.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -262,6 +272,8 @@ pub unsafe extern "C" fn deldrift_annulus_widths(
 /// centre: receives 2 or 3 numbers, which are not finite where none could be computed. tolerance: receives
 /// the certified tolerance of the bi-cell, which those of its vertices do not exceed; half the annulus
 /// width in 2D, and at most that in 3D, where other changes may come sooner.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
 /// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also
@@ -301,6 +313,9 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
 ///
 /// position: 2 or 3 numbers.
 ///
+/// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
+/// sets, m at most. While there are no cells, constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
 /// deldrift_cells does.
@@ -320,6 +335,8 @@ pub unsafe extern "C" fn deldrift_locate(
 /// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. near: where to begin to look
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
 /// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
+///
+/// Cost: count times that of deldrift_locate.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also
@@ -356,6 +373,9 @@ pub unsafe extern "C" fn deldrift_locate_points(
 ///
 /// position: 2 or 3 numbers.
 ///
+/// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
+/// no cells, n.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
@@ -375,6 +395,8 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
 /// The lowest id among the vertices at the place of this one, to *representative: the one that is a
 /// corner of cells. It is the vertex itself unless the vertex is hidden.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
 /// insertion is staged.
 #[unsafe(no_mangle)]
@@ -390,6 +412,8 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
 /// The cells of now that did not exist before the latest commit, to *view, as indices into
 /// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
 /// first commit there are none. Needs track_changes in the options.
+///
+/// Cost: what has changed.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
@@ -410,6 +434,8 @@ pub unsafe extern "C" fn deldrift_changed_cells(
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
 /// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
 /// deldrift_last_error then gives the first violation.

@@ -25,6 +25,8 @@ use crate::motion::{Field, MovingTriangulation, Saved};
 /// Takes a pass over the memory of t, and as much memory again; nothing is triangulated. If deldrift_cells has been
 /// called before, this also does what the next deldrift_cells would do.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_clone(
@@ -59,6 +61,8 @@ pub unsafe extern "C" fn deldrift_clone(
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
 ///
 /// Takes a pass over what is saved, and does what deldrift_cells does.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -109,6 +113,8 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
 /// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16 times
 /// as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused, even if
 /// the checksum is right.
+///
+/// Cost: n log n + m, whatever the data are.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
@@ -187,6 +193,8 @@ fn bytes_of(file: &OldFile<'_>) -> Result<Vec<u8>, Failure> {
 /// A pipe that is no longer read, and the limit on the size of files, are errors like any other: SIGPIPE and SIGXFSZ of
 /// these writes do not reach the process, whose handlers stay as they are.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_save_file(
@@ -208,6 +216,8 @@ pub unsafe extern "C" fn deldrift_save_file(
 /// Its header is read first, and the rest only if that is right and the file as long as it says; it is read as a whole
 /// then, so that memory for it is needed during the call, too. Pipes, devices, sockets and directories are refused with
 /// DELDRIFT_IO_ERROR.
+///
+/// Cost: that of deldrift_load.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS, DELDRIFT_IO_ERROR,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
@@ -291,6 +301,8 @@ unsafe fn fields_of<'a>(
 ///
 /// Does what deldrift_cells does.
 ///
+/// Cost: n + m, and the numbers of the fields.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
 /// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
@@ -324,6 +336,8 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 /// Reading the numbers gives the same doubles. path: as for deldrift_save_file.
 ///
 /// Does what deldrift_cells does.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]

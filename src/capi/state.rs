@@ -11,6 +11,8 @@ use crate::motion::MovingTriangulation;
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_count(
@@ -24,6 +26,8 @@ pub unsafe extern "C" fn deldrift_vertex_count(
 /// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
 /// ids are below it, those of removed vertices and of staged insertions too.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_id_count(
@@ -36,6 +40,8 @@ pub unsafe extern "C" fn deldrift_id_count(
 
 /// How many cells there are, to *count.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cell_count(
@@ -47,6 +53,8 @@ pub unsafe extern "C" fn deldrift_cell_count(
 }
 
 /// How many moves are staged for the next timestamp, to *count.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
@@ -63,6 +71,8 @@ pub unsafe extern "C" fn deldrift_staged_count(
 /// on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
 /// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_memory_bytes(
@@ -74,6 +84,8 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
 }
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
@@ -88,6 +100,8 @@ pub unsafe extern "C" fn deldrift_timestamp(
 /// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
 /// coincident are those of now.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_statistics(
@@ -100,6 +114,8 @@ pub unsafe extern "C" fn deldrift_statistics(
 
 /// Whether a vertex of this id is present, to *present: false if it has been removed, or never was, or only its
 /// insertion is staged; true if only its removal is.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
@@ -114,8 +130,10 @@ pub unsafe extern "C" fn deldrift_is_present(
 
 /// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged. Constant time.
+/// insertion is staged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_position(
     t: *const deldrift_triangulation,
@@ -140,6 +158,8 @@ pub unsafe extern "C" fn deldrift_position(
 ///
 /// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
 /// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
 #[unsafe(no_mangle)]

@@ -314,6 +314,8 @@ impl fmt::Display for Failure {
 
 /// A status in a few words, in English, without a full stop. For a number that is no status of this
 /// version the text says so. The string is static. Never fails; may be called from any thread.
+///
+/// Cost: constant.
 #[unsafe(no_mangle)]
 pub extern "C" fn deldrift_status_string(status: StatusCode) -> *const c_char {
     deldrift_status::ALL.get(status as usize).map_or(c"unknown status", |s| s.text()).as_ptr()
@@ -325,6 +327,8 @@ pub extern "C" fn deldrift_status_string(status: StatusCode) -> *const c_char {
 ///
 /// The string is never NULL, belongs to the library, and stays until the next failure on the same
 /// thread. It is at most 511 bytes long and valid UTF-8.
+///
+/// Cost: constant.
 #[unsafe(no_mangle)]
 pub extern "C" fn deldrift_last_error() -> *const c_char {
     fence::last_message()
@@ -332,6 +336,8 @@ pub extern "C" fn deldrift_last_error() -> *const c_char {
 
 /// The version of the library that is running, as "major.minor.patch". The string is static. The
 /// version of the header that a program was compiled with is in DELDRIFT_VERSION_STRING.
+///
+/// Cost: constant.
 #[unsafe(no_mangle)]
 pub extern "C" fn deldrift_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()

@@ -140,6 +140,9 @@ pub(super) unsafe fn points<'a, G: Dimension>(
 /// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
 /// success only.
 ///
+/// Cost: on all sets of docs/COSTS.md n log n and m. No set takes more than n² in 2D, or n m in 3D, where m is the most
+/// cells of any subset.
+///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
 /// DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
@@ -204,6 +207,8 @@ pub(super) fn hand_out(
 /// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.
 /// A poisoned triangulation is destroyed like any other. From inside a callback of a call on the same
 /// triangulation this does nothing but set deldrift_last_error.
+///
+/// Cost: n + m at most.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_destroy(t: *mut deldrift_triangulation) {
     if t.is_null() {
@@ -221,6 +226,8 @@ pub unsafe extern "C" fn deldrift_destroy(t: *mut deldrift_triangulation) {
 }
 
 /// The dimension of the triangulation, 2 or 3, to *dimension.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
 #[unsafe(no_mangle)]
@@ -240,6 +247,8 @@ pub(super) fn dimension_of<G: Dimension>(_t: &MovingTriangulation<G>) -> usize {
 /// Changes the algorithm of later commits. Staged moves stay. Tolerances and delimiters that the new
 /// algorithm needs and the old one did not keep are computed by the next commit.
 ///
+/// Cost: n + m at most, to free what the old one keeps.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this
 /// version. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
@@ -258,6 +267,8 @@ pub unsafe extern "C" fn deldrift_set_algorithm(
 }
 
 /// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]

@@ -21,6 +21,8 @@ use crate::motion::MovingTriangulation;
 /// Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it runs; the
 /// Voronoi cells at the boundary of the box take a microsecond (2D) or some (3D) each.
 ///
+/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
@@ -58,6 +60,8 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// Rounded, and never negative; 0 for facets outside the box, and between the vertices of cocircular or cospherical
 /// cells. Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it
 /// runs.
+///
+/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
 ///
 /// Errors: as deldrift_voronoi_volumes: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
