@@ -1,6 +1,6 @@
 """Points that move, triangulated at every step by the package triangle of PyPI.
 
-pypi_triangle.py POINTS STEPS
+pypi_triangle.py STEPS POINTS...: a set of each number of points.
 """
 
 import sys
@@ -8,12 +8,19 @@ import sys
 import numpy
 import triangle
 
-n_points, n_steps = map(int, sys.argv[1:3])
+
+def check(result, n_points):
+    """Euler's formula, with an edge of the hull for each neighbour that is missing."""
+    n_triangles, n_hull = len(result["triangles"]), numpy.count_nonzero(result["neighbors"] == -1)
+    assert len(result["neighbors"]) == n_triangles == 2 * n_points - 2 - n_hull
+
+
+n_steps, *sizes = map(int, sys.argv[1:])
 random = numpy.random.default_rng(1)
-points = random.random((n_points, 2))
-velocities = random.normal(scale=0.01 / n_points**0.5, size=points.shape)
-for step in range(n_steps):
-    result = triangle.triangulate({"vertices": points}, "n")
-    assert len(result["triangles"]) == len(result["neighbors"]) > n_points
-    points += velocities
-print(n_points, n_steps)
+for n in sizes:
+    points = random.random((n, 2))
+    velocities = random.normal(scale=0.01 / n**0.5, size=points.shape)
+    for step in range(n_steps):
+        check(triangle.triangulate({"vertices": points}, "n"), n)
+        points += velocities
+    print(n, n_steps)

@@ -43,7 +43,11 @@ struct triangulateio {
     int numberofedges;
 };
 
-void triangulate(char *switches, struct triangulateio *in, struct triangulateio *out, struct triangulateio *vorout);
+/*
+ * Returns 0, and 1 if the call cannot be served: then one line on stderr says why, and there are no triangles. Triangle
+ * 1.6 returns nothing, later versions of it an int; programs that declare either may call this function.
+ */
+int triangulate(char *switches, struct triangulateio *in, struct triangulateio *out, struct triangulateio *vorout);
 
 #ifdef __cplusplus
 }

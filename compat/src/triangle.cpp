@@ -28,21 +28,25 @@ namespace compat {
 namespace {
 
 constexpr char name[] = "triangulate";
-using Function = void (*)(char *, triangulateio *, triangulateio *, triangulateio *);
+// Where the original returns nothing, its caller expects nothing, so what it leaves may be handed on.
+using Function = int (*)(char *, triangulateio *, triangulateio *, triangulateio *);
 Tally tally(name);
+
+constexpr int done = 0, failed = 1;
 
 struct Call {
     char *switches;
     triangulateio *in, *out, *vorout;
 };
 
-// A result without triangles, where there can be none: the function has no status.
-void give_nothing(const Call &call) {
+// A result without triangles, for callers that take no notice of what is returned.
+int give_nothing(const Call &call) {
     for (triangulateio *each : {call.out, call.vorout}) {
         if (each == nullptr) continue;
         each->numberofpoints = each->numberofpointattributes = each->numberoftriangles = 0;
         each->numberofsegments = each->numberofedges = 0;
     }
+    return failed;
 }
 
 bool is_valid(const Call &call, const TriangleSwitches &switches) {
@@ -74,7 +78,7 @@ public:
         points.numberofpoints = in.numberofpoints;
         std::string plain = switches.for_cells();
         const double start = processor_time();
-        function(plain.data(), &points, &out_, &vorout_);
+        returned_ = function(plain.data(), &points, &out_, &vorout_);
         seconds_ = processor_time() - start;
     }
     Original(const Original &) = delete;
@@ -88,6 +92,7 @@ public:
         }
     }
 
+    int returned() const { return returned_; }
     double seconds() const { return seconds_; }
     // int and uint32_t may be used for the same object, and -1 is no_cell.
     Cells cells() const {
@@ -98,6 +103,7 @@ public:
 
 private:
     triangulateio out_{}, vorout_{};
+    int returned_ = failed;
     double seconds_ = 0;
 };
 
@@ -116,18 +122,19 @@ void report_difference(const Difference &difference, std::size_t n_cells) {
              difference.first_is_own ? "deldrift" : "the original");
 }
 
-// Serves a call by deldrift, or compares with the original, whose cells are returned then. False if it cannot be done.
-bool serve(const Call &call, const TriangleSwitches &switches, Function compared) {
+// Serves a call by deldrift, or compares with the original, which then gives the cells and what is returned.
+int serve(const Call &call, const TriangleSwitches &switches, Function compared) {
     const std::size_t n_points = static_cast<std::size_t>(call.in->numberofpoints);
     const double start = processor_time();
     const Borrowed triangulation(2, call.in->pointlist, n_points);
     deldrift_cells_view view{};
     if (triangulation.status() != DELDRIFT_OK || deldrift_cells(triangulation.get(), &view) != DELDRIFT_OK) {
         complain(name, "%s", deldrift_last_error());
-        return false;
+        return give_nothing(call);
     }
     const Cells cells{3, view.count, view.vertices, view.neighbours};
     double seconds = processor_time() - start;
+    int returned = done;
     if (compared == nullptr) {
         seconds += write(call, switches, cells);
     } else {
@@ -136,38 +143,39 @@ bool serve(const Call &call, const TriangleSwitches &switches, Function compared
         if (tally.compared(cells.count, found.count)) report_difference(found, cells.count);
         tally.original_served(original.seconds(), n_points, original.cells().count);
         seconds += write(call, switches, original.cells());
+        returned = original.returned();
     }
     tally.served(triangulation.how(), seconds, n_points, view.count);
-    return true;
+    return returned;
 }
 
 // By the original, with its own output, or in sorted order.
-void serve_by_original(const Call &call, const TriangleSwitches &switches, Function function) {
+int serve_by_original(const Call &call, const TriangleSwitches &switches, Function function) {
     if (sorted() && is_valid(call, switches)) {
         const Original original(function, switches, *call.in);
         write(call, switches, original.cells());
         tally.original_served(original.seconds(), static_cast<std::size_t>(call.in->numberofpoints),
                               original.cells().count);
-        return;
+        return original.returned();
     }
     const double start = processor_time();
-    function(call.switches, call.in, call.out, call.vorout);
-    if (call.in == nullptr || call.out == nullptr) return;
-    tally.original_served(processor_time() - start, static_cast<std::size_t>(call.in->numberofpoints),
-                          static_cast<std::size_t>(call.out->numberoftriangles));
+    const int returned = function(call.switches, call.in, call.out, call.vorout);
+    if (call.in != nullptr && call.out != nullptr)
+        tally.original_served(processor_time() - start, static_cast<std::size_t>(call.in->numberofpoints),
+                              static_cast<std::size_t>(call.out->numberoftriangles));
+    return returned;
 }
 
-void pass_on(const Call &call, char unserved, Function original) {
+int pass_on(const Call &call, char unserved, Function original) {
     if (original == nullptr) {
         complain(name, "switch %c is not served by deldrift, and there is no Triangle to pass the call to", unserved);
-        give_nothing(call);
-        return;
+        return give_nothing(call);
     }
     tally.passed_on();
-    original(call.switches, call.in, call.out, call.vorout);
+    return original(call.switches, call.in, call.out, call.vorout);
 }
 
-void dispatch(const Call &call, const void *caller) {
+int dispatch(const Call &call, const void *caller) {
     const TriangleSwitches switches(call.switches);
     Function original = nullptr;
     if (switches.unserved != '\0' || mode() != Mode::deldrift)
@@ -178,24 +186,24 @@ void dispatch(const Call &call, const void *caller) {
         std::call_once(once, complain, name, "DELDRIFT_COMPAT asks for Triangle, and there is none; deldrift serves");
     }
     if (mode() == Mode::original && original != nullptr) return serve_by_original(call, switches, original);
-    if (!is_valid(call, switches) || !serve(call, switches, original)) give_nothing(call);
+    return is_valid(call, switches) ? serve(call, switches, original) : give_nothing(call);
 }
 
 } // namespace
 
 } // namespace compat
 
-extern "C" [[gnu::visibility("default")]] void triangulate(char *switches, triangulateio *in, triangulateio *out,
-                                                            triangulateio *vorout) {
+extern "C" [[gnu::visibility("default")]] int triangulate(char *switches, triangulateio *in, triangulateio *out,
+                                                           triangulateio *vorout) {
     const compat::Call call{switches, in, out, vorout};
     if (switches == nullptr) {
         compat::complain(compat::name, "switches is NULL");
         return compat::give_nothing(call);
     }
     try {
-        compat::dispatch(call, __builtin_return_address(0));
+        return compat::dispatch(call, __builtin_return_address(0));
     } catch (const std::bad_alloc &) {
         compat::complain(compat::name, "not enough memory");
-        compat::give_nothing(call);
+        return compat::give_nothing(call);
     }
 }

@@ -39,9 +39,10 @@ bool triangulate_fails_at(long n, const Points &points, std::size_t n_cells) {
     in.numberofpoints = static_cast<int>(points.size() / 2);
     char switches[] = "Qznve";
     before_failure = n;
-    triangulate(switches, &in, &out, &vorout);
+    const int returned = triangulate(switches, &in, &out, &vorout);
     const bool reached = before_failure < 0;
     before_failure = -1;
+    CHECK(returned == (out.numberoftriangles == 0 ? 1 : 0));
     if (out.numberoftriangles == 0) CHECK(reached && out.trianglelist == nullptr && vorout.pointlist == nullptr);
     else CHECK(static_cast<std::size_t>(out.numberoftriangles) == n_cells);
     for (triangulateio *each : {&out, &vorout}) {

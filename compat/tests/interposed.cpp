@@ -12,13 +12,13 @@
 
 namespace {
 
-using Triangulate = void (*)(char *, triangulateio *, triangulateio *, triangulateio *);
+using Triangulate = int (*)(char *, triangulateio *, triangulateio *, triangulateio *);
 using Tetrahedralize = void (*)(char *, tetgenio *, tetgenio *);
 
 void call_directly(char *switches, tetgenio *in, tetgenio *out) { tetrahedralize(switches, in, out); }
 
 struct Original {
-    int *calls, *is_wrong;
+    int *calls, *is_wrong, *returns;
     Triangulate call_triangulate;
     Tetrahedralize call_tetrahedralize;
 };
@@ -32,21 +32,24 @@ Original find(const char *module) {
         return found;
     };
     Original original{static_cast<int *>(symbol("original_calls")), static_cast<int *>(symbol("original_is_wrong")),
-                      &triangulate, &call_directly};
+                      static_cast<int *>(symbol("original_returns")), &triangulate, &call_directly};
     if (module == nullptr) return original;
     original.call_triangulate = reinterpret_cast<Triangulate>(symbol("call_triangulate"));
     original.call_tetrahedralize = reinterpret_cast<Tetrahedralize>(symbol("call_tetrahedralize"));
     return original;
 }
 
-// Calls with the points; whether the original was called, and the cells.
+// Calls with the points; whether the original was called, and the cells. What the call returns is the original's in a
+// program that has one and asks for it, so that a failure of it is seen, and 0 from deldrift.
 bool reaches_original(const Original &original, const char *switches, const Points &points, CellSet &cells) {
     const int before = *original.calls;
     triangulateio in{}, out{};
     in.pointlist = const_cast<double *>(points.data());
     in.numberofpoints = static_cast<int>(points.size() / 2);
     std::string text(switches);
-    original.call_triangulate(text.data(), &in, &out, nullptr);
+    *original.returns = 7;
+    const int returned = original.call_triangulate(text.data(), &in, &out, nullptr);
+    CHECK(returned == (*original.calls == before ? 0 : 7));
     cells.clear();
     for (int c = 0; c < out.numberoftriangles; c++) insert_cell(cells, out.trianglelist + 3 * c, 3, 0);
     std::free(out.trianglelist);

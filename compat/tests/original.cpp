@@ -13,6 +13,7 @@
 extern "C" {
 int original_calls = 0;
 int original_is_wrong = 0;
+int original_returns = 0;
 }
 
 static int *copy_of(const std::uint32_t *numbers, std::size_t count) {
@@ -35,7 +36,7 @@ static void flip_an_edge(int *triangles, const int *neighbours) {
     std::memcpy(second, flipped[1], sizeof flipped[1]);
 }
 
-extern "C" void triangulate(char *, triangulateio *in, triangulateio *out, triangulateio *) {
+extern "C" int triangulate(char *, triangulateio *in, triangulateio *out, triangulateio *) {
     original_calls++;
     deldrift_triangulation *t = nullptr;
     deldrift_cells_view view{};
@@ -46,6 +47,7 @@ extern "C" void triangulate(char *, triangulateio *in, triangulateio *out, trian
     out->numberoftriangles = static_cast<int>(view.count);
     deldrift_destroy(t);
     if (original_is_wrong != 0) flip_an_edge(out->trianglelist, out->neighborlist);
+    return original_returns;
 }
 
 void tetrahedralize(char *, tetgenio *, tetgenio *out, tetgenio *, tetgenio *) {
@@ -54,11 +56,9 @@ void tetrahedralize(char *, tetgenio *, tetgenio *out, tetgenio *, tetgenio *) {
 }
 
 // The call returns here, so that its origin can be told; the next one need not.
-extern "C" void call_triangulate(char *switches, triangulateio *in, triangulateio *out, triangulateio *vorout) {
-    volatile int done = 0;
-    triangulate(switches, in, out, vorout);
-    done = 1;
-    (void)done;
+extern "C" int call_triangulate(char *switches, triangulateio *in, triangulateio *out, triangulateio *vorout) {
+    volatile int returned = triangulate(switches, in, out, vorout);
+    return returned;
 }
 
 extern "C" void call_tetrahedralize(char *switches, tetgenio *in, tetgenio *out) {

@@ -22,7 +22,7 @@ public:
         in.pointattributelist = const_cast<double *>(attributes);
         in.pointmarkerlist = const_cast<int *>(markers);
         std::string text(switches);
-        triangulate(text.data(), &in, &out, &vorout);
+        CHECK(triangulate(text.data(), &in, &out, &vorout) == 0);
     }
     Call(const Call &) = delete;
     Call &operator=(const Call &) = delete;
@@ -203,7 +203,7 @@ void given_arrays_are_filled() {
     out.trianglelist = room.data();
     out.neighborlist = neighbours.data();
     char switches[] = "QznN";
-    triangulate(switches, &in, &out, nullptr);
+    CHECK(triangulate(switches, &in, &out, nullptr) == 0);
     CHECK(out.trianglelist == room.data() && out.neighborlist == neighbours.data());
     CellSet cells;
     for (int c = 0; c < out.numberoftriangles; c++) insert_cell(cells, room.data() + 3 * c, 3, 0);
@@ -234,11 +234,12 @@ void bad_input_gives_nothing() {
         triangulateio out{}, vorout{};
         out.numberoftriangles = out.numberofedges = 7;
         std::string text(switches);
-        triangulate(text.data(), in, &out, with_vorout ? &vorout : nullptr);
+        const int returned = triangulate(text.data(), in, &out, with_vorout ? &vorout : nullptr);
         const bool nothing = out.numberoftriangles == 0 && out.numberofedges == 0 && out.trianglelist == nullptr;
         std::free(out.pointlist);
         std::free(out.pointmarkerlist);
         std::free(out.trianglelist);
+        CHECK(returned == (nothing ? 1 : 0));
         return nothing;
     };
     Points points = random_points(2, 10, 14);
@@ -265,9 +266,9 @@ void bad_input_gives_nothing() {
     }
     in.pointlist = nullptr;
     CHECK(gives_nothing("Qz", &in));
-    triangulate(nullptr, &in, &in, nullptr);
+    CHECK(triangulate(nullptr, &in, &in, nullptr) == 1);
     char switches[] = "Qz";
-    triangulate(switches, &in, nullptr, nullptr);
+    CHECK(triangulate(switches, &in, nullptr, nullptr) == 1);
 }
 
 } // namespace
