@@ -64,16 +64,18 @@ fn calls_take_as_little_of_the_stack_when_they_are_optimised() {
     println!("{}", succeed(&mut command(program)));
 }
 
-/// One runs, with the ranges and spans of the standard library.
+/// Two run, with the ranges and spans of the standard library.
 #[test]
 fn cpp_programs_are_cpp20_too() {
     let folder = fresh_folder("cpp20");
     for source in sources("ffi-tests/cpp", "cpp") {
         succeed(compiler(&source).args(["-std=c++20", "-fsyntax-only"]).arg(source));
     }
-    let source = repository("ffi-tests/cpp/ranges.cpp");
-    let program = build(&source, &folder, Linkage::Shared, &["-std=c++20"]);
-    assert_eq!(succeed(&mut command(program)), "");
+    for name in ["ranges", "sequences"] {
+        let source = repository(&format!("ffi-tests/cpp/{name}.cpp"));
+        let program = build(&source, &folder, Linkage::Shared, &["-std=c++20"]);
+        assert_eq!(succeed(&mut command(program)), "");
+    }
 }
 
 /// A program for CGAL writes the same with deldrift in its place.

@@ -3,11 +3,15 @@
 // that the cells are unique; what has no order is sorted.
 #include <algorithm>
 #include <array>
+#include <boost/iterator/counting_iterator.hpp>
+#include <boost/iterator/transform_iterator.hpp>
+#include <boost/iterator/zip_iterator.hpp>
 #include <cstdio>
 #include <iterator>
 #include <map>
 #include <random>
 #include <set>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -362,9 +366,64 @@ static void space() {
                 t.nearest_vertex(Point_3(0.1, 0.9, 0.5))->info());
 }
 
+// ---------------------------------------------------------------------------- points from whatever gives them
+
+// Coordinates as they are read from text.
+template <class Point, std::size_t dimension>
+struct Coordinates {
+    std::array<double, dimension> x{};
+    operator Point() const { return std::apply([](auto... each) { return Point(each...); }, x); }
+    friend std::istream &operator>>(std::istream &in, Coordinates &c) {
+        for (double &each : c.x) in >> each;
+        return in;
+    }
+};
+
+// The vertices, with their infos and how many neighbours each has.
+template <class Dt>
+static void show_vertices(const Dt &t) {
+    for (const auto &[info, v] : by_info_of(t)) {
+        std::printf("%u: %g %g, %zu\n", info, v->point().x(), v->point().y(),
+                    static_cast<std::size_t>(t.degree(v)));
+    }
+}
+
+// Infos come from how often the iterators have been read.
+template <class Dt, std::size_t dimension>
+static void sequences() {
+    using Point = typename Dt::Point;
+    std::vector<Point> points;
+    for (unsigned i = 0; i < 30; i++) {
+        Coordinates<Point, dimension> c;
+        for (double &each : c.x) each = anywhere();
+        points.push_back(c);
+    }
+    unsigned n_read = 0;
+    const auto next = [&](unsigned i) { return std::pair<Point, unsigned>(points[i], 100 * n_read++); };
+    const auto from = boost::make_transform_iterator(boost::counting_iterator<unsigned>(0), next);
+    show_vertices(Dt(from, from + 30));
+    std::printf("%u\n", n_read);
+
+    std::vector<unsigned> infos;
+    for (unsigned i = 0; i < 30; i++) infos.push_back(7 * i);
+    Dt zipped;
+    zipped.insert(boost::make_zip_iterator(boost::make_tuple(points.begin(), infos.begin())),
+                  boost::make_zip_iterator(boost::make_tuple(points.end(), infos.end())));
+    show_vertices(zipped);
+
+    using Read = std::istream_iterator<Coordinates<Point, dimension>>;
+    std::istringstream text("0 0 1 4 1 0 2 5 3 7 4 9 3 1 8 5 6 1");
+    Dt read{Read(text), Read()};
+    unsigned sum = 0;
+    for (typename Dt::Vertex_handle v : read.finite_vertex_handles()) sum += static_cast<unsigned>(v->point().x());
+    std::printf("%zu %u\n", static_cast<std::size_t>(read.number_of_vertices()), sum);
+}
+
 int main() {
     plane();
     locate_on_edges();
     space();
     locate_in_space();
+    sequences<Dt2, 2>();
+    sequences<Dt3, 3>();
 }

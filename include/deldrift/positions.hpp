@@ -52,7 +52,8 @@ using element_of = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std
 
 // Positions to read during the call that they are passed to: numbers one after the other or points, in any contiguous
 // container, or what strided() and separate() give. Numbers may be double or float, each of which is a double exactly.
-// Only doubles that lie one after the other are read without a copy.
+// Only doubles that lie one after the other are read without a copy. What does not lie in memory in a row (lists,
+// streams, views that make their elements) is refused when it is compiled: it goes to a vector first.
 class Positions {
 public:
     Positions() = default;

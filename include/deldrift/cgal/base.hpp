@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "given.hpp"
 #include "handles.hpp"
 
 namespace deldrift::cgal::detail {
@@ -66,19 +67,16 @@ public:
     Vertex_handle insert(const Point &p, Hint...) {
         return Vertex_handle(mesh_->insert(p, {}));
     }
-    // Points, or pairs of point and info, all at once; returns how many vertices there are more.
-    template <class Iterator, class = typename std::iterator_traits<Iterator>::iterator_category>
-    std::ptrdiff_t insert(Iterator first, Iterator last) {
+    // Points, or pairs or tuples of point and info, all at once; returns how many vertices there are more. Each element
+    // is read once, in order, before anything is inserted. The end may be of another type than the iterator.
+    template <class Iterator, class End, class = std::enable_if_t<Is_sequence<Iterator, End>::value>>
+    std::ptrdiff_t insert(Iterator first, End last) {
         const auto before = static_cast<std::ptrdiff_t>(number_of_vertices());
         typename Mesh::Vertices vertices;
         for (; first != last; ++first) {
-            if constexpr (std::is_convertible_v<decltype(*first), Point>) {
-                vertices.emplace_back(*first, typename Mesh::Given_info{});
-            } else {
-                vertices.emplace_back(first->first, first->second);
-            }
+            vertices.push_back(point_and_info<Point, typename Mesh::Given_info>(*first));
         }
-        mesh_->insert(vertices);
+        mesh_->insert(std::move(vertices));
         return static_cast<std::ptrdiff_t>(number_of_vertices()) - before;
     }
     void remove(Vertex_handle v) { mesh_->remove(v.record_); }

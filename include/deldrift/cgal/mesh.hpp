@@ -127,8 +127,8 @@ public:
         return id == DELDRIFT_NONE ? nullptr : by_id_[id];
     }
 
-    Record *insert(const Point &p, const Given_info &info) {
-        Record *record = add(p, info);
+    Record *insert(const Point &p, Given_info info) {
+        Record *record = add(p, std::move(info));
         std::uint32_t id = 0;
         const deldrift_status status = deldrift_insert_vertex(t_.native(), numbers_of<D>(p).data(), &id);
         if (status != DELDRIFT_OK) drop_last();
@@ -139,9 +139,9 @@ public:
     }
 
     // All at once; one vertex for each place. Where there are moves to be committed, one after the other.
-    void insert(const Vertices &vertices) {
+    void insert(Vertices vertices) {
         if (t_.staged_count() > 0) {
-            for (const auto &[p, info] : vertices) insert(p, info);
+            for (auto &[p, info] : vertices) insert(p, std::move(info));
         } else if (!insert_at_once(vertices, {})) {
             const std::vector<std::size_t> different = different_places(vertices);
             if (!different.empty()) insert_at_once(vertices, different);
@@ -216,18 +216,22 @@ private:
         if (status != DELDRIFT_OK) throw Error(status);
     }
 
-    // A record for the next id.
-    Record *add(const Point &p, const Given_info &info) {
+    // A record for the next id. Points and infos whose assignment throws leave nothing behind.
+    Record *add(const Point &p, Given_info info) {
         const auto id = static_cast<std::uint32_t>(by_id_.size());
         if (unused_.empty()) {
             // Room for all, so that none is lost when it is forgotten.
             if (unused_.capacity() <= records_.size()) unused_.reserve(2 * records_.size() + 16);
-            records_.push_back(Record{p, info, nullptr, id});
+            records_.push_back(Record{p, {}, nullptr, id});
             unused_.push_back(&records_.back());
         }
         Record *record = unused_.back();
+        if (by_id_.size() == by_id_.capacity()) by_id_.reserve(2 * by_id_.size() + 16);
+        record->point = p;
+        record->info = std::move(info);
+        record->mesh = this;
+        record->id = id;
         by_id_.push_back(record);
-        *record = Record{p, info, this, id};
         unused_.pop_back();
         return record;
     }
@@ -245,15 +249,26 @@ private:
         unused_.push_back(record);
     }
 
-    // Whether that could be done: not if two are at the same place. Those of the given indices; none for all.
-    bool insert_at_once(const Vertices &vertices, const std::vector<std::size_t> &which) {
+    // Infos are moved to their vertices when nothing can fail any more; those whose assignment may throw are copied
+    // before.
+    static constexpr bool moves_infos =
+        std::is_nothrow_move_assignable_v<Given_info> || !std::is_copy_constructible_v<Given_info>;
+
+    // Whether that could be done: not if two are at the same place; then the vertices have their infos still. Those of
+    // the given indices; none for all.
+    bool insert_at_once(Vertices &vertices, const std::vector<std::size_t> &which) {
+        const auto index = [&which](std::size_t i) { return which.empty() ? i : which[i]; };
         const std::size_t n = which.empty() ? vertices.size() : which.size(), n_before = by_id_.size();
         std::vector<std::array<double, D>> places;
         places.reserve(n);
         try {
             for (std::size_t i = 0; i < n; i++) {
-                const auto &[p, info] = vertices[which.empty() ? i : which[i]];
-                add(p, info);
+                const auto &[p, info] = vertices[index(i)];
+                if constexpr (moves_infos) {
+                    add(p, {});
+                } else {
+                    add(p, info);
+                }
                 places.push_back(numbers_of<D>(p));
             }
             if (t_.id_count() == 0) {
@@ -271,6 +286,9 @@ private:
             throw;
         }
         changed();
+        if constexpr (moves_infos) {
+            for (std::size_t i = 0; i < n; i++) by_id_[n_before + i]->info = std::move(vertices[index(i)].second);
+        }
         return true;
     }
     void undo_insertions(std::size_t n_before) {

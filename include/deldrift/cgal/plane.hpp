@@ -108,10 +108,10 @@ public:
 
     Delaunay_triangulation_2() = default;
     explicit Delaunay_triangulation_2(const K &) {}
-    // Of points, or pairs of point and info.
-    template <class Iterator, class = typename std::iterator_traits<Iterator>::iterator_category>
-    Delaunay_triangulation_2(Iterator first, Iterator last) {
-        this->insert(first, last);
+    // Of points, or pairs or tuples of point and info, each of which is read once.
+    template <class Iterator, class End, class = std::enable_if_t<detail::Is_sequence<Iterator, End>::value>>
+    Delaunay_triangulation_2(Iterator first, End last) {
+        this->insert(std::move(first), std::move(last));
     }
 
     static int ccw(int i) noexcept { return (i + 1) % 3; }
