@@ -65,7 +65,7 @@ fn every_function_is_called_on_a_tour() {
 #[test]
 fn every_status_is_asserted() {
     let header = text_of("include/deldrift.h");
-    let (_, from) = header.split_once("enum deldrift_status").expect("there are statuses");
+    let (_, from) = header.split_once("deldrift_status : uint32_t").expect("there are statuses");
     let (statuses, _) = from.split_once("};").expect("an enumeration ends");
     let statuses: Vec<&str> =
         declarations(statuses).filter_map(|line| line.split_once(" = ")).map(|(name, _)| name).collect();

@@ -57,7 +57,7 @@ fn every_function_says_what_it_costs_and_is_measured() {
 #[test]
 fn every_status_has_a_cause_and_a_remedy() {
     let header = text_of("include/deldrift.h");
-    let (_, from) = header.split_once("enum deldrift_status").expect("there are statuses");
+    let (_, from) = header.split_once("deldrift_status : uint32_t").expect("there are statuses");
     let (statuses, _) = from.split_once("};").expect("an enumeration ends");
     let statuses: BTreeSet<&str> =
         declarations(statuses).filter_map(|line| line.split_once(" = ")).map(|(name, _)| name).collect();

@@ -77,7 +77,7 @@ fn make_header() -> String {
     }
     let mut header = Vec::new();
     builder.generate().expect("the sources are understood").write(&mut header);
-    let header = String::from_utf8(header).expect("the sources are text");
+    let header = enumerations_in_c(&String::from_utf8(header).expect("the sources are text"));
     header.lines().map(|line| without_tags(line) + "\n").collect()
 }
 
@@ -97,6 +97,26 @@ fn enumeration_of_algorithms() -> String {
         }
     }
     source + "}\n"
+}
+
+/// Enumerations have a tag only where they have a type, too: in older C a type of numbers has that name, which would
+/// have two meanings.
+fn enumerations_in_c(header: &str) -> String {
+    let mut made = String::new();
+    let mut tag = None;
+    for line in header.lines() {
+        if let Some(name) = line.strip_prefix("enum deldrift_") {
+            tag = Some(name);
+            made += "enum\n";
+        } else if let (Some(name), "  : uint32_t") = (tag, line) {
+            made += &format!("  deldrift_{name} : uint32_t\n");
+            tag = None;
+        } else {
+            made = made + line + "\n";
+        }
+    }
+    assert_eq!(tag, None, "an enumeration without a type");
+    made
 }
 
 /// Every structure has a typedef of the same name, so that uses need no `struct`.

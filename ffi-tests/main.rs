@@ -30,3 +30,4 @@ mod memory;
 mod pages;
 mod programs;
 mod support;
+mod warnings;

@@ -93,9 +93,9 @@
 /// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
 ///
 /// deldrift_last_error says which argument was wrong, at which index, and its value.
-enum deldrift_status
+enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
+  deldrift_status : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     /// The call did what it was asked to do.
@@ -171,9 +171,9 @@ typedef uint32_t deldrift_status;
 #endif // __cplusplus
 
 /// How a point lies to what the index of a deldrift_location names.
-enum deldrift_location_kind
+enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
+  deldrift_location_kind : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     /// At the place of a vertex: index is its id, the lowest one if several share the place.
@@ -202,9 +202,9 @@ typedef uint32_t deldrift_location_kind;
 /// rows, each an input or a part of one.
 ///
 /// Numbers from 1000 on are for the library's own tests, and may mean something else in any version.
-enum deldrift_algorithm
+enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
+  deldrift_algorithm : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     /// Chooses at each commit by what the last ones found. Where all vertices are staged: repair, of only those
@@ -256,9 +256,9 @@ typedef uint32_t deldrift_algorithm;
 #endif // __cplusplus
 
 /// What happens when vertices come to lie at the same place.
-enum deldrift_coincidence
+enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
+  deldrift_coincidence : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     /// The lowest id represents the place in the cells; the others are hidden until they move apart.
@@ -275,9 +275,9 @@ typedef uint32_t deldrift_coincidence;
 #endif // __cplusplus
 
 /// How values between vertices follow from those at vertices.
-enum deldrift_interpolation
+enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
-  : uint32_t
+  deldrift_interpolation : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     /// Linear in each cell.
@@ -869,7 +869,7 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
 /// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
 /// and faster if each point is near the one before it.
 ///
-/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. near: where to begin to look
+/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
 /// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
 ///
@@ -879,7 +879,7 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
 deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const double *positions,
                                        size_t count,
-                                       const deldrift_location *near,
+                                       const deldrift_location *hint,
                                        deldrift_location *locations);
 
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
@@ -1243,7 +1243,7 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 ///
 /// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of
 /// removed and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers
-/// each. All are read during the call only. near: where to begin to look for the first position, as for
+/// each. All are read during the call only. hint: where to begin to look for the first position, as for
 /// deldrift_locate_points; NULL if nothing is known. It is fastest if each position is near the one before it. outside:
 /// what positions outside the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions
 /// but those of vertices are outside. results: receives count rows of n_values numbers. values may be NULL if
@@ -1264,7 +1264,7 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
                                      size_t n_values,
                                      const double *positions,
                                      size_t count,
-                                     const deldrift_location *near,
+                                     const deldrift_location *hint,
                                      const double *outside,
                                      double *results);
 
@@ -1403,21 +1403,11 @@ deldrift_status deldrift_orientation(uint32_t dimension,
 /// Defined here and not in the library, so that it fills the structure of this header, whichever later
 /// version the program runs with. Other languages do the same: all zero but struct_size.
 static inline void deldrift_options_init(deldrift_options *options) {
-    if (options == NULL) {
-        return;
+    static deldrift_options zeros;
+    if (options) {
+        *options = zeros;
+        options->struct_size = sizeof *options;
     }
-    options->struct_size = sizeof *options;
-    options->algorithm = DELDRIFT_AUTO;
-    options->threads = 0;
-    options->coincidence = DELDRIFT_COINCIDENCE_MERGE;
-    options->track_changes = 0;
-    options->cancel = NULL;
-    options->progress = NULL;
-    options->user_data = NULL;
-    options->switch_share = 0;
-    options->switch_seed = 0;
-    options->switch_sample = 0;
-    options->switch_period = 0;
 }
 
 #endif // DELDRIFT_H

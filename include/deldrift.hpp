@@ -9,7 +9,8 @@
 // A Triangulation owns a deldrift_triangulation and destroys it. Every member calls the function of the
 // same name in deldrift.h, which describes shapes, errors and the life of views; const members may be called
 // from several threads at once. A member that is not noexcept throws deldrift::Error, and has had no effect
-// then. To do without exceptions, call the functions of deldrift.h on native(): they return a status.
+// then. To do without exceptions, call the functions of deldrift.h on native(): they return a status. Where exceptions
+// are disabled (-fno-exceptions) this header does not compile, and says so: use deldrift.h.
 //
 // Positions come from any contiguous container of double, float, std::array or a program's own points, or with a
 // stride, or from arrays of x, y and z: see deldrift/positions.hpp. Cells, facets, stars and vertices are ranges with
@@ -17,6 +18,10 @@
 // the next change. deldrift/cgal.hpp has the names of CGAL's Delaunay_triangulation_2 and _3.
 #ifndef DELDRIFT_HPP
 #define DELDRIFT_HPP
+
+#ifndef __cpp_exceptions
+#error "deldrift.hpp throws exceptions, which are disabled here: use deldrift.h, whose functions return a status"
+#else
 
 #include <array>
 #include <cstddef>
@@ -53,35 +58,35 @@ public:
         : dimension_(dimension) {
         deldrift_triangulation *t = nullptr;
         const span<const double> numbers = gathered(positions);
-        check(deldrift_create(dimension, numbers.data(), count_of("positions", numbers), &options, &t));
+        require_ok(deldrift_create(dimension, numbers.data(), count_of("positions", numbers), &options, &t));
         t_.reset(t);
     }
     // Takes over what deldrift_create has made.
-    explicit Triangulation(deldrift_triangulation *t) : t_(t) { check(deldrift_dimension(t, &dimension_)); }
+    explicit Triangulation(deldrift_triangulation *t) : t_(t) { require_ok(deldrift_dimension(t, &dimension_)); }
 
     // An independent triangulation that is as this one.
     Triangulation clone() const {
         deldrift_triangulation *t = nullptr;
-        check(deldrift_clone(native(), &t));
+        require_ok(deldrift_clone(native(), &t));
         return Triangulation(t);
     }
     std::vector<unsigned char> save() const {
         std::size_t count = 0;
-        check(deldrift_save(native(), nullptr, 0, &count));
+        require_ok(deldrift_save(native(), nullptr, 0, &count));
         std::vector<unsigned char> bytes(count);
-        check(deldrift_save(native(), bytes.data(), count, &count));
+        require_ok(deldrift_save(native(), bytes.data(), count, &count));
         return bytes;
     }
     // Of bytes that save() gave.
     static Triangulation load(span<const unsigned char> bytes, const deldrift_options &options = default_options()) {
         deldrift_triangulation *t = nullptr;
-        check(deldrift_load(bytes.data(), bytes.size(), &options, &t));
+        require_ok(deldrift_load(bytes.data(), bytes.size(), &options, &t));
         return Triangulation(t);
     }
-    void save_file(const std::string &path) const { check(deldrift_save_file(native(), path.c_str())); }
+    void save_file(const std::string &path) const { require_ok(deldrift_save_file(native(), path.c_str())); }
     static Triangulation load_file(const std::string &path, const deldrift_options &options = default_options()) {
         deldrift_triangulation *t = nullptr;
-        check(deldrift_load_file(path.c_str(), &options, &t));
+        require_ok(deldrift_load_file(path.c_str(), &options, &t));
         return Triangulation(t);
     }
     // For ParaView and VTK.
@@ -89,37 +94,38 @@ public:
                    const std::vector<Field> &cell_fields = {}) const {
         const std::vector<deldrift_field> vertices = fields_of(vertex_fields, id_count());
         const std::vector<deldrift_field> cells = fields_of(cell_fields, cell_count());
-        check(deldrift_write_vtu(native(), path.c_str(), vertices.data(), vertices.size(), cells.data(), cells.size()));
+        require_ok(deldrift_write_vtu(native(), path.c_str(), vertices.data(), vertices.size(), cells.data(),
+                                      cells.size()));
     }
     // For Mmg, FreeFem, Gmsh and others.
-    void write_medit(const std::string &path) const { check(deldrift_write_medit(native(), path.c_str())); }
+    void write_medit(const std::string &path) const { require_ok(deldrift_write_medit(native(), path.c_str())); }
 
     // For the functions of deldrift.h; null when moved from.
     deldrift_triangulation *native() noexcept { return t_.get(); }
     const deldrift_triangulation *native() const noexcept { return t_.get(); }
     std::uint32_t dimension() const noexcept { return dimension_; }
 
-    void set_algorithm(deldrift_algorithm algorithm) { check(deldrift_set_algorithm(native(), algorithm)); }
+    void set_algorithm(deldrift_algorithm algorithm) { require_ok(deldrift_set_algorithm(native(), algorithm)); }
     deldrift_algorithm algorithm() const { return ask<deldrift_algorithm>(deldrift_get_algorithm); }
 
     void move_vertex(std::uint32_t vertex, span<const double> position) {
-        check(deldrift_move_vertex(native(), vertex, point(position)));
+        require_ok(deldrift_move_vertex(native(), vertex, point(position)));
     }
     // positions: those of the first ids, as many as there are, or of the ids in vertices. Without ids, the entry of a
     // vertex whose insertion is staged is where it will be inserted.
     void move_vertices(const Positions &positions) {
         const span<const double> numbers = gathered(positions);
-        check(deldrift_move_vertices(native(), nullptr, numbers.data(), count_of("positions", numbers)));
+        require_ok(deldrift_move_vertices(native(), nullptr, numbers.data(), count_of("positions", numbers)));
     }
     void move_vertices(span<const std::uint32_t> vertices, const Positions &positions) {
         const span<const double> numbers = gathered(positions);
         expect("positions", numbers.size(), vertices.size() * dimension_);
-        check(deldrift_move_vertices(native(), vertices.data(), numbers.data(), vertices.size()));
+        require_ok(deldrift_move_vertices(native(), vertices.data(), numbers.data(), vertices.size()));
     }
-    void discard_moves() { check(deldrift_discard_moves(native())); }
+    void discard_moves() { require_ok(deldrift_discard_moves(native())); }
     deldrift_commit_report commit_timestamp() {
         deldrift_commit_report report;
-        check(deldrift_commit_timestamp(native(), &report));
+        require_ok(deldrift_commit_timestamp(native(), &report));
         return report;
     }
 
@@ -128,34 +134,34 @@ public:
     deldrift_commit_report commit_positions(const Positions &positions) {
         const span<const double> numbers = gathered(positions);
         deldrift_commit_report report;
-        check(deldrift_commit_positions(native(), numbers.data(), count_of("positions", numbers), &report));
+        require_ok(deldrift_commit_positions(native(), numbers.data(), count_of("positions", numbers), &report));
         return report;
     }
     // For the next commit; returns the id of the first one, which those of the others follow.
     std::uint32_t stage_insertions(const Positions &positions) {
         const span<const double> numbers = gathered(positions);
         std::uint32_t first;
-        check(deldrift_stage_insertions(native(), numbers.data(), count_of("positions", numbers), &first));
+        require_ok(deldrift_stage_insertions(native(), numbers.data(), count_of("positions", numbers), &first));
         return first;
     }
     void stage_removals(span<const std::uint32_t> vertices) {
-        check(deldrift_stage_removals(native(), vertices.data(), vertices.size()));
+        require_ok(deldrift_stage_removals(native(), vertices.data(), vertices.size()));
     }
 
     void relocate_vertex(std::uint32_t vertex, span<const double> position) {
-        check(deldrift_relocate_vertex(native(), vertex, point(position)));
+        require_ok(deldrift_relocate_vertex(native(), vertex, point(position)));
     }
     std::uint32_t insert_vertex(span<const double> position) {
         std::uint32_t vertex;
-        check(deldrift_insert_vertex(native(), point(position), &vertex));
+        require_ok(deldrift_insert_vertex(native(), point(position), &vertex));
         return vertex;
     }
-    void remove_vertex(std::uint32_t vertex) { check(deldrift_remove_vertex(native(), vertex)); }
+    void remove_vertex(std::uint32_t vertex) { require_ok(deldrift_remove_vertex(native(), vertex)); }
     // The new id of each old one, DELDRIFT_NONE for removed vertices.
     std::vector<std::uint32_t> compact() {
         std::size_t count = id_count();
         std::vector<std::uint32_t> map(count);
-        check(deldrift_compact(native(), map.data(), count, &count));
+        require_ok(deldrift_compact(native(), map.data(), count, &count));
         return map;
     }
 
@@ -170,7 +176,7 @@ public:
 
     std::vector<double> position(std::uint32_t vertex) const {
         std::vector<double> position(dimension_);
-        check(deldrift_position(native(), vertex, position.data()));
+        require_ok(deldrift_position(native(), vertex, position.data()));
         return position;
     }
     // As an array: t.position<3>(vertex).
@@ -178,13 +184,13 @@ public:
     std::array<double, D> position(std::uint32_t vertex) const {
         expect_dimension(D);
         std::array<double, D> position;
-        check(deldrift_position(native(), vertex, position.data()));
+        require_ok(deldrift_position(native(), vertex, position.data()));
         return position;
     }
     std::vector<double> positions() const {
         std::size_t count = id_count();
         std::vector<double> positions(count * dimension_);
-        check(deldrift_copy_positions(native(), positions.data(), count, &count));
+        require_ok(deldrift_copy_positions(native(), positions.data(), count, &count));
         return positions;
     }
     template <std::size_t D>
@@ -194,7 +200,7 @@ public:
         std::size_t count = id_count();
         std::vector<std::array<double, D>> positions(count);
         double *const numbers = count == 0 ? nullptr : positions.front().data();
-        check(deldrift_copy_positions(native(), numbers, count, &count));
+        require_ok(deldrift_copy_positions(native(), numbers, count, &count));
         return positions;
     }
     // The ids of the vertices that are present, in ascending order.
@@ -203,7 +209,7 @@ public:
     // Since the last call; all lists end with the next change.
     deldrift_changes take_changes() {
         deldrift_changes changes;
-        check(deldrift_take_changes(native(), &changes));
+        require_ok(deldrift_take_changes(native(), &changes));
         return changes;
     }
     span<const std::uint32_t> changed_cells() const {
@@ -218,7 +224,7 @@ public:
         if (status == DELDRIFT_BUFFER_TOO_SMALL) {
             status = deldrift_star(native(), vertex, star.data(), star.size(), &count);
         }
-        check(status);
+        require_ok(status);
         return star;
     }
     // The cells of the star, with their vertices and neighbours.
@@ -230,7 +236,7 @@ public:
     std::vector<double> annulus_widths() const {
         std::size_t count = cell_count() * (dimension_ + std::size_t{1});
         std::vector<double> widths(count);
-        check(deldrift_annulus_widths(native(), widths.data(), count, &count));
+        require_ok(deldrift_annulus_widths(native(), widths.data(), count, &count));
         return widths;
     }
     // Nothing for a facet of the hull.
@@ -239,7 +245,7 @@ public:
         const deldrift_status status = deldrift_standard_delimiter(
             native(), cell, corner, delimiter.centre.data(), &delimiter.radius, &delimiter.tolerance);
         if (status == DELDRIFT_NO_DELIMITER) return std::nullopt;
-        check(status);
+        require_ok(status);
         return delimiter;
     }
 
@@ -247,35 +253,36 @@ public:
     Circumspheres circumcentres() const {
         std::size_t count = cell_count();
         Circumspheres spheres{std::vector<double>(count * dimension_), std::vector<double>(count)};
-        check(deldrift_circumcentres(native(), spheres.centres.data(), spheres.squared_radii.data(), count, &count));
+        require_ok(deldrift_circumcentres(native(), spheres.centres.data(), spheres.squared_radii.data(), count,
+                                          &count));
         return spheres;
     }
     std::vector<double> volumes() const {
         std::size_t count = cell_count();
         std::vector<double> volumes(count);
-        check(deldrift_volumes(native(), volumes.data(), count, &count));
+        require_ok(deldrift_volumes(native(), volumes.data(), count, &count));
         return volumes;
     }
     std::vector<std::uint8_t> mask_by_circumradius(double squared_radius) const {
         std::size_t count = cell_count();
         std::vector<std::uint8_t> mask(count);
-        check(deldrift_mask_by_circumradius(native(), squared_radius, mask.data(), count, &count));
+        require_ok(deldrift_mask_by_circumradius(native(), squared_radius, mask.data(), count, &count));
         return mask;
     }
     // Of the cells listed alone, in arrays for all cells that hold those of the others already.
     void update_circumcentres(span<const std::uint32_t> cells, Circumspheres &spheres) const {
         const std::size_t capacity = spheres.squared_radii.size();
         expect("centres", spheres.centres.size(), capacity * dimension_);
-        check(deldrift_update_circumcentres(native(), cells.data(), cells.size(), spheres.centres.data(),
-                                            spheres.squared_radii.data(), capacity));
+        require_ok(deldrift_update_circumcentres(native(), cells.data(), cells.size(), spheres.centres.data(),
+                                                 spheres.squared_radii.data(), capacity));
     }
     void update_volumes(span<const std::uint32_t> cells, span<double> volumes) const {
-        check(deldrift_update_volumes(native(), cells.data(), cells.size(), volumes.data(), volumes.size()));
+        require_ok(deldrift_update_volumes(native(), cells.data(), cells.size(), volumes.data(), volumes.size()));
     }
     void update_mask_by_circumradius(span<const std::uint32_t> cells, double squared_radius,
                                      span<std::uint8_t> mask) const {
-        check(deldrift_update_mask_by_circumradius(native(), cells.data(), cells.size(), squared_radius, mask.data(),
-                                                   mask.size()));
+        require_ok(deldrift_update_mask_by_circumradius(native(), cells.data(), cells.size(), squared_radius,
+                                                        mask.data(), mask.size()));
     }
     // Seen from outside. mask: a byte for each cell, 0 if it is not in the mask.
     Facets mask_boundary(span<const std::uint8_t> mask) const {
@@ -295,9 +302,9 @@ public:
     // Rows of two ids, the lower one first, in lexicographic order.
     std::vector<std::uint32_t> edges() const {
         std::size_t count = 0;
-        check(deldrift_edges(native(), nullptr, 0, &count));
+        require_ok(deldrift_edges(native(), nullptr, 0, &count));
         std::vector<std::uint32_t> edges(2 * count);
-        check(deldrift_edges(native(), edges.data(), count, &count));
+        require_ok(deldrift_edges(native(), edges.data(), count, &count));
         return edges;
     }
     Lists vertex_neighbours() const { return lists(deldrift_vertex_neighbours); }
@@ -306,7 +313,7 @@ public:
     std::vector<std::uint8_t> mirror_indices() const {
         std::size_t count = cell_count();
         std::vector<std::uint8_t> mirrors(count * (dimension_ + std::size_t{1}));
-        check(deldrift_mirror_indices(native(), mirrors.data(), count, &count));
+        require_ok(deldrift_mirror_indices(native(), mirrors.data(), count, &count));
         return mirrors;
     }
     // DELDRIFT_NONE for a facet of the hull.
@@ -316,9 +323,9 @@ public:
     // Counter-clockwise; in 2D.
     std::vector<std::uint32_t> ordered_star(std::uint32_t vertex) const {
         std::size_t count = 0;
-        check(deldrift_ordered_star(native(), vertex, nullptr, 0, &count));
+        require_ok(deldrift_ordered_star(native(), vertex, nullptr, 0, &count));
         std::vector<std::uint32_t> star(count);
-        check(deldrift_ordered_star(native(), vertex, star.data(), count, &count));
+        require_ok(deldrift_ordered_star(native(), vertex, star.data(), count, &count));
         return star;
     }
     // Those with at least one of the vertices as a corner, in ascending order.
@@ -332,7 +339,7 @@ public:
             cells.resize(count);
             status = around(vertices, cells, count);
         }
-        check(status);
+        require_ok(status);
         cells.resize(count);
         return cells;
     }
@@ -340,43 +347,43 @@ public:
     std::vector<double> voronoi_volumes(span<const double> low = {}, span<const double> high = {}) const {
         std::size_t count = id_count();
         std::vector<double> volumes(count);
-        check(deldrift_voronoi_volumes(native(), corner("low", low), corner("high", high), volumes.data(), count,
-                                  &count));
+        require_ok(deldrift_voronoi_volumes(native(), corner("low", low), corner("high", high), volumes.data(), count,
+                                            &count));
         return volumes;
     }
     // Of all edges, in their order.
     std::vector<double> voronoi_facets(span<const double> low = {}, span<const double> high = {}) const {
         std::size_t count = 0;
-        check(deldrift_edges(native(), nullptr, 0, &count));
+        require_ok(deldrift_edges(native(), nullptr, 0, &count));
         std::vector<double> measures(count);
-        check(deldrift_voronoi_facets(native(), corner("low", low), corner("high", high), measures.data(), count,
-                                  &count));
+        require_ok(deldrift_voronoi_facets(native(), corner("low", low), corner("high", high), measures.data(), count,
+                                           &count));
         return measures;
     }
     // values: n_values numbers for each id. outside: those of positions outside the hull, NaN if there are none.
     std::vector<double> interpolate(deldrift_interpolation method, span<const double> values, std::size_t n_values,
                                     span<const double> positions, span<const double> outside = {},
-                                    const deldrift_location *near = nullptr) const {
+                                    const deldrift_location *hint = nullptr) const {
         const std::size_t ids = id_count(), count = count_of("positions", positions);
         expect("values", values.size(), ids * n_values);
         if (!outside.empty()) expect("outside", outside.size(), n_values);
         std::vector<double> results(count * n_values);
-        check(deldrift_interpolate(native(), method, values.data(), ids, n_values, positions.data(), count, near,
-                                   outside.empty() ? nullptr : outside.data(), results.data()));
+        require_ok(deldrift_interpolate(native(), method, values.data(), ids, n_values, positions.data(), count, hint,
+                                        outside.empty() ? nullptr : outside.data(), results.data()));
         return results;
     }
 
     deldrift_location locate(span<const double> position) const {
         return ask<deldrift_location>(deldrift_locate, point(position));
     }
-    // Faster if each point is near the one before it, and the first one near a location that is known.
+    // Faster if each point is near the one before it, and the first one near the hint.
     std::vector<deldrift_location> locate_points(const Positions &positions,
-                                                 const deldrift_location *near = nullptr) const {
+                                                 const deldrift_location *hint = nullptr) const {
         // Not gathered(): several threads may be here.
         std::vector<double> room;
         const span<const double> numbers = positions.numbers("positions", dimension_, room);
         std::vector<deldrift_location> locations(count_of("positions", numbers));
-        check(deldrift_locate_points(native(), numbers.data(), locations.size(), near, locations.data()));
+        require_ok(deldrift_locate_points(native(), numbers.data(), locations.size(), hint, locations.data()));
         return locations;
     }
     // DELDRIFT_NONE if there are no vertices.
@@ -386,14 +393,14 @@ public:
     std::uint32_t coincident_representative(std::uint32_t vertex) const {
         return ask<std::uint32_t>(deldrift_coincident_representative, vertex);
     }
-    void validate(std::uint32_t level) const { check(deldrift_validate(native(), level)); }
+    void validate(std::uint32_t level) const { require_ok(deldrift_validate(native(), level)); }
 
 private:
     struct Destroy {
         void operator()(deldrift_triangulation *t) const noexcept { deldrift_destroy(t); }
     };
 
-    static void check(deldrift_status status) {
+    static void require_ok(deldrift_status status) {
         if (status != DELDRIFT_OK) throw Error(status);
     }
     static void expect(const char *argument, std::size_t given, std::size_t wanted) {
@@ -419,17 +426,17 @@ private:
     template <class T, class Query, class... Arguments>
     T ask(Query query, Arguments... arguments) const {
         T answer{};
-        check(query(native(), arguments..., &answer));
+        require_ok(query(native(), arguments..., &answer));
         return answer;
     }
     // The facets that a function lists, of which it first tells the number.
     template <class List>
     Facets facets(List list) const {
         std::size_t count = 0;
-        check(list(nullptr, nullptr, nullptr, 0, &count));
+        require_ok(list(nullptr, nullptr, nullptr, 0, &count));
         Facets facets{std::vector<std::uint32_t>(count * dimension_), std::vector<std::uint32_t>(count),
                       std::vector<std::uint8_t>(count)};
-        check(list(facets.vertices.data(), facets.cells.data(), facets.corners.data(), count, &count));
+        require_ok(list(facets.vertices.data(), facets.cells.data(), facets.corners.data(), count, &count));
         return facets;
     }
     deldrift_status around(span<const std::uint32_t> vertices, span<std::uint32_t> cells, std::size_t &count) const {
@@ -439,9 +446,9 @@ private:
     template <class List>
     Lists lists(List list) const {
         std::size_t count = 0;
-        check(list(native(), nullptr, 0, nullptr, 0, &count));
+        require_ok(list(native(), nullptr, 0, nullptr, 0, &count));
         Lists lists{std::vector<std::uint32_t>(id_count() + 1), std::vector<std::uint32_t>(count)};
-        check(list(native(), lists.offsets.data(), lists.offsets.size(), lists.entries.data(), count, &count));
+        require_ok(list(native(), lists.offsets.data(), lists.offsets.size(), lists.entries.data(), count, &count));
         return lists;
     }
     // A corner of a box, or nothing.
@@ -464,12 +471,14 @@ private:
         return count;
     }
 
-    std::unique_ptr<deldrift_triangulation, Destroy> t_;
+    std::unique_ptr<deldrift_triangulation, Destroy> t_{};
     std::uint32_t dimension_ = 0;
     // For positions that have to be copied; kept, as they usually come once per timestamp.
-    std::vector<double> room_;
+    std::vector<double> room_{};
 };
 
 }  // namespace deldrift
+
+#endif  // __cpp_exceptions
 
 #endif  // DELDRIFT_HPP

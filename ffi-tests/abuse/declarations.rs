@@ -54,7 +54,7 @@ impl Declaration {
 /// The names of the statuses, in the order of their numbers.
 pub fn statuses() -> Vec<String> {
     let header = text_of("include/deldrift.h");
-    let (_, from) = header.split_once("enum deldrift_status").expect("there are statuses");
+    let (_, from) = header.split_once("deldrift_status : uint32_t").expect("there are statuses");
     let (statuses, _) = from.split_once("};").expect("an enumeration ends");
     let names = lines_of_code(statuses).filter_map(|line| line.split_once(" = "));
     names.map(|(name, _)| name.to_string()).collect()

@@ -66,7 +66,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("const uint32_t *", "vertices") => Role::Ids,
         ("const uint32_t *", "cells") => Role::CellIds,
         ("const uint8_t *", "mask") => Role::Mask,
-        ("const deldrift_location *", "near") => Role::Hint,
+        ("const deldrift_location *", "hint") => Role::Hint,
         ("const deldrift_options *" | "deldrift_options *", "options") => Role::Options,
         ("const void *", "data") => Role::Data,
         ("const char *", "path") => Role::Path,

@@ -20,6 +20,10 @@
 #ifndef DELDRIFT_CGAL_HPP
 #define DELDRIFT_CGAL_HPP
 
+#ifndef __cpp_exceptions
+#error "deldrift/cgal.hpp throws exceptions, which are disabled: use deldrift.h, whose functions return a status"
+#else
+
 #include <array>
 #include <cstddef>
 #include <ostream>
@@ -67,5 +71,7 @@ struct Kernel {
 };
 
 }  // namespace deldrift::cgal
+
+#endif  // __cpp_exceptions
 
 #endif  // DELDRIFT_CGAL_HPP

@@ -34,8 +34,8 @@ struct Facets {
 
 // A list for each vertex; see deldrift_vertex_neighbours and deldrift_vertex_cells.
 struct Lists {
-    std::vector<std::uint32_t> offsets;
-    std::vector<std::uint32_t> entries;
+    std::vector<std::uint32_t> offsets{};
+    std::vector<std::uint32_t> entries{};
     span<const std::uint32_t> of_vertex(std::uint32_t vertex) const noexcept {
         return {entries.data() + offsets[vertex], std::size_t{offsets[vertex + 1]} - offsets[vertex]};
     }

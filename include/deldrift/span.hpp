@@ -20,6 +20,11 @@
 
 namespace deldrift {
 
+#ifdef __clang__
+#pragma clang diagnostic push
+// A class of a header alone has no file for its table of virtual functions.
+#pragma clang diagnostic ignored "-Wweak-vtables"
+#endif
 // A call failed: what() names the argument, the index and the value.
 class Error : public std::runtime_error {
 public:
@@ -30,6 +35,9 @@ public:
 private:
     deldrift_status status_;
 };
+#ifdef __clang__
+#pragma clang diagnostic pop
+#endif
 
 // Contiguous values that belong to someone else: a pointer and a count. Converts from and to std::span.
 template <class T>
@@ -53,7 +61,8 @@ public:
     template <std::size_t N>
     constexpr span(T (&values)[N]) noexcept : data_(values), size_(N) {}
     // Of values in braces, for the duration of the call that they are written in.
-    constexpr span(std::initializer_list<std::remove_const_t<T>> values) noexcept : size_(values.size()) {
+    template <class U = T, class = std::enable_if_t<std::is_const_v<U>>>
+    constexpr span(std::initializer_list<std::remove_const_t<U>> values) noexcept : size_(values.size()) {
         data_ = values.begin();
     }
 

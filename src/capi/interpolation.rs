@@ -29,7 +29,7 @@ pub type InterpolationCode = u32;
 ///
 /// values: value_count rows of n_values numbers, one for each id (value_count must be deldrift_id_count); rows of
 /// removed and hidden vertices are not used: it is that of the representative that counts. positions: 2 or 3 numbers
-/// each. All are read during the call only. near: where to begin to look for the first position, as for
+/// each. All are read during the call only. hint: where to begin to look for the first position, as for
 /// deldrift_locate_points; NULL if nothing is known. It is fastest if each position is near the one before it. outside:
 /// what positions outside the convex hull get, n_values numbers; NULL for NaN. While there are no cells, all positions
 /// but those of vertices are outside. results: receives count rows of n_values numbers. values may be NULL if
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn deldrift_interpolate(
     n_values: usize,
     positions: *const f64,
     count: usize,
-    near: *const deldrift_location,
+    hint: *const deldrift_location,
     outside: *const f64,
     results: *mut f64,
 ) -> deldrift_status {
@@ -72,13 +72,13 @@ pub unsafe extern "C" fn deldrift_interpolate(
                 let values = pointers::array("values", values, numbers("values", value_count, n_values)?)?;
                 let positions = points_for(t, "positions", positions, count)?;
                 let n_results = numbers("results", count, n_values)?;
-                let near = hint_at(near)?;
+                let hint = hint_at(hint)?;
                 let has_outside = !outside.is_null();
                 let outside = has_outside.then(|| pointers::array("outside", outside, n_values)).transpose()?;
                 pointers::buffer("results", results, n_results)?;
                 let mut made = Vec::new();
                 memory::reserve_exact(&mut made, n_results)?;
-                t.interpolate(method, VertexValues { values, n_values }, positions, near, |row| {
+                t.interpolate(method, VertexValues { values, n_values }, positions, hint, |row| {
                     match row.or(outside) {
                         Some(row) => made.extend_from_slice(row),
                         None => made.extend(std::iter::repeat_n(f64::NAN, n_values)),

@@ -87,12 +87,12 @@ const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
 ///
 /// # Safety
 /// As for [`pointers::reference`], but NULL is none.
-pub(super) unsafe fn hint_at(near: *const deldrift_location) -> Result<Option<Location>, Failure> {
-    if near.is_null() {
+pub(super) unsafe fn hint_at(given: *const deldrift_location) -> Result<Option<Location>, Failure> {
+    if given.is_null() {
         return Ok(None);
     }
     // SAFETY: the caller's promise. Its kind may be any number.
-    let &[kind, index] = unsafe { pointers::reference("near", near.cast::<[u32; 2]>()) }?;
+    let &[kind, index] = unsafe { pointers::reference("hint", given.cast::<[u32; 2]>()) }?;
     Ok(hint(kind, index))
 }
 
@@ -332,7 +332,7 @@ pub unsafe extern "C" fn deldrift_locate(
 /// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
 /// and faster if each point is near the one before it.
 ///
-/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. near: where to begin to look
+/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
 /// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
 ///
@@ -346,7 +346,7 @@ pub unsafe extern "C" fn deldrift_locate_points(
     t: *const deldrift_triangulation,
     positions: *const f64,
     count: usize,
-    near: *const deldrift_location,
+    hint: *const deldrift_location,
     locations: *mut deldrift_location,
 ) -> deldrift_status {
     // SAFETY: the header's conditions on pointers.
@@ -357,9 +357,9 @@ pub unsafe extern "C" fn deldrift_locate_points(
                     return Ok(());
                 }
                 let positions = points_for(t, "positions", positions, count)?;
-                let near = hint_at(near)?;
+                let hint = hint_at(hint)?;
                 let mut locations = pointers::buffer("locations", locations, count)?.iter_mut();
-                t.locate_points(positions, near, |location| {
+                t.locate_points(positions, hint, |location| {
                     locations.next().expect("as many as positions").write(location.into());
                 })?;
                 Ok(())

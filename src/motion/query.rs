@@ -181,7 +181,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The slot of a cell at a place that need not exist; [`Slot::NONE`] if there is no such place.
     fn slot_of(&self, cells: &Cells<G>, location: Location) -> Slot {
         match location {
-            Location::Vertex(v) => match self.present_site("near", 0, v) {
+            Location::Vertex(v) => match self.present_site("hint", 0, v) {
                 Ok(s) => self.kernel.site(s).cell,
                 Err(_) => Slot::NONE,
             },

@@ -33,10 +33,10 @@ struct Info_of {
 template <class T>
 struct Info_of<T, std::void_t<typename T::Vertex>> : Info_of_vertex<typename T::Vertex> {};
 
-template <std::uint32_t D, class P, class I>
+template <std::uint32_t D, class P, class Info>
 class Base {
 protected:
-    using Mesh = detail::Mesh<D, P, I>;
+    using Mesh = detail::Mesh<D, P, Info>;
     template <class Source>
     using handles = range<handle_iterator<Source>>;
 
@@ -173,9 +173,9 @@ protected:
     };
     Place place_of(const Point &p, Cell hint) const {
         const std::array<double, D> x = numbers_of<D>(p);
-        const deldrift_location near{DELDRIFT_LOCATION_CELL, hint.id()};
+        const deldrift_location start{DELDRIFT_LOCATION_CELL, hint.id()};
         const bool is_hint = hint != nullptr;
-        const deldrift_location found = triangulation().locate_points(x, is_hint ? &near : nullptr)[0];
+        const deldrift_location found = triangulation().locate_points(x, is_hint ? &start : nullptr)[0];
         Place place{found.kind, nullptr, nullptr, {}};
         switch (found.kind) {
         case DELDRIFT_LOCATION_VERTEX:
@@ -229,7 +229,7 @@ private:
         if constexpr (D == 2) {
             return m[0][0] * m[1][1] - m[0][1] * m[1][0];
         } else {
-            const auto minor = [&](int a, int b) { return m[1][a] * m[2][b] - m[1][b] * m[2][a]; };
+            const auto minor = [&](std::size_t a, std::size_t b) { return m[1][a] * m[2][b] - m[1][b] * m[2][a]; };
             return m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1);
         }
     }

@@ -15,7 +15,8 @@ struct Is_sequence : std::false_type {};
 template <class Iterator, class End>
 struct Is_sequence<Iterator, End,
                    std::void_t<decltype(*std::declval<Iterator &>()), decltype(++std::declval<Iterator &>()),
-                               decltype(std::declval<Iterator &>() != std::declval<const End &>())>> : std::true_type {};
+                               decltype(std::declval<Iterator &>() != std::declval<const End &>())>>
+    : std::true_type {};
 
 template <class Element, class = void>
 struct Has_members : std::false_type {};

@@ -14,7 +14,7 @@ namespace deldrift::cgal::detail {
 
 template <class Mesh, std::uint32_t D>
 class Cell_handle;
-template <std::uint32_t D, class P, class I>
+template <std::uint32_t D, class P, class Info>
 class Base;
 
 // A vertex. As in CGAL, a handle is used like a pointer; here it leads to itself.
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    template <std::uint32_t E, class P, class I>
+    template <std::uint32_t E, class P, class Info>
     friend class Base;
     friend struct std::hash<Vertex_handle>;
     Record *record_ = nullptr;

@@ -85,7 +85,7 @@ public:
         if (!is_fresh_.load(std::memory_order_acquire)) {
             const std::lock_guard<std::mutex> lock(mutex_);
             // Unless another thread has been here; then it may be reading them.
-            if (!is_fresh_.load(std::memory_order_relaxed)) check(deldrift_cells(t_.native(), &cells_));
+            if (!is_fresh_.load(std::memory_order_relaxed)) require_ok(deldrift_cells(t_.native(), &cells_));
             is_fresh_.store(true, std::memory_order_release);
         }
         return cells_;
@@ -96,7 +96,8 @@ public:
         Star(const Mesh &mesh, std::uint32_t vertex) {
             if (const Lists *all = mesh.all_stars()) {
                 const auto cells = all->of_vertex(vertex);
-                first_ = cells.data(), n_ = cells.size();
+                first_ = cells.data();
+                n_ = cells.size();
                 return;
             }
             deldrift_status status = deldrift_star(mesh.t_.native(), vertex, few_, room, &n_);
@@ -105,7 +106,7 @@ public:
                 first_ = many_.data();
                 status = deldrift_star(mesh.t_.native(), vertex, many_.data(), n_, &n_);
             }
-            check(status);
+            require_ok(status);
         }
         Star(const Star &) = delete;
         Star &operator=(const Star &) = delete;
@@ -116,7 +117,7 @@ public:
     private:
         static constexpr std::size_t room = 64;
         std::uint32_t few_[room];
-        std::vector<std::uint32_t> many_;
+        std::vector<std::uint32_t> many_{};
         const std::uint32_t *first_ = few_;
         std::size_t n_ = 0;
     };
@@ -133,7 +134,7 @@ public:
         const deldrift_status status = deldrift_insert_vertex(t_.native(), numbers_of<D>(p).data(), &id);
         if (status != DELDRIFT_OK) drop_last();
         if (status == DELDRIFT_COINCIDENT) return nearest(p);
-        check(status);
+        require_ok(status);
         changed();
         return record;
     }
@@ -164,7 +165,7 @@ public:
     Record *move_if_free(Record *record, const Point &p) {
         const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, numbers_of<D>(p).data());
         if (status == DELDRIFT_COINCIDENT) return nearest(p);
-        check(status);
+        require_ok(status);
         changed();
         record->point = p;
         return record;
@@ -174,7 +175,7 @@ public:
         staged_.emplace_back(record, p);
         const deldrift_status status = deldrift_move_vertex(t_.native(), record->id, numbers_of<D>(p).data());
         if (status != DELDRIFT_OK) staged_.pop_back();
-        check(status);
+        require_ok(status);
     }
     void discard_moves() {
         t_.discard_moves();
@@ -212,7 +213,7 @@ private:
         options.coincidence = DELDRIFT_COINCIDENCE_REJECT;
         return options;
     }
-    static void check(deldrift_status status) {
+    static void require_ok(deldrift_status status) {
         if (status != DELDRIFT_OK) throw Error(status);
     }
 
@@ -329,17 +330,17 @@ private:
     }
 
     Triangulation t_;
-    std::deque<Record> records_;
+    std::deque<Record> records_{};
     // Null for removed vertices.
-    std::vector<Record *> by_id_, unused_;
-    std::vector<std::pair<Record *, Point>> staged_;
+    std::vector<Record *> by_id_{}, unused_{};
+    std::vector<std::pair<Record *, Point>> staged_{};
     mutable Record infinite_;
-    mutable std::mutex mutex_;
+    mutable std::mutex mutex_{};
     mutable std::atomic<bool> is_fresh_{false};
     mutable deldrift_cells_view cells_{};
     mutable std::atomic<bool> has_stars_{false};
     mutable std::atomic<std::size_t> n_stars_asked_{0};
-    mutable Lists stars_;
+    mutable Lists stars_{};
 };
 
 }  // namespace deldrift::cgal::detail

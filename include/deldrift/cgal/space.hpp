@@ -288,8 +288,14 @@ public:
         case DELDRIFT_LOCATION_CELL: {
             int on[4], off[4], n_on = 0, n_off = 0;
             for (int i = 0; i < 4; i++) (place.on_facet[static_cast<std::size_t>(i)] ? on[n_on++] : off[n_off++]) = i;
-            if (n_on == 1) lt = FACET, li = on[0];
-            if (n_on == 2) lt = EDGE, li = off[0], lj = off[1];
+            if (n_on == 1) {
+                lt = FACET;
+                li = on[0];
+            } else if (n_on == 2) {
+                lt = EDGE;
+                li = off[0];
+                lj = off[1];
+            }
             break;
         }
         case DELDRIFT_LOCATION_OUTSIDE:
