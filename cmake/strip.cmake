@@ -22,7 +22,9 @@ run("${STRIP}" --strip-unneeded -o "${TO}/libdeldrift.so" "${FROM}/libdeldrift.s
 list(TRANSFORM functions PREPEND "--undefined=" OUTPUT_VARIABLE wanted)
 string(REPLACE ";" "\n" names "${functions}")
 file(WRITE "${TO}/functions.txt" "${names}\n")
-run("${LINKER}" -r --gc-sections ${wanted} -o "${TO}/deldrift.o" "${FROM}/libdeldrift.a")
+# Groups of sections end here. One that stayed would be thrown away beside another library that has a group of that name,
+# as rustc makes for DW.ref.rust_eh_personality, and with it what is local by then, which nothing else can replace.
+run("${LINKER}" -r --force-group-allocation --gc-sections ${wanted} -o "${TO}/deldrift.o" "${FROM}/libdeldrift.a")
 # The bitcode that the objects of Rust's standard library carry is not one any more when it is linked.
 run("${OBJCOPY}" --strip-debug --remove-section=.llvmbc --remove-section=.llvmcmd
   "--keep-global-symbols=${TO}/functions.txt" "${TO}/deldrift.o")

@@ -96,7 +96,7 @@ fn package_for_debian_is_whole() {
 }
 
 /// What `make install` does, with the libraries that this test was built with; the prefix.
-fn install(folder: &Path) -> PathBuf {
+pub fn install(folder: &Path) -> PathBuf {
     let prefix = folder.join("prefix");
     let build = build_for_installation(folder, &prefix);
     succeed(command("cmake").arg("--install").arg(&build));
@@ -115,7 +115,7 @@ fn build_for_installation(folder: &Path, prefix: &Path) -> PathBuf {
 }
 
 /// The folder of the libraries, under all the names that they should have: on Debian below that of the architecture.
-fn library_files(prefix: &Path) -> PathBuf {
+pub fn library_files(prefix: &Path) -> PathBuf {
     let architecture = format!("lib/{}-linux-gnu", env::consts::ARCH);
     let mut folders = [architecture.as_str(), "lib", "lib64"].into_iter().map(|name| prefix.join(name));
     let folder = folders.find(|folder| folder.is_dir()).expect("libraries are installed");

@@ -15,11 +15,14 @@
 //! | `examples.rs` | the examples, with few steps (`--include-ignored`) |
 //! | `functions.rs` | docs/FUNCTIONS.md and docs/ERRORS.md name everything in the header |
 //! | `pages.rs` | programs, links and commands on the pages |
+//! | `warnings.rs` | the headers under many warnings, beside macros of others, without exceptions |
 //! | `memory.rs` | the programs under valgrind and under sanitizers (`--include-ignored`) |
+//! | `beside.rs` | the installed static library, linked with another one in Rust (`--include-ignored`) |
 //! | `installation.rs` | programs that find the library or have it as a part; packages (`--include-ignored`) |
 
 mod abuse;
 mod algorithms;
+mod beside;
 mod checkers;
 mod coverage;
 mod examples;

@@ -9,7 +9,7 @@ use std::{env, fs};
 use crate::algorithms;
 
 /// What the static library needs of the system, as `rustc --print native-static-libs` says.
-const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
+pub const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
 
 /// Functions of the system in whose place `c/requests.h` has its own.
 const REPLACED: [&str; 9] = [

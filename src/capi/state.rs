@@ -13,7 +13,7 @@ use crate::motion::MovingTriangulation;
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_count(
     t: *const deldrift_triangulation,
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn deldrift_vertex_count(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_id_count(
     t: *const deldrift_triangulation,
@@ -56,7 +56,7 @@ pub unsafe extern "C" fn deldrift_cell_count(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_staged_count(
     t: *const deldrift_triangulation,
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_timestamp(
     t: *const deldrift_triangulation,
@@ -102,7 +102,7 @@ pub unsafe extern "C" fn deldrift_timestamp(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_statistics(
     t: *const deldrift_triangulation,
@@ -117,7 +117,7 @@ pub unsafe extern "C" fn deldrift_statistics(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_is_present(
     t: *const deldrift_triangulation,

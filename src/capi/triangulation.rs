@@ -229,7 +229,7 @@ pub unsafe extern "C" fn deldrift_destroy(t: *mut deldrift_triangulation) {
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_dimension(
     t: *const deldrift_triangulation,

@@ -1,0 +1,5 @@
+int catch_both(void);
+
+int main(void) {
+    return catch_both();
+}
