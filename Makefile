@@ -45,6 +45,7 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) $(EXAMPLE_NEEDS) pkg-config valgrind dpkg-dev
 	-@.ci/packages chromium
 	-@.ci/packages libtet1.5-dev
+	-@.ci/packages clang lld mold
 	cargo test --tests
 	cargo test --doc
 	DELDRIFT_SCALAR=1 cargo test --lib
@@ -156,21 +157,22 @@ sizes: library ## how large the library is, and of what: tests/results/sizes.csv
 	cmake/sizes
 	.ci/records write tests/results/environment_sizes.txt "make sizes"
 
-install: ## library, headers, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
-	@.ci/packages cmake
+install: ## library, headers, compat, CMake and pkg-config files, to PREFIX (/usr/local), below DESTDIR
+	@.ci/packages cmake g++
 	cmake -S . -B build/install -DCMAKE_INSTALL_PREFIX="$(PREFIX)"
 	cmake --build build/install
 	DESTDIR="$(DESTDIR)" cmake --install build/install
 
-deb: ## a package for Debian, libdeldrift-dev, in build/packages
-	@.ci/packages cmake dpkg-dev
-	cmake -S . -B build/deb -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_DOCDIR=share/doc/libdeldrift-dev
+deb: ## packages for Debian, libdeldrift-dev and libdeldrift-compat-dev, in build/packages
+	@.ci/packages cmake dpkg-dev g++
+	cmake -S . -B build/deb -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_INSTALL_DOCDIR=share/doc/libdeldrift-dev \
+	    -DDELDRIFT_COMPAT_DOCDIR=share/doc/libdeldrift-compat-dev
 	cmake --build build/deb
 	cd build/deb && cpack -G DEB -B "$(CURDIR)/build/packages"
 	rm -rf build/packages/_CPack_Packages
 
 dist: ## archives in build/packages: sources that build without a network, and what is installed
-	@.ci/packages cmake
+	@.ci/packages cmake g++
 	cmake/make_dist
 
 packages: deb dist ## ... both, and programs built with each of them, offline; lintian and clang++ where they are there

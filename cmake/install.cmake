@@ -35,20 +35,22 @@ list(TRANSFORM DELDRIFT_SYSTEM_LIBRARIES PREPEND "-l" OUTPUT_VARIABLE DELDRIFT_L
 string(JOIN " " DELDRIFT_LINK_FLAGS ${DELDRIFT_LINK_FLAGS})
 configure_file(deldrift.pc.in deldrift.pc @ONLY)
 
-install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
-install(FILES "${stripped}/libdeldrift.a" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT deldrift
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+install(FILES "${stripped}/libdeldrift.a" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT deldrift)
 # Debian's libraries are not executable; elsewhere they are by custom.
 set(kind_of_file PROGRAMS)
 if(CMAKE_INSTALL_SO_NO_EXE)
   set(kind_of_file FILES)
 endif()
-install(${kind_of_file} "${stripped}/libdeldrift.so" DESTINATION "${CMAKE_INSTALL_LIBDIR}" RENAME "${DELDRIFT_FILE}")
+install(${kind_of_file} "${stripped}/libdeldrift.so" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT deldrift
+  RENAME "${DELDRIFT_FILE}")
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/links")
 foreach(link IN ITEMS "${DELDRIFT_SONAME}" libdeldrift.so)
   file(CREATE_LINK "${DELDRIFT_FILE}" "${PROJECT_BINARY_DIR}/links/${link}" SYMBOLIC)
-  install(FILES "${PROJECT_BINARY_DIR}/links/${link}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(FILES "${PROJECT_BINARY_DIR}/links/${link}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT deldrift)
 endforeach()
 install(FILES "${PROJECT_BINARY_DIR}/deldriftConfig.cmake" "${PROJECT_BINARY_DIR}/deldriftConfigVersion.cmake"
-  DESTINATION "${package_dir}")
-install(FILES LICENSE-MIT LICENSE-APACHE cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(FILES "${PROJECT_BINARY_DIR}/deldrift.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  DESTINATION "${package_dir}" COMPONENT deldrift)
+install(FILES LICENSE-MIT LICENSE-APACHE cmake/copyright DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT deldrift)
+install(FILES "${PROJECT_BINARY_DIR}/deldrift.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT deldrift)

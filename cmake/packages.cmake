@@ -1,4 +1,5 @@
-# What cpack makes of the installation: a package for Debian (make deb), an archive to be unpacked anywhere (make dist).
+# What cpack makes of the installation: packages for Debian, one for each component (make deb), and an archive of all to be
+# unpacked anywhere (make dist).
 set(CPACK_PACKAGE_NAME deldrift)
 set(CPACK_PACKAGE_VENDOR "The deldrift developers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Exact Delaunay triangulations of moving points")
@@ -13,8 +14,11 @@ set(CPACK_STRIP_FILES OFF)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 
-set(CPACK_DEBIAN_PACKAGE_NAME libdeldrift-dev)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL deldrift)
+set(CPACK_DEBIAN_DELDRIFT_PACKAGE_NAME libdeldrift-dev)
+set(CPACK_DEBIAN_DELDRIFT_FILE_NAME DEB-DEFAULT)
+set(CPACK_COMPONENT_DELDRIFT_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The deldrift developers" CACHE STRING "Who maintains the package for Debian")
 set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
 # Needs what the shared library is linked with, and tells others what it takes to be linked with it.
@@ -22,7 +26,23 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 string(REPLACE ".so." " " soname_and_version "${DELDRIFT_SONAME}")
 file(WRITE "${PROJECT_BINARY_DIR}/debian/shlibs" "${soname_and_version} libdeldrift-dev (>= ${PROJECT_VERSION})\n")
 file(WRITE "${PROJECT_BINARY_DIR}/debian/triggers" "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+set(CPACK_DEBIAN_DELDRIFT_PACKAGE_CONTROL_EXTRA
   "${PROJECT_BINARY_DIR}/debian/shlibs" "${PROJECT_BINARY_DIR}/debian/triggers")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+if(DELDRIFT_COMPAT)
+  list(APPEND CPACK_COMPONENTS_ALL deldrift_compat)
+  set(CPACK_DEBIAN_DELDRIFT_COMPAT_PACKAGE_NAME libdeldrift-compat-dev)
+  set(CPACK_DEBIAN_DELDRIFT_COMPAT_FILE_NAME DEB-DEFAULT)
+  # For the static library, which needs the other one.
+  set(CPACK_DEBIAN_DELDRIFT_COMPAT_PACKAGE_DEPENDS "libdeldrift-dev (= ${PROJECT_VERSION})")
+  string(JOIN "\n" CPACK_COMPONENT_DELDRIFT_COMPAT_DESCRIPTION
+    "The functions by which programs call Triangle and TetGen, to be linked or"
+    "to be loaded before a program.")
+  file(WRITE "${PROJECT_BINARY_DIR}/debian/compat/shlibs"
+    "libdeldrift_triangle_tetgen ${DELDRIFT_INTERFACE} libdeldrift-compat-dev (>= ${PROJECT_VERSION})\n")
+  file(WRITE "${PROJECT_BINARY_DIR}/debian/compat/triggers" "activate-noawait ldconfig\n")
+  set(CPACK_DEBIAN_DELDRIFT_COMPAT_PACKAGE_CONTROL_EXTRA
+    "${PROJECT_BINARY_DIR}/debian/compat/shlibs" "${PROJECT_BINARY_DIR}/debian/compat/triggers")
+endif()
 include(CPack)

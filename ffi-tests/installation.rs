@@ -22,6 +22,34 @@ fn installed_library_is_found() {
     let libraries = library_files(&moved);
     commands_of_the_readme_find_it(&folder, &libraries);
     only_the_header_is_exported(&libraries);
+    compat_is_found(&folder, &libraries);
+}
+
+/// By a component that is asked for, and by none.
+#[test]
+#[ignore = "needs CMake"]
+fn components_are_installed_alone() {
+    let folder = fresh_folder("components");
+    let build = build_for_installation(&folder, &folder.join("all"));
+    let files_of = |component: &str| {
+        let prefix = folder.join(component);
+        let mut install = command("cmake");
+        install.arg("--install").arg(&build).arg("--prefix").arg(&prefix).args(["--component", component]);
+        succeed(&mut install);
+        let found = succeed(command("find").arg(".").args(["!", "-type", "d"]).current_dir(&prefix));
+        found.lines().map(str::to_string).collect::<BTreeSet<_>>()
+    };
+    let (library, compat) = (files_of("deldrift"), files_of("deldrift_compat"));
+    let is_of_compat =
+        |file: &String| ["triangle", "tetgen", "compat", "Compat"].iter().any(|word| file.contains(word));
+    assert!(library.len() > 15 && !library.iter().any(is_of_compat), "{library:?}");
+    assert!(compat.len() == 10 && compat.iter().all(is_of_compat), "{compat:?}");
+    // One that is not there is missed only by those who ask for it.
+    let prefix = format!("-DCMAKE_PREFIX_PATH={}", folder.join("deldrift").display());
+    succeed(configure_consumers(&folder.join("without"), None).arg(&prefix));
+    let mut asking = configure_consumers(&folder.join("asking"), None);
+    let outcome = asking.arg(&prefix).arg("-DWITH_COMPAT=ON").output().expect("CMake runs");
+    assert!(!outcome.status.success());
 }
 
 /// What cargo needs to build the library, and CMake to call it.
@@ -51,8 +79,21 @@ fn library_is_a_part_of_another_project() {
     for (name, sources) in [("subdirectory", &repository(".")), ("fetched", &archive)] {
         let build = folder.join(name);
         succeed(configure_consumers(&build, Some(sources)).env_remove("CARGO_TARGET_DIR"));
-        succeed(in_a_hurry(command("cmake").arg("--build").arg(&build)));
-        assert!(has_cargo_built_below(&build));
+        let mut make = command("cmake");
+        in_a_hurry(make.arg("--build").arg(&build));
+        if name == "subdirectory" {
+            // The folder that is named when the project is built, and not when it is configured.
+            let elsewhere = folder.join("elsewhere");
+            succeed(make.env("CARGO_TARGET_DIR", &elsewhere));
+            assert!(has_cargo_built_below(&elsewhere) && !has_cargo_built_below(&build));
+            programs_run(&build);
+            // There is nothing to compile again.
+            let again = make.output().expect("CMake runs").stderr;
+            assert!(!String::from_utf8_lossy(&again).contains("Compiling"));
+        } else {
+            succeed(&mut make);
+            assert!(has_cargo_built_below(&build));
+        }
         programs_run(&build);
         only_the_project_is_installed(&build, &build.join("installed"));
     }
@@ -65,9 +106,9 @@ fn in_a_hurry(command: &mut Command) -> &mut Command {
     command.env("CARGO_NET_OFFLINE", "true").env_remove("CARGO_TARGET_DIR").env_remove("RUSTFLAGS")
 }
 
-/// Whether the libraries are where cargo puts them by default.
+/// Whether cargo has compiled there: beside the libraries it leaves what it compiles them from.
 fn has_cargo_built_below(build: &Path) -> bool {
-    let found = succeed(command("find").arg(build).args(["-path", "*/target/release/libdeldrift.so"]));
+    let found = succeed(command("find").arg(build).args(["-path", "*/release/deps/libdeldrift.so"]));
     found.lines().count() == 1
 }
 
@@ -77,22 +118,53 @@ fn package_for_debian_is_whole() {
     let folder = fresh_folder("package");
     let build = build_for_installation(&folder, Path::new("/usr"));
     succeed(command("cpack").args(["-G", "DEB", "-B"]).arg(&folder).current_dir(&build));
-    let mut files =
-        fs::read_dir(&folder).expect("the folder is there").map(|entry| entry.expect("so is this").path());
-    let package =
-        files.find(|file| file.extension().is_some_and(|extension| extension == "deb")).expect("it is made");
-    let fields = succeed(command("dpkg-deb").arg("--field").arg(&package));
-    for field in
-        ["Package: libdeldrift-dev", concat!("Version: ", env!("CARGO_PKG_VERSION")), "Depends: libc6"]
-    {
-        assert!(fields.contains(field), "{field}: {fields}");
-    }
+    let of_this_version = concat!("libdeldrift-dev (= ", env!("CARGO_PKG_VERSION"), ")");
     let root = folder.join("root");
-    succeed(command("dpkg-deb").arg("--extract").arg(&package).arg(&root));
-    assert!(root.join("usr/share/doc/deldrift/copyright").is_file());
+    for (name, documents, needed) in [
+        ("libdeldrift-dev", "deldrift", "Depends: libc6"),
+        ("libdeldrift-compat-dev", "deldrift-compat", of_this_version),
+    ] {
+        let package = package(&folder, name);
+        let fields = succeed(command("dpkg-deb").arg("--field").arg(&package));
+        let (name, version) = (format!("Package: {name}\n"), concat!("Version: ", env!("CARGO_PKG_VERSION")));
+        for field in [&name, version, needed, "libgcc-s1"] {
+            assert!(fields.contains(field), "{field}: {fields}");
+        }
+        succeed(command("dpkg-deb").arg("--extract").arg(&package).arg(&root));
+        assert!(root.join("usr/share/doc").join(documents).join("copyright").is_file());
+    }
     let libraries = library_files(&root.join("usr"));
     commands_of_the_readme_find_it(&folder, &libraries);
     only_the_header_is_exported(&libraries);
+    compat_is_found(&folder, &libraries);
+}
+
+/// The file of a package of this version.
+fn package(folder: &Path, name: &str) -> PathBuf {
+    let begin = format!("{name}_{}_", env!("CARGO_PKG_VERSION"));
+    let files = fs::read_dir(folder).expect("the folder is there");
+    let mut files = files.map(|entry| entry.expect("so is this").file_name().into_string().expect("ASCII"));
+    folder.join(files.find(|file| file.starts_with(&begin) && file.ends_with(".deb")).expect("it is made"))
+}
+
+/// Triangle's function, with the shared library of compat and with the static one, by pkg-config.
+fn compat_is_found(folder: &Path, libraries: &Path) {
+    let source = repository("ffi-tests/consumers/triangle.c");
+    let program = folder.join("triangle");
+    let shared = "$(pkg-config --cflags --libs deldrift-compat)";
+    let of_archives = "s/-ldeldrift/-l:libdeldrift/g; s/\\(-l:[a-z_]*\\)/\\1.a/g";
+    let archives = format!("$(pkg-config --static --cflags --libs deldrift-compat | sed '{of_archives}')");
+    for (flags, is_static) in [(shared, false), (archives.as_str(), true)] {
+        let line = format!("cc {} {flags} -o {}", source.display(), program.display());
+        succeed(command("sh").args(["-ec", &line]).env("PKG_CONFIG_PATH", libraries.join("pkgconfig")));
+        let mut program = command(&program);
+        if !is_static {
+            program.env("LD_LIBRARY_PATH", libraries);
+        }
+        assert_eq!(succeed(&mut program), "2 triangles\n", "{line}");
+    }
+    let preloaded = libraries.join("libdeldrift_triangle_tetgen.so");
+    assert_eq!(exported_symbols(&preloaded, Some("-D")).len(), 2);
 }
 
 /// What `make install` does, with the libraries that this test was built with; the prefix.
@@ -138,9 +210,12 @@ fn configure_consumers(build: &Path, sources: Option<&Path>) -> Command {
 
 fn programs_find_it_through_cmake(build: &Path, prefix: &Path) {
     let found = format!("-DCMAKE_PREFIX_PATH={}", prefix.display());
-    succeed(configure_consumers(build, None).arg(found));
+    succeed(configure_consumers(build, None).arg(found).arg("-DWITH_COMPAT=ON"));
     succeed(command("cmake").arg("--build").arg(build));
     programs_run(build);
+    for program in ["triangle", "static_triangle"] {
+        assert_eq!(succeed(&mut command(build.join(program))), "2 triangles\n");
+    }
 }
 
 fn programs_run(build: &Path) {
