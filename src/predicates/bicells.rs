@@ -24,7 +24,7 @@ pub trait Tolerances: Sized {
     fn tolerance(bicell: &[&Self], enough: f64) -> f64;
     /// Sets the bi-cell of a lane.
     fn set_bicell(bicells: &mut Self::BiCells, lane: usize, bicell: &[&Self]);
-    /// As [`tolerance`](Self::tolerance), of all of them.
+    /// For each lane the [`tolerance`](Self::tolerance) of its bi-cell, which need not be sharp if it is `enough`.
     fn tolerances(bicells: &Self::BiCells, enough: [f64; LANES]) -> [f64; LANES];
     /// For each lane, whether the bi-cell surely has two positive cells and passes the empty-sphere test.
     fn bicells_hold(f: &StaticFilter, bicells: &Self::BiCells) -> [bool; LANES];
@@ -130,7 +130,8 @@ pub(crate) fn bicells_surely_hold2d<T: Real>(filter: &StaticFilter, bicells: &[[
     Certificates::in_plane(&differences(bicells)).exceed(bounds)
 }
 
-/// Likewise for tetrahedra, of the facet with `c` positively oriented and the reversed one with `d`.
+/// Whether both tetrahedra, of the facet with `c` and `d`, surely are positively oriented, the second with the facet
+/// reversed, and `d` is outside the sphere of the first: of one bi-cell or of those in lanes.
 #[inline(always)]
 pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, bicells: &[[T; 3]; 5]) -> T::Mask {
     let any = bicells[0][0];
@@ -138,21 +139,21 @@ pub(crate) fn bicells_surely_hold3d<T: Real>(filter: &StaticFilter, bicells: &[[
     Certificates::in_space(&differences(bicells)).exceed(bounds)
 }
 
-/// The same by the bounds of the bi-cells' own extents.
+/// What [`bicells_surely_hold2d`] tells, by bounds of each bi-cell's own extents in place of the static filter's.
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size2d<T: Real>(bicells: &[[T; 2]; 4]) -> T::Mask {
     let differences = differences(bicells);
     Certificates::in_plane(&differences).exceed(semi_static_bounds_2d(extents(&differences)))
 }
 
-/// The same by the bounds of the bi-cells' own extents.
+/// What [`bicells_surely_hold3d`] tells, by bounds of each bi-cell's own extents in place of the static filter's.
 #[inline(always)]
 pub(crate) fn bicells_hold_for_their_size3d<T: Real>(bicells: &[[T; 3]; 5]) -> T::Mask {
     let differences = differences(bicells);
     Certificates::in_space(&differences).exceed(semi_static_bounds_3d(extents(&differences)))
 }
 
-/// From the first point to the others, of which there are `N`.
+/// The differences from the first point to the `N` others.
 #[inline(always)]
 fn differences<T: Real, const D: usize, const P: usize, const N: usize>(points: &[[T; D]; P]) -> [[T; D]; N] {
     const { assert!(N + 1 == P) };
@@ -175,7 +176,8 @@ fn extents<T: Real, const D: usize, const N: usize>(differences: &[[T; D]; N]) -
     greatest
 }
 
-/// All but the side are to be positive, that negative.
+/// The determinants that decide about a bi-cell: the volumes of both cells are to be positive, the side of the second
+/// opposing vertex negative.
 struct Certificates<T> {
     volume: T,
     beyond: T,
@@ -204,7 +206,7 @@ impl<T: Real> Certificates<T> {
         Certificates { volume, beyond, side: dot(s, &n) - ss * volume }
     }
 
-    /// Whether all surely have the sign wanted, given the bounds of the volumes and of the side.
+    /// Whether all three surely have the sign wanted, given the bounds of the volumes and of the side.
     #[inline(always)]
     fn exceed(&self, [orient, prepared]: [T; 2]) -> T::Mask {
         let zero = self.side.splat(0.0);

@@ -98,8 +98,8 @@ fn differences<'r, const D: usize, const N: usize>(
     differences_in_units(room, origin, points, i32::MAX).1
 }
 
-/// The same with the exponent of the unit, which is the greatest one possible that is not above `most`, unless all
-/// coordinates are zero.
+/// The differences from `origin` to `points`, after the exponent of their unit: the greatest one possible that is not
+/// above `most`, unless all coordinates are zero.
 pub(super) fn differences_in_units<'r, const D: usize, const N: usize>(
     room: &'r Room,
     origin: &[f64; D],

@@ -31,7 +31,7 @@ impl Coordinates for [f64; 3] {}
 pub trait Array: Sized {
     /// The coordinates of points, one after the other.
     fn flattened(points: &[Self]) -> &[f64];
-    /// The same, to write.
+    /// The coordinates of points, one after the other, to write.
     fn flattened_mut(points: &mut [Self]) -> &mut [f64];
     /// Each coordinate of several points, in lanes.
     fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]>;

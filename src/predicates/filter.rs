@@ -188,7 +188,7 @@ impl Computed {
         Self { magnitude: magnitude * (1.0 + UNIT), error: inherited + magnitude * UNIT, underflow }
     }
 
-    /// Also describes a difference.
+    /// What is known of a sum, or of a difference.
     pub(super) const fn plus(self, other: Self) -> Self {
         let magnitude = self.magnitude + other.magnitude;
         Self {
@@ -299,8 +299,8 @@ pub(super) fn insphere_bound(extents: [f64; 3]) -> f64 {
     lifted_bound_3d(IN_SPHERE, extents)
 }
 
-/// The same for points of which the terms of the determinant have this sum of magnitudes, in the order of operations of
-/// the determinant.
+/// Bound of `insphere` for points of which the terms of the determinant have this sum of magnitudes, computed in the
+/// order of its operations.
 pub(super) fn insphere_bound_of_terms(magnitudes: f64, extents: [f64; 3]) -> f64 {
     let amplified = largest(extents).max(1.0);
     IN_SPHERE_TERMS * magnitudes + UNDERFLOW * (amplified * amplified * amplified)
@@ -314,7 +314,8 @@ pub(super) fn prepared_bound_2d(extent: f64, reach: f64) -> f64 {
     PREPARED_2D * (extent * extent * reach) * largest + UNDERFLOW * (amplified * amplified)
 }
 
-/// As [`prepared_bound_2d`], for a prepared sphere.
+/// Bound of a prepared sphere of a tetrahedron of this largest extent, for points no further than `reach` from its
+/// corners along each axis: with an extent of its own for the two differences of the point.
 pub(super) fn prepared_bound_3d(extent: f64, reach: f64) -> f64 {
     let largest = extent.max(reach);
     let amplified = largest.max(1.0);

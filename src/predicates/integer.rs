@@ -33,7 +33,7 @@ const N_LONG_BITS: i32 = 110;
 const MIN_EXTENT: f64 = power_of_two(-190);
 const _: () = assert!(UNDERFLOW <= power_of_two(-1022), "twice of it is 2⁻¹⁰²¹");
 
-/// Of an exponent that a normal number can have.
+/// Two to the power of an exponent that a normal number can have.
 pub(super) const fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((f64::MAX_EXP - 1 + exponent) as u64) << (f64::MANTISSA_DIGITS - 1))
 }
@@ -91,14 +91,15 @@ impl<const D: usize, const N: usize> Scaled<D, N> {
     }
 }
 
-/// The same for differences of more bits.
+/// Differences of points as integers in a unit of their own, of more bits than [`Scaled`] has room for.
 pub(super) struct LongScaled<const D: usize, const N: usize> {
     differences: [[i128; D]; N],
     pub n_bits: u32,
 }
 
 impl<const D: usize, const N: usize> LongScaled<D, N> {
-    /// As [`Scaled::new`], of multiples of 2⁻¹⁰⁹ times that power of two.
+    /// The differences from `origin` to `points` if all of them are multiples of 2⁻¹⁰⁹ times the largest power of two
+    /// not above `extent`. The latter bounds their magnitudes, up to rounding; it must not be too small.
     pub fn new(origin: &[f64; D], points: [&[f64; D]; N], extent: f64) -> Option<Self> {
         if extent < MIN_EXTENT {
             return None;
@@ -119,7 +120,7 @@ impl<const D: usize, const N: usize> LongScaled<D, N> {
         Some(Self { differences, n_bits: N_LONG_BITS as u32 - shift.min(N_LONG_BITS as u32) })
     }
 
-    /// As [`Scaled::modular`].
+    /// The differences modulo a power of two.
     pub fn modular<M: Modular>(&self) -> [[M; D]; N] {
         self.differences.map(|difference| difference.map(M::from))
     }

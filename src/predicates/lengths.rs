@@ -25,9 +25,9 @@
 //! rounded 11 times: in four differences, twice in the square of a length, in a component of n, and in the scalar
 //! product, and once in the last sum. Of the area alone it is 4 times: in two differences, and twice in the minor.
 //!
-//! The same holds for `lifted.rs`: four differences, each rounded, the square of a length and a minor, twice each,
-//! their product, and two sums, 11 times in all. With L for the greatest of the three distances all magnitudes add up
-//! to 3 L⁴. Where L is above 1, the bound exceeds what underflow adds; for all others that is added to it.
+//! In `lifted.rs`, too, each product has been rounded 11 times: in four differences, twice in the square of a length
+//! and in a minor, in their product, and in two sums. With L for the greatest of the three distances all magnitudes add
+//! up to 3 L⁴. Where L is above 1, the bound exceeds what underflow adds; for all others that is added to it.
 //!
 //! # Underflow
 //!
@@ -55,13 +55,14 @@ const LIFTED_BY_LENGTHS: f64 = 11.0 * UNIT * 3.0 * ROUND_UP;
 /// 2/√3, from above: of the permanent of three rows / the product of their lengths.
 const PERMANENT_3D: f64 = 1.1548;
 
-/// With edges that are shorter, underflow may be more than the rounding errors of a prepared sphere.
+/// Where all edges are shorter than this, underflow may be more than the rounding errors of a prepared sphere.
 pub(super) const LEAST_LENGTH: f64 = 1e-30;
 
 /// A half-space by lengths is the sphere of V = 0 and this many times L² times the facet's normal.
 pub(super) const HALF_SPACE_SCALE: f64 = 4.0;
 
-/// It keeps the bound of spheres: its terms have been rounded nine times at most, and |s|² + 3/5 L² ≥ 2 √(3/5) L |s|.
+/// A half-space by lengths keeps the bound of spheres: its terms have been rounded nine times at most, and |s|² + 3/5
+/// L² ≥ 2 √(3/5) L |s|.
 const _: () = {
     let error = 9.0 * UNIT * PERMANENT_3D * HALF_SPACE_SCALE * ROUND_UP;
     assert!(error < PREPARED_BY_LENGTHS * 1.549);
@@ -74,7 +75,8 @@ pub(super) fn prepared_bound_by_length_3d<T: Real>(squared: T, cubed: T, squared
     cubed * cubed.splat(PREPARED_BY_LENGTHS) * squared.times_plus(squared.splat(0.6), squared_distance)
 }
 
-/// Bound of the volume of a cell of such edges.
+/// Bound of the volume of a cell with edges of at most a length from its first corner, which is given to the third
+/// power.
 #[inline(always)]
 pub(super) fn volume_bound_by_length<T: Real>(cubed: T) -> T {
     cubed * cubed.splat(VOLUME_BY_LENGTHS)
@@ -87,7 +89,7 @@ pub(super) fn prepared_bound_by_length_2d<T: Real>(squared: T, squared_distance:
     squared * squared.splat(CIRCLE_BY_LENGTHS) * squared_distance.times_plus(squared.splat(2.0), squared)
 }
 
-/// Bound of the area of a cell of such edges.
+/// Bound of the area of a cell with edges of at most a length from its first corner, which is given squared.
 #[inline(always)]
 pub(super) fn area_bound_by_length<T: Real>(squared: T) -> T {
     squared * squared.splat(AREA_BY_LENGTHS)

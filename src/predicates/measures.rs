@@ -57,7 +57,7 @@ pub trait Measures: Sized {
 struct Rounded<const D: usize> {
     /// From the first corner to the centre.
     offset: [f64; D],
-    /// Whether that is as accurate as the module's documentation says.
+    /// Whether the offset is as accurate as the module's documentation says.
     is_sharp: bool,
     /// Greatest magnitude of a difference along an axis.
     extent: f64,
@@ -202,7 +202,7 @@ fn exact_volume<const D: usize, const M: usize, const N: usize>(
     let room = Room::new();
     let (unit, differences) = differences_in_units(&room, points[0], others(points), i32::MAX);
     let (mantissa, exponent) = det(&differences).rounded();
-    // Of a positive cell, though it may be less than any number.
+    // The cell is positive, though its volume may be less than any number.
     scaled(mantissa * factor, exponent + D as i32 * unit).max(f64::from_bits(1))
 }
 

@@ -70,7 +70,7 @@ fn is_inside_cocircular(f: &StaticFilter, [a, b, c, d]: [&[f64; 2]; 4], ids: [u3
     })
 }
 
-/// As [`insphere_perturbed`], of points that are cospherical.
+/// What [`insphere_perturbed`] tells, of points that are cospherical: by ids.
 #[cold]
 #[inline(never)]
 fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
@@ -83,14 +83,14 @@ fn is_inside_cospherical(f: &StaticFilter, [a, b, c, d, e]: [&[f64; 3]; 5], ids:
     })
 }
 
-/// As [`insphere_perturbed`], of points that are cospherical and on a lattice (see [`lattice`](super::lattice)):
-/// without a branch, as which vertex decides cannot be foreseen.
+/// What [`insphere_perturbed`] tells, of points that are cospherical and on a lattice (see
+/// [`lattice`](super::lattice)): by ids, without a branch, as which vertex decides cannot be foreseen.
 #[inline(always)]
 pub fn is_inside_cospherical_on_lattice([a, b, c, d, e]: [&[f64; 3]; 5], ids: [u32; 5]) -> bool {
     let [a, b, c, d] = [a, b, c, d].map(|p| minus(p, e));
     let (ab, ac, ad) = (minor(&a, &b), minor(&a, &c), minor(&a, &d));
     let (bc, bd, cd) = (minor(&b, &c), minor(&b, &d), minor(&c, &d));
-    // Of the simplex with each vertex replaced.
+    // The orientations of the simplex with each vertex replaced.
     let orientations = [
         cd * b[2] - bd * c[2] + bc * d[2],
         ad * c[2] - cd * a[2] - ac * d[2],

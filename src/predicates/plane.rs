@@ -37,7 +37,7 @@ pub(super) fn sign_of_orient2d(points: [&[f64; 2]; 3]) -> Ordering {
     sign_of(if is_certain { det } else { orient2d_exact(det, points) })
 }
 
-/// The sign of [`incircle`], likewise.
+/// The sign of [`incircle`] without a filter's box, not to be counted.
 pub(super) fn sign_of_incircle(points: [&[f64; 2]; 4]) -> Ordering {
     let (det, extents) = (incircle_rounded(points), extents(points));
     let is_certain = is_certain(det, incircle_bound(extents), extents);
@@ -144,7 +144,7 @@ fn incircle_modular<M: Modular>([u, v, w]: &[[M; 2]; 3]) -> M {
     cross(u, w).times(dot_from_u(v)).minus(cross(u, v).times(dot_from_u(w)))
 }
 
-/// The same, modulo 2²⁵⁶, of differences of 59 bits.
+/// [`incircle_rounded`] modulo 2²⁵⁶, of differences of 59 bits.
 fn incircle_integer([u, v, w]: &[[i64; 2]; 3]) -> Wide {
     let product = |x: i64, y: i64| i128::from(x) * i128::from(y);
     let cross = |p: &[i64; 2], q: &[i64; 2]| product(p[0], q[1]) - product(p[1], q[0]);

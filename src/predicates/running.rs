@@ -28,12 +28,12 @@ use super::filter::{ROUND_UP, UNDERFLOW, UNIT, largest};
 #[derive(Clone, Copy)]
 pub(super) struct Running {
     magnitude: f64,
-    /// In units of u.
+    /// What the sum is off, in units of u.
     error: f64,
 }
 
 impl Running {
-    /// Of two products.
+    /// The sum of two products.
     #[inline(always)]
     pub(super) fn sum(first: f64, second: f64) -> Self {
         let magnitude = (first + second).abs();
@@ -47,7 +47,7 @@ impl Running {
         of_factors + self.magnitude * other.magnitude
     }
 
-    /// What its product with the square of a distance adds to the error of `side_of_seen_circle`, likewise.
+    /// What its product with the square of a distance adds to the error of `side_of_seen_circle`, in units of u.
     #[inline(always)]
     pub(super) fn error_of_lifted(self, square: f64) -> f64 {
         square * (self.error + 6.0 * self.magnitude)

@@ -93,9 +93,9 @@ struct Separated<T: Real> {
     /// Lower bounds, to 16 u, of the squared widths of the slabs that exclude the partitions; 0 for a
     /// partition whose slab does not separate its sides, infinity for the given one.
     planes: [T; 4],
-    /// What the planes leave.
+    /// Half the least width of these slabs: how far the points may move until one of them decides nothing any more.
     reach: T,
-    /// Whether that is as much as wanted.
+    /// Whether the reach is as much as wanted.
     is_enough: T::Mask,
 }
 
@@ -127,7 +127,7 @@ fn separate<T: Real, const BY_SIGNS: bool>(points: &Points<T>, enough: T) -> Sep
 }
 
 impl Separated<f64> {
-    /// With the reach that spheres leave where planes are not enough.
+    /// The delimiter, with the reach that spheres leave where planes are not enough.
     #[inline(always)]
     fn delimiter(&self, points: &Points<f64>, partition: usize, enough: f64) -> Delimiter<[f64; 3]> {
         let &Separated { centre, radius, half_width, ref planes, .. } = self;
@@ -247,7 +247,7 @@ impl<T: Real> Slabs<T> {
         [x, y & !x, z & !(x | y)]
     }
 
-    /// As [`Separated::planes`].
+    /// Lower bounds of the squared widths of the slabs that exclude the partitions, as kept in [`Separated::planes`].
     #[inline(always)]
     fn squared_widths(&self, outside: [T::Mask; 3], is_standard: T::Mask) -> [T; 4] {
         let (zero, infinity) = (self.volume.splat(0.0), self.volume.splat(f64::INFINITY));

@@ -146,7 +146,8 @@ pub(super) fn insphere_sign(
     })
 }
 
-/// Likewise.
+/// The sign of an orientation that does not exceed its error bound, if the differences are integers that are not too
+/// long.
 pub(super) fn orient3d_sign([origin, others @ ..]: [&[f64; 3]; 4], extent: f64) -> Option<Ordering> {
     let Some(scaled) = Scaled::new(origin, others, extent) else {
         let scaled = LongScaled::new(origin, others, extent)?;
@@ -180,7 +181,7 @@ fn orient3d_modular<M: Modular>([u, v, w]: &[[M; 3]; 3]) -> M {
     volume_modular([minor_modular(v, w), minor_modular(u, w), minor_modular(u, v)], [u, v, w])
 }
 
-/// As [`volume_integer`].
+/// Determinant of three differences modulo a power of two, given the minors without each of them.
 #[inline(always)]
 fn volume_modular<M: Modular>(minors: [M; 3], differences: [&[M; 3]; 3]) -> M {
     let [first, second, third] = std::array::from_fn(|i| minors[i].times(differences[i][2]));
@@ -192,7 +193,7 @@ fn minor_modular<M: Modular>(p: &[M; 3], q: &[M; 3]) -> M {
     p[0].times(q[1]).minus(p[1].times(q[0]))
 }
 
-/// The same, modulo 2²⁵⁶, of differences of 59 bits.
+/// [`insphere_rounded`] modulo 2²⁵⁶, of differences of 59 bits.
 fn insphere_integer([u, v, w, s]: &[[i64; 3]; 4]) -> Wide {
     let (minor_uv, minor_uw, minor_us) = (minor_integer(u, v), minor_integer(u, w), minor_integer(u, s));
     let (minor_vw, minor_vs, minor_ws) = (minor_integer(v, w), minor_integer(v, s), minor_integer(w, s));

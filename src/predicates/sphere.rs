@@ -73,7 +73,7 @@ pub fn half_space(f: &StaticFilter, a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) ->
     [x, y, z, 0.0]
 }
 
-/// The same half-space at another scale, for [`side_bound_by_length`], and the length for that.
+/// The half-space of [`half_space`] at another scale, for [`side_bound_by_length`], and the length for that.
 #[inline(always)]
 pub fn half_space_by_length(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> (Sphere, f32) {
     let squared = Real::max(squared_length(a, b), squared_length(a, c));
@@ -141,12 +141,12 @@ fn length_above<T: Real>(squared: T) -> T {
 /// The bounds of a cell of the plane and of points next to it, by the lengths of its edges from the first corner.
 #[derive(Clone, Copy)]
 pub struct OwnBounds2d<T> {
-    /// Of the longest edge, or [`LEAST_LENGTH`] if all are shorter.
+    /// The square of the longest edge's length, or of [`LEAST_LENGTH`] if all are shorter.
     squared: T,
 }
 
 impl<T: Real> OwnBounds2d<T> {
-    /// Of a triangle.
+    /// The bounds of a triangle.
     #[inline(always)]
     pub fn new(a: &[T; 2], b: &[T; 2], c: &[T; 2]) -> Self {
         let longest = squared_length(a, b).max(squared_length(a, c));
@@ -166,17 +166,17 @@ impl<T: Real> OwnBounds2d<T> {
     }
 }
 
-/// As [`OwnBounds2d`], in space.
+/// The bounds of a cell of space and of points next to it, by the lengths of its edges from the first corner.
 #[derive(Clone, Copy)]
 pub struct OwnBounds3d<T> {
-    /// As in the plane.
+    /// The square of the longest edge's length, or of [`LEAST_LENGTH`] if all are shorter.
     squared: T,
-    /// The third power of the length.
+    /// The third power of that length.
     cubed: T,
 }
 
 impl<T: Real> OwnBounds3d<T> {
-    /// Of a tetrahedron.
+    /// The bounds of a tetrahedron.
     #[inline(always)]
     pub fn new(a: &[T; 3], b: &[T; 3], c: &[T; 3], d: &[T; 3]) -> Self {
         let longest = squared_length(a, b).max(squared_length(a, c)).max(squared_length(a, d));
@@ -215,7 +215,8 @@ pub fn is_box_outside_sphere([a, b, c, d]: [&[f64; 3]; 4], [lower, upper]: [&[f6
     volume > 0.0 && side < -4.0 * prepared_bound_3d(largest(extents([a, b, c, d])), reach)
 }
 
-/// As [`is_box_outside_sphere`], for the circle of the triangle `abc`.
+/// Whether all points of a box are certainly outside the circle of the counter-clockwise triangle `abc`; derived as in
+/// [`is_box_outside_sphere`].
 #[inline(always)]
 pub fn is_box_outside_circle([a, b, c]: [&[f64; 2]; 3], [lower, upper]: [&[f64; 2]; 2]) -> bool {
     let [x, y, volume] = circle(a, b, c);

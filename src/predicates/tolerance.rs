@@ -132,7 +132,7 @@ pub struct Delimiter<P> {
 pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Second-order terms, and the rounding of bounds.
 const ROUND_UP: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
-/// Distances below this are taken for it.
+/// Distances below this count as this.
 pub(super) const LEAST: f64 = 1e-140;
 /// A determinant below this may be all underflow.
 pub(super) const LEAST_DETERMINANT: f64 = 1e-250;
@@ -152,7 +152,7 @@ pub(super) const ORIENT_2D: f64 = 7.0 * UNIT;
 pub(super) const ORIENT_3D: f64 = 41.0 * UNIT;
 /// Bound of a component of a vector product of differences / largest extent², times √3 or more.
 pub(super) const CROSS: f64 = 14.0 * UNIT;
-/// The same for the sum of three.
+/// Bound of a component of the sum of three vector products / largest extent², times √3 or more.
 const CROSS_SUM: f64 = 60.0 * UNIT;
 /// Half, less 8 u: two roundings of the numerator, 4 of the denominator, a quotient and a product.
 const HALF: f64 = 0.5 - 4.0 * UNIT;
@@ -163,7 +163,7 @@ pub fn squared_distance<P: AsRef<[f64]>>(p: &P, q: &P) -> f64 {
     square_between(p.as_ref(), q.as_ref())
 }
 
-/// The same for any [`Real`].
+/// [`squared_distance`] for any [`Real`].
 #[inline(always)]
 pub(super) fn square_between<T: Real>(p: &[T], q: &[T]) -> T {
     let mut sum = (p[0] - q[0]) * (p[0] - q[0]);
@@ -183,7 +183,7 @@ pub fn distance_above<P: AsRef<[f64]> + PartialEq>(p: &P, q: &P) -> f64 {
     square.sqrt() * ABOVE
 }
 
-/// The same of several points, each with another one.
+/// Upper bounds of the distances of several points, each from another one.
 #[inline(always)]
 pub(crate) fn distances_above<P: Array + AsRef<[f64]> + PartialEq>(
     avx2: Avx2,
@@ -204,7 +204,7 @@ pub fn displacement_limit(tolerance: f64) -> f64 {
     limit(tolerance)
 }
 
-/// The same for any [`Real`].
+/// [`displacement_limit`] for any [`Real`].
 #[inline(always)]
 fn limit<T: Real>(tolerance: T) -> T {
     // Twice the least distance, so that its square is certainly above that of the least.

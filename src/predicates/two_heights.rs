@@ -47,7 +47,7 @@ pub(super) fn is_rectangle([a, b, c, d]: [&[f64; 2]; 4]) -> bool {
     (x0 & (y1 | y2)) | (x1 & (y0 | y2)) | (x2 & (y0 | y1))
 }
 
-/// The sign of the in-sphere determinant, likewise.
+/// The sign of the in-sphere determinant, if the points are at two heights and one term is left at most.
 pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering> {
     (0..3).find_map(|axis| {
         let flat = points.map(|p| without(p, axis));
@@ -57,7 +57,7 @@ pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering
     })
 }
 
-/// The sign of the orientation, likewise.
+/// The sign of the orientation of four points of space, if they are at two heights and one term is left at most.
 pub(super) fn orient3d_at_two_heights(points: [&[f64; 3]; 4]) -> Option<Ordering> {
     (0..3).find_map(|axis| {
         let flat = points.map(|p| without(p, axis));
@@ -112,7 +112,7 @@ fn vandermonde([x, y, z]: &[f64; 3]) -> Ordering {
     (sign(y, x) * sign(z, x) * sign(z, y)).cmp(&0)
 }
 
-/// The other two coordinates, in cyclic order.
+/// The coordinates but that of an axis, in cyclic order.
 fn without(p: &[f64; 3], axis: usize) -> [f64; 2] {
     [p[(axis + 1) % 3], p[(axis + 2) % 3]]
 }

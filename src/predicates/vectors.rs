@@ -57,13 +57,13 @@ pub(crate) fn cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
-/// `a` `b` − `c` `d`.
+/// `a` `b` − `c` `d`, the last product and the difference being one operation in lanes.
 #[inline(always)]
 pub(super) fn fused_minor<T: Real>(a: T, b: T, c: T, d: T) -> T {
     (a * b).minus_product(c, d)
 }
 
-/// As [`dot`].
+/// [`dot`], of which each product but the first and its sum are one operation in lanes.
 #[inline(always)]
 pub(super) fn fused_dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
     const { assert!(is_dimension(D)) };
@@ -71,7 +71,7 @@ pub(super) fn fused_dot<T: Real, const D: usize>(p: &[T; D], q: &[T; D]) -> T {
     if D == 3 { p[2].times_plus(q[2], sum) } else { sum }
 }
 
-/// As [`cross`].
+/// The cross product of space, each component by [`fused_minor`].
 #[inline(always)]
 pub(super) fn fused_cross<T: Real>(p: &[T; 3], q: &[T; 3]) -> [T; 3] {
     [
