@@ -34,10 +34,11 @@ const HALF: usize = MOST / 2;
 pub(super) struct FreeSlots {
     /// Bits of those that are not in hand; empty while all slots are in [`first_words`](Self::first_words).
     levels: [Vec<u64>; LEVELS],
-    /// The same for few slots, one word at each level, so that a set of a few points needs fewer arrays.
+    /// Bits of few slots that are not in hand, one word at each level, so that a set of a few points needs fewer
+    /// arrays.
     first_words: [u64; LEVELS],
     in_hand: InHand,
-    /// Of all.
+    /// How many slots are free, in hand or not.
     n: usize,
 }
 
@@ -97,12 +98,12 @@ impl InHand {
 pub(super) struct FreeRange<'c> {
     /// The first slot.
     first: usize,
-    /// Without upper levels where there are other ranges beside this one.
+    /// Bits of those of the range, without upper levels where there are other ranges beside it.
     levels: Levels<'c>,
-    /// Further ones, from slot 0 on, below the first.
+    /// Bits of further slots of the range, from slot 0 on, below the first.
     head: Levels<'c>,
     n: &'c mut usize,
-    /// If these are all slots.
+    /// The slots in hand, if the range is all slots.
     in_hand: Option<&'c mut InHand>,
 }
 
@@ -146,7 +147,7 @@ impl FreeSlots {
         }
     }
 
-    /// The same, to be changed, and the rest.
+    /// The words of each level, to be changed; the slots in hand; and the number of free slots.
     #[inline(always)]
     fn words_mut(&mut self) -> ([&mut [u64]; LEVELS], &mut InHand, &mut usize) {
         let words = if self.has_few() {
@@ -157,13 +158,13 @@ impl FreeSlots {
         (words, &mut self.in_hand, &mut self.n)
     }
 
-    /// Their number.
+    /// Number of free slots.
     #[inline(always)]
     pub(super) fn len(&self) -> usize {
         self.n
     }
 
-    /// All of them.
+    /// All free slots.
     pub(super) fn iter(&self) -> impl Iterator<Item = Slot> + '_ {
         let listed = self.words()[0].iter().enumerate().flat_map(|(k, &word)| {
             let lowest = std::iter::successors(Some(word), |left| Some(left & left.wrapping_sub(1)));
@@ -227,7 +228,7 @@ impl FreeSlots {
         }
     }
 
-    /// Takes none in hand.
+    /// Enters the slots in hand among the bits, so that none is in hand.
     fn lay_down(&mut self) {
         let InHand { slots, n, .. } = self.in_hand;
         if n > 0 {

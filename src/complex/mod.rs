@@ -254,7 +254,8 @@ impl<C: Corners> Complex<C> {
         self.set_mark(cell, 0);
     }
 
-    /// As [`put`](Self::put), with its side of all gluings; the neighbours' sides are theirs to set.
+    /// Puts a cell where one is free or to be replaced, with its side of all gluings; the neighbours' sides are still
+    /// to be set. The caller has [retired](Self::retire) the old one.
     #[inline(always)]
     pub(crate) fn put_whole(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
         self.n_ghosts += (corners[C::N - 1] == INFINITE) as usize;
@@ -262,7 +263,7 @@ impl<C: Corners> Complex<C> {
         self.set_mark(cell, 0);
     }
 
-    /// The same, and the neighbour's side opposite corner 0.
+    /// Puts a [whole](Self::put_whole) cell, and sets the neighbour's side opposite corner 0.
     #[inline(always)]
     pub(crate) fn put_glued(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
         self.put_whole(cell, corners, neighbours);
@@ -281,7 +282,7 @@ impl<C: Corners> Complex<C> {
         self.n_ghosts -= self.cell(cell).is_ghost() as usize;
     }
 
-    /// As [`retire`](Self::retire) for several cells, of which `n` are ghosts.
+    /// [Retires](Self::retire) several cells, of which `n` are ghosts.
     #[inline(always)]
     pub(crate) fn retire_ghosts(&mut self, n: usize) {
         self.n_ghosts -= n;

@@ -61,9 +61,9 @@ pub struct CellRange<'c, C: Corners> {
     /// Slot of the first one.
     first: Slot,
     cells: &'c mut [Cell<C>],
-    /// Further ones, from slot 0 on.
+    /// Further cells of the range, from slot 0 on.
     head: &'c mut [Cell<C>],
-    /// Those of them that are free.
+    /// The free slots of the range.
     pub(super) free: FreeRange<'c>,
 }
 
@@ -121,7 +121,7 @@ impl<C: Corners> Complex<C> {
         self.free.iter()
     }
 
-    /// Their number.
+    /// Number of free slots.
     pub(crate) fn n_free(&self) -> usize {
         self.free.len()
     }

@@ -2,8 +2,8 @@
 //!
 //! Between [`begin_record`](Complex::begin_record) and [`end_record`](Complex::end_record) the row of a slot (its
 //! corners and its neighbours' facets) is noted before its corners change for the first time. The memory for that is
-//! reserved before anything changes. The record has two readers: [`undo_record`](Complex::undo_record), which needs
-//! no memory, and those who follow the cells, to whom [`rows`](Complex::rows) tells which slots hold other cells now.
+//! reserved before anything changes. The record has two readers: [`undo_record`](Complex::undo_record), which needs no
+//! memory, and what follows the cells, which learns from [`rows`](Complex::rows) which slots hold other cells now.
 //!
 //! **Gluings are not noted.** A cell that keeps its corners while the one across a facet changes is glued again when
 //! that one is put back. Rows are put back in the opposite order: a row that was noted after a neighbour had changed
@@ -47,7 +47,7 @@ pub(super) struct Record<C: Corners> {
     rows: Vec<Row<C>>,
     /// By slot, a bit for those that have been noted. All are 0 while no record is kept.
     noted: Vec<u64>,
-    /// How many slots and ghosts there were.
+    /// How many slots and ghosts there were when it was begun.
     n_slots: usize,
     n_ghosts: usize,
 }

@@ -30,8 +30,8 @@ impl<C: Corners> Complex<C> {
         Ok(index)
     }
 
-    /// A copy in that order, without memory for cells that are gone, in which the sites have other `names`, all below
-    /// `n_sites`; and the new slot of each cell, [`Slot::NONE`] for free ones.
+    /// A copy with the cells in the order of [`sort`](Self::sort), without memory for those that are gone, in which the
+    /// sites have other `names`, all below `n_sites`; and the new slot of each cell, [`Slot::NONE`] for free ones.
     pub(crate) fn compacted(
         &self,
         n_sites: usize,

@@ -224,7 +224,7 @@ fn two_tetrahedra() -> (Complex<[SiteId; 4]>, Facet) {
     (complex, shared)
 }
 
-/// The same, each cell in the first slot of a word, with this number of free ones after the last.
+/// A copy of a complex, each cell in the first slot of a word, with this number of free ones after the last.
 fn spread(complex: &Complex<[SiteId; 4]>, n_free: usize) -> Complex<[SiteId; 4]> {
     let n = complex.n_slots();
     let moved = |c: Slot| Slot::at(WORD * c.index());

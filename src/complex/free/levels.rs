@@ -77,11 +77,11 @@ impl Levels<'_> {
         }
     }
 
-    /// The same where the word of the position has none.
+    /// The position of a set bit near this one, if there is any, where the word of this one has none.
     #[inline(never)]
     fn beyond(&self, at: usize) -> Option<usize> {
         let n_levels = if self.0[1].is_empty() { 1 } else { LEVELS };
-        // Up to the level at which there is one in the same word, or at the top in another one, ...
+        // Up, to the level at which there is one in the same word, or at the top in another one.
         let (mut k, mut place) = (0, at);
         let mut found = loop {
             let words = &self.0[k];
@@ -93,7 +93,7 @@ impl Levels<'_> {
             }
             (k, place) = (k + 1, place / WORD);
         };
-        // ... and down again, on the side of the position.
+        // Down again, in each word on the side of the position.
         while k > 0 {
             let word = self.0[k - 1][found];
             let is_after = found > at >> (k as u32 * WORD.ilog2());
