@@ -36,16 +36,16 @@ pub(crate) struct Aligned<T: Copy> {
     entries: PhantomData<T>,
 }
 
-// SAFETY: it owns its entries.
+// SAFETY: an array owns its entries.
 unsafe impl<T: Copy + Send> Send for Aligned<T> {}
-// SAFETY: as above.
+// SAFETY: an array owns its entries, and shared it lets them be read alone.
 unsafe impl<T: Copy + Sync> Sync for Aligned<T> {}
 
 impl<T: Copy> Aligned<T> {
     /// How many bytes may have to be skipped.
     const MORE: usize = align_of::<T>().saturating_sub(GIVEN);
 
-    /// An empty one.
+    /// An empty array.
     #[inline(always)]
     pub(crate) const fn new() -> Self {
         Aligned {
@@ -198,7 +198,7 @@ impl<T: Copy> Aligned<T> {
 }
 
 impl<T: Copy + Sync + Send> Aligned<T> {
-    /// As [`memory::extend`].
+    /// Appends what `make` makes of each entry of `from`, each of several threads a stretch of it.
     pub(crate) fn extend(
         &mut self,
         from: &[T],
@@ -242,7 +242,7 @@ impl<T: Copy> Deref for Aligned<T> {
 impl<T: Copy> DerefMut for Aligned<T> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
-        // SAFETY: as above.
+        // SAFETY: these entries have been written, and are borrowed for the caller alone.
         unsafe { slice::from_raw_parts_mut(self.start.as_ptr(), self.n) }
     }
 }

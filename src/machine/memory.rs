@@ -1,8 +1,8 @@
 //! Room for large arrays.
 //!
-//! An array of many megabytes that is written once in storage order costs a page fault every few kilobytes: a
-//! fifth of a 2D build of a million sites; one that is read out of order, a search for the page at most of the reads.
-//! Where the system has large pages for those who ask, ask.
+//! An array of many megabytes that is written once in storage order costs a page fault every few kilobytes: a fifth of
+//! a 2D build of a million sites; one that is read out of order, a search for the page at most of the reads. Where the
+//! system has large pages on request, they are asked for.
 
 #![allow(unsafe_code)]
 
@@ -47,7 +47,7 @@ fn grow<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     Ok(())
 }
 
-/// As [`reserve`], but where the array has to grow, it is by an eighth: for large arrays, of which half must not stay
+/// Makes room for `more` more entries at least, growing by an eighth: for large arrays, of which half must not stay
 /// empty.
 pub(crate) fn reserve_sparingly<T>(array: &mut Vec<T>, more: usize) -> Result<()> {
     if array.capacity() - array.len() >= more {
@@ -103,7 +103,7 @@ pub(crate) fn made<T: Default>(place: &mut Option<Box<T>>) -> Result<&mut T> {
     Ok(place.insert(made))
 }
 
-/// As [`made`], out of its place: to be put back there.
+/// A value that has its memory from when it is first asked for, out of its place: to be put back there.
 #[inline(always)]
 pub(crate) fn take_made<T: Default>(place: &mut Option<Box<T>>) -> Result<Box<T>> {
     match place.take() {
@@ -189,7 +189,8 @@ pub(crate) fn extend<T: Sync, U: Copy + Send>(
     Ok(())
 }
 
-/// As [`extend`], over entries that there are, as many as in `from`.
+/// Writes what `make` makes of each entry of `from` over as many entries that there are, each of several threads a
+/// stretch of it.
 pub(crate) fn overwrite<T: Sync, U: Copy + Send>(
     to: &mut [U],
     from: &[T],

@@ -1,7 +1,7 @@
 //! How many threads the system runs at the same time.
 //!
-//! As [`std::thread::available_parallelism`] has it, which on Linux reads files into memory that cannot be refused;
-//! here they are read to the stack.
+//! The answer is that of [`std::thread::available_parallelism`], which on Linux reads files into memory that cannot be
+//! refused; here they are read to the stack.
 
 #![allow(unsafe_code)]
 
@@ -11,7 +11,7 @@ pub(crate) fn available() -> usize {
     allowed().min(linux::quota()).max(1)
 }
 
-/// Likewise.
+/// The processors that the process may use, as far as can be told, and one at least.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn available() -> usize {
     std::thread::available_parallelism().map_or(1, |threads| threads.get())

@@ -25,7 +25,7 @@ impl Share {
     /// The only share so far of memory that was allocated with this layout, and has room for `capacity` entries.
     ///
     /// # Safety
-    /// The memory is freed with the last share, unless it is [kept](Self::keep); nobody else may do so.
+    /// The memory is freed with the last share, unless it is [kept](Self::keep), and in no other way.
     pub(super) unsafe fn new(memory: *mut u8, layout: Layout, capacity: usize) -> Result<Self> {
         let shared = memory::boxed(Shared { n_shares: AtomicUsize::new(1), memory, layout, capacity })?;
         Ok(Share(NonNull::from(Box::leak(shared))))
@@ -36,7 +36,7 @@ impl Share {
         unsafe { self.0.as_ref() }
     }
 
-    /// One more.
+    /// One more share.
     pub(super) fn another(&self) -> Self {
         self.shared().n_shares.fetch_add(1, Ordering::Relaxed);
         Share(self.0)
@@ -57,7 +57,7 @@ impl Share {
     pub(super) fn keep(self) -> usize {
         let capacity = self.shared().capacity;
         assert!(self.is_last_of(self.shared().memory));
-        // SAFETY: it was leaked when it was made, and nobody has a share any more: this one is forgotten.
+        // SAFETY: it was leaked when it was made, and there is no other share: this one is forgotten.
         drop(unsafe { Box::from_raw(self.0.as_ptr()) });
         std::mem::forget(self);
         capacity

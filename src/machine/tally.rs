@@ -14,13 +14,13 @@ pub fn exact_calls() -> u64 {
     EXACT.get()
 }
 
-/// Counts one.
+/// Counts a sign that takes exact arithmetic.
 #[inline(always)]
 pub(crate) fn count() {
     add(1);
 }
 
-/// Does what does not count for the current thread.
+/// Does work of which no sign counts for the current thread.
 pub(crate) fn uncounted<T>(work: impl FnOnce() -> T) -> T {
     let before = EXACT.get();
     let done = work();
@@ -28,7 +28,7 @@ pub(crate) fn uncounted<T>(work: impl FnOnce() -> T) -> T {
     done
 }
 
-/// Counts those that another thread has evaluated for the current one.
+/// Counts signs that another thread has taken by exact arithmetic for the current one.
 #[inline(always)]
 pub(super) fn add(n: u64) {
     EXACT.set(EXACT.get() + n);

@@ -99,7 +99,7 @@ fn are_all_used() -> bool {
     ARE_ALL_USED.load(Relaxed) == YES
 }
 
-/// As if `DELDRIFT_ALL_THREADS` were set.
+/// Has all threads used that a caller allows, as if `DELDRIFT_ALL_THREADS` were set.
 #[cfg(feature = "internals")]
 pub fn use_all_threads() {
     ARE_ALL_USED.store(YES, Relaxed);
@@ -142,7 +142,7 @@ impl<F: FnOnce() -> B, B> Task<F, B> {
     }
 }
 
-/// Does both, the second on another thread if there is one to be had meanwhile.
+/// Does two pieces of work, the second on another thread if there is one to be had meanwhile.
 pub(crate) fn join<A, B: Send>(a: impl FnOnce() -> A, b: impl FnOnce() -> B + Send) -> (A, B) {
     let mut task = Task { work: Some(b), done: None };
     let a = beside(&mut || task.run(), a);
@@ -287,7 +287,7 @@ mod tests {
         }
     }
 
-    /// Does both, the second certainly on another thread.
+    /// Does two pieces of work, the second certainly on another thread.
     fn join_surely<A, B: Send>(a: impl FnOnce() -> A, b: impl FnOnce() -> B + Send) -> (A, B) {
         Threads::exactly(3);
         let has_begun = AtomicBool::new(false);

@@ -7,11 +7,11 @@ use super::{LANES, Real};
 #[derive(Clone, Copy, Debug)]
 enum Never {}
 
-/// As that of AVX2; none exists.
+/// The token of AVX2 and FMA, in name only: none exists.
 #[derive(Clone, Copy, Debug)]
 pub struct Avx2(Never);
 
-/// As those of AVX2; none exist.
+/// Lanes of AVX2, in name only: none exist.
 #[derive(Clone, Copy)]
 pub struct Lanes(Never);
 

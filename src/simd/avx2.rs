@@ -111,7 +111,7 @@ fn is_scalar_path_forced() -> bool {
     !unsafe { libc::getenv(c"DELDRIFT_SCALAR".as_ptr()) }.is_null()
 }
 
-/// As [`super::prefetch_at`].
+/// Prefetches what is at an address, which need not be valid.
 #[inline(always)]
 pub fn prefetch_at<T>(address: *const T) {
     // SAFETY: a prefetch is a hint, which is harmless at any address.

@@ -22,7 +22,7 @@ fn four(rng: &mut Rng) -> [f64; LANES] {
     })
 }
 
-/// The same bits, or NaN in both.
+/// Makes sure that every lane has the bits expected, or NaN where that is expected.
 fn assert_same(found: Lanes, expected: [f64; LANES], what: &str) {
     for (found, expected) in found.store().into_iter().zip(expected) {
         assert!(
