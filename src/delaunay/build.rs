@@ -17,7 +17,7 @@ use crate::predicates::{StaticFilter, distance_above, squared_distance};
 /// A vertex that is hidden by one of a lower id at the same place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Merge {
-    /// Its id.
+    /// The id of the vertex.
     pub hidden: VertexId,
     /// The site at which it is.
     pub site: SiteId,
@@ -62,7 +62,7 @@ impl<G: Dimension> Delaunay<G> {
             }
             Site::new(point, VertexId::new(item))
         };
-        // As they would come out of the sorting.
+        // So few are not sorted: they keep their order.
         if n <= SHORT_RUN {
             self.begin_sites(n)?;
             self.sites.extend((0..n as u32).map(site));
@@ -153,7 +153,8 @@ impl<G: Dimension> Delaunay<G> {
         most.min(7 * n + (4 * n).min(64))
     }
 
-    /// Likewise, with room for `n` sites; returns pairs of coincident sites, the second in the cells.
+    /// Builds the cells of all live sites, given in insertion order, from a basis of `D + 1` on, with room for `n`
+    /// sites; returns pairs of coincident sites, the second in the cells.
     pub(super) fn triangulate_unmerged(
         &mut self,
         order: &[SiteId],

@@ -104,7 +104,7 @@ impl<G: Dimension> Delaunay<G> {
         inserted
     }
 
-    /// Inserts a site that has been added, anywhere: as [`insert_site`](Self::insert_site), by a walk from a cell
+    /// [Inserts](Self::insert_site) a site that has been added and may be anywhere, by a walk from a cell
     /// [towards](Self::cell_towards) it.
     pub(crate) fn insert_site_anywhere(&mut self, s: SiteId) -> Result<Insertion> {
         if !self.has_cells() {

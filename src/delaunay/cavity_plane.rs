@@ -195,14 +195,15 @@ fn grow(Scratch { turns, rows, .. }: &mut Scratch, n_cells: usize) -> Result<()>
     let facet = Facet::new(Slot::new(0), 0);
     let seen = Lifted::new(&[0.0; 2], &[0.0; 2]);
     memory::lengthen(turns, room, Edge { out: facet, start: INFINITE, right: seen, left: seen, cross: 0.0 })?;
-    // Last, as its length stands for both.
+    // The rows are lengthened last, as their length stands for that of both lists.
     memory::lengthen(rows, room, Row { cell: Slot::new(0), start: INFINITE, out: facet })
 }
 
 /// The edges behind the one opposite a corner, the right one first, by the corners that they are opposite.
 const OTHERS: [[usize; 2]; 3] = [[1, 2], [2, 0], [0, 1]];
 
-/// After the first bound: by those of the corners, and of their cross products.
+/// Whether a cell is in conflict where the first bound did not decide: by the bounds of the corners, and of their cross
+/// products.
 #[cold]
 #[inline(never)]
 fn is_in_uncertain_conflict(
@@ -214,7 +215,7 @@ fn is_in_uncertain_conflict(
     corners: [Lifted; 3],
 ) -> bool {
     let corners = corners.each_ref();
-    // Of lattices it is zero.
+    // On lattices the side is mostly zero.
     if side != 0.0 && side.abs() > seen_circle_running_bound(corners) {
         return side > 0.0;
     }

@@ -127,8 +127,8 @@ fn reserve<const BUILD: bool>(
     if *n_rim > SMALL_RIM { memory::reserve_exact(ridges, 3 * n_rim) } else { Ok(()) }
 }
 
-/// As [`dig`], in a build.
-// On its own: inlined in the loop over all sites it would be slower.
+/// Finds the zone of `s` from one cell of it, and its rim, during a build.
+// Not inlined: within the loop over all sites it would be slower.
 #[inline(never)]
 fn dig_in_build<const BY_LENGTHS: bool>(
     t: &mut Delaunay<Space>,
@@ -164,7 +164,7 @@ fn dig<const BUILD: bool, const BY_LENGTHS: bool>(
     make_room(rows, meetings, n_zone)?;
     rows[0].found = Facet::new(start, 0);
     t.complex.set_mark(start, IN_ZONE);
-    // With the corners of the new cell if the neighbour is not in the zone.
+    // Looks across a facet, given the corners of the new cell that is there if the neighbour is not in the zone.
     macro_rules! look_across {
         ($out:expr, $corners:expr) => {
             let out = $out;

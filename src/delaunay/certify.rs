@@ -187,7 +187,7 @@ impl<G: Dimension> Delaunay<G> {
         )
     }
 
-    /// As [`visit_uncertain`](Self::visit_uncertain), one cell at a time.
+    /// Does what [`visit_uncertain`](Self::visit_uncertain) does, one cell at a time and without lanes.
     pub(super) fn visit_uncertain_singly(
         &self,
         mut cells: impl Iterator<Item = Slot>,
@@ -256,8 +256,8 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// As [`check_bicell`](Self::check_bicell) of many bi-cells, of which those of finite cells wait for each other;
-    /// after the last one comes [`check_waiting`](Self::check_waiting).
+    /// [Checks](Self::check_bicell) one of many bi-cells. Those of finite cells wait until they are as many as there
+    /// are lanes; after the last one [`check_waiting`](Self::check_waiting) must follow.
     #[inline(always)]
     pub(crate) fn check_bicell_of_many(
         &self,
@@ -318,7 +318,7 @@ impl<G: Dimension> Delaunay<G> {
     ) -> Result<bool> {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         let cells = [facet.cell(), across.cell()];
-        // Ties are dear, and as they were.
+        // Where nothing has moved, what held before holds still: exact arithmetic, which ties would take, is spared.
         if cells.iter().all(|&c| self.are_at_rest(self.complex.cell(c).corners.as_ref(), before)) {
             return Ok(true);
         }
@@ -386,7 +386,8 @@ impl<G: Dimension> Delaunay<G> {
         self.check_star_from(self.sites[s].cell, s, failures)
     }
 
-    /// The same, where a cell of the star is known, as the site need not know one while there are flips.
+    /// Checks the cells of the star of a site, of which `first` is one: while there are flips the site itself need not
+    /// know one.
     pub(super) fn check_star_from(&mut self, first: Slot, s: SiteId, failures: &mut Failures) -> Result<()> {
         self.gather_star_from(first, s)?;
         for &(c, at) in self.gathered_star() {
@@ -398,7 +399,7 @@ impl<G: Dimension> Delaunay<G> {
             if !self.is_positive(c) {
                 memory::push(&mut failures.cells, c)?;
             }
-            // Those within the star once.
+            // A facet between two cells of the star is checked from one of them.
             let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
             let own = (0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i));
             memory::collect(&mut failures.facets, own)?;

@@ -59,7 +59,7 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// As [`record`](Self::record), of many.
+    /// Enters cells into the record, if there is one, and makes the room for them.
     pub(crate) fn record_all(&mut self, cells: &[Slot]) -> Result<()> {
         if let Some(changed) = &mut self.changed {
             memory::reserve(changed, cells.len())?;

@@ -47,7 +47,7 @@ impl<G: Dimension> Delaunay<G> {
         is_covered
     }
 
-    /// As [`cover`](Self::cover), for points up to `distance` off the box.
+    /// Makes the static filter valid for points in a box and up to `distance` off it.
     pub(crate) fn cover_around(&mut self, lower: &G::Point, upper: &G::Point, distance: f64) {
         let (mut lower, mut upper) = (*lower, *upper);
         for axis in 0..G::D {

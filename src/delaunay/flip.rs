@@ -54,12 +54,12 @@ enum WhenStuck {
     Leave,
 }
 
-/// Those of the last call, and the memory for the next one.
+/// The flips of the last call, and the memory for those of the next one.
 #[derive(Debug)]
 pub(super) struct AllFlips<G: Dimension> {
-    /// Of the thread that calls.
+    /// Flips of the calling thread.
     own: Flips<G>,
-    /// Of several threads, before these.
+    /// Flips of several threads, made before the calling thread's own.
     parts: Vec<Flips<G>>,
     island: Island<G::Corners>,
     /// What was exchanged before all flips.
@@ -133,7 +133,7 @@ impl<G: Dimension> Delaunay<G> {
         memory::reserve(suspects, self.star.len() * G::Corners::N)?;
         for &(c, at) in &self.star {
             let cell = self.complex.cell(c);
-            // Those within the star once.
+            // A facet between two cells of the star is a suspect once.
             let is_own = |&i: &usize| i == at as usize || c < cell.neighbour(i).cell();
             suspects.extend((0..G::Corners::N).filter(is_own).map(|i| Facet::new(c, i)));
         }
@@ -210,7 +210,7 @@ impl<G: Dimension> Delaunay<G> {
                 }
                 continue;
             }
-            // By a few at a time each would be put off again and again.
+            // If there were only a few more each time, facets would be put off again and again.
             self.complex.create_free(ROOM.max(own.later.len() / 2))?;
             std::mem::swap(&mut own.suspects, &mut own.later);
         }

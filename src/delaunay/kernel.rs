@@ -31,7 +31,8 @@ pub trait Kernel<G: Dimension> {
     /// Error bounds for points inside the box.
     fn filter(lower: &G::Point, upper: &G::Point) -> StaticFilter;
 
-    /// As [`exact_filter`](crate::predicates::exact_filter).
+    /// Bounds for points in a box, if all are on one lattice and few steps of it apart: see
+    /// [`exact_filter`](crate::predicates::exact_filter).
     fn exact_filter<'p>(
         lower: &'p G::Point,
         upper: &'p G::Point,
@@ -74,7 +75,8 @@ pub trait Kernel<G: Dimension> {
     /// Whether a finite cell surely is positively oriented and has no other corner of a neighbour in its sphere.
     fn cell_holds(t: &Delaunay<G>, cell: Slot) -> bool;
 
-    /// As [`cell_holds`](Self::cell_holds), of several cells with these corners and these sites beyond their facets.
+    /// What surely holds of several cells, with these corners and these sites beyond their facets;
+    /// [`cell_holds`](Self::cell_holds) is that all of it does.
     fn cells_hold<const HAVE_OWN_BOUNDS: bool>(
         avx2: Avx2,
         f: &StaticFilter,
@@ -87,7 +89,7 @@ pub trait Kernel<G: Dimension> {
     /// [`cell_holds`](Self::cell_holds) says: not if there are ghosts among them.
     fn star_holds(avx2: Avx2, t: &Delaunay<G>, star: &[(Slot, u8)]) -> bool;
 
-    /// Of several cells, each with a site: whether that surely is outside the cell's sphere, one bit each.
+    /// For each of several cells, with a site each, whether the site surely is outside the cell's sphere: one bit each.
     fn are_outside(
         avx2: Avx2,
         f: &StaticFilter,
@@ -96,7 +98,7 @@ pub trait Kernel<G: Dimension> {
         others: &[SiteId; LANES],
     ) -> u32;
 
-    /// Of several ghosts, where the ray from `o` through `aim` goes.
+    /// Where the ray from `o` through `aim` goes, past the facets of several ghosts or through them.
     fn ray(
         avx2: Avx2,
         f: &StaticFilter,
@@ -106,8 +108,8 @@ pub trait Kernel<G: Dimension> {
         aim: &G::Point,
     ) -> Ray;
 
-    /// Of several ghosts, each with the finite corners across its ridges: whether the hull surely is convex at all of
-    /// them, one bit each.
+    /// For each of several ghosts, with the finite corners across its ridges, whether the hull surely is convex at all
+    /// of these: one bit each.
     fn are_convex(
         avx2: Avx2,
         f: &StaticFilter,
@@ -120,7 +122,8 @@ pub trait Kernel<G: Dimension> {
     /// test.
     fn bicell_holds(t: &Delaunay<G>, facet: Facet) -> bool;
 
-    /// As [`bicell_holds`](Self::bicell_holds), of several facets, or by bounds that are sharper: one bit each.
+    /// For each of several facets whether [`bicell_holds`](Self::bicell_holds) says so of it, or sharper bounds do: one
+    /// bit each.
     fn facets_hold(avx2: Avx2, t: &Delaunay<G>, facets: &[Facet; LANES]) -> u32;
 
     /// Takes sites that are certainly outside the sphere of a cell out of a set of them, by position.

@@ -171,7 +171,8 @@ impl Landmarks {
         self.near_each::<G, 1>([q])[0][0]
     }
 
-    /// The same for several places, and for each another site, should the first one be far away now.
+    /// For each of several places a site that was near it once, and another one, should the first be far away now;
+    /// [`SiteId::NONE`] if no tree has been made, or one is being made.
     #[inline(always)]
     pub(super) fn near_each<G: Dimension, const N: usize>(&self, places: [&G::Point; N]) -> [[SiteId; 2]; N] {
         let none = [[SiteId::NONE; 2]; N];
@@ -209,7 +210,7 @@ impl Landmarks {
         }
     }
 
-    /// These sites leave their places, where the `others` stay: wherever one was a landmark, the other is from now on.
+    /// These sites leave their places, where the `others` stay: where one was a landmark, the other is one from now on.
     pub(super) fn leave<G: Dimension, const N: usize>(
         &self,
         places: [&G::Point; N],
@@ -398,7 +399,7 @@ mod tests {
         }
     }
 
-    /// Those of sites that go anywhere, too.
+    /// Walks of sites that are relocated anywhere become short by themselves.
     fn relocations_become_short<G: Dimension>() {
         let rng = &mut Rng::new(2);
         let n = 5_000;

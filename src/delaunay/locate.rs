@@ -40,7 +40,8 @@ impl<G: Dimension> Delaunay<G> {
         self.walk_until(f, q, start, steps, is_enough).0
     }
 
-    /// As [`walk`](Self::walk), but a finite cell that is enough ends it, too; whether one has.
+    /// Cell where a walk to `q` from the cell `start` ends, at the latest in a finite cell that is enough; and whether
+    /// it ended in one. `f` must hold for `q`. Counts its steps.
     #[inline(always)]
     pub(super) fn walk_until(
         &self,
@@ -192,7 +193,8 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
-    /// The same of a visit of all cells in the order of their slots, after that of `c`.
+    /// Asks for what a visit of all cells in the order of their slots will read some slots after `c`: cells, their
+    /// neighbours, and the corners of both.
     #[inline(always)]
     pub(crate) fn prefetch_around_cells_after(&self, c: Slot) {
         if let Some(c) = self.prefetch_neighbours_after(c) {
@@ -253,7 +255,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-/// As [`Delaunay::list_star`], of the site `s`, around which the cell `first` is.
+/// Enters the cells around the site `s`, of which `first` is one, into an empty set. Calls `found` as soon as the slot
+/// of a cell is known, for some of them more than once.
 #[inline(always)]
 pub(super) fn list_star<C: Corners>(
     complex: &Complex<C>,

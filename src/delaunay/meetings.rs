@@ -112,7 +112,8 @@ fn labels() -> impl FnMut(&mut Delaunay<Space>, SiteId) -> usize {
     }
 }
 
-/// As the table of [`Meetings`], where there are [`FEW_SITES`] sites at most, each its own label.
+/// Puts and glues the new cells of a rim by a small table on the stack, where there are [`FEW_SITES`] sites at most,
+/// each its own label.
 #[cold]
 #[inline(never)]
 fn glue_by_sites(t: &mut Delaunay<Space>, rim: &mut [Row]) {
@@ -120,7 +121,7 @@ fn glue_by_sites(t: &mut Delaunay<Space>, rim: &mut [Row]) {
     glue_by_table::<FEW_SITES, _>(t, rim, &mut table, |_, v| v.index());
 }
 
-/// As the table of [`Meetings`], for a rim of [`FEW_RIM`] facets at most.
+/// Puts and glues the new cells of a rim of [`FEW_RIM`] facets at most, by a small table on the stack.
 #[cold]
 #[inline(never)]
 fn glue_few(t: &mut Delaunay<Space>, rim: &mut [Row]) {
@@ -128,7 +129,7 @@ fn glue_few(t: &mut Delaunay<Space>, rim: &mut [Row]) {
     glue_by_table::<FEW_LABELS, _>(t, rim, &mut table, labels());
 }
 
-/// Glues by a table of `LABELS` times `LABELS` entries.
+/// Puts and glues the new cells of a rim by a table of `LABELS` times `LABELS` entries.
 #[inline(always)]
 fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
     t: &mut Delaunay<Space>,
@@ -158,8 +159,8 @@ fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
 /// An edge of the rim, and a facet there.
 pub(super) type Ridge = ([SiteId; 2], Facet);
 
-/// As the table, for rims with too many sites: the two facets of an edge are neighbours in sorted order. There is room
-/// for all `ridges`.
+/// Puts and glues the new cells of a rim that has too many sites for the table: the two facets of an edge are
+/// neighbours in sorted order. There is room for all `ridges`.
 #[cold]
 fn glue_sorted(t: &mut Delaunay<Space>, rim: &[Row], mut ridges: Vec<Ridge>) {
     for row in rim {

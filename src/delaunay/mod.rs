@@ -134,17 +134,17 @@ pub struct Delaunay<G: Dimension> {
     cavity: Cavity<G>,
     /// The star gathered last: its cells, and the index of the site in each.
     star: Vec<(Slot, u8)>,
-    /// Once a star has been gathered.
+    /// The hole that the star gathered last would leave, once there was one.
     hole: Option<Box<Hole<G>>>,
-    /// Once a site has been removed.
+    /// Memory for gift wrapping in lanes, once a site has been removed.
     wrapping: Option<Box<Wrapping>>,
     /// The cells of the star gathered last, once there was one.
     around: Option<Box<IndexSet<Slot>>>,
-    /// Once there were any.
+    /// The latest flips, once there were any.
     flips: Option<Box<AllFlips<G>>>,
     side_by_side: Option<Box<SideBySide<G>>>,
     log: undo::Log<G>,
-    /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if nobody asks.
+    /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if no record is kept.
     changed: Option<Vec<Slot>>,
     /// Certificates evaluated by relocations so far.
     certificates: u64,
@@ -167,12 +167,13 @@ impl<G: Dimension> Delaunay<G> {
     /// Index of the last corner, the one that is infinite in a ghost cell.
     const LAST: usize = G::D;
 
-    /// Nothing, not even the placeholder for the ghost vertex.
+    /// A triangulation of nothing, without even the placeholder for the ghost vertex.
     fn empty() -> Self {
         Self::empty_on(Threads::ONE)
     }
 
-    /// The same, to use several threads. Inlined, it is made where it is going to be: it has some kilobytes.
+    /// A triangulation of nothing, as [`empty`](Self::empty) makes it, that uses several threads. Inlined, it is made
+    /// where it is going to be: it has some kilobytes.
     #[inline(always)]
     pub(crate) fn empty_on(threads: Threads) -> Self {
         let origin = G::Point::default();
@@ -233,7 +234,7 @@ impl<G: Dimension> Delaunay<G> {
         &self.sites
     }
 
-    /// The same, to write places without any change to the cells.
+    /// All sites by index, to write places without any change to the cells.
     pub(crate) fn sites_mut(&mut self) -> &mut [Site<G>] {
         &mut self.sites
     }

@@ -138,7 +138,8 @@ fn sort_by_key(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
     }
 }
 
-/// As [`sort_by_key`], by digits that have `PLACES` values at most, of which `DIGITS` make up 32 bits.
+/// Sorts items by their keys, which have `bits` bits, by digits that have `PLACES` values at most; `DIGITS` of these
+/// make up 32 bits.
 fn sort_by_digits<const PLACES: usize, const DIGITS: usize>(
     keyed: &mut [Keyed],
     spare: &mut [Keyed],

@@ -59,7 +59,7 @@ impl Parts {
         self.divide::<G>(&mut sample[rank..], middle..parts.end);
     }
 
-    /// The same parts.
+    /// A copy.
     pub(super) fn copy(&self) -> Result<Self> {
         Ok(Parts { starts: memory::copy_of(&self.starts)?, planes: memory::copy_of(&self.planes)? })
     }
@@ -238,7 +238,7 @@ impl<G: Dimension> Delaunay<G> {
         }
         self.parts.restore(&mut self.sites, 0..n_parts);
         if !self.free_sites.is_empty() {
-            // As many as before.
+            // The list keeps its length, so this needs no memory.
             self.free_sites.clear();
             let sites = SiteId::range(1..self.sites.len());
             self.free_sites.extend(sites.filter(|&s| !self.sites[s].is_live()));

@@ -243,7 +243,7 @@ impl Kernel<Plane> for Plane {
         [s, t, u, v]: [&mut Site<Plane>; LANES],
         [lower, upper]: &mut [Lanes; 2],
     ) -> u64 {
-        /// Of the two pairs of bits of a number, how many are not both set.
+        /// How many of the two pairs of bits of a number are not both set.
         const N_PAIRS: [u8; 1 << LANES] = [2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 2, 1, 1, 1, 1, 0];
         let (first, last) = halves(places);
         let new = [avx2.load(first), avx2.load(last)];

@@ -25,7 +25,7 @@ use crate::ids::{SiteId, VertexId};
 pub enum Relocation {
     /// Only coordinates (or the id) changed.
     InPlace,
-    /// That, and this number of flips.
+    /// Coordinates (or the id) changed, and this number of flips were made.
     Flipped(u64),
     /// The site was removed and inserted again.
     Placed,
@@ -40,7 +40,7 @@ pub enum Relocation {
 pub enum Shortcut {
     /// Only coordinates change if no certificate of the star fails.
     Certificates,
-    /// Flips as well.
+    /// Only coordinates change if no certificate of the star fails; else flips, where they can mend it.
     Flips,
 }
 
@@ -82,7 +82,7 @@ impl<G: Dimension> Delaunay<G> {
             self.sites[s].id = id;
             return Ok(());
         }
-        // Where the sites of the star stay, its vertices do not: who follows the cells has to know.
+        // The sites of the star stay, but one of its vertices is another: what follows the cells has to know.
         self.gather_star(s)?;
         self.complex.note_all(self.star.iter().map(|&(c, _)| c))?;
         let q = self.site(s).point;

@@ -6,8 +6,8 @@
 //! side lies on the new convex hull and gets a ghost cell. Facets that hold the ghost vertex are never wrapped: each
 //! is met by the ghost cell of a finite facet.
 //!
-//! That is how it is done where signs have to be exact. Mostly they need not be: then the filling is found in doubles,
-//! four sites at a time, and certified as a whole ([`wrapping`](super::wrapping)).
+//! So it is done where signs have to be exact. Mostly they need not be: then the filling is found in doubles, four
+//! sites at a time, and certified as a whole ([`wrapping`](super::wrapping)).
 //!
 //! Cost: with `k` link sites, about `2k` cells in space and `k` in the plane, each after at most `k` in-sphere
 //! tests. For a vertex of high degree ([`MAX_LINK`] sites and more) `high_degree` triangulates the link instead.

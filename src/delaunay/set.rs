@@ -18,10 +18,10 @@ pub(crate) struct IndexSet<I> {
     /// One more than each, at its hash or behind; 0 where there is none. Once one has been [inserted](Self::insert):
     /// those that are only [pushed](Self::push) are not looked for.
     places: Option<[u32; PLACES]>,
-    /// All of them, once they are more.
+    /// All indices, once they are more than `few` holds.
     all: Vec<I>,
-    /// Then, where to find each: one above its position, at its hash or behind; a power of two of entries, half of them
-    /// 0 at least.
+    /// Once there are so many, where to find each: one above its position, at its hash or behind; a power of two of
+    /// entries, half of them 0 at least.
     table: Vec<u32>,
 }
 
@@ -56,7 +56,7 @@ fn enter<I: Id>(few: &mut [I; INLINE_CAPACITY + 1], places: &mut [u32; PLACES], 
     places[at] = key;
 }
 
-/// The same, if another index is in its place.
+/// Enters an index, unless it is there, into the few, where another index is in its place.
 #[cold]
 #[inline(never)]
 fn enter_behind<I: Id>(
@@ -189,7 +189,7 @@ impl<I: Id> IndexSet<I> {
         Ok(())
     }
 
-    /// As [`insert`](Self::insert), if there are many.
+    /// Enters an index where there are more than `few` holds, or will be; whether it was not there.
     #[cold]
     #[inline(never)]
     fn insert_beyond(&mut self, index: I) -> Result<bool> {

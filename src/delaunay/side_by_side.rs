@@ -14,7 +14,7 @@
 //! thread's range, as with [flips](super::flip): so no two threads read or write the same cell. Sites are read by all
 //! and written by none. What is at the border of a range is done the second time; what is on the hull, among ties that
 //! have to be removed, or at the place of another site is left over, and done here or by the caller, as if the threads
-//! had not been there. Since the cells are a function of the sites, they do not depend on who has done what.
+//! had not been there. Since the cells are a function of the sites, they do not depend on which thread has done what.
 //!
 //! Invariant: until all is done, the rows of all cells that have been replaced are in the journals, round by round. An
 //! error takes all of it back.
@@ -136,7 +136,7 @@ pub(super) struct SideBySide<G: Dimension> {
     parts: Vec<Part<G>>,
     /// Where their cells begin.
     starts: Vec<Slot>,
-    /// By goal.
+    /// What has become of each goal's site.
     states: Vec<State>,
 }
 
@@ -197,7 +197,7 @@ impl<G: Dimension> SideBySide<G> {
 struct Shared<'t, G: Dimension> {
     filter: &'t StaticFilter,
     sites: Sites<'t, G>,
-    /// The same, for the cells that sites had before.
+    /// The sites once more, for the cells that they had before.
     cells_of: &'t [Site<G>],
     landmarks: &'t Landmarks,
     goals: &'t [Goal<G>],
@@ -206,7 +206,7 @@ struct Shared<'t, G: Dimension> {
 impl<G: Dimension> Delaunay<G> {
     /// How many threads may place this number of sites side by side, if the cells are sorted.
     pub(crate) fn placing_threads(&self, n: usize) -> usize {
-        // There has to be a way to find out whose cells are near a place.
+        // There has to be a way to find out which range the cells near a place are in.
         if Avx2::new().is_none() || !self.landmarks.are_made_by(n, self.sites.len()) {
             return 1;
         }

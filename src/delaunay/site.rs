@@ -69,7 +69,7 @@ impl<'s, G: Dimension> Sites<'s, G> {
     #[inline(always)]
     pub fn id(self, s: SiteId) -> VertexId {
         debug_assert!(s.index() < self.0.len());
-        // SAFETY: as for `point`.
+        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
         unsafe { self.0.get_unchecked(s.index()).id }
     }
 }
@@ -81,7 +81,7 @@ impl<'s> Sites<'s, Space> {
     #[inline(always)]
     pub fn padded_point(self, s: SiteId) -> &'s [f64; 4] {
         debug_assert!(s.index() < self.0.len());
-        // SAFETY: as for `point`.
+        // SAFETY: `s` is a corner of a cell, so the index of a site (see `new`).
         unsafe { self.0.get_unchecked(s.index()) }.padded()
     }
 }
@@ -94,10 +94,11 @@ impl Site<Space> {
         unsafe { &*std::ptr::from_ref(self).cast() }
     }
 
-    /// The same, to write.
+    /// The place, and a fourth number without a meaning, to write. That number is the site's cell and id.
     #[inline(always)]
     pub(super) fn padded_mut(&mut self) -> &mut [f64; 4] {
-        // SAFETY: likewise, and any bits are a cell and an id.
+        // SAFETY: a site is as long as four numbers, all bits of it are set, and any bits are numbers, or a cell and an
+        // id.
         unsafe { &mut *std::ptr::from_mut(self).cast() }
     }
 }

@@ -48,7 +48,7 @@ struct Entry {
 /// The table; without entries outside a build.
 #[derive(Debug, Default)]
 pub struct Spheres {
-    /// A power of two of them.
+    /// Entries, as many as a power of two.
     entries: Vec<Entry>,
     /// Whether spheres are prepared and tested by lengths.
     pub(super) has_lengths: bool,
@@ -129,7 +129,7 @@ impl Table<'_> {
         put::<BY_LENGTHS>(self.0, t, cell, corners);
     }
 
-    /// As [`put`](Self::put), for four cells that have `a` for their first corner.
+    /// Prepares the spheres of four cells that have `a` for their first corner.
     #[inline(always)]
     pub(super) fn put_four<const BY_LENGTHS: bool>(
         &mut self,
@@ -218,7 +218,7 @@ fn is_inside<const BY_LENGTHS: bool>(
     } else {
         t.filter.prepared
     };
-    // By a load: a choice would be a branch.
+    // The allowance is loaded: a choice would be a branch.
     let bound = bound - ALLOWANCES[usize::from(known & IN_ZONE)];
     if side.abs() > bound {
         u8::from(side > 0.0) | known
@@ -227,7 +227,7 @@ fn is_inside<const BY_LENGTHS: bool>(
     }
 }
 
-/// As [`Table::is_in_conflict`], for a cell that is not there yet.
+/// Prepares the sphere of a cell that is not in the table yet, and answers as [`Table::is_in_conflict`] does.
 #[cold]
 #[inline(never)]
 fn prepare<const BY_LENGTHS: bool>(
@@ -244,7 +244,8 @@ fn prepare<const BY_LENGTHS: bool>(
     is_inside::<BY_LENGTHS>(entry(entries, cell), t, q, id, known)
 }
 
-/// After the first bound: by the cell's own, unless that was the first, with what has been computed.
+/// Whether a point is in conflict with a cell where the first bound did not decide: by the cell's own bound, unless
+/// that was the first, from what has been computed.
 #[cold]
 #[inline(never)]
 fn is_in_uncertain_conflict<const BY_LENGTHS: bool>(

@@ -30,7 +30,8 @@ impl<G: Dimension> Delaunay<G> {
         self.gather_star_from(self.sites[s].cell, s)
     }
 
-    /// The same, where a cell of the star is known, as the site need not know one while there are flips.
+    /// Collects the star of a site, of which `first` is a cell: while there are flips the site itself need not know
+    /// one.
     pub(super) fn gather_star_from(&mut self, first: Slot, s: SiteId) -> Result<()> {
         let is_far = self.is_far();
         let (complex, star) = (&mut self.complex, &mut self.star);

@@ -17,17 +17,17 @@ use crate::simd::{ALL, Avx2, LANES, Lanes};
 
 /// Most cells of a block of many cells, by lane.
 const MANY: usize = 64 / LANES;
-/// As many as most stars in space have.
+/// Most cells of a block for a star, by lane: as many as most stars in space have.
 const STAR: usize = 32 / LANES;
 
 /// What surely holds of some cells, by bounds of the cells' own if they have these.
 #[derive(Clone, Copy)]
 pub struct Held {
-    /// They are positively oriented.
+    /// The cells are positively oriented.
     pub positive: Lanes,
     /// The site beyond the facet opposite a corner is outside the sphere; anything of corners that are not there.
     pub facets: [Lanes; 4],
-    /// All of this, by the static bounds, which are looser.
+    /// All of this holds by the static bounds, too, which are looser.
     pub by_static_bounds: Lanes,
 }
 
@@ -84,8 +84,9 @@ impl<const N: usize> Block<N> {
 }
 
 impl<G: Dimension> Delaunay<G> {
-    /// As [`visit_uncertain`](Self::visit_uncertain). `IS_FAR` if the cells are too many to stay in a cache near the
-    /// processor: then neighbours and sites are asked for in advance, which would only cost time otherwise.
+    /// Does what [`visit_uncertain`](Self::visit_uncertain) does, in lanes. `IS_FAR` if the cells are too many to stay
+    /// in a cache near the processor: then neighbours and sites are asked for in advance, which would only cost time
+    /// otherwise.
     #[inline(always)]
     pub(super) fn visit_uncertain_in_lanes<const IS_FAR: bool>(
         &self,
@@ -96,8 +97,8 @@ impl<G: Dimension> Delaunay<G> {
         self.visit_uncertain_in_blocks::<IS_FAR, MANY>(avx2, cells, visit);
     }
 
-    /// Whether all certificates of the cells of a star in space surely hold: not if there are ghosts among them. In a
-    /// block of most stars, as making one takes as long as it is.
+    /// Whether all certificates of the cells of a star in space surely hold: not if there are ghosts among them. By
+    /// blocks as large as most stars, as to make one takes the longer the larger it is.
     #[inline(always)]
     pub(super) fn star_holds_in_lanes(&self, avx2: Avx2, star: &[(Slot, u8)]) -> bool {
         let mut holds = true;
@@ -108,7 +109,7 @@ impl<G: Dimension> Delaunay<G> {
         holds
     }
 
-    /// In blocks of `N` times as many cells as there are lanes.
+    /// Visits uncertain cells, looking at blocks of `N` times as many cells as there are lanes.
     #[inline(always)]
     fn visit_uncertain_in_blocks<const IS_FAR: bool, const N: usize>(
         &self,

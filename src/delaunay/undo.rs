@@ -6,8 +6,8 @@
 //!
 //! The filter holds for all places before as well, whatever it is made for meanwhile ([`tighten_filter`]).
 //!
-//! Places are not kept: who moves a site and leaves the cells as they are, or lets flips repair them, knows where it
-//! was. Those of sites that are removed are, be it that they come back elsewhere.
+//! Places are not kept: a caller that moves a site and leaves the cells as they are, or lets flips repair them, knows
+//! where it was. Those of sites that are removed are kept, as these may come back elsewhere.
 //!
 //! [`tighten_filter`]: Delaunay::tighten_filter
 
@@ -85,7 +85,8 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     fn log_as(&mut self, s: SiteId, has_place: bool) -> Result<()> {
-        // It may be dropped; and sites that have been added are all free again when they are taken back.
+        // Room in the list of free sites: this one may be dropped, and sites that have been added are all free again
+        // when they are taken back.
         memory::reserve(&mut self.free_sites, self.log.sites.len() + 1)?;
         if !self.log.is_on {
             return Ok(());

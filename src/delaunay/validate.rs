@@ -49,7 +49,7 @@ impl std::error::Error for Violation {}
 
 type Check = Result<(), Violation>;
 
-/// As `format!`, where there may be no memory for all of it.
+/// A formatted text, cut off where there is no memory for all of it.
 macro_rules! text {
     ($($argument:tt)*) => { memory::text(format_args!($($argument)*)) };
 }

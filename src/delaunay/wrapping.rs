@@ -48,7 +48,7 @@ const MOST_SKIPPED: u8 = 15;
 /// A facet of the frontier. Followed by a site on its inner side the labels are those of a positive cell.
 #[derive(Clone, Copy, Debug)]
 struct Open {
-    /// Of the facet's sites: their positions among those of the link; in the plane two.
+    /// The positions of the facet's sites among those of the link; in the plane two.
     labels: [u8; 3],
     /// Whether the labels are an odd permutation of those in ascending order.
     is_odd: bool,
@@ -67,11 +67,11 @@ pub(super) struct Wrapping {
     /// distances.
     seen: [[f64; 3]; MOST_SITES],
     by_axis: [[f64; MOST_SITES]; 4],
-    /// Of the new cells: `u` and then `e`.
+    /// The floor of each new cell: `u` and then `e`.
     floors: [[f64; 4]; MOST_CELLS],
     open: [Open; MOST_OPEN],
     n_open: usize,
-    /// By set of labels, one more than the number of the open facet that has these; otherwise 0.
+    /// For each set of labels one more than the number of the open facet that has these, or 0.
     by_set: [u8; SETS],
     /// In how many removals not to try, and in how many it was after the last failure.
     skips: u8,
@@ -340,7 +340,8 @@ fn floor_of_edge(a: &[f64; 3], b: &[f64; 3], [aa, bb]: [f64; 2], offset: f64) ->
     [factor * (aa * b[1] - bb * a[1]), factor * (bb * a[0] - aa * b[0]), 0.0, 0.0]
 }
 
-/// The same of a triangle.
+/// The hyperplane through the lifted corners of a triangle, at these squares of their distances, and through the
+/// origin, which is `offset` off the triangle along its normal.
 #[inline(always)]
 fn floor_of_triangle(
     a: &[f64; 3],

@@ -85,7 +85,7 @@ impl<G: Dimension> Flipper<'_, '_, G> {
     #[inline(always)]
     fn surely_hold(&self, avx2: Avx2, facets: &[Facet; LANES]) -> u32 {
         let none = G::Corners::filled(INFINITE);
-        // By reference: the corners of new cells would be read wider than they have just been written, which waits.
+        // References: the corners of new cells would be read wider than they have just been written, which waits.
         let (mut cells, mut apexes, mut known) = ([&none; LANES], [INFINITE; LANES], 0);
         for (k, facet) in facets.iter().enumerate() {
             let Ok(cell) = self.cells.cell(facet.cell()) else { continue };

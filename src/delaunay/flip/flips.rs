@@ -20,7 +20,7 @@ pub struct Flips<G: Dimension> {
     pub(super) stuck: Vec<Facet>,
     /// Facets that may fail, for when there are more cells.
     pub(super) later: Vec<Facet>,
-    /// Of each flip, two cells that have all its sites as corners.
+    /// Two cells of each flip that have all its sites as corners.
     pub(super) changed: Vec<Slot>,
     /// The third cell of flips that have made one.
     pub(in crate::delaunay) made: Vec<Slot>,
@@ -28,7 +28,7 @@ pub struct Flips<G: Dimension> {
     pub(in crate::delaunay) journal: Vec<Row<G::Corners>>,
     pub(super) n_flips: u64,
     pub(super) certificates: u64,
-    /// Signs evaluated exactly among them.
+    /// How many of the certificates evaluated took exact arithmetic.
     pub(super) exact: u64,
     /// How much may be spent, in certificates.
     pub(super) most: u64,

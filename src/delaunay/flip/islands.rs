@@ -40,13 +40,13 @@ struct Front<C: Corners> {
 /// Scratch memory.
 #[derive(Debug)]
 pub(super) struct Island<C: Corners> {
-    /// Of the cells that are replaced, and then of those that are new.
+    /// Slots of the cells that are replaced, and then of those that are new.
     slots: Vec<Slot>,
     sites: Vec<SiteId>,
     new: Vec<NewCell<C>>,
     open: Vec<Front<C>>,
     closed: Vec<[SiteId; 3]>,
-    /// The facets taken from the list.
+    /// The stuck facets around which cells are triangulated again.
     facets: Vec<Facet>,
 }
 
@@ -266,7 +266,7 @@ impl<G: Dimension> Delaunay<G> {
 
 /// What there is around a facet.
 enum Gathered {
-    /// It does not fail any more.
+    /// Nothing: the facet does not fail any more.
     Nothing,
     /// Too many cells.
     TooMuch,

@@ -38,14 +38,14 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 
-/// It ends when more than this number of cells, and one in `HARD_SHARE`, are left that are not flat before any vertex
-/// is taken back: where vertices go farther than cells are thick, hardly any can be exchanged.
+/// Untangling ends when more than this number of cells, and one in `HARD_SHARE`, are left that are not flat before any
+/// vertex is taken back: where vertices go farther than cells are thick, hardly any can be exchanged.
 const HARD: usize = 8;
 const HARD_SHARE: usize = 2;
 
-/// It is not begun with more ridges that are not convex than one for this number of facets of the hull; a sweep lists
-/// each from both sides, and they are known only if all cells are positive. Vertices that leave a side of a lattice
-/// dent all of it, and where some have gone outwards what is added soon reaches across the side and is stuck.
+/// Untangling is not begun with more ridges that are not convex than one for this number of facets of the hull; a sweep
+/// lists each from both sides, and they are known only if all cells are positive. Vertices that leave a side of a
+/// lattice dent all of it, and where some have gone outwards what is added soon reaches across the side and is stuck.
 const FACETS_PER_DENT: usize = 4;
 
 /// Orders in which dents are filled at most. Four of five times the first one does; else edges around a vertex that has
@@ -62,13 +62,13 @@ const CELLS_PER_STUCK: usize = 32;
 /// What has been exchanged, and scratch memory.
 #[derive(Debug)]
 pub(super) struct Untangling<G: Dimension> {
-    /// Their suspects are facets of new cells.
+    /// The exchanges made. Their suspects are facets of new cells.
     pub(super) flips: Flips<G>,
     /// Cells that are not positive, and then flat ones around them.
     pub(super) cells: Vec<Slot>,
-    /// Of ghosts, that may not be convex, ...
+    /// Ridges at which the hull may not be convex, as facets of ghosts.
     ridges: Vec<Facet>,
-    /// ... and where ghosts cannot be exchanged at present.
+    /// Those of them where ghosts cannot be exchanged at present.
     stuck: Vec<Facet>,
     slots: Vec<Slot>,
 }
@@ -322,7 +322,8 @@ impl<G: Dimension> Delaunay<G> {
         Ok(false)
     }
 
-    /// As [`fill_dents`](Self::fill_dents), where these ridges are listed, those at the end first.
+    /// Exchanges ghosts at the listed ridges, from the end of the list on, and at those of new cells, until the hull is
+    /// convex at each; whether that could be done.
     fn fill_listed_dents(&mut self, untangling: &mut Untangling<G>, inner: &G::Point) -> Result<bool> {
         loop {
             let before = untangling.flips.n_flips;

@@ -21,8 +21,8 @@ pub(super) struct Rim<G: Dimension> {
     facets: Vec<(G::Corners, usize, Facet)>,
     /// Gluings of the new cells; a slot is the position of one of these among them.
     glued: Vec<<G::Corners as Corners>::Of<Facet>>,
-    /// By hash or behind it, ridges of which one facet has been found: their sites, and that facet. A key of 0 is none,
-    /// and all are none between insertions.
+    /// Ridges of which one facet has been found, each at its hash or behind it: their sites, and that facet. A key of 0
+    /// is none, and all are none between insertions.
     ridges: Vec<(u64, Facet)>,
     /// The places of those there.
     used: Vec<u16>,

@@ -4,7 +4,7 @@ use super::*;
 use crate::delaunay::{Plane, Space};
 use crate::random::Rng;
 
-/// Of each corner of a new cell, in ascending order, what is across the facet opposite it: the outer facet, or the
+/// For each corner of a new cell, in ascending order, what is across the facet opposite it: the outer facet, or the
 /// corners of the new cell there.
 type Found = Vec<(SiteId, Option<Facet>, Vec<SiteId>)>;
 
@@ -32,8 +32,8 @@ fn cells<G: Dimension>(hole: &Hole<G>) -> Vec<Found> {
     cells
 }
 
-/// Of these points, in how many removals cells were found, how often they were not, and how often they were not
-/// looked for. What is found is what exact signs find.
+/// For these points, in how many removals cells were found, how often they were not, and how often they were not looked
+/// for. What is found is what exact signs find.
 fn found<G: Dimension>(points: &[G::Point]) -> [usize; 3] {
     let mut t = Delaunay::<G>::default();
     t.add_sites(points).expect("room");

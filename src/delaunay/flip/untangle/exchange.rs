@@ -1,6 +1,6 @@
 //! One exchange: of two or three cells for those that fill the same space in the other way.
 //!
-//! It is a flip that is not asked for the sake of the empty sphere, and may have ghost cells on either side.
+//! An exchange is a flip that is not made for the sake of the empty sphere, and may have ghost cells on either side.
 
 use super::{Delaunay, Dimension, Untangling};
 use crate::complex::{Corners, Facet, INFINITE, NewCell};
@@ -57,7 +57,7 @@ impl<C: Corners> Exchange<C> {
     }
 }
 
-/// The same cell, with the ghost vertex last if it has that.
+/// A cell with its corners so ordered that the ghost vertex, if it has that, is last.
 fn with_ghost_last<C: Corners>(corners: C) -> C {
     let ghost = (0..C::N).find(|&i| corners[i] == INFINITE);
     ghost.map_or(corners, |i| corners.rotated_to_last(i))
