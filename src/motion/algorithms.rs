@@ -26,14 +26,14 @@ pub enum Commits {
     OneByOne,
     /// All vertices move at once; then what fails is repaired.
     Together,
-    /// By one of the other algorithms.
+    /// One of the other algorithms makes the commit.
     ByOthers,
 }
 
 /// What is known of an algorithm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AlgorithmRow {
-    /// In files of the benchmark, and, in capitals, in C.
+    /// Its name in files of the benchmark, and, in capitals, in C.
     pub name: &'static str,
     /// What it is there for.
     pub purpose: Purpose,
@@ -48,13 +48,14 @@ pub struct AlgorithmRow {
 /// By which regions immediate relocations are filtered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Immediate {
-    /// By none: the algorithm keeps none, or none that serve one vertex at a time.
+    /// By no regions: the algorithm keeps none, or none that serve one vertex at a time.
     None,
-    /// By those of this filter, which are computed if they are not kept.
+    /// By the regions of this filter, which are computed if they are not kept.
     By(Filter),
-    /// Likewise, once *rebuilding + tolerance* has switched.
+    /// By the regions of this filter, which are computed if they are not kept, once *rebuilding + tolerance* has
+    /// switched.
     OnceSwitched(Filter),
-    /// By those of this filter, while they are kept.
+    /// By the regions of this filter, while they are kept.
     WhileKept(Filter),
 }
 

@@ -44,7 +44,7 @@ pub(super) enum Prospect {
     Mendable,
     /// To take all vertices back that have moved, and place them, would take less time.
     Placeable,
-    /// That would take longer than to build them again.
+    /// To mend them, or to place vertices, would take longer than to build all cells again.
     TooMuch,
 }
 

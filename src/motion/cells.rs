@@ -49,7 +49,7 @@ pub(super) struct Cells<G: Dimension> {
     index_of: Vec<CellId>,
     /// The slot of each index.
     slots: Vec<Slot>,
-    /// By index; there may be more than cells.
+    /// By index, how the row lists the corners of its slot; there may be more than cells.
     orderings: Vec<Ordering>,
     /// A bit for each lost cell that has been found, or whose index has been given to another one. All are 0 between
     /// calls.
@@ -58,7 +58,7 @@ pub(super) struct Cells<G: Dimension> {
     since_taken: Option<Tracker<G::Vertices>>,
     /// What has changed since the latest commit began, if that is tracked.
     since_commit: Option<Tracker<G::Vertices>>,
-    /// Whether that commit has succeeded: the tracker may be there from a first one that failed.
+    /// Whether the commit of `since_commit` has succeeded: the tracker may be there from a first one that failed.
     has_committed: bool,
     scratch: Scratch<G::Vertices>,
 }
@@ -350,7 +350,7 @@ impl<G: Dimension> Cells<G> {
         })
     }
 
-    /// Those of a kernel that has cell k of these rows in slot k, and as many slots.
+    /// The arrays of a kernel that has cell k of these rows in slot k, and as many slots.
     pub(super) fn of_rows(
         corners: Vec<G::Vertices>,
         neighbours: Vec<G::Neighbours>,

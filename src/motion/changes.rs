@@ -3,7 +3,7 @@
 //! A tracker compares the cells of now with those of an earlier moment, its *base*, by what every refreshment of the
 //! arrays ([`cells`](super::cells)) tells it. It knows of each index under which one its cell was at the base, and of
 //! each cell of the base that is gone its index and corners. So it never holds more than there were cells, however long
-//! nobody asks.
+//! the program does not take the changes.
 
 use super::marks::Marks;
 use crate::complex::Corners;
@@ -18,15 +18,16 @@ pub const NO_VERTEX: VertexId = VertexId::NONE;
 /// What has changed since a base.
 #[derive(Debug)]
 pub(super) struct Tracker<C> {
-    /// By index, the index at the base; [`CellId::NONE`] if the cell has been created since.
+    /// By index of a cell of now, its index at the base; [`CellId::NONE`] if it has been created since.
     origin: Vec<CellId>,
     /// Indices whose origin may be another one; some may be beyond the end.
     touched: Marks<CellId>,
     /// Cells of the base that have been removed: their indices and corners.
     removed: Vec<(CellId, C)>,
-    /// How often the arrays have been refreshed since: a cell that goes in one refreshment may come back in another.
+    /// How often the arrays have been refreshed since the base: a cell that goes in one refreshment may come back in
+    /// another.
     n_refreshed: u32,
-    /// How many cells have been given another index since.
+    /// How many cells have been given another index since the base.
     n_renumbered: usize,
     /// Cells of the base that have been turned over, and how their corners were listed before.
     turned: Vec<Turned<C>>,
@@ -36,7 +37,7 @@ pub(super) struct Tracker<C> {
 #[derive(Clone, Copy, Debug)]
 struct Turned<C> {
     origin: CellId,
-    /// The order of the events.
+    /// Its place in the order of the events.
     at: u32,
     before: C,
 }
@@ -260,12 +261,13 @@ pub struct Changes<'t, C> {
     pub created: &'t [CellId],
     /// Cells that existed and do not now: the index that each had.
     pub removed: &'t [CellId],
-    /// Their corners, in the order in which they were listed when the program last took the changes. A vertex that was
-    /// removed before a [compaction](super::MovingTriangulation::compact) has no id any more: it is [`NO_VERTEX`].
+    /// The corners of the removed cells, in the order in which each listed them when the program last took the changes.
+    /// A vertex that was removed before a [compaction](super::MovingTriangulation::compact) has no id any more: it is
+    /// [`NO_VERTEX`].
     pub removed_corners: &'t [C],
-    /// Cells that existed and have another index now: the old ones.
+    /// Cells that existed and have another index now: the index that each had.
     pub renumbered_from: &'t [CellId],
-    /// The new ones.
+    /// The index that each of the renumbered cells has now.
     pub renumbered_to: &'t [CellId],
     /// Vertices whose star has changed: those of all created and removed cells. Some may have been removed, after the
     /// latest compaction if there was one.

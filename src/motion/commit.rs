@@ -22,7 +22,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.commit_given(Given::nothing())
     }
 
-    /// As [`commit_timestamp`](Self::commit_timestamp); positions may not be staged yet.
+    /// Makes the next timestamp of the staged positions, or of those given that are not staged yet.
     fn commit_given(&mut self, given: Given<'_, G>) -> Result<CommitReport> {
         self.prepare_tracking()?;
         let mut report = CommitReport::default();
@@ -104,7 +104,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 }
 
-/// Of the table of algorithms, the methods that commit.
+/// Makes the calls of the methods that commit, from the table of algorithms.
 macro_rules! commit_by {
     (default $default:ident; $(
         $(#[doc = $line:literal])+

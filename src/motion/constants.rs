@@ -44,21 +44,22 @@ impl Costs {
 /// The constants of one dimension.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants {
-    /// By which auto weighs what a commit has counted.
+    /// The costs by which auto weighs what a commit has counted.
     pub costs: Costs,
 
     // Auto: which certificates a commit checks.
     /// Shortest wait for another try of a cheaper way, in commits.
     pub min_wait_commits: u32,
-    /// The longest.
+    /// Longest wait for another try of a cheaper way, in commits.
     pub max_wait_commits: u32,
-    /// A wait is that much longer than the one before, and the shortest one more.
+    /// Each wait is so many times as long as the one before, and the shortest wait more.
     pub wait_growth: u32,
     /// Weight of the last commit in the mean number of changes of a commit.
     pub weight_of_last: f64,
-    /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices, ...
+    /// The cheaper way is tried after commits with at most one flip or placement per this number of vertices.
     pub vertices_per_change: f64,
-    /// ... and watching without slack before it with at most one per this number.
+    /// Watching is tried without slack before it after commits with at most one flip or placement per this number of
+    /// vertices.
     pub vertices_per_change_to_watch: f64,
     /// The wait ends early when changes are that many times rarer than when the cheaper way was given up.
     pub rarer_changes: f64,
@@ -74,9 +75,9 @@ pub struct Constants {
     /// While vertices are watched, one that is placed counts as so many more beyond: the bi-cells around two places are
     /// computed again, which no cache holds.
     pub beyond_per_placed: f64,
-    /// Vertices sampled before all tolerances are computed, ...
+    /// Vertices sampled before all tolerances are computed.
     pub sampled_vertices: u32,
-    /// ... and the share of them that must be within.
+    /// Tolerances are computed only if this share of the sampled vertices is within its own.
     pub min_share_within: f64,
 
     // Auto: other algorithms.
@@ -85,10 +86,11 @@ pub struct Constants {
     pub swept_per_placement: usize,
     /// Most commits rebuilt without trying to repair.
     pub max_rebuilds: u32,
-    /// So many times as many as after the last repair that was too expensive, and one more.
+    /// After one more repair that was too expensive, so many times as many commits are rebuilt as after the last one,
+    /// and one more.
     pub rebuilds_growth: u32,
     /// After a repair that was too expensive, commits with more than this share of its failures are rebuilt. How many
-    /// such commits follows from the two constants above.
+    /// such commits follows from `max_rebuilds` and `rebuilds_growth`.
     pub share_too_many: f64,
     /// Vertices that move one at a time, at once or few in a commit, are counted in rounds of as many as there are.
     /// Tolerances are kept for them after a round of which this share changed no cell, and while this share is within.
@@ -120,8 +122,8 @@ pub struct Constants {
     /// sheared and back. In the plane flips are as fast on lattices; on a circle, where half a facet for each cell
     /// fails, they are not.
     pub max_failing: f64,
-    /// The same where the clusters of cells that hang together by what fails are large. Measured with spheres, spheres
-    /// within each other and cylinders.
+    /// Rebuild when more facets fail than this number for each finite cell, where the clusters of cells that hang
+    /// together by what fails are large. Measured with spheres, spheres within each other and cylinders.
     pub max_failing_of_large: f64,
     /// A cluster of this number of cells is large.
     pub cells_of_large: f64,
@@ -129,7 +131,7 @@ pub struct Constants {
     /// are inverted still counted as well, unless there are ties: most are untangled, and for the others a vertex is
     /// placed.
     pub max_failing_with_inverted: f64,
-    /// As how many failing facets an inverted cell counts.
+    /// An inverted cell counts as this number of failing facets.
     pub failing_for_inverted: f64,
     /// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random
     /// points need none, those of a sheared lattice about one.)
@@ -143,14 +145,14 @@ pub struct Constants {
     pub slower_per_doubling: f64,
     /// Bytes of sites and cells below which that makes no difference.
     pub near_bytes: usize,
-    /// What one thread does alone, as a share: of a build in parts, ...
+    /// Share of a build in parts that one thread does alone.
     pub built_alone: f64,
-    /// ... and of a repair.
+    /// Share of a repair that one thread does alone.
     pub repaired_alone: f64,
     /// Placing vertices is given up where, by what is counted, those left would cost more than this number of rebuilds.
     /// (Among ties in space placing takes several times as long as the counts tell.)
     pub max_placing: f64,
-    /// That is looked at when this share of a rebuild has been spent.
+    /// Whether to give up placing is asked once this share of what a rebuild costs has been spent.
     pub min_share_spent: f64,
 
     // Watching, slack, and what regions have in common.
@@ -177,8 +179,8 @@ pub struct Constants {
     pub max_stride_ratio: f64,
     /// After a repair, cells are sorted again if this many times as many as there are have been replaced.
     pub replaced_to_sort: f64,
-    /// The same where the tolerances of all bi-cells are about to be computed: that takes several times as long as
-    /// sorting, and less where cells are sorted.
+    /// Before the tolerances of all bi-cells are computed, cells are sorted again if this many times as many as there
+    /// are have been replaced: the computation takes several times as long as sorting, and less where cells are sorted.
     pub replaced_to_sort_first: f64,
     /// Relocations between two calls of the monitor.
     pub relocations_per_call: usize,
@@ -201,15 +203,16 @@ pub struct Reading {
     pub max_share_listed: f64,
     /// Scanning the bits of this number of numbers takes as long as sorting one.
     pub scanned_per_sorted: usize,
-    /// From this number on, lost cells are listed by their lowest corner, ...
+    /// From this number on, lost cells are listed by their lowest corner.
     pub min_cells_listed: usize,
-    /// ... unless the ids are more than this many times as many, ...
+    /// Lost cells are not listed by their lowest corner if ids are more than this many times as many.
     pub max_ids_per_cell: usize,
-    /// ... or more cells than that have the same lowest corner: a search goes through all of these.
+    /// Lost cells are not listed by their lowest corner if more than this number have the same one: a search goes
+    /// through all of these.
     pub max_cells_per_corner: u32,
 }
 
-/// All of them.
+/// The constants of both dimensions, and of reading cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Table {
     /// In the plane.
@@ -335,7 +338,7 @@ pub(super) fn constants<G: Dimension>() -> &'static Constants {
     if G::D == 2 { &in_force().plane } else { &in_force().space }
 }
 
-/// Those of reading.
+/// The constants of reading cells.
 #[inline(always)]
 pub(super) fn reading() -> &'static Reading {
     &in_force().reading

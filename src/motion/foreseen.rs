@@ -73,8 +73,8 @@ mod tests {
     use crate::motion::Options;
     use crate::random::Rng;
 
-    /// Of vertices in the order of their ids all but the first of each block are followed by others, whoever else
-    /// visits his own; of vertices far from each other none.
+    /// Of vertices that are visited in the order of their ids all but the first of each block are noticed to be so,
+    /// whatever other threads visit; of vertices far from each other none is.
     #[test]
     fn ids_in_order_are_noticed() {
         fn n_followed(ids: impl Iterator<Item = u32>) -> usize {

@@ -10,7 +10,7 @@ impl Ordering {
     /// The row lists them as the slot does.
     pub(super) const SAME: Self = Ordering(0b11_10_01_00);
 
-    /// Of the same corners, as they are in a slot and in a row.
+    /// The order of a row's corners, given these as they are in the slot and in the row.
     pub(super) fn of<T: Entry, C: Corners<T>>(slot: &C, row: &C) -> Self {
         if slot == row {
             return Self::SAME;

@@ -130,7 +130,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// `near`, if that is near it. This is only where to begin: it need not be right, nor name anything.
     ///
     /// # Errors
-    /// As [`locate`](Self::locate), before any is told.
+    /// Those of [`locate`](Self::locate), before any location is told.
     pub fn locate_points(
         &self,
         positions: &[G::Point],

@@ -36,7 +36,7 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(super) edits: Edits<G>,
     pub(super) regions: Regions<G>,
     pub(super) switching: Switching,
-    /// Once there was one.
+    /// Memory of repairs, once there was one.
     pub(super) repair: Option<Box<Repair>>,
     pub(super) auto: Auto,
     /// Without the monitor, which the kernel has.
@@ -152,7 +152,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Makes the sites and builds the cells for the first time. After an error the triangulation can only be dropped.
     ///
     /// # Errors
-    /// As for [`new`](Self::new).
+    /// Those of [`new`](Self::new).
     pub(crate) fn build_first(&mut self, positions: &[G::Point]) -> Result<()> {
         if positions.len() > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });

@@ -56,7 +56,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Makes a change visible to who reads the cells. Cannot fail.
+    /// Makes a change visible to programs that read the cells. Cannot fail.
     pub(super) fn publish(&mut self) {
         if self.transaction.has_rebuilt() || self.kernel.has_given_up_cells() {
             self.views.follow_all();

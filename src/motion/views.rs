@@ -1,10 +1,10 @@
-//! Who reads the cells: arrays that are kept, and follow the changes.
+//! The arrays of cells that programs read: they are kept, and follow the changes.
 //!
 //! The [arrays](super::cells) are made when they are first asked for, and kept. A change leaves a list of the slots
-//! whose corners it has changed; the next one who asks brings the arrays up to date, at the cost of these. Who never
-//! asks pays nothing, and a change of no cell costs nobody anything.
+//! whose corners it has changed; the next reading brings the arrays up to date, at the cost of these. A program that
+//! never reads them pays nothing, and a change of no cell costs nothing.
 //!
-//! Several threads may ask at the same time, the first one after a change included: it works while the others wait.
+//! Several threads may read at the same time, the first one after a change included: it works while the others wait.
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -40,7 +40,7 @@ impl<G: Dimension> Default for Behind<G> {
     }
 }
 
-/// What is kept of the cells for who reads them.
+/// The arrays, up to date or behind, and what else is kept for programs that read the cells.
 #[derive(Debug)]
 pub(super) struct Views<G: Dimension> {
     current: OnceLock<Box<Cells<G>>>,
@@ -62,7 +62,7 @@ impl<G: Dimension> Default for Views<G> {
 
 impl<G: Dimension> Views<G> {
     fn lock(&self) -> MutexGuard<'_, Behind<G>> {
-        // Who panics while arrays are refreshed leaves them to be made from nothing.
+        // After a panic while arrays were refreshed, they are made from nothing.
         self.behind.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -96,7 +96,7 @@ impl<G: Dimension> Views<G> {
         Ok(self.current.get_or_init(|| cells))
     }
 
-    /// As [`cells`](Self::cells), to be changed.
+    /// The arrays, up to date, to be changed.
     pub(super) fn cells_mut(&mut self, kernel: &Delaunay<G>) -> Result<&mut Cells<G>> {
         self.cells(kernel)?;
         Ok(self.current.get_mut().expect("they are up to date"))
@@ -217,7 +217,7 @@ impl<G: Dimension> Views<G> {
         Ok(views)
     }
 
-    /// These are the arrays, up to date.
+    /// Takes these for the arrays; they are up to date.
     pub(super) fn show(&mut self, cells: Cells<G>) -> Result<()> {
         self.current = OnceLock::from(memory::boxed(cells)?);
         self.behind().are_all = false;

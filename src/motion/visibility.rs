@@ -8,7 +8,7 @@ use crate::machine::memory;
 #[derive(Clone, Copy, Debug)]
 struct Visibility {
     vertex: VertexId,
-    /// The order of the events.
+    /// Its place in the order of the events.
     at: u32,
     was_hidden: bool,
 }
@@ -54,7 +54,7 @@ impl Visibilities {
         self.0.iter().map(|event| (event.vertex, event.was_hidden))
     }
 
-    /// Events of vertices that have other ids now, listed by the old ones; those of removed vertices matter to nobody.
+    /// Events of vertices that have other ids now, listed by the old ones; those of removed vertices are dropped.
     pub(super) fn renumbered(&self, ids: &[VertexId]) -> Result<Self> {
         let mut renumbered = Visibilities(memory::copy_of(&self.0)?);
         renumbered.0.retain_mut(|event| {

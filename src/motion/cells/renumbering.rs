@@ -31,7 +31,7 @@ impl<G: Dimension> Cells<G> {
         self.tell(|tracker| tracker.truncate(n));
     }
 
-    /// Tells all who track changes.
+    /// Tells all trackers of changes.
     #[inline(always)]
     fn tell(&mut self, event: impl Fn(&mut Tracker<G::Vertices>)) {
         [&mut self.since_taken, &mut self.since_commit].into_iter().flatten().for_each(event);
@@ -80,7 +80,7 @@ impl<G: Dimension> Cells<G> {
         }
     }
 
-    /// Of the lost indices keeps the holes, those that no cell has taken; those among the first `n` come first.
+    /// Keeps the holes of the lost indices, those that no cell has taken; those among the first `n` come first.
     fn open_holes(&mut self, lost: &mut Vec<CellId>, n: usize) {
         lost.retain(|&index| !self.is_settled.remove(index));
         for &index in lost.iter() {
