@@ -99,8 +99,9 @@ impl<G: Dimension> Movers<'_, G> {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Of a whole staging, moves the vertices within their tolerance, or all if `MOVES_ALL`, and queues the others; the
-    /// staging holds the old positions of those that have moved. None moves if those to be queued are more than `most`.
+    /// Moves the vertices of a whole staging that are within their tolerance, or all if `MOVES_ALL`, and queues the
+    /// others; the staging holds the old positions of those that have moved. None moves if those to be queued are more
+    /// than `most`.
     ///
     /// This loop is what a timestamp costs that changes nothing.
     ///
@@ -124,7 +125,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(moved)
     }
 
-    /// As [`move_and_queue`](Self::move_and_queue). `IS_FAR` asks for sites in advance.
+    /// Does what [`move_and_queue`](Self::move_and_queue) does, and asks for sites in advance if `IS_FAR`.
     fn move_and_queue_from<const MOVES_ALL: bool, const IS_FAR: bool>(
         &mut self,
         most: usize,
@@ -167,7 +168,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         )
     }
 
-    /// As [`move_and_queue`](Self::move_and_queue), by a test and an exchange of several vertices.
+    /// Does what [`move_and_queue`](Self::move_and_queue) does, by tests and exchanges of several vertices at a time.
     #[inline(always)]
     fn move_and_queue_by<const MOVES_ALL: bool, const IS_FAR: bool>(
         &mut self,
@@ -289,7 +290,7 @@ fn bits_of<G: Dimension>(fixed: &[Fixed<G>], places: &[G::Point]) -> u32 {
 /// Several sites.
 ///
 /// # Safety
-/// These are indices of the `n` sites that begin there, no two the same, and nobody else uses them meanwhile.
+/// These are indices of the `n` sites that begin there, no two the same, and nothing else uses them meanwhile.
 #[inline(always)]
 unsafe fn sites_at<'s, G: Dimension>(
     start: *mut Site<G>,

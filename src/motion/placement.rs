@@ -26,10 +26,10 @@ use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use std::ops::Range;
 
-/// Vertices looked at to find out whether many go far away, ...
+/// Vertices looked at to find out whether many go far away.
 const SAMPLE: usize = 64;
 
-/// ... which they do if more than one in this number does.
+/// Many vertices go far away if more than one in this number does.
 const AWAY_SHARE: usize = 4;
 
 /// Vertices placed side by side at a time, at most, and also for each of those at a time how many there are in all.
@@ -59,7 +59,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
     }
 
-    /// Does so with flips, and rebuilds where what is left would take longer than that.
+    /// Relocates the staged vertices one after the other, with flips, and rebuilds where what is left would take longer
+    /// than that.
     pub(super) fn commit_by_placement_or_rebuilding(
         &mut self,
         given: &mut Given<'_, G>,
@@ -131,8 +132,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// As above, of these of the staged vertices, none of which is applied yet. Those that have been relocated are put
-    /// behind those that are. Where that fails midway, the kernel's log has the places of all.
+    /// Relocates those of a range of the staged vertices that go far away, on several threads, as far as these can;
+    /// none of them is applied yet. Those that have been relocated are put behind the applied ones. Where that fails
+    /// midway, the kernel's log has the places of all.
     fn place_chunk_side_by_side(&mut self, queue: Range<usize>, report: &mut CommitReport) -> Result<()> {
         let (mut goals, mut at, mut placed) = (Vec::new(), Vec::new(), Vec::new());
         memory::reserve_exact(&mut goals, queue.len())?;

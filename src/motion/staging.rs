@@ -34,7 +34,7 @@ pub(super) struct Staging<G: Dimension> {
 pub(super) struct Given<'p, G: Dimension>(Option<&'p [G::Point]>);
 
 impl<'p, G: Dimension> Given<'p, G> {
-    /// All positions are staged.
+    /// No positions are given: all are staged.
     pub(super) fn nothing() -> Self {
         Given(None)
     }
@@ -48,7 +48,7 @@ impl<'p, G: Dimension> Given<'p, G> {
         self.0
     }
 
-    /// The positions, if they are not staged, of which the caller makes sure that they are.
+    /// The positions, if they are not staged; the caller makes sure that they will be.
     pub(super) fn take(&mut self) -> Option<&'p [G::Point]> {
         self.0.take()
     }
@@ -103,7 +103,7 @@ impl<G: Dimension> Staging<G> {
         &self.vertices
     }
 
-    /// The list itself, for those who queue vertices.
+    /// The listed vertices, to queue some.
     #[inline(always)]
     pub(super) fn vertices_mut(&mut self) -> &mut Vec<VertexId> {
         &mut self.vertices

@@ -80,14 +80,14 @@ struct SharedSites<G: Dimension> {
     n: usize,
 }
 
-// SAFETY: who uses them promises that no two threads use the same site (`move_all`).
+// SAFETY: callers of the functions below promise that no two threads use the same site.
 unsafe impl<G: Dimension> Send for SharedSites<G> {}
 
 impl<G: Dimension> SharedSites<G> {
     /// Exchanges positions with those of sites.
     ///
     /// # Safety
-    /// `sites_of` are indices of these sites, no two the same, and nobody else uses the sites meanwhile.
+    /// `sites_of` are indices of these sites, no two the same, and nothing else uses the sites meanwhile.
     unsafe fn move_all(
         self,
         positions: &mut [G::Point],
@@ -102,9 +102,9 @@ impl<G: Dimension> SharedSites<G> {
             let (sites_of, more_sites_of) = sites_of.split_at(middle);
             let n_more_threads = n_threads - n_threads / 2;
             let (mut moved, more) = threads::join(
-                // SAFETY: as for the whole; the two halves have no site in common.
+                // SAFETY: the caller's promise, for a half of the sites; the two halves have no site in common.
                 || unsafe { self.move_all(positions, given, sites_of, n_threads / 2) },
-                // SAFETY: likewise.
+                // SAFETY: the caller's promise, for the other half.
                 move || unsafe { self.move_all(more_positions, more_given, more_sites_of, n_more_threads) },
             );
             moved.n += more.n;
@@ -146,10 +146,10 @@ impl<G: Dimension> SharedSites<G> {
         moved
     }
 
-    /// As [`move_all`](Self::move_all), block by block, and by an exchange of several positions.
+    /// Exchanges positions with those of sites, block by block, by an exchange of several positions at a time.
     ///
     /// # Safety
-    /// As for [`move_all`](Self::move_all).
+    /// `sites_of` are indices of these sites, no two the same, and nothing else uses the sites meanwhile.
     #[inline(always)]
     unsafe fn move_blocks(
         self,
@@ -164,7 +164,7 @@ impl<G: Dimension> SharedSites<G> {
         for (first, positions) in (0..).step_by(BLOCK).zip(positions.chunks_mut(BLOCK)) {
             let sites_of = &sites_of[first..];
             if let Some(given) = given {
-                // SAFETY: these are indices of sites that nobody else uses.
+                // SAFETY: these are indices of sites that nothing else uses.
                 let place = |k: usize| unsafe { (*self.start.add(sites_of[k].index())).point };
                 moved.are_good &= stage_good::<G>(positions, &given[first..], place);
             }
@@ -187,11 +187,11 @@ impl<G: Dimension> SharedSites<G> {
     /// Exchanges a position with that of a site.
     ///
     /// # Safety
-    /// As for [`move_all`](Self::move_all).
+    /// `s` is the index of one of these sites, which nothing else uses meanwhile.
     #[inline(always)]
     unsafe fn move_one(self, p: &mut G::Point, s: SiteId, moved: &mut Moved<G>) {
         moved.hold(p, p);
-        // SAFETY: `s` is the index of a site that nobody else uses.
+        // SAFETY: `s` is the index of a site that nothing else uses.
         let point = unsafe { &mut (*self.start.add(s.index())).point };
         moved.n += u64::from(exchange::<G>(point, p));
     }

@@ -57,8 +57,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         )
     }
 
-    /// As [`move_all_on_record`](Self::move_all_on_record), by an exchange of several positions that tells how far
-    /// apart they were, at most.
+    /// Does what [`move_all_on_record`](Self::move_all_on_record) does, by exchanges of several positions at a time
+    /// that tell how far apart they were, at most.
     #[inline(always)]
     fn move_all_on_record_by(
         &mut self,
