@@ -70,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         q: &G::Point,
         report: &mut CommitReport,
     ) -> Result<Placed> {
-        // Who fails after the relocation would have to take it back.
+        // A failure after the relocation would have to take it back.
         self.regions.make_room_to_note()?;
         let placed = self.relocate(vertex, q, Shortcut::Flips, report)?;
         self.regions.note_relocated(vertex)?;

@@ -199,13 +199,13 @@ impl<G: Dimension> Regions<G> {
         }
     }
 
-    /// Those of the tolerance algorithm.
+    /// The store of the tolerance algorithm, if that is kept.
     #[inline(always)]
     pub(super) fn tolerances(&self) -> Option<&Tolerances<G>> {
         if let Some(Kept::Tolerance(tolerances)) = self.kept.as_deref() { Some(tolerances) } else { None }
     }
 
-    /// Those of watching.
+    /// The store of watching, if that is kept.
     pub(super) fn watching(&mut self) -> Option<&mut Watching<G>> {
         if let Some(Kept::Watching(watching)) = self.kept.as_deref_mut() { Some(watching) } else { None }
     }
@@ -215,7 +215,7 @@ impl<G: Dimension> Regions<G> {
         if let Some(Kept::Watching(watching)) = self.kept.as_deref() { watching.n_watched() } else { 0 }
     }
 
-    /// Those of slack.
+    /// The store of slack, if that is kept.
     pub(super) fn slacks(&mut self) -> Option<&mut Slacks<G>> {
         if let Some(Kept::Slack(slacks)) = self.kept.as_deref_mut() { Some(slacks) } else { None }
     }

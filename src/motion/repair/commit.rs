@@ -61,7 +61,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let accepted = report.moved;
         let mut repair = memory::take_made(&mut self.repair)?;
         let begun = if are_all {
-            // By slack they may have moved.
+            // An attempt by slack may have moved them.
             let moved =
                 if self.staging.others_applied() { Ok(self.n_moved()) } else { self.move_all_staged(given) };
             moved.and_then(|moved| self.begin_moves(&mut repair, moved))
@@ -217,7 +217,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(false)
     }
 
-    /// As [`untangle`](Self::untangle), from the cells as they are, in at most `most` certificates.
+    /// Makes the cells a triangulation by flips, as they are now, if that can be done in at most `most` certificates
+    /// and with at most `most_back` vertices taken back.
     fn untangle_once(&mut self, repair: &mut Repair, most: u64, most_back: usize) -> Result<bool> {
         let Self { kernel, staging, .. } = self;
         let Repair { failures, suspects, places, .. } = repair;
@@ -293,8 +294,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // At shared places there are the hidden vertices, and no more representatives than these.
         let places = &mut repair.places;
         memory::reserve(&mut places.queue, self.staging.vertices().len().min(2 * self.hidden.count()))?;
-        // As in the test for tolerances: sites are asked for in advance, as they are in another order than the
-        // vertices.
+        // Sites are asked for in advance, as they are in another order than the vertices.
         let (site_of, applied) = (&self.site_of[..], self.staging.applied());
         let (positions, queued) = self.staging.parts_mut();
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());

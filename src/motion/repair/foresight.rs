@@ -64,7 +64,7 @@ impl Findings {
 impl<G: Dimension> MovingTriangulation<G> {
     /// Sweeps all cells, of which `most` may fail, unless a sample shows what to do.
     pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
-        // Of a whole staging all applied, the positions staged are now those before.
+        // Once a whole staging is applied, it holds the positions from before.
         let has_rest = 4 * repair.places.n_new <= 3 * self.n_present;
         let before = (has_rest && self.staging.others_applied()).then_some(self.staging.positions());
         let n_cells = self.kernel.complex().n_finite() as f64;
@@ -137,7 +137,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         found.have_ties::<G>(n_cells) || failing <= most * n_cells
     }
 
-    /// As above, where a sweep has found this number of failing facets, and leaping vertices are back.
+    /// Whether mending takes less than a rebuild, where a sweep has found this number of failing facets, and leaping
+    /// vertices are back.
     pub(super) fn is_worth_going_on(&self, repair: &mut Repair, n_failing: usize) -> bool {
         let (inverted, exact) = (repair.failures.cells.len() as f64, repair.exact as f64);
         let is_worth = self.is_worth_untangling(Findings { failing: n_failing as f64, inverted, exact });
@@ -145,8 +146,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         is_worth
     }
 
-    /// How many times as long as where one thread does all and caches hold all something takes beside rebuilding, of
-    /// which one thread does this share alone.
+    /// By what factor a task, of which one thread does this share alone, grows beside rebuilding, compared with a small
+    /// triangulation on one thread: where caches do not hold all, and where several threads rebuild.
     pub(in crate::motion) fn slowdown(&self, alone: f64) -> f64 {
         let constants = constants::<G>();
         let doublings = (self.kernel.bytes_read() as f64 / constants.near_bytes as f64).log2().max(0.0);
@@ -174,7 +175,7 @@ pub(in crate::motion) struct Budget {
     /// Vertices still to be relocated, and of how many.
     left: usize,
     all: usize,
-    /// What a rebuild would cost, and how many times what counts tell the relocations do.
+    /// What a rebuild would cost, and by what factor relocations cost more than their counts tell.
     rebuild: f64,
     slowdown: f64,
 }

@@ -21,7 +21,7 @@ pub(super) enum At {
     /// It has not moved.
     Rest,
     New,
-    /// As `New`, but listed to be taken back.
+    /// At its new place, and listed to be taken back.
     Listed,
     /// Taken back, or never moved because it shares its place: to be placed.
     Old,
@@ -30,12 +30,13 @@ pub(super) enum At {
 /// Where all vertices are.
 #[derive(Debug, Default)]
 pub(super) struct Places {
-    /// By vertex id.
+    /// Where each vertex is, by id.
     pub(super) at: Vec<At>,
     pub(super) n_new: usize,
-    /// Those at their old places, to be placed.
+    /// Vertices at their old places, to be placed.
     pub(super) queue: Vec<VertexId>,
-    /// Of the queue, those taken back while cells were exchanged: if that is undone, nothing is known of their stars.
+    /// The part of the queue that was taken back while cells were exchanged: if that is undone, nothing is known of
+    /// their stars.
     pub(super) unchecked: Range<usize>,
 }
 

@@ -24,9 +24,9 @@ use crate::predicates::{
 /// What lets a vertex move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Admission {
-    /// It is certainly within its tolerance.
+    /// The vertex is certainly within its tolerance.
     WithinTolerance,
-    /// It is certainly within its safe region.
+    /// The vertex is certainly within its safe region.
     WithinSafeRegion,
 }
 

@@ -9,8 +9,8 @@ use crate::predicates::{LANES, Tolerances};
 pub(super) enum Check<'c, G: Dimension> {
     /// They are known to hold.
     Not,
-    /// After a motion from where the vertices were before, by id, none of which has gone farther than so. Last, why
-    /// they could not be.
+    /// They are checked after a motion. In turn: where the vertices were before, by id; a distance that none has
+    /// exceeded; where failures are listed; and the error, if the check fails.
     Moved(&'c [G::Point], f64, &'c mut Failures, &'c mut Result<()>),
 }
 

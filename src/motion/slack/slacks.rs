@@ -51,7 +51,7 @@ const AHEAD: usize = 8;
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expired {
-    /// They are checked, as many as so; those that hold have slack again.
+    /// They are checked, this number of them; those that hold have slack again.
     Checked(u64),
     /// They are in too many cells, and none is checked.
     TooMany,

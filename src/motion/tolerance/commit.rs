@@ -61,7 +61,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.place_queued(report)
     }
 
-    /// Of a whole staging, moves the vertices that stay within tolerance, and queues the others.
+    /// Moves the vertices of a whole staging that stay within tolerance, and queues the others.
     fn accept_all(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
         let Advance::Moved(moved) = self.move_and_queue::<false>(usize::MAX, given)? else {
             unreachable!("there is room for all in the queue");

@@ -1,4 +1,4 @@
-//! Tolerances, annulus widths and delimiters, for those who ask (report, sections 2.2 to 2.4).
+//! Tolerances, annulus widths and delimiters, for programs that ask (report, sections 2.2 to 2.4).
 
 use crate::complex::{Corners, Facet};
 use crate::delaunay::Dimension;
@@ -26,7 +26,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(tolerance)
     }
 
-    /// As [`tolerance`](Self::tolerance), for a site that no two vertices share; 0 without the memory to look.
+    /// The [`tolerance`](Self::tolerance) of the vertex of a site that no two share; 0 without the memory to look.
     pub(in crate::motion) fn tolerance_of_site(&mut self, s: SiteId) -> f64 {
         if self.kernel.gather_star(s).is_err() {
             return 0.0;

@@ -127,8 +127,9 @@ impl<G: Dimension> Tolerances<G> {
         n
     }
 
-    /// As [`measure_all`](Self::measure_all), for the bi-cells of all facets of these cells; all vertices of these are
-    /// fixed where they are.
+    /// Lets the bi-cells of all facets of these cells lower tolerances, but for those that are `set_aside`, see
+    /// [`measure_all`](Self::measure_all). All vertices of the cells are fixed where they are. Returns the number of
+    /// bi-cells.
     pub(in crate::motion) fn measure_around(
         &mut self,
         kernel: &mut Delaunay<G>,
