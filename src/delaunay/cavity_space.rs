@@ -234,7 +234,7 @@ fn grow(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<()> {
     let enough = [FIRST_ROOM, FEW_RIM].into_iter().find(|&room| n + 4 <= room);
     let room = enough.unwrap_or(2 * n + 64);
     if room > FEW_RIM {
-        // First, as whoever has room for such a rim has room for the meetings.
+        // Room for the meetings first: where there is room for such a rim, there has to be room for these.
         meetings.make_room()?;
     }
     memory::lengthen(rows, room, Row::blank())

@@ -32,7 +32,7 @@ pub struct Held {
 }
 
 impl Held {
-    /// Of which cells all holds.
+    /// The cells of which all holds, one bit each.
     #[inline(always)]
     pub(super) fn all<G: Dimension>(&self) -> u32 {
         self.facets[..G::Corners::N].iter().fold(self.positive, |all, &facet| all & facet).bits()

@@ -1,4 +1,4 @@
-//! The exact check of everything, for tests and for callers who want proof.
+//! The exact check of everything, for tests and for programs that want proof.
 //!
 //! Positive cells and locally empty spheres do *not* prove a triangulation: a star may wind twice around its site,
 //! the hull may fold. The chain of proof is this. (1) The complex is closed: neighbours are mutual and agree on

@@ -326,7 +326,7 @@ mod tests {
         assert!(!middle.is_followed_by(&last));
         middle.reserve_exact(1).expect("room");
         assert!(!first.is_followed_by(&middle) && middle[..] == [Wide(2); 20]);
-        // Nobody else has a part any more.
+        // No other array has a part any more.
         first.reclaim();
         assert_eq!((&first[..], first.capacity()), (&[Wide(1); 10][..], 100));
     }

@@ -8,9 +8,9 @@
 pub(super) enum Attempt {
     /// The vertices are at their new positions, and the cells are theirs.
     Committed,
-    /// It has given up; no vertex has moved.
+    /// The attempt has given up; no vertex has moved.
     NotBegun,
-    /// It has given up; all vertices are at their new positions, and no cell has changed.
+    /// The attempt has given up; all vertices are at their new positions, and no cell has changed.
     OnlyMoved,
 }
 

@@ -219,7 +219,7 @@ pub struct Table {
     pub plane: Constants,
     /// In space.
     pub space: Constants,
-    /// In both.
+    /// Of reading cells, in both dimensions.
     pub reading: Reading,
 }
 

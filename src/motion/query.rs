@@ -108,7 +108,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let index_of = cells.index_of();
         self.prefetch_next_stars(vertex);
         self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot.index()))?;
-        // Whoever asks for a star goes on to read the rows of its cells.
+        // A program that asks for a star goes on to read the rows of its cells.
         let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index.index()));
         let n = asked.count();
         self.kernel.prefetch_around(s, slots);

@@ -177,7 +177,7 @@ impl Room {
         let first = self.n.get();
         assert!(n <= LIMBS - first, "room for a determinant");
         self.n.set(first + n);
-        // SAFETY: there are so many, nobody else has them as the number of those in use never falls, and they are
+        // SAFETY: there are so many, and nothing else has them, as the number of those in use never falls, and they are
         // written before they are handed out.
         unsafe {
             let first = self.limbs.get().cast::<u64>().add(first);

@@ -71,7 +71,7 @@ mod tests {
         is_certain
     }
 
-    /// In lanes, where there are any, one and the same in all.
+    /// Evaluates in lanes, where there are any, with one and the same points in all.
     fn in_lanes<const D: usize, const N: usize, const M: usize>(
         points: [[f64; D]; N],
         of: impl Fn([[Lanes; D]; N]) -> [Lanes; M],

@@ -132,7 +132,7 @@ mod tests {
         assert!(n_ties > 10_000);
     }
 
-    /// Without branches ties of all kinds come out as they do with them, those of four points in a plane too.
+    /// Ties of all kinds, those of four points in a plane too, come out without branches as they do with them.
     #[test]
     fn ties_on_lattices_are_decided_as_elsewhere() {
         let rng = &mut Rng::new(3);

@@ -10,7 +10,7 @@
 //!
 //! H Σ (−1)ᵏ incircle(all points but the k-th, in their order), over the k of P, counted from zero.
 //!
-//! The same holds one dimension below, where what is left is the determinant of rows (x, x², 1), a product of
+//! So it is one dimension below, too, where what is left is the determinant of rows (x, x², 1), a product of
 //! differences, and for orientations, where it is an orientation of the plane.
 //!
 //! A term with two points at the same place is zero: with P and Q exchanged if need be, there are one or two points in

@@ -68,7 +68,7 @@ pub(super) struct Untangling<G: Dimension> {
     pub(super) cells: Vec<Slot>,
     /// Ridges at which the hull may not be convex, as facets of ghosts.
     ridges: Vec<Facet>,
-    /// Those of them where ghosts cannot be exchanged at present.
+    /// Ridges where ghosts cannot be exchanged at present.
     stuck: Vec<Facet>,
     slots: Vec<Slot>,
 }

@@ -18,7 +18,7 @@ const LISTED_AT_LEAST: usize = 1 << 14;
 /// Where a vertex is while a commit is under way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum At {
-    /// It has not moved.
+    /// The vertex has not moved.
     Rest,
     New,
     /// At its new place, and listed to be taken back.
