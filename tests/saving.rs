@@ -492,9 +492,11 @@ fn every_kind_of_damage_is_told() {
         Damage::Apart { vertex: vertex(5), representative: vertex(3) }
     );
     assert_eq!(told(&|p| p.representatives[5] = 5), Damage::InNoCell { vertex: vertex(5) });
-    assert!(
-        matches!(told(&|p| p.representatives[3] = u32::MAX), Damage::Corner { given, .. } if given == vertex(3))
-    );
+    let gone = |p: &mut Parts| {
+        p.representatives[3] = u32::MAX;
+        p.positions[6..8].fill(f64::NAN);
+    };
+    assert!(matches!(told(&gone), Damage::Corner { given, .. } if given == vertex(3)));
     assert_eq!(
         told(&|p| p.cells[4] = 9),
         Damage::Corner { cell: CellId::new(1), corner: 1, given: vertex(9) }
@@ -613,7 +615,7 @@ fn loading_is_monitored<G: Dimension>(n: usize) {
         let (loaded, asked) = load(0);
         assert_eq!(loaded.expect("saved").saved().expect("room"), bytes);
         assert!(
-            asked.len() > 3 && asked.is_sorted() && asked.iter().all(|f| (0.0..=1.0).contains(f)),
+            asked.len() > 1 && asked.is_sorted() && asked.iter().all(|f| (0.0..=1.0).contains(f)),
             "{asked:?}"
         );
         for k in 1..=asked.len() {
