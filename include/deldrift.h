@@ -38,15 +38,26 @@
  * point to as many elements as the count says. NULL is accepted where the documentation says so, and if the
  * count is 0; otherwise it is an error. What a pointer leads to cannot be checked: that arrays are as long as the
  * count says, that strings end in a NUL, and that what is handed over has not been freed or destroyed are duties of
- * the program. Arrays that a call writes must overlap with no other of its arrays.
+ * the program. Arrays that a call writes must overlap with no other of its arrays. A buffer that may be NULL with a
+ * capacity of 0, to ask for a count alone, may not be NULL with another: that is DELDRIFT_NULL_ARGUMENT.
  *
- * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: the
- * triangulation is as it was, and outputs are not written (except the count of a buffer that is too
- * small). deldrift_last_error gives the details. Nothing is printed, and no exception leaves the library.
+ * Staging. A vertex whose insertion is staged has an id, but is not present before the commit: functions that take its
+ * id return DELDRIFT_STAGED_VERTEX; in arrays by id that functions fill its entry is as that of a removed vertex, but
+ * for deldrift_copy_positions; in positions by id that are given its entry is where it will be inserted. A vertex whose
+ * removal is staged is present until the commit; it can be neither moved with that nor removed by it twice.
+ *
+ * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: what can be asked
+ * about the triangulation is as it was, what is staged included, and outputs are not written (except the count of a
+ * buffer that is too small). But views end as if it had not failed, and deldrift_memory_bytes may tell more than before,
+ * as room that was made is kept for the next call. deldrift_last_error gives the details. Nothing is printed, and no exception leaves the library.
  *
  * Besides the errors named with each function, every function that takes a triangulation may return
  * DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUSY (called from a callback of a call
  * on the same triangulation), DELDRIFT_POISONED and DELDRIFT_INTERNAL_ERROR.
+ *
+ * Costs. "Cost:" says how the time of a call grows: n stands for the number of ids, m for that of cells. m is below 2 n
+ * in 2D; in 3D it is about 6.8 n for points spread evenly, and n² / 2 at most. docs/COSTS.md has what has been measured,
+ * on sets of points that are hard. Memory is in proportion to n + m.
  *
  * Ownership. What deldrift_create made must be given to deldrift_destroy, once. Arrays that are passed in
  * are read during the call and not kept. Views (deldrift_cells_view, deldrift_indices_view, deldrift_changes) belong to
@@ -125,7 +136,8 @@ enum
     DELDRIFT_REMOVED_VERTEX = 11,
     /// A move of this vertex is already staged for the next timestamp.
     DELDRIFT_DUPLICATE_MOVE = 12,
-    /// An array without a list of ids has more entries than there are ids.
+    /// An array has another number of entries than there have to be: one for each id, cell or component; or, without a
+    /// list of ids, more entries than there are ids.
     DELDRIFT_WRONG_COUNT = 13,
     /// Two vertices would be at the same place, and the options reject that.
     DELDRIFT_COINCIDENT = 14,
@@ -161,6 +173,9 @@ enum
     DELDRIFT_IO_ERROR = 28,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
     DELDRIFT_INVALID_FIELD = 29,
+    /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
+    /// and it can be neither moved with that commit nor removed twice. The message says which.
+    DELDRIFT_STAGED_VERTEX = 30,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -182,7 +197,8 @@ enum
     DELDRIFT_LOCATION_CELL = 1,
     /// Outside the convex hull: index is that of a cell with a hull facet that faces the place.
     DELDRIFT_LOCATION_OUTSIDE = 2,
-    /// There are no cells, as the vertices do not span the dimension: index is DELDRIFT_NONE.
+    /// There are no cells, as the vertices do not span the dimension, and no vertex is at the place: index is
+    /// DELDRIFT_NONE. At the place of a vertex the kind is DELDRIFT_LOCATION_VERTEX, with or without cells.
     DELDRIFT_LOCATION_NO_CELLS = 3,
 };
 #ifndef __cplusplus
@@ -306,10 +322,11 @@ typedef struct deldrift_triangulation deldrift_triangulation;
 /// bytes that the library does not know are zero. A size that is 0, ends inside a field or is beyond
 /// 4096 is DELDRIFT_INVALID_OPTIONS, as is any value that has no meaning.
 ///
-/// The callbacks are called from inside deldrift_create and deldrift_commit_timestamp, on the thread
-/// that called these, one at a time, and not after deldrift_destroy. They must return normally (no
-/// exception, no longjmp) and must not use the triangulation that is being created or committed: such
-/// calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
+/// The callbacks are called from inside deldrift_create, deldrift_commit_timestamp and deldrift_commit_positions, and
+/// from inside deldrift_relocate_vertex, deldrift_insert_vertex and deldrift_remove_vertex where one of these takes
+/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not after
+/// deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that is
+/// being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
 /// must live as long as the triangulation.
 typedef struct deldrift_options {
     /// sizeof(deldrift_options) as the program sees it.
@@ -327,10 +344,13 @@ typedef struct deldrift_options {
     deldrift_coincidence coincidence;
     /// 1 keeps what deldrift_changed_cells needs, at some cost for each commit; 0, the default, does not.
     uint32_t track_changes;
-    /// Called now and then during long calls; when it returns true, the call ends in DELDRIFT_CANCELLED
-    /// and has had no effect. NULL, the default, never cancels.
+    /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
+    /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
+    /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
+    /// never cancels.
     bool (*cancel)(void *user_data);
-    /// Called now and then during long calls with the part of the work that is done, from 0 to 1. NULL
+    /// Called just before cancel would be, with the part of the work that is done, from 0 to 1, as far as that is
+    /// known: it need not change from one call to the next, and begins again where a commit goes on by rebuilding. NULL
     /// is the default.
     void (*progress)(void *user_data, double fraction);
     /// Handed to the callbacks as it is.
@@ -462,7 +482,8 @@ typedef struct deldrift_indices_view {
 
 /// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
 typedef struct deldrift_field {
-    /// What it is called: UTF-8, with a NUL at the end.
+    /// What it is called: UTF-8, with a NUL at the end; without control characters, U+FFFE and U+FFFF, which XML does
+    /// not have. Fields of vertices have different names, none of them "vertex", and so have fields of cells.
     const char *name;
     /// components numbers for each vertex, by id (those of removed vertices are not written), or for each cell, by
     /// index.
@@ -477,6 +498,8 @@ extern "C" {
 
 /// A status in a few words, in English, without a full stop. For a number that is no status of this
 /// version the text says so. The string is static. Never fails; may be called from any thread.
+///
+/// Cost: constant.
 const char *deldrift_status_string(deldrift_status status);
 
 /// The message of the last call on this thread that failed: which argument, which index, which value.
@@ -485,23 +508,30 @@ const char *deldrift_status_string(deldrift_status status);
 ///
 /// The string is never NULL, belongs to the library, and stays until the next failure on the same
 /// thread. It is at most 511 bytes long and valid UTF-8.
+///
+/// Cost: constant.
 const char *deldrift_last_error(void);
 
 /// The version of the library that is running, as "major.minor.patch". The string is static. The
 /// version of the header that a program was compiled with is in DELDRIFT_VERSION_STRING.
+///
+/// Cost: constant.
 const char *deldrift_version(void);
 
 /// Creates the Delaunay triangulation of count points in the plane or in space, at timestamp 0.
 ///
 /// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or
 /// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
-/// them for the life of the triangulation. Any set is legal, the empty one, coincident points and points
+/// them until the triangulation is destroyed, or deldrift_compact gives new ids. Any set is legal, the empty one, coincident points and points
 /// on one line or plane included; where the points do not span the dimension there are no cells. Every
 /// finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
 /// defaults; read during the call only.
 ///
 /// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
 /// success only.
+///
+/// Cost: on all sets of docs/COSTS.md n log n and m. No set takes more than n² in 2D, or n m in 3D, where m is the most
+/// cells of any subset.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_INVALID_OPTIONS, DELDRIFT_NULL_ARGUMENT,
 /// DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
@@ -516,15 +546,21 @@ deldrift_status deldrift_create(uint32_t dimension,
 /// Destroys a triangulation: its memory is freed and its views end. NULL is legal and does nothing.
 /// A poisoned triangulation is destroyed like any other. From inside a callback of a call on the same
 /// triangulation this does nothing but set deldrift_last_error.
+///
+/// Cost: n + m at most.
 void deldrift_destroy(deldrift_triangulation *t);
 
 /// The dimension of the triangulation, 2 or 3, to *dimension.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_dimension(const deldrift_triangulation *t, uint32_t *dimension);
 
 /// Changes the algorithm of later commits. Staged moves stay. Tolerances and delimiters that the new
 /// algorithm needs and the old one did not keep are computed by the next commit.
+///
+/// Cost: n + m at most, to free what the old one keeps.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_OPTIONS for a number that is no algorithm of this
 /// version. Not to be called at the same time as any other call on t.
@@ -532,6 +568,8 @@ deldrift_status deldrift_set_algorithm(deldrift_triangulation *t,
                                        deldrift_algorithm algorithm);
 
 /// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_get_algorithm(const deldrift_triangulation *t,
@@ -542,9 +580,11 @@ deldrift_status deldrift_get_algorithm(const deldrift_triangulation *t,
 ///
 /// position: 2 or 3 numbers, read during the call only.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
-/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_DUPLICATE_MOVE, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_move_vertex(deldrift_triangulation *t,
                                      uint32_t vertex,
                                      const double *position);
@@ -552,14 +592,18 @@ deldrift_status deldrift_move_vertex(deldrift_triangulation *t,
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
 ///
 /// vertices: count ids, each at most once. NULL stands for 0, 1, ..., count - 1: count may then be at most
-/// deldrift_id_count, vertices from count on are not staged, and entries of removed vertices are not read.
+/// deldrift_id_count, and vertices from count on are not staged. The entry of a vertex whose insertion is staged is
+/// where it will be inserted, in place of where it would have been; entries of removed vertices, and of those whose
+/// removal is staged, are not read.
 /// positions: count points one after the other, 2 or 3 numbers each. Both are read during the call only
 /// and may be NULL if count is 0, when nothing is staged.
 ///
+/// Cost: count.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE (also
-/// within vertices), DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called
-/// at the same time as any other call on t.
+/// DELDRIFT_WRONG_COUNT if there are more positions than ids, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
+/// DELDRIFT_STAGED_VERTEX for one in vertices, DELDRIFT_DUPLICATE_MOVE (also within vertices), DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_move_vertices(deldrift_triangulation *t,
                                        const uint32_t *vertices,
                                        const double *positions,
@@ -569,9 +613,16 @@ deldrift_status deldrift_move_vertices(deldrift_triangulation *t,
 /// next commit on, which makes them together with the staged moves and removals.
 ///
 /// positions: count points, read during the call only; may be NULL if count is 0. first_vertex: receives
-/// the id of the first, which is one above the highest given so far; the others follow it in their order.
-/// The ids count in deldrift_id_count from now on. deldrift_discard_moves forgets the insertions; ids are
-/// given again then if none higher has been given since.
+/// the id of the first, which is one above the highest given so far; the others follow it in their order. It must not
+/// be NULL, even if count is 0: then it receives the id that would be given next.
+///
+/// The ids count in deldrift_id_count from now on, but until the commit the vertices are not present
+/// (deldrift_is_present): functions that take an id return DELDRIFT_STAGED_VERTEX for them. Where they will be is told
+/// by deldrift_copy_positions, and changed by deldrift_move_vertices without a list of ids and by
+/// deldrift_commit_positions. deldrift_discard_moves forgets the insertions; ids are given again then if none higher has
+/// been given since.
+///
+/// Cost: count, in the mean over many calls.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
@@ -582,19 +633,29 @@ deldrift_status deldrift_stage_insertions(deldrift_triangulation *t,
                                           uint32_t *first_vertex);
 
 /// Stages the removal of count vertices: all of them, or none if it fails. The next commit removes them,
-/// together with the staged moves and insertions. Moves staged for them are forgotten, and none can be
-/// staged any more; deldrift_discard_moves forgets the removals.
+/// together with the staged moves and insertions; until then the vertices are present, and can be asked about, and
+/// relocated or removed at once. Moves staged for them are forgotten, and none can be staged any more
+/// (DELDRIFT_STAGED_VERTEX; their entries in arrays without a list of ids are not read). deldrift_discard_moves forgets
+/// the removals.
 ///
 /// vertices: count ids, each at most once, read during the call only; may be NULL if count is 0.
 ///
+/// The commit removes them one by one, or rebuilds where that takes less: where many go, or those with 64 neighbours and
+/// more that go have more neighbours in all than there are vertices.
+///
+/// Cost: count, in the mean over many calls.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX (also if its removal is staged), DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX (its removal is staged already, or its
+/// insertion is), DELDRIFT_OUT_OF_MEMORY.
 /// Not to be called at the same time as any other call on t.
 deldrift_status deldrift_stage_removals(deldrift_triangulation *t,
                                         const uint32_t *vertices,
                                         size_t count);
 
 /// Forgets all staged moves, insertions and removals.
+///
+/// Cost: what is staged.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
@@ -604,6 +665,10 @@ deldrift_status deldrift_discard_moves(deldrift_triangulation *t);
 /// timestamp too.
 ///
 /// report: receives what was done; may be NULL. Ends all views.
+///
+/// Cost: of k staged moves, insertions and removals at most k times that of deldrift_relocate_vertex, or that of
+/// deldrift_create, whichever the algorithm chooses; of none, constant. While there are no cells, that of
+/// deldrift_create.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_COINCIDENT (if the options
 /// reject it), DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation
@@ -615,15 +680,17 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 /// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
 /// deldrift_commit_timestamp in one, without a copy of the positions where that can be done without.
 ///
-/// positions: count points, one for each id (count must be deldrift_id_count); entries of
-/// removed vertices are not read. Read during the call only. report: as for deldrift_commit_timestamp.
-/// Ends all views.
+/// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
+/// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
+/// removal is staged, are not read. Read during the call only. report: as for deldrift_commit_timestamp. Ends all views.
+///
+/// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
-/// DELDRIFT_WRONG_COUNT, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_WRONG_COUNT if there are fewer or more, DELDRIFT_DUPLICATE_MOVE if a move is staged, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, and no move is
-/// staged. Not to be called at the same time as any other call on t.
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED: the triangulation stays at its timestamp, no move is
+/// staged, and insertions and removals are staged as before. Not to be called at the same time as any other call on t.
 deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
                                           const double *positions,
                                           size_t count,
@@ -634,10 +701,13 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 ///
 /// position: 2 or 3 numbers, read during the call only.
 ///
+/// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be many.
+/// While there are no cells, that of deldrift_create.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_DUPLICATE_MOVE if a move of this vertex is staged,
-/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of this
+/// vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
                                          uint32_t vertex,
@@ -648,19 +718,25 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 /// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
 /// the highest ever given, or left by the latest deldrift_compact.
 ///
+/// Cost: that of deldrift_locate, and the cells created and removed.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        const double *position,
                                        uint32_t *out_vertex);
 
-/// Removes a vertex at once, with the move staged for it, if any. Its id is not given again before a
+/// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
 /// deldrift_compact, nor is all of its memory. Ends all views.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call
+/// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D that
+/// may have as many cells as half the square of their number, as where all points are on the moment curve; each ten to
+/// twenty thousand of them the callbacks are called.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
+/// insertion is staged, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
 /// on t.
 deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
@@ -671,12 +747,15 @@ deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
 /// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
 ///
 /// map: receives the new id of each old one, DELDRIFT_NONE for removed vertices: a buffer with room for
-/// capacity ids; NULL with capacity 0 if it is not wanted. count: receives the number of old ids
+/// capacity ids; NULL with capacity 0 if it is not wanted, NULL with another is DELDRIFT_NULL_ARGUMENT. Vertices whose
+/// insertion is staged get new ids as well. count: receives the number of old ids
 /// (deldrift_id_count before the call), which is also written when the buffer is too small: then nothing
 /// has been compacted.
 ///
 /// Takes no longer than a rebuild, and while it runs the memory of a second
 /// triangulation.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
@@ -692,6 +771,8 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
 /// call it as often or as rarely as it likes, without track_changes too. Ends all views; deldrift_cells takes constant
 /// time after it.
 ///
+/// Cost: what has changed; of the first call n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing has been taken.
 /// Not to be called at the same time as any other call on t.
 deldrift_status deldrift_take_changes(deldrift_triangulation *t,
@@ -699,28 +780,40 @@ deldrift_status deldrift_take_changes(deldrift_triangulation *t,
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_vertex_count(const deldrift_triangulation *t, size_t *count);
 
 /// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
-/// ids are below it, those of removed vertices too.
+/// ids are below it, those of removed vertices and of staged insertions too.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_id_count(const deldrift_triangulation *t,
                                   size_t *count);
 
 /// How many cells there are, to *count.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_cell_count(const deldrift_triangulation *t, size_t *count);
 
 /// How many moves are staged for the next timestamp, to *count.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_staged_count(const deldrift_triangulation *t, size_t *count);
 
 /// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
-/// for later calls included, and without what the system's allocator adds to each of its arrays.
+/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any call
+/// on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
+/// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t,
@@ -728,34 +821,48 @@ deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t,
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_timestamp(const deldrift_triangulation *t, uint64_t *timestamp);
 
 /// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
 /// coincident are those of now.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_statistics(const deldrift_triangulation *t,
                                     deldrift_commit_report *report);
 
-/// Whether a vertex of this id is present, to *present: false if it has been removed or never was.
+/// Whether a vertex of this id is present, to *present: false if it has been removed, or never was, or only its
+/// insertion is staged; true if only its removal is.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_is_present(const deldrift_triangulation *t,
                                     uint32_t vertex,
                                     bool *present);
 
 /// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX. Constant time.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
+/// insertion is staged.
 deldrift_status deldrift_position(const deldrift_triangulation *t,
                                   uint32_t vertex,
                                   double *position);
 
-/// The positions of all ids, in their order, 2 or 3 numbers each; those of removed vertices are NaN.
+/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp, of
+/// vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can be
+/// changed and handed to deldrift_commit_positions.
 ///
 /// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
 /// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
 deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
@@ -771,6 +878,8 @@ deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
 /// fewer: then the last ones take the free indices (see deldrift_take_changes). Calls on several threads are
 /// legal, the first included.
 ///
+/// Cost: m for the first call of all; after a change what has changed; else constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_cells(const deldrift_triangulation *t,
                                deldrift_cells_view *view);
@@ -779,7 +888,9 @@ deldrift_status deldrift_cells(const deldrift_triangulation *t,
 ///
 /// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
 /// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
-/// too small. NULL for both with capacity 0 asks for the count alone.
+/// too small. NULL for both with capacity 0 asks for the count alone, with another it is DELDRIFT_NULL_ARGUMENT.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -795,9 +906,11 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
+/// Cost: the cells of the star.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call
-/// also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
 /// than a cache holds, stars are read fastest in the order of the ids.
 deldrift_status deldrift_star(const deldrift_triangulation *t,
                               uint32_t vertex,
@@ -812,8 +925,10 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 /// is certain and for vertices that share their place, and infinite, without a meaning, while there are no
 /// cells. Computed from the star of the vertex, whatever the algorithm in force.
 ///
+/// Cost: the cells of the star.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
                                    uint32_t vertex,
                                    double *out);
@@ -830,6 +945,8 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
 /// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
 /// for the count alone.
 ///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_annulus_widths(const deldrift_triangulation *t,
@@ -845,6 +962,8 @@ deldrift_status deldrift_annulus_widths(const deldrift_triangulation *t,
 /// the certified tolerance of the bi-cell, which those of its vertices do not exceed; half the annulus
 /// width in 2D, and at most that in 3D, where other changes may come sooner.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
 /// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also
 /// does what the first deldrift_cells does.
@@ -858,6 +977,9 @@ deldrift_status deldrift_standard_delimiter(const deldrift_triangulation *t,
 /// Where a point lies, exactly, to *location.
 ///
 /// position: 2 or 3 numbers.
+///
+/// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
+/// sets, m at most. While there are no cells, constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
@@ -873,6 +995,8 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
 /// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
 ///
+/// Cost: count times that of deldrift_locate.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also
 /// does what the first deldrift_cells does.
@@ -887,6 +1011,9 @@ deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
 ///
 /// position: 2 or 3 numbers.
 ///
+/// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
+/// no cells, n.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
@@ -896,7 +1023,10 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
 /// The lowest id among the vertices at the place of this one, to *representative: the one that is a
 /// corner of cells. It is the vertex itself unless the vertex is hidden.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX.
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
+/// insertion is staged.
 deldrift_status deldrift_coincident_representative(const deldrift_triangulation *t,
                                                    uint32_t vertex,
                                                    uint32_t *representative);
@@ -904,6 +1034,8 @@ deldrift_status deldrift_coincident_representative(const deldrift_triangulation 
 /// The cells of now that did not exist before the latest commit, to *view, as indices into
 /// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
 /// first commit there are none. Needs track_changes in the options.
+///
+/// Cost: what has changed.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_changed_cells(const deldrift_triangulation *t,
@@ -913,6 +1045,8 @@ deldrift_status deldrift_changed_cells(const deldrift_triangulation *t,
 ///
 /// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
 /// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
 /// deldrift_last_error then gives the first violation.
@@ -927,6 +1061,8 @@ deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t leve
 /// Rounded: a coordinate of a centre is off by at most 1e-9 circumradii and its own rounding, a squared radius by
 /// 4e-9 of itself, however flat the cell; unless it is nearly flat, by a few last bits. What is too large for a
 /// number is infinite; nothing is NaN. One pass over the cells; nearly flat ones take a microsecond each.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
@@ -945,6 +1081,8 @@ deldrift_status deldrift_circumcentres(const deldrift_triangulation *t,
 /// positive. (Below the least normal number, 2.2e-308, they are less accurate.) One pass over the cells; nearly flat
 /// ones take up to a microsecond each.
 ///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
 deldrift_status deldrift_volumes(const deldrift_triangulation *t,
@@ -962,6 +1100,8 @@ deldrift_status deldrift_volumes(const deldrift_triangulation *t,
 /// Exact: every entry is that of an exact comparison of squared_radius, as given, with the squared radius of the
 /// circle or sphere through the positions. One pass over the cells; where the two nearly agree, a cell takes a
 /// microsecond.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that
 /// is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
@@ -985,6 +1125,8 @@ deldrift_status deldrift_mask_by_circumradius(const deldrift_triangulation *t,
 ///
 /// Facets are in ascending order of cell and then of corner. Exact. Two passes over the cells.
 ///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
 /// deldrift_cells does.
@@ -1000,6 +1142,8 @@ deldrift_status deldrift_mask_boundary(const deldrift_triangulation *t,
 /// The facets of the convex hull, as deldrift_mask_boundary gives them if all cells are in the mask.
 ///
 /// facets, cells, corners, capacity, count: as there. One pass over the cells; constant time for the count alone.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
@@ -1018,6 +1162,8 @@ deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
 ///
 /// Takes some passes over the cells, and memory for the cells of each vertex while it runs.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
 deldrift_status deldrift_edges(const deldrift_triangulation *t,
@@ -1035,6 +1181,8 @@ deldrift_status deldrift_edges(const deldrift_triangulation *t,
 /// for both asks for the count alone, in constant time.
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
+///
+/// Cost: n + m, and d log d for the d neighbours of each vertex.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
@@ -1057,6 +1205,8 @@ deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
 /// deldrift_cells does.
@@ -1074,6 +1224,8 @@ deldrift_status deldrift_vertex_cells(const deldrift_triangulation *t,
 /// mirrors: a buffer with room for capacity rows of 3 (2D) or 4 (3D) bytes. count: receives the number of cells, which
 /// is also written when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does. One pass over
 /// the cells.
@@ -1086,6 +1238,8 @@ deldrift_status deldrift_mirror_indices(const deldrift_triangulation *t,
 /// DELDRIFT_NONE for a facet of the hull.
 ///
 /// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
 /// After a change the first call also does what the first deldrift_cells does; else constant time.
@@ -1103,8 +1257,10 @@ deldrift_status deldrift_mirror_index(const deldrift_triangulation *t,
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.
 ///
+/// Cost: the cells of the star.
+///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
 /// change the first call also does what the first deldrift_cells does; else the cost is that of the star.
 deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
                                       uint32_t vertex,
@@ -1124,8 +1280,10 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
+/// Cost: the cells of the stars, and k log k for the k of them; m at most.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
 /// what the first deldrift_cells does; else the cost is that of the stars, and for many vertices at most that of a pass
 /// over the cells.
 deldrift_status deldrift_cells_around(const deldrift_triangulation *t,
@@ -1149,6 +1307,8 @@ deldrift_status deldrift_cells_around(const deldrift_triangulation *t,
 /// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
 /// neighbours; beyond that the pass of deldrift_circumcentres is faster.
 ///
+/// Cost: cell_count.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
 /// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
 /// what the first deldrift_cells does; else the cost is that of the cells listed.
@@ -1164,6 +1324,8 @@ deldrift_status deldrift_update_circumcentres(const deldrift_triangulation *t,
 ///
 /// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update and its
 /// accuracy. volumes: an array with room for capacity numbers.
+///
+/// Cost: cell_count.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
 /// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
@@ -1182,6 +1344,8 @@ deldrift_status deldrift_update_volumes(const deldrift_triangulation *t,
 /// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
 ///
 /// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
+///
+/// Cost: cell_count.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,
@@ -1208,6 +1372,8 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it runs; the
 /// Voronoi cells at the boundary of the box take a microsecond (2D) or some (3D) each.
 ///
+/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
@@ -1229,6 +1395,8 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// Rounded, and never negative; 0 for facets outside the box, and between the vertices of cocircular or cospherical
 /// cells. Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it
 /// runs.
+///
+/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
 ///
 /// Errors: as deldrift_voronoi_volumes: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -1252,6 +1420,9 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// At the place of a vertex the result is that of the vertex. Elsewhere it is rounded, and linear functions are
 /// reproduced but for rounding, with either method. Which cell or which neighbours count is decided exactly. A position
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
+///
+/// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
+/// sphere has the position inside.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// method that this version does not have, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of
@@ -1280,6 +1451,8 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
 /// Takes a pass over the memory of t, and as much memory again; nothing is triangulated. If deldrift_cells has been
 /// called before, this also does what the next deldrift_cells would do.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_clone(const deldrift_triangulation *t,
                                deldrift_triangulation **out);
@@ -1294,6 +1467,8 @@ deldrift_status deldrift_clone(const deldrift_triangulation *t,
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone, in constant time.
 ///
 /// Takes a pass over what is saved, and does what deldrift_cells does.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_BUFFER_TOO_SMALL,
 /// DELDRIFT_OUT_OF_MEMORY.
@@ -1311,16 +1486,18 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 /// whose cells have been read, it keeps the arrays of deldrift_cells.
 ///
 /// data: size bytes, with any alignment, read during the call only. options: as for deldrift_create. They are not
-/// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are not
-/// called.
+/// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are called.
 ///
-/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data. These may be any: what is not
-/// a Delaunay triangulation, exactly, is refused, even if the checksum is right.
+/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16 times
+/// as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused, even if
+/// the checksum is right.
+///
+/// Cost: n log n + m, whatever the data are.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
-/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY. May be called from any number of
-/// threads at once.
+/// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
+/// any number of threads at once.
 deldrift_status deldrift_load(const void *data,
                               size_t size,
                               const deldrift_options *options,
@@ -1329,8 +1506,16 @@ deldrift_status deldrift_load(const void *data,
 /// Saves the triangulation to a file, as deldrift_save does.
 ///
 /// path: of a file that is made, or replaced. The bytes go to a new file in the same folder, which takes the place of
-/// the old one when it is complete and stored, so that after a failure or a crash there is either; a symbolic link is
-/// replaced itself. A device or a pipe is written at once.
+/// the old one when it is complete and stored, so that after a failure or a crash there is either; only if the process
+/// is killed the new file may be left behind. A file that is replaced keeps its mode, and its owner, group and POSIX
+/// access control list where the system allows that; where it does not, nobody is allowed more than before. Other
+/// attributes are not kept. A symbolic link is replaced itself, and another hard link keeps what it has. A device or a
+/// pipe is written at once, and what is full is waited for; a named pipe that nobody reads is refused.
+///
+/// A pipe that is no longer read, and the limit on the size of files, are errors like any other: SIGPIPE and SIGXFSZ of
+/// these writes do not reach the process, whose handlers stay as they are.
+///
+/// Cost: n + m.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_save_file(const deldrift_triangulation *t,
@@ -1338,11 +1523,15 @@ deldrift_status deldrift_save_file(const deldrift_triangulation *t,
 
 /// Makes a triangulation of a file that deldrift_save_file has written, to *out, as deldrift_load does.
 ///
-/// The file is read as a whole, so that memory for it is needed during the call, too.
+/// Its header is read first, and the rest only if that is right and the file as long as it says; it is read as a whole
+/// then, so that memory for it is needed during the call, too. Pipes, devices, sockets and directories are refused with
+/// DELDRIFT_IO_ERROR.
+///
+/// Cost: that of deldrift_load.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_OPTIONS, DELDRIFT_IO_ERROR,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS,
-/// DELDRIFT_OUT_OF_MEMORY. May be called from any number of threads at once.
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from any number of threads at once.
 deldrift_status deldrift_load_file(const char *path,
                                    const deldrift_options *options,
                                    deldrift_triangulation **out);
@@ -1357,6 +1546,8 @@ deldrift_status deldrift_load_file(const char *path,
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
 ///
 /// Does what deldrift_cells does.
+///
+/// Cost: n + m, and the numbers of the fields.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_FIELD,
 /// DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
@@ -1375,6 +1566,8 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 ///
 /// Does what deldrift_cells does.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
                                      const char *path);
@@ -1386,6 +1579,8 @@ deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
 /// points a, b, c, d in space it is the sign of the determinant of the rows b - a, c - a, d - a, and 0 on a plane.
 /// The cells of a triangulation have orientation 1. With another point in the place of a corner it tells on which
 /// side of the opposite facet that point lies: 1 on the side of the cell, 0 on the facet's line or plane.
+///
+/// Cost: constant.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE. Constant time, some nanoseconds except close to 0. May be called from any number of threads
@@ -1402,6 +1597,8 @@ deldrift_status deldrift_orientation(uint32_t dimension,
 ///
 /// Defined here and not in the library, so that it fills the structure of this header, whichever later
 /// version the program runs with. Other languages do the same: all zero but struct_size.
+///
+/// Cost: constant.
 static inline void deldrift_options_init(deldrift_options *options) {
     static deldrift_options zeros;
     if (options) {

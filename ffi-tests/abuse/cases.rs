@@ -238,7 +238,10 @@ impl Cases<'_> {
                 let missing = "\"/no such folder/file\"";
                 let message = "\"\\\"/no such folder/file\\\": No such file or directory\"";
                 self.refused("value", at, "in no folder", missing, "IO_ERROR", message);
-                self.refused("value", at, "a folder", "\"/\"", "IO_ERROR", "\"\\\"/\\\": Is a directory\"");
+                let is_read = self.function.name == "deldrift_load_file";
+                let reason = if is_read { "it is a directory" } else { "Is a directory" };
+                let message = format!("\"\\\"/\\\": {reason}\"");
+                self.refused("value", at, "a folder", "\"/\"", "IO_ERROR", &message);
             }
             Role::Fields => self.fields(at, name),
             Role::Buffer if !parameter.c_type.starts_with("uint32_t") && is_of_bytes(parameter) => {
