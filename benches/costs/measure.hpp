@@ -168,12 +168,16 @@ struct Context {
         for (std::size_t i = 0; i < count; ++i) append(made, (this->*one)());
         return made;
     }
-    /// The box of all vertices and a share of its width more on every side, as low and high.
+    /// The box of all vertices, wider by a share on every side, as low and high; it is no slab, however flat the set.
     std::pair<Points, Points> box(double share) const {
         Points low = low_, high = high_;
         double widest = 0;
         for (unsigned k = 0; k < dimension; ++k) widest = std::max(widest, high[k] - low[k]);
-        for (unsigned k = 0; k < dimension; ++k) low[k] -= share * widest, high[k] += share * widest;
+        for (unsigned k = 0; k < dimension; ++k) {
+            const double middle = (low[k] + high[k]) / 2;
+            const double half = std::max((0.5 + share) * (high[k] - low[k]), 0.1 * widest);
+            low[k] = middle - half, high[k] = middle + half;
+        }
         return {low, high};
     }
 

@@ -15,6 +15,9 @@ use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::predicates::compare_distance;
 
+/// A search for the nearest vertex that has looked around so many others is on a long way.
+const MANY_STARS: u32 = 8;
+
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
@@ -203,9 +206,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             Place::Cell(c) | Place::Outside(c) => {
                 let corners = self.kernel.complex().cell(c).corners;
                 let finite = corners.as_ref().iter().copied().filter(|&s| s != INFINITE);
-                // Where cells are long, a landmark can be nearer than the corners of the one that holds the point.
-                let near = finite.chain(self.kernel.landmark(&q));
-                near.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
+                finite.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
             }
         };
         // Some neighbour of a vertex that is not the nearest is nearer; the nearest ones are on an empty sphere
@@ -214,9 +215,20 @@ impl<G: Dimension> MovingTriangulation<G> {
         let (mut nearest, mut star, mut link) = (IndexSet::new(), IndexSet::new(), IndexSet::new());
         nearest.insert(start)?;
         // Those before this one have been looked around.
-        let mut next = 0;
+        let (mut next, mut n_stars) = (0, 0);
         while let Some(&s) = nearest.as_slice().get(next) {
             next += 1;
+            n_stars += 1;
+            // Where cells are long, a landmark can be nearer by far.
+            if n_stars == MANY_STARS
+                && let Some(landmark) = self.nearer_landmark(&q, best)
+            {
+                best = landmark;
+                nearest.clear();
+                nearest.insert(best)?;
+                next = 0;
+                continue;
+            }
             link.clear();
             star.clear();
             self.kernel.list_star(s, &mut star, |_| {})?;
@@ -243,6 +255,12 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         Ok(nearest.as_slice().iter().map(|&s| self.kernel.site(s).id).min())
+    }
+
+    /// A landmark that is nearer to `q` than a site, if one is known.
+    #[cold]
+    fn nearer_landmark(&self, q: &G::Point, than: SiteId) -> Option<SiteId> {
+        self.kernel.landmark(q).filter(|&landmark| self.compare(q, landmark, than) == Ordering::Less)
     }
 
     fn compare(&self, q: &G::Point, a: SiteId, b: SiteId) -> Ordering {
