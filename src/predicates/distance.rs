@@ -99,7 +99,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// Rounded product and its error (Dekker).
-fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
     let error = ((product - a_high * b_high) - a_low * b_high) - a_high * b_low;

@@ -251,7 +251,7 @@ fn others<P: Copy, const M: usize, const N: usize>(points: [P; N]) -> [P; M] {
 }
 
 /// `x` · 2^`exponent`, infinite or zero beyond the range of numbers.
-fn scaled(mut x: f64, mut exponent: i32) -> f64 {
+pub(super) fn scaled(mut x: f64, mut exponent: i32) -> f64 {
     const STEP: i32 = 1000;
     while exponent.abs() > STEP && x != 0.0 && x.is_finite() {
         let step = STEP * exponent.signum();

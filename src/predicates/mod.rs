@@ -80,6 +80,7 @@
 mod bicells;
 mod big;
 mod coordinates;
+mod corners;
 mod distance;
 #[cfg(test)]
 mod dyadic;
@@ -112,6 +113,7 @@ pub(crate) use bicells::{
     bicells_surely_hold3d,
 };
 pub use coordinates::{Array, Coordinates};
+pub use corners::{Meeting, sign_of_cross};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};

@@ -1,10 +1,9 @@
-//! Plane sections of a box, cut by half-spaces; and what both need to know of boxes.
+//! Boxes that Voronoi cells are cut by, and vectors of space.
 //!
-//! In the plane, the box is one of unit height upon it, so that the area of an upright section is its length.
+//! In the plane, the third coordinate is 0.
 
 use crate::delaunay::Dimension;
-use crate::error::Result;
-use crate::machine::memory;
+use crate::predicates::Meeting;
 
 /// A vector of space.
 pub(super) type Vector = [f64; 3];
@@ -26,133 +25,143 @@ pub(super) fn cross(p: &Vector, q: &Vector) -> Vector {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
-/// Half-way between two points.
-pub(super) fn middle(p: &Vector, q: &Vector) -> Vector {
-    std::array::from_fn(|axis| 0.5 * (p[axis] + q[axis]))
+/// The greatest magnitude of a coordinate.
+pub(super) fn greatest(p: &Vector) -> f64 {
+    p.iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// Squares of lengths in these bounds have neither overflowed nor lost digits.
+const SAFE: std::ops::Range<f64> = 1e-250..1e250;
+
+/// The length of a vector, however short or long that is, from its square.
+#[inline(always)]
+pub(super) fn length_by(square: f64, p: &Vector) -> f64 {
+    if SAFE.contains(&square) { square.sqrt() } else { length_scaled(p) }
+}
+
+#[cold]
+fn length_scaled(p: &Vector) -> f64 {
+    let most = greatest(p);
+    if most == 0.0 || most == f64::INFINITY {
+        return most;
+    }
+    let scaled = p.map(|x| x / most);
+    most * dot(&scaled, &scaled).sqrt()
 }
 
 /// The vector of length 1 in the direction of one that is not zero, however short or long that is.
-fn normalised(p: &Vector) -> Vector {
-    let most = p.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+pub(super) fn normalised(p: &Vector) -> Vector {
+    let most = greatest(p);
     let scaled = p.map(|x| x / most);
     let length = dot(&scaled, &scaled).sqrt();
     scaled.map(|x| x / length)
 }
 
+/// A face of a box: the one of least or of greatest coordinates along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Face {
+    pub(super) axis: usize,
+    pub(super) is_high: bool,
+}
+
+impl Face {
+    /// All of them, in the order in which they cut.
+    pub(super) fn all<G: Dimension>() -> impl Iterator<Item = Face> {
+        (0..2 * G::D).map(|k| Face { axis: k / 2, is_high: k % 2 == 1 })
+    }
+
+    /// Which way is out of the box: 1 or -1 along the axis.
+    pub(super) fn outward(self) -> i32 {
+        if self.is_high { 1 } else { -1 }
+    }
+
+    /// A bit of its own.
+    pub(super) fn bit(self) -> u8 {
+        1 << (2 * self.axis + usize::from(self.is_high))
+    }
+}
+
 /// A box, between two opposite corners.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Clip<G: Dimension> {
-    pub(super) low: G::Point,
-    pub(super) high: G::Point,
+pub(super) struct Clip {
+    low: Vector,
+    high: Vector,
+    /// The greatest of its extents.
+    pub(super) size: f64,
+    /// The greatest magnitude of its coordinates.
+    reach: f64,
 }
 
-impl<G: Dimension> Clip<G> {
-    /// Whether a point is in the box or on its boundary.
+impl Clip {
+    pub(super) fn new<G: Dimension>(low: &G::Point, high: &G::Point) -> Self {
+        let (low, high) = (in_space::<G>(low), in_space::<G>(high));
+        let reach = greatest(&low).max(greatest(&high));
+        Clip { low, high, size: greatest(&minus(&high, &low)), reach }
+    }
+
+    /// The coordinate of a face along its axis.
+    pub(super) fn bound(&self, face: Face) -> f64 {
+        if face.is_high { self.high[face.axis] } else { self.low[face.axis] }
+    }
+
+    /// Its extent along an axis.
+    pub(super) fn extent(&self, axis: usize) -> f64 {
+        self.high[axis] - self.low[axis]
+    }
+
+    /// The offset of a place from the corner of least coordinates, or that of the nearest place in the box.
+    pub(super) fn offset_within(&self, p: &Vector) -> Vector {
+        [0, 1, 2].map(|axis| (p[axis] - self.low[axis]).clamp(0.0, self.extent(axis)))
+    }
+
+    /// The corner of least coordinates.
+    pub(super) fn low(&self) -> &Vector {
+        &self.low
+    }
+
+    /// The corner of greatest coordinates.
+    pub(super) fn high(&self) -> &Vector {
+        &self.high
+    }
+
+    /// The faces that the circumcentre of a cell is beyond, by their bits: exact. A centre and a squared radius are as
+    /// [`circumspheres`](crate::motion::MovingTriangulation::circumspheres) says.
     #[inline(always)]
-    pub(super) fn holds(&self, p: &G::Point) -> bool {
-        (0..G::D).fold(true, |holds, axis| holds & (self.low[axis] <= p[axis]) & (p[axis] <= self.high[axis]))
-    }
-
-    fn centre(&self) -> Vector {
-        middle(&in_space::<G>(&self.low), &in_space::<G>(&self.high))
-    }
-
-    fn half_extent(&self, axis: usize) -> f64 {
-        0.5 * (self.high[axis] - self.low[axis])
-    }
-}
-
-/// A convex polygon in a plane of space: corners in coordinates of that plane.
-#[derive(Debug, Default)]
-pub(super) struct Section {
-    origin: Vector,
-    axes: [Vector; 2],
-    corners: Vec<[f64; 2]>,
-    cut: Vec<[f64; 2]>,
-}
-
-impl Section {
-    /// Makes it that of a box with the plane through a point that is orthogonal to a normal. There is room for
-    /// `n_cuts` more cuts.
-    pub(super) fn start<G: Dimension>(
-        &mut self,
-        clip: &Clip<G>,
-        normal: &Vector,
-        through: &Vector,
-        n_cuts: usize,
-    ) -> Result<()> {
-        let (normal, centre) = (normalised(normal), clip.centre());
-        let height = dot(&normal, &minus(through, &centre));
-        self.origin = std::array::from_fn(|axis| centre[axis] + height * normal[axis]);
-        self.axes = if G::D == 2 {
-            [[-normal[1], normal[0], 0.0], [0.0, 0.0, 1.0]]
-        } else {
-            // Orthogonal to the axis that is the farthest from the normal.
-            let [x, y, z] = normal.map(f64::abs);
-            let axis = if x <= y && x <= z {
-                [1.0, 0.0, 0.0]
-            } else if y <= z {
-                [0.0, 1.0, 0.0]
-            } else {
-                [0.0, 0.0, 1.0]
-            };
-            let first = normalised(&cross(&axis, &normal));
-            [first, cross(&normal, &first)]
+    pub(super) fn sides<G: Dimension>(&self, centre: &G::Point, squared: f64, cell: &[&G::Point]) -> u8 {
+        // The rounding of a centre that is twice as far away as the box does not matter.
+        let margin = 1.01e-9 * squared.sqrt() + 4.0 * f64::EPSILON * self.reach;
+        let is_inside = |axis: usize| {
+            (centre[axis] - self.low[axis] > margin) & (self.high[axis] - centre[axis] > margin)
         };
-        let reach = (0..G::D).map(|axis| clip.half_extent(axis)).sum::<f64>();
-        self.fill::<G>(reach, 2 * G::D + n_cuts)?;
-        for axis in 0..G::D {
-            let mut outward = [0.0; 3];
-            outward[axis] = 1.0;
-            self.keep_behind(&outward, &in_space::<G>(&clip.high));
-            outward[axis] = -1.0;
-            self.keep_behind(&outward, &in_space::<G>(&clip.low));
+        if (0..G::D).fold(true, |all, axis| all & is_inside(axis)) {
+            return 0;
         }
-        Ok(())
+        self.sides_of_outer::<G>(centre, margin, cell)
     }
 
-    /// Makes it a square around the origin; in the plane, a rectangle from height 0 to height 1.
-    fn fill<G: Dimension>(&mut self, half: f64, n_cuts: usize) -> Result<()> {
-        self.corners.clear();
-        self.cut.clear();
-        memory::reserve(&mut self.corners, 4 + n_cuts)?;
-        memory::reserve(&mut self.cut, 4 + n_cuts)?;
-        let (least, most) = if G::D == 2 { (0.0, 1.0) } else { (-half, half) };
-        self.corners.extend([[-half, least], [half, least], [half, most], [-half, most]]);
-        Ok(())
-    }
-
-    /// Cuts off what is beyond the plane through a point, on the side to which the normal points.
-    pub(super) fn keep_behind(&mut self, normal: &Vector, through: &Vector) {
-        let [a, b] = self.axes.map(|axis| dot(normal, &axis));
-        let c = dot(normal, &minus(through, &self.origin));
-        let beyond = |p: &[f64; 2]| a * p[0] + b * p[1] - c;
-        self.cut.clear();
-        if let Some(&last) = self.corners.last() {
-            let (mut before, mut height_before) = (last, beyond(&last));
-            for &corner in &self.corners {
-                let height = beyond(&corner);
-                if (height_before > 0.0) != (height > 0.0) {
-                    let share = height_before / (height_before - height);
-                    self.cut.push([0, 1].map(|k| before[k] + share * (corner[k] - before[k])));
-                }
-                if height <= 0.0 {
-                    self.cut.push(corner);
-                }
-                (before, height_before) = (corner, height);
-            }
+    #[inline(never)]
+    fn sides_of_outer<G: Dimension>(&self, centre: &G::Point, margin: f64, cell: &[&G::Point]) -> u8 {
+        let mut sides = 0;
+        for face in Face::all::<G>() {
+            let beyond = f64::from(face.outward()) * (centre[face.axis] - self.bound(face));
+            let is_beyond = if beyond.abs() > margin {
+                beyond > 0.0
+            } else {
+                self.sign_of_centre::<G>(face, cell) == face.outward()
+            };
+            sides |= if is_beyond { face.bit() } else { 0 };
         }
-        std::mem::swap(&mut self.corners, &mut self.cut);
+        sides
     }
 
-    /// Its area.
-    pub(super) fn area(&self) -> f64 {
-        let Some((first, others)) = self.corners.split_first() else { return 0.0 };
-        let from_first = |p: &[f64; 2]| [p[0] - first[0], p[1] - first[1]];
-        let doubled = others.windows(2).map(|pair| {
-            let [p, q] = [&pair[0], &pair[1]].map(from_first);
-            p[0] * q[1] - p[1] * q[0]
-        });
-        0.5 * doubled.sum::<f64>().abs()
+    /// The side of a face on which the circumcentre of a cell is.
+    #[cold]
+    fn sign_of_centre<G: Dimension>(&self, face: Face, cell: &[&G::Point]) -> i32 {
+        let places: [Vector; 4] = std::array::from_fn(|k| in_space::<G>(cell[k.min(G::D)]));
+        let mut from = [0.0; 3];
+        from[face.axis] = self.bound(face);
+        let others = &places[1..=G::D];
+        let is_fixed = [false, false, G::D == 2];
+        Meeting { vertex: places[0], others, from, is_fixed }.sign(face.axis)
     }
 }

@@ -8,9 +8,10 @@
 //! | `boundary` | facets around a mask of cells, the convex hull |
 //! | `incidence` | edges, neighbours and cells of vertices, mirror indices |
 //! | `star` | stars in circulation order |
-//! | `clipping` | plane sections of a box, cut by half-spaces |
-//! | `polyhedron` | a box, cut by half-spaces |
-//! | `voronoi` | Voronoi cells and facets, clipped by a box |
+//! | `rings` | what is around an edge, in order |
+//! | `voronoi` | Voronoi cells and facets |
+//! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
+//! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
 //! | `interpolation`, `natural` | values between vertices: linear, or of natural neighbours |
 //!
 //! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much.
@@ -19,11 +20,14 @@
 mod around;
 mod boundary;
 mod clipping;
+mod cut_cells;
+mod cut_facets;
+mod flat_cells;
 mod incidence;
 mod interpolation;
 mod measures;
 mod natural;
-mod polyhedron;
+mod rings;
 mod star;
 mod voronoi;
 

@@ -1,0 +1,215 @@
+//! Corners of Voronoi cells in a box: places where bisectors and faces of the box meet, by exact signs.
+//!
+//! In the plane the third coordinate is zero, and fixed.
+//!
+//! # Idea
+//!
+//! Let u be the differences from a vertex to others, b a place, h the difference from the vertex to b, and δ that from b
+//! to a corner on the bisectors of the vertex and the others. Each of these says 2 u · δ = u · (u − 2 h). A face of the
+//! box says that δ is zero along its axis. So as many others as there are axes left make a system of linear equations;
+//! Cramer's rule gives δ along an axis as a quotient N / M of polynomials in the differences, of degrees 4 and 3 at
+//! most. The sign of δ is the side of the corner on which a face of the box through b is.
+//!
+//! # Accuracy
+//!
+//! N and M are evaluated with bounds of their errors ([`Bounded`]). Where these do not leave a sign certain, or a value
+//! as accurate as it has to be, N and M are computed from integers of any length (`big.rs`): then the sign is exact, and
+//! the value within 2⁻⁴⁹ of itself.
+//!
+//! With coordinates of magnitude 2¹⁹⁰ at most, nothing overflows but quotients of corners that are too far away to be
+//! in any box.
+
+use std::ops::{Add, Mul, Sub};
+
+use super::big::{Room, differences_in_units};
+use super::distance::two_product;
+use super::measures::scaled;
+
+/// A place in space, or in the plane at height 0.
+pub type Place = [f64; 3];
+
+/// Where the bisectors of a vertex and others meet faces of a box.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting<'p> {
+    /// The vertex.
+    pub vertex: Place,
+    /// The others: as many as there are axes that are not fixed.
+    pub others: &'p [Place],
+    /// The place from which offsets are counted, on the faces.
+    pub from: Place,
+    /// The axes along which the corner is where `from` is.
+    pub is_fixed: [bool; 3],
+}
+
+impl Meeting<'_> {
+    /// The sign of the offset along an axis that is not fixed: exact.
+    pub fn sign(&self, axis: usize) -> i32 {
+        let (above, below) = self.rounded_quotient(axis);
+        let x = match (above.sign(), below.sign()) {
+            (Some(above), Some(below)) => return above * below,
+            _ => self.exact_offset(axis),
+        };
+        i32::from(x > 0.0) - i32::from(x < 0.0)
+    }
+
+    /// The offset along an axis that is not fixed, off by at most `tolerance` or 2⁻⁴⁹ of itself.
+    pub fn offset(&self, axis: usize, tolerance: f64) -> f64 {
+        let (above, below) = self.rounded_quotient(axis);
+        let quotient = above.over(below);
+        if quotient.error <= tolerance { quotient.value } else { self.exact_offset(axis) }
+    }
+
+    fn rounded_quotient(&self, axis: usize) -> (Bounded, Bounded) {
+        let minus = |p: &Place| [0, 1, 2].map(|k| Bounded::difference(p[k], self.vertex[k]));
+        let mut differences = [[Bounded::ZERO; 3]; 3];
+        self.others.iter().zip(&mut differences).for_each(|(other, u)| *u = minus(other));
+        quotient(&differences[..self.others.len()], &minus(&self.from), &self.is_fixed, axis)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn exact_offset(&self, axis: usize) -> f64 {
+        let room = Room::new();
+        let mut points = [&self.vertex; 4];
+        self.others.iter().zip(&mut points).for_each(|(other, point)| *point = other);
+        points[3] = &self.from;
+        let (unit, [u, v, w, from]) = differences_in_units(&room, &self.vertex, points, i32::MAX);
+        let (above, below) = quotient(&[u, v, w][..self.others.len()], &from, &self.is_fixed, axis);
+        let ((numerator, more), (divisor, less)) = (above.rounded(), below.rounded());
+        let value = scaled(numerator / divisor, more - less + unit);
+        // One that is not zero has a sign, however small it is.
+        if value == 0.0 && numerator != 0.0 {
+            f64::from_bits(1).copysign(numerator * divisor)
+        } else {
+            value
+        }
+    }
+}
+
+/// The sign of a component of (p - o) × (q - o): exact.
+pub fn sign_of_cross([o, p, q]: [&Place; 3], axis: usize) -> i32 {
+    let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
+    let minus = |p: &Place, k: usize| Bounded::difference(p[k], o[k]);
+    let rounded = minus(p, j) * minus(q, k) - minus(p, k) * minus(q, j);
+    rounded.sign().unwrap_or_else(|| {
+        let room = Room::new();
+        let (_, [u, v]) = differences_in_units(&room, o, [p, q], i32::MAX);
+        let (m, _) = (u[j] * v[k] - u[k] * v[j]).rounded();
+        i32::from(m > 0.0) - i32::from(m < 0.0)
+    })
+}
+
+/// Numerator and denominator of the offset along an axis.
+fn quotient<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
+    differences: &[[T; 3]],
+    from: &[T; 3],
+    is_fixed: &[bool; 3],
+    axis: usize,
+) -> (T, T) {
+    let right = |u: &[T; 3]| {
+        let part = |k: usize| u[k] * (u[k] - from[k] - from[k]);
+        part(0) + part(1) + part(2)
+    };
+    let twice = |x: T| x + x;
+    match differences {
+        [u] => (right(u), twice(u[axis])),
+        [u, v] => {
+            let other = (0..3).find(|&k| k != axis && !is_fixed[k]).expect("two axes that are not fixed");
+            let above = right(u) * v[other] - right(v) * u[other];
+            (above, twice(u[axis] * v[other] - u[other] * v[axis]))
+        }
+        [u, v, w] => {
+            let minor = |p: &[T; 3], q: &[T; 3], k: usize| {
+                p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3]
+            };
+            let volume = u[0] * minor(v, w, 0) + u[1] * minor(v, w, 1) + u[2] * minor(v, w, 2);
+            let above = right(u) * minor(v, w, axis) + right(v) * minor(w, u, axis) + right(w) * minor(u, v, axis);
+            (above, twice(volume))
+        }
+        _ => unreachable!("as many bisectors as there are axes that are not fixed"),
+    }
+}
+
+/// A rounded number and a bound of its error.
+///
+/// A rounding is off by 2⁻⁵³ of the result at most; twice that, [`UNIT`], also covers the roundings of the bounds
+/// themselves, of which less than a hundred follow each other, and [`TINY`] those of products that underflow.
+#[derive(Clone, Copy, Debug)]
+struct Bounded {
+    value: f64,
+    error: f64,
+}
+
+const UNIT: f64 = f64::EPSILON;
+const TINY: f64 = 1e-320;
+
+/// The tail of a product above this has not underflowed.
+const LEAST_EXACT: f64 = 1e-280;
+
+impl Bounded {
+    const ZERO: Bounded = Bounded { value: 0.0, error: 0.0 };
+
+    /// A difference of coordinates. Of many it is exact, as of those that are near each other.
+    fn difference(a: f64, b: f64) -> Self {
+        let value = a - b;
+        // Knuth's tail of the sum of a and -b.
+        let taken = value - a;
+        let tail = (a - (value - taken)) - (b + taken);
+        Bounded { value, error: tail.abs() }
+    }
+
+    /// If it is certain.
+    fn sign(self) -> Option<i32> {
+        if self.value.abs() > self.error {
+            Some(if self.value > 0.0 { 1 } else { -1 })
+        } else {
+            (self.error == 0.0).then_some(0)
+        }
+    }
+
+    /// The quotient; of an infinite error or none that is a number where the divisor may be zero.
+    fn over(self, divisor: Self) -> Self {
+        let value = self.value / divisor.value;
+        let least = divisor.value.abs() - divisor.error;
+        let error = (self.error + value.abs() * divisor.error) / least * (1.0 + 8.0 * UNIT) + UNIT * value.abs() + TINY;
+        Bounded { value, error: if least > 0.0 { error } else { f64::INFINITY } }
+    }
+}
+
+impl Add for Bounded {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        if (self.error == 0.0) & (other.error == 0.0) {
+            return Bounded::difference(self.value, -other.value);
+        }
+        let value = self.value + other.value;
+        Bounded { value, error: self.error + other.error + UNIT * value.abs() }
+    }
+}
+
+impl Sub for Bounded {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + Bounded { value: -other.value, ..other }
+    }
+}
+
+impl Mul for Bounded {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        if (self.error == 0.0) & (other.error == 0.0) {
+            let (value, tail) = two_product(self.value, other.value);
+            if value == 0.0 && (self.value == 0.0 || other.value == 0.0) {
+                return Bounded::ZERO;
+            }
+            let error = tail.abs() + if value.abs() > LEAST_EXACT { 0.0 } else { TINY };
+            return Bounded { value, error };
+        }
+        let value = self.value * other.value;
+        let of_factors = self.value.abs() * other.error + self.error * (other.value.abs() + other.error);
+        Bounded { value, error: of_factors + UNIT * value.abs() + TINY }
+    }
+}
