@@ -1,7 +1,9 @@
 //! Geometry computed from the cells, against exact integers and against brute force over all cells.
 
+mod exact_cells;
 mod listed;
 mod voronoi;
+mod voronoi_exact;
 
 use crate::common::exact::{Grid, orientation, representatives};
 use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};

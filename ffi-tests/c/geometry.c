@@ -316,6 +316,71 @@ static void without_cells_all_is_empty(void) {
     }
 }
 
+static void voronoi_cells_of_few_vertices(void) {
+    static const double two[] = {0, 0, 1, 0}, low[] = {-1, -2}, high[] = {7, 3};
+    deldrift_triangulation *t = create(2, two, 2, NULL);
+    double volumes[2], facet = 77;
+    size_t count;
+    OK(deldrift_voronoi_volumes(t, low, high, volumes, 2, &count));
+    CHECK(count == 2 && fabs(volumes[0] - 7.5) < 1e-12 && fabs(volumes[1] - 32.5) < 1e-12);
+    OK(deldrift_voronoi_volumes(t, NULL, NULL, volumes, 2, &count));
+    CHECK(isinf(volumes[0]) && isinf(volumes[1]));
+    // There is no edge to have a facet.
+    OK(deldrift_voronoi_facets(t, low, high, &facet, 1, &count));
+    CHECK(count == 0 && facet == 77);
+    deldrift_destroy(t);
+}
+
+typedef struct reading {
+    deldrift_triangulation *t;
+    size_t calls;
+    bool stops;
+} reading;
+
+// What it is called from reads the triangulation: so may it, but not change it.
+static bool reads_and_tries_to_change(void *user_data) {
+    reading *r = user_data;
+    if (r->t == NULL) return false;
+    r->calls++;
+    size_t count;
+    const double place[] = {0.5, 0.25};
+    OK(deldrift_cell_count(r->t, &count));
+    CHECK_STATUS(deldrift_move_vertex(r->t, 0, place), DELDRIFT_BUSY);
+    CHECK_STATUS(deldrift_commit_timestamp(r->t, NULL), DELDRIFT_BUSY);
+    deldrift_destroy(r->t);
+    return r->stops;
+}
+
+static void voronoi_cells_can_be_cancelled(void) {
+    enum { N = 30000 };
+    double *places = malloc(2 * N * sizeof *places), *volumes = malloc(N * sizeof *volumes);
+    CHECK(places != NULL && volumes != NULL);
+    for (size_t k = 0; k < N; k++) {
+        places[2 * k] = (double)(k * 7919 % 10007);
+        places[2 * k + 1] = (double)(k * 104729 % 10009);
+    }
+    reading r = {NULL, 0, false};
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.cancel = reads_and_tries_to_change;
+    options.user_data = &r;
+    deldrift_triangulation *t = create(2, places, N, &options);
+    const double low[] = {0, 0}, high[] = {10000, 10000};
+    size_t count;
+    r.t = t;
+    OK(deldrift_voronoi_volumes(t, low, high, volumes, N, &count));
+    CHECK(r.calls > 0);
+    r.stops = true;
+    volumes[0] = 77;
+    CHECK_STATUS(deldrift_voronoi_volumes(t, low, high, volumes, N, &count), DELDRIFT_CANCELLED);
+    CHECK_STATUS(deldrift_voronoi_facets(t, NULL, NULL, NULL, 0, &count), DELDRIFT_OK);
+    CHECK(volumes[0] == 77);
+    OK(deldrift_move_vertex(t, 0, low));
+    deldrift_destroy(t);
+    free(places);
+    free(volumes);
+}
+
 static void voronoi_cells_fill_the_box(void) {
     deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, NULL);
     static const double low[] = {-1, -2}, high[] = {7, 3}, nowhere[] = {NAN, 0}, far[] = {1e58, 9};
@@ -382,6 +447,8 @@ static void values_are_interpolated(void) {
 
 int main(void) {
     voronoi_cells_fill_the_box();
+    voronoi_cells_of_few_vertices();
+    voronoi_cells_can_be_cancelled();
     values_are_interpolated();
     buffers_are_as_large_as_they_say(2);
     buffers_are_as_large_as_they_say(3);

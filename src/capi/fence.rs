@@ -77,6 +77,26 @@ pub(super) unsafe fn read(
     })
 }
 
+/// Runs the body of an entry that looks at a triangulation for long, with a monitor that calls its callbacks. These may
+/// look at it as well; calls that change it are turned away.
+///
+/// # Safety
+/// As for [`read`].
+pub(super) unsafe fn read_watched(
+    t: *const deldrift_triangulation,
+    body: impl FnOnce(&Kernel, &mut dyn FnMut(f64) -> bool) -> Result<(), Failure>,
+) -> deldrift_status {
+    enter(|| {
+        // SAFETY: the caller's promise.
+        let handle = unsafe { pointers::reference("t", t) }?;
+        handle.check_ready()?;
+        let _watched = handle.watch();
+        let callbacks = handle.callbacks();
+        // SAFETY: as in `read`; callbacks do not change it while it is watched.
+        body(unsafe { &*handle.kernel() }, &mut |fraction| callbacks.go_on(fraction))
+    })
+}
+
 /// Runs the body of an entry that tells one thing about a triangulation, and writes what it tells.
 ///
 /// # Safety
@@ -129,8 +149,11 @@ pub(super) unsafe fn change_shortly(
     environment::in_default(|| {
         // SAFETY: the caller's promise.
         let handle = unsafe { pointers::reference("t", t.cast_const()) };
-        // SAFETY: as in `read`.
-        handle.is_ok_and(|handle| handle.check_ready().is_ok() && body(unsafe { &mut *handle.kernel() }))
+        handle.is_ok_and(|handle| {
+            let is_free = handle.check_ready().is_ok() && handle.check_unused().is_ok();
+            // SAFETY: as in `change`.
+            is_free && body(unsafe { &mut *handle.kernel() })
+        })
     })
 }
 

@@ -50,6 +50,10 @@ pub type CoincidenceCode = u32;
 /// deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that is
 /// being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
 /// must live as long as the triangulation.
+///
+/// They are also called from inside deldrift_voronoi_volumes and deldrift_voronoi_facets, by each thread that
+/// makes such a call; then they may read the triangulation, and calls that change it are turned away with
+/// DELDRIFT_BUSY.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct deldrift_options {
@@ -228,7 +232,7 @@ impl Callbacks {
 
     /// Reports progress and asks whether to go on. What the callbacks do with other triangulations is no part of the
     /// call that they are called from.
-    fn go_on(&self, fraction: f64) -> bool {
+    pub(super) fn go_on(&self, fraction: f64) -> bool {
         tally::uncounted(|| fence::call_back(|| self.ask(fraction)))
     }
 

@@ -2,7 +2,7 @@
 
 use std::cell::UnsafeCell;
 use std::mem::{self, MaybeUninit};
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
 
 use super::fence;
 use super::options::{self, AlgorithmCode, Callbacks, deldrift_options};
@@ -22,6 +22,8 @@ pub struct deldrift_triangulation {
     // atomic so that a caller who breaks the contract reads a flag and not garbage; nothing is ordered.
     is_changing: AtomicBool,
     is_poisoned: AtomicBool,
+    // How many calls that only read it may be calling its callbacks.
+    n_watched: AtomicU32,
 }
 
 /// The library's triangulation, in its dimension.
@@ -60,6 +62,7 @@ impl deldrift_triangulation {
             callbacks,
             is_changing: AtomicBool::new(false),
             is_poisoned: AtomicBool::new(false),
+            n_watched: AtomicU32::new(0),
         }
     }
 
@@ -89,9 +92,23 @@ impl deldrift_triangulation {
         if self.is_poisoned.load(Relaxed) { Err(Failure::Poisoned) } else { Ok(()) }
     }
 
+    /// Whether no call below this one on the stack uses it.
+    pub(super) fn check_unused(&self) -> Result<(), Failure> {
+        self.check_idle()?;
+        if self.n_watched.load(Relaxed) > 0 { Err(Failure::Busy) } else { Ok(()) }
+    }
+
+    /// Keeps callbacks that are called while it is read from changing it.
+    pub(super) fn watch(&self) -> Watched<'_> {
+        self.n_watched.fetch_add(1, Relaxed);
+        Watched(self)
+    }
+
     /// Claims the triangulation for a call that changes it.
+    #[inline(always)]
     pub(super) fn claim(&self) -> Result<Claim<'_>, Failure> {
         self.check_ready()?;
+        self.check_unused()?;
         self.is_changing.store(true, Relaxed);
         Ok(Claim(self))
     }
@@ -112,6 +129,15 @@ impl Drop for Claim<'_> {
     fn drop(&mut self) {
         self.0.is_poisoned.store(true, Relaxed);
         self.0.is_changing.store(false, Relaxed);
+    }
+}
+
+/// A call that reads a triangulation and calls its callbacks.
+pub(super) struct Watched<'t>(&'t deldrift_triangulation);
+
+impl Drop for Watched<'_> {
+    fn drop(&mut self) {
+        self.0.n_watched.fetch_sub(1, Relaxed);
     }
 }
 
@@ -218,7 +244,7 @@ pub unsafe extern "C" fn deldrift_destroy(t: *mut deldrift_triangulation) {
     let _ = fence::enter(|| {
         // SAFETY: made by deldrift_create and, by the header's contract, not used by another thread.
         let handle = unsafe { pointers::reference("t", t.cast_const()) }?;
-        handle.check_idle()?;
+        handle.check_unused()?;
         // SAFETY: it came from a Box, and no call below this one on the stack is using it.
         drop(unsafe { Box::from_raw(t) });
         Ok(())
