@@ -78,11 +78,7 @@ impl Meeting<'_> {
         let ((numerator, more), (divisor, less)) = (above.rounded(), below.rounded());
         let value = scaled(numerator / divisor, more - less + unit);
         // One that is not zero has a sign, however small it is.
-        if value == 0.0 && numerator != 0.0 {
-            f64::from_bits(1).copysign(numerator * divisor)
-        } else {
-            value
-        }
+        if value == 0.0 && numerator != 0.0 { f64::from_bits(1).copysign(numerator * divisor) } else { value }
     }
 }
 
@@ -123,7 +119,8 @@ fn quotient<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
                 p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3]
             };
             let volume = u[0] * minor(v, w, 0) + u[1] * minor(v, w, 1) + u[2] * minor(v, w, 2);
-            let above = right(u) * minor(v, w, axis) + right(v) * minor(w, u, axis) + right(w) * minor(u, v, axis);
+            let above =
+                right(u) * minor(v, w, axis) + right(v) * minor(w, u, axis) + right(w) * minor(u, v, axis);
             (above, twice(volume))
         }
         _ => unreachable!("as many bisectors as there are axes that are not fixed"),
@@ -171,7 +168,9 @@ impl Bounded {
     fn over(self, divisor: Self) -> Self {
         let value = self.value / divisor.value;
         let least = divisor.value.abs() - divisor.error;
-        let error = (self.error + value.abs() * divisor.error) / least * (1.0 + 8.0 * UNIT) + UNIT * value.abs() + TINY;
+        let error = (self.error + value.abs() * divisor.error) / least * (1.0 + 8.0 * UNIT)
+            + UNIT * value.abs()
+            + TINY;
         Bounded { value, error: if least > 0.0 { error } else { f64::INFINITY } }
     }
 }

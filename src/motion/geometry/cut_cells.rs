@@ -55,7 +55,9 @@ impl BoxCorner {
             if self.highs >> axis & 1 == 1 { order } else { order.reverse() }
         };
         match compare_distance(&self.at, p, q) {
-            Ordering::Equal => (0..3).rev().map(farther_out).find(|order| order.is_ne()) == Some(Ordering::Greater),
+            Ordering::Equal => {
+                (0..3).rev().map(farther_out).find(|order| order.is_ne()) == Some(Ordering::Greater)
+            }
             order => order == Ordering::Less,
         }
     }

@@ -32,6 +32,9 @@ use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::predicates::{Meeting, sign_of_cross};
 
+/// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
+const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
+
 /// A side of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Side {
@@ -239,6 +242,10 @@ impl CutFacet {
         if corner.cell != CellId::NONE {
             return centres.sides[corner.cell.index()] & face.bit() != 0;
         }
+        // One on the opposite face is as far from this one as it can be.
+        if corner.sides.iter().any(|side| matches!(side, Side::On(on) if on.axis == face.axis)) {
+            return false;
+        }
         let mut from = self.at;
         from[face.axis] = clip.bound(face);
         let sign = if !corner.is_far() {
@@ -342,7 +349,7 @@ impl CutFacet {
                 if meeting.is_fixed[axis] {
                     meeting.from[axis] - clip.low()[axis]
                 } else {
-                    within(axis, meeting.offset(axis, clip.size / (1u64 << 30) as f64))
+                    within(axis, meeting.offset(axis, TOLERANCE * clip.size))
                 }
             })
         })

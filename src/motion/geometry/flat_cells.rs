@@ -64,7 +64,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::collect(&mut places, ids.iter().map(|&v| self.kernel.site(self.site_of[v]).point))?;
         let options = Options { threads: self.options.threads, ..Options::default() };
         let spanning = MovingTriangulation::<G>::new(&spanning::<G>(places)?, options)?;
-        spanning.volumes_of_first(ids.len(), clip, progress, |v, volume| volumes[ids[v.index()].index()] += volume)
+        spanning.volumes_of_first(ids.len(), clip, progress, |v, volume| {
+            volumes[ids[v.index()].index()] += volume
+        })
     }
 
     /// Tells parts of the areas or volumes of the Voronoi cells of the first vertices, which are in one hyperplane, as

@@ -270,7 +270,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         let progress = &mut Progress::new(monitor, self.expected_work(clip.is_some()));
         match clip {
             None if self.cell_count() == 0 => {
-                self.kernel.live_sites().for_each(|s| volumes[self.kernel.site(s).id.index()] = f64::INFINITY);
+                self.kernel
+                    .live_sites()
+                    .for_each(|s| volumes[self.kernel.site(s).id.index()] = f64::INFINITY);
             }
             None => self.whole_volumes(&mut volumes, progress)?,
             Some(clip) if self.cell_count() == 0 => self.flat_volumes(&clip, &mut volumes, progress)?,
@@ -296,7 +298,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         let vertices = self.kernel.live_sites().map(|s| self.kernel.site(s).id);
         self.for_edges(vertices, |edge, first| {
             voronoi.ring.go_around(voronoi.cells, edge, first)?;
-            let pyramid = if voronoi.ring.is_closed { pyramid::<G>(voronoi.polygon(edge)) } else { f64::INFINITY };
+            let pyramid =
+                if voronoi.ring.is_closed { pyramid::<G>(voronoi.polygon(edge)) } else { f64::INFINITY };
             edge.into_iter().for_each(|v| volumes[v.index()] += pyramid);
             progress.advance(voronoi.ring.cells.len())
         })
