@@ -275,10 +275,22 @@ impl CutFacet {
         self.meet(corner.sides, clip, also, from, |meeting| meeting.sign(axis))
     }
 
+    /// The faces that some corner may be beyond, by their bits: no corner that is new is beyond others.
+    fn faces_to_cut<P>(&self, centres: &Centres<P>) -> u8 {
+        let faces = |corner: &Corner| {
+            if corner.is_far() { u8::MAX } else { centres.sides[corner.cell.index()] }
+        };
+        self.corners.iter().fold(0, |all, corner| all | faces(corner))
+    }
+
     /// Cuts off what is outside of a box.
     pub(super) fn cut<P>(&mut self, clip: &Clip, centres: &Centres<P>) -> Result<()> {
+        let faces = self.faces_to_cut(centres);
         for k in 0..if self.is_plane { 4 } else { 6 } {
             let face = Face { axis: k / 2, is_high: k % 2 == 1 };
+            if faces & face.bit() == 0 {
+                continue;
+            }
             self.is_beyond.clear();
             memory::reserve(&mut self.is_beyond, self.corners.len())?;
             for corner in &self.corners {
