@@ -328,6 +328,10 @@ typedef struct deldrift_triangulation deldrift_triangulation;
 /// deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that is
 /// being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
 /// must live as long as the triangulation.
+///
+/// They are also called from inside deldrift_voronoi_volumes and deldrift_voronoi_facets, by each thread that
+/// makes such a call; then they may read the triangulation, and calls that change it are turned away with
+/// DELDRIFT_BUSY.
 typedef struct deldrift_options {
     /// sizeof(deldrift_options) as the program sees it.
     size_t struct_size;
@@ -1362,22 +1366,33 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 ///
 /// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
 /// call only; vertices may be outside of it. NULL for both is no box: then the Voronoi cells of the vertices on the
-/// convex hull are infinite. volumes: a buffer with room for capacity numbers. A removed vertex has NaN, a hidden one
-/// 0; while there are no cells, all have NaN. count: receives the number of ids, which is also written when the buffer
-/// is too small. NULL for volumes with capacity 0 asks for the count alone.
+/// convex hull are infinite. volumes: a buffer with room for capacity numbers. count: receives the number of ids, which
+/// is also written when the buffer is too small. NULL for volumes with capacity 0 asks for the count alone.
 ///
-/// Rounded: as accurate as the circumcentres of the cells around a vertex (see deldrift_circumcentres) allow, and
-/// never negative by more than that. The volumes of all ids add up to that of the box but for rounding.
+/// A removed vertex has NaN, and nothing else has. A hidden vertex has 0: the one of lowest id at its place has the
+/// cell. Vertices in one hyperplane, a single one included, have cells too, though deldrift_cells has none: in a box
+/// what of it is nearest to each; without one these are infinite. What is beyond the range of numbers, or has a corner
+/// there, is infinite.
 ///
-/// Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it runs; the
-/// Voronoi cells at the boundary of the box take a microsecond (2D) or some (3D) each.
+/// Rounded: in a box, let h be 1e-8 times its greatest extent and 1e-15 times the greatest magnitude of its
+/// coordinates; without a box, 1e-8 times the greatest circumradius of the cells around the vertex and 1e-15 times the
+/// greatest magnitude of a coordinate of their circumcentres. A corner of a Voronoi cell is off by at most h, and so is
+/// a volume by at most h times the area of the cell's surface, an area by at most h times its perimeter, however near
+/// to each other vertices are. In place of 1e-8 it is some last bits, about 1e-15, unless cells are nearly flat (see
+/// deldrift_circumcentres). Never negative. The volumes of all ids add up to that of the box but for rounding.
+///
+/// Takes time in proportion to the number of cells, and of ids; in a box, for Voronoi cells at its boundary, to the
+/// number of corners of their facets as well, a microsecond (2D) or some (3D) for each such cell of ordinary sets.
+/// Where a circumcentre nearly is in a face of the box, microseconds for each, as that is decided exactly. Takes memory
+/// for circumcentres and for the cells of each vertex while it runs. For vertices in one hyperplane, in a box, it takes
+/// the time and the memory of creating a triangulation of these. Calls the callbacks of the options.
 ///
 /// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. After a change the first call also does what
+/// the first deldrift_cells does.
 deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
                                          const double *low,
                                          const double *high,
@@ -1392,9 +1407,20 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// infinite. measures: a buffer with room for capacity numbers. count: receives the number of edges, which is also
 /// written when the buffer is too small. NULL for measures with capacity 0 asks for the count alone.
 ///
-/// Rounded, and never negative; 0 for facets outside the box, and between the vertices of cocircular or cospherical
-/// cells. Takes some passes over the cells, and memory for circumcentres and for the cells of each vertex while it
-/// runs.
+/// There is one number for each edge of the triangulation, so vertices in one hyperplane have none; each is the measure
+/// of what both cells share, whichever of the two it is seen from. It is never NaN, and infinite where a corner is
+/// beyond the range of numbers. Of vertices on an empty circle or sphere some share an edge only as ties are broken by
+/// id: their Voronoi facet is a point, or in space may be a segment, and has 0 but for rounding; others, which have no
+/// edge, share no more than that. A facet outside the box has 0. One that is in a face of the box counts as inside.
+///
+/// Rounded: with h as for deldrift_voronoi_volumes, of the cells around the edge, a length is off by at most 2 h, an
+/// area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
+/// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
+/// add up to its area or volume but for rounding.
+///
+/// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
+/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as for deldrift_voronoi_volumes. Calls
+/// the callbacks of the options.
 ///
 /// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
 ///
