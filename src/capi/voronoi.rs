@@ -32,7 +32,7 @@ use crate::motion::MovingTriangulation;
 /// for circumcentres and for the cells of each vertex while it runs. For vertices in one hyperplane, in a box, it takes
 /// the time and the memory of creating a triangulation of these. Calls the callbacks of the options.
 ///
-/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
+/// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
@@ -83,10 +83,11 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as for deldrift_voronoi_volumes. Calls
 /// the callbacks of the options.
 ///
-/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
+/// Cost: n + m.
 ///
 /// Errors: as deldrift_voronoi_volumes: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_facets(
     t: *const deldrift_triangulation,
