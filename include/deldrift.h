@@ -628,6 +628,8 @@ deldrift_status deldrift_move_vertices(deldrift_triangulation *t,
 ///
 /// Cost: count, in the mean over many calls.
 ///
+/// Cost: count, in the mean over many calls.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
 /// be called at the same time as any other call on t.
@@ -687,6 +689,8 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
 /// removal is staged, are not read. Read during the call only. report: as for deldrift_commit_timestamp. Ends all views.
+///
+/// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
 /// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
@@ -819,6 +823,8 @@ deldrift_status deldrift_staged_count(const deldrift_triangulation *t, size_t *c
 ///
 /// Cost: constant.
 ///
+/// Cost: constant.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t,
                                       size_t *bytes);
@@ -893,6 +899,8 @@ deldrift_status deldrift_cells(const deldrift_triangulation *t,
 /// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
 /// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
 /// too small. NULL for both with capacity 0 asks for the count alone, with another it is DELDRIFT_NULL_ARGUMENT.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -1389,6 +1397,8 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 ///
 /// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
 ///
+/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. After a change the first call also does what
@@ -1421,6 +1431,8 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as for deldrift_voronoi_volumes. Calls
 /// the callbacks of the options.
+///
+/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
 ///
 /// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
 ///
@@ -1520,6 +1532,8 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 ///
 /// Cost: n log n + m, whatever the data are.
 ///
+/// Cost: n log n + m, whatever the data are.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
@@ -1543,6 +1557,8 @@ deldrift_status deldrift_load(const void *data,
 ///
 /// Cost: n + m.
 ///
+/// Cost: n + m.
+///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_save_file(const deldrift_triangulation *t,
                                    const char *path);
@@ -1552,6 +1568,8 @@ deldrift_status deldrift_save_file(const deldrift_triangulation *t,
 /// Its header is read first, and the rest only if that is right and the file as long as it says; it is read as a whole
 /// then, so that memory for it is needed during the call, too. Pipes, devices, sockets and directories are refused with
 /// DELDRIFT_IO_ERROR.
+///
+/// Cost: that of deldrift_load.
 ///
 /// Cost: that of deldrift_load.
 ///

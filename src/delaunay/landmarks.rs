@@ -1,8 +1,8 @@
 //! Landmarks: sites, a sample of all, near one of which a walk begins if nothing else is known of its goal (*jump and
 //! walk*: Mücke, Saias, Zhu, 10.1016/S0925-7721(98)00035-2).
 //!
-//! They are the leaves of a balanced tree of half-spaces, some six sites to a leaf wherever these are dense, so that a
-//! walk is as short in a cluster as elsewhere. All of it is hints: half-spaces are never checked, and a leaf may hold
+//! They are the leaves of a tree of half-spaces, some six sites to a leaf wherever these are dense, so that a walk is as
+//! short in a cluster as elsewhere. All of it is hints: half-spaces are never checked, and a leaf may hold
 //! any site. So points may move, come and go without a word to the tree. A walk that was long leaves a site near its
 //! goal behind, for the next one that comes to this leaf. When walks together have been longer than that explains,
 //! there is a new tree.
@@ -98,20 +98,24 @@ impl Tree {
         let mut splits = Vec::new();
         memory::reserve_exact(&mut splits, n_leaves)?;
         splits.push(0.0);
-        for level in 0..depth {
-            for part in items.chunks_exact_mut(n_leaves >> level) {
-                let axis = widest::<G>(part);
-                let middle = part.len() / 2;
-                let (_, item, _) =
-                    part.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
-                let upper = item.0[axis];
-                let lower = part[..middle].iter().map(|item| item.0[axis]).fold(f64::NEG_INFINITY, f64::max);
-                // In the middle between the two halves: a goal between them goes to the nearer one.
-                splits.push(split(f64::midpoint(lower, upper), axis));
+        // Where the items of each node of a level begin, and where the last ones end.
+        let mut bounds = Vec::new();
+        memory::collect(&mut bounds, [0, n_leaves].into_iter())?;
+        for _ in 0..depth {
+            let mut below = Vec::new();
+            memory::reserve_exact(&mut below, 2 * bounds.len() - 1)?;
+            below.push(0);
+            for part in bounds.windows(2) {
+                let (n_first, at) = halve::<G>(&mut items[part[0]..part[1]]);
+                splits.push(at);
+                below.extend([part[0] + n_first, part[1]]);
             }
+            bounds = below;
         }
+        // A leaf without items has one of those beside it.
         let mut leaves = Vec::new();
-        memory::collect(&mut leaves, items.iter().map(|&(_, s)| AtomicU32::new(s.get())))?;
+        let item = |&k: &usize| AtomicU32::new(items[k.min(n_leaves - 1)].1.get());
+        memory::collect(&mut leaves, bounds[..n_leaves].iter().map(item))?;
         Ok(Some(Tree { splits, leaves }))
     }
 
@@ -136,6 +140,41 @@ impl Tree {
         }
         nodes.map(|node| node - n)
     }
+}
+
+/// Parts items along the axis along which they extend farthest, and never two with one coordinate there: how many are
+/// the first ones, about half, and the split, in the middle between both, so that a goal goes to the nearer one.
+fn halve<G: Dimension>(items: &mut [(G::Point, SiteId)]) -> (usize, f64) {
+    let (n, middle) = (items.len(), items.len() / 2);
+    if n == 0 {
+        return (0, 0.0);
+    }
+    let axis = widest::<G>(items);
+    let upper = items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis])).1.0[axis];
+    let n_less = partition(&mut items[..middle], |item| item.0[axis] < upper);
+    let n_first = if n_less == middle {
+        middle
+    } else {
+        let n_up_to = middle + partition(&mut items[middle..], |item| item.0[axis] <= upper);
+        let is_nearer = middle - n_less <= n_up_to - middle;
+        if n_up_to == n || n_less > 0 && is_nearer { n_less } else { n_up_to }
+    };
+    let (first, second) = items.split_at(n_first);
+    let last = first.iter().map(|item| item.0[axis]).reduce(f64::max);
+    let next = second.iter().map(|item| item.0[axis]).reduce(f64::min);
+    (n_first, split(f64::midpoint(last.unwrap_or(upper), next.unwrap_or(upper)), axis))
+}
+
+/// Brings the items of which this holds to the front; how many there are.
+fn partition<T>(items: &mut [T], is_first: impl Fn(&T) -> bool) -> usize {
+    let mut n = 0;
+    for k in 0..items.len() {
+        if is_first(&items[k]) {
+            items.swap(n, k);
+            n += 1;
+        }
+    }
+    n
 }
 
 /// The axis along which these places extend farthest.
