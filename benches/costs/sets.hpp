@@ -1,6 +1,7 @@
 // Sets of points that are hard for a triangulation, each at any size, in the plane and in space.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -99,12 +100,11 @@ inline const std::vector<Set> &all_sets() {
          [](std::size_t i, std::size_t n, unsigned dimension, Random &, double *p) {
              if (i > 0) on_sphere(i - 1, n - 1, dimension, p);
          }},
-        {"magnitudes", "near a line, ladders of magnitudes from 1 down to 1e-60", {1000, 125},
-         [](std::size_t i, std::size_t n, unsigned dimension, Random &random, double *p) {
-             const std::size_t rungs = 31;
-             const double r = std::pow(10.0, -60.0 * double(i / (n / rungs + 1)) / double(rungs - 1));
-             p[0] = r;
-             for (unsigned k = 1; k < dimension; ++k) p[k] = r * 1e-3 * random.sign();
+        {"magnitudes", "near a line, ten ladders of magnitudes from 1 down to 1e-60", {1000, 150},
+         [](std::size_t i, std::size_t n, unsigned dimension, Random &, double *p) {
+             Random direction(i % 10);
+             p[0] = std::pow(10.0, -60.0 * double(i / 10) / double(std::max<std::size_t>(n / 10, 2) - 1));
+             for (unsigned k = 1; k < dimension; ++k) p[k] = p[0] * 1e-3 * direction.sign();
          }},
         {"ulps", "at random places, ladders of 16 points one unit in the last place apart", {4000, 2000},
          [](std::size_t i, std::size_t, unsigned dimension, Random &, double *p) {
