@@ -32,6 +32,9 @@ fn whole() -> Parts {
 /// A sentence, a change that makes it wrong, and what is told of it.
 type Case = (&'static str, &'static dyn Fn(&mut Parts), &'static dyn Fn(&Damage) -> bool);
 
+/// A row of the header, a byte of it, and what is told where that is changed.
+type HeaderCase = (&'static str, usize, &'static dyn Fn(&Damage) -> bool);
+
 /// Whether it is of this kind.
 macro_rules! told {
     ($kind:ident) => {
@@ -112,7 +115,7 @@ fn each_sentence_of_the_format_is_checked() {
 #[test]
 fn each_row_of_the_header_is_checked() {
     let text = include_str!("../docs/FORMAT.md");
-    let cases: [(&str, usize, &dyn Fn(&Damage) -> bool); 12] = [
+    let cases: [HeaderCase; 12] = [
         ("| 0 | 8 bytes |", 0, told!(Foreign)),
         ("| 0 | 8 bytes |", 7, told!(Foreign)),
         ("| 8 | `u32` | version", 8, told!(Version)),
