@@ -150,19 +150,20 @@ fn halve<G: Dimension>(items: &mut [(G::Point, SiteId)]) -> (usize, f64) {
         return (0, 0.0);
     }
     let axis = widest::<G>(items);
-    let upper = items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis])).1.0[axis];
-    let n_less = partition(&mut items[..middle], |item| item.0[axis] < upper);
-    let n_first = if n_less == middle {
-        middle
-    } else {
-        let n_up_to = middle + partition(&mut items[middle..], |item| item.0[axis] <= upper);
-        let is_nearer = middle - n_less <= n_up_to - middle;
-        if n_up_to == n || n_less > 0 && is_nearer { n_less } else { n_up_to }
-    };
+    let coordinate = |item: &(G::Point, SiteId)| item.0[axis];
+    let upper = coordinate(items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis])).1);
+    let lower = items[..middle].iter().map(coordinate).fold(f64::NEG_INFINITY, f64::max);
+    if lower < upper && middle > 0 {
+        return (middle, split(f64::midpoint(lower, upper), axis));
+    }
+    let n_less = partition(&mut items[..middle], |item| coordinate(item) < upper);
+    let n_up_to = middle + partition(&mut items[middle..], |item| coordinate(item) <= upper);
+    let is_nearer = middle - n_less <= n_up_to - middle;
+    let n_first = if n_up_to == n || n_less > 0 && is_nearer { n_less } else { n_up_to };
     let (first, second) = items.split_at(n_first);
-    let last = first.iter().map(|item| item.0[axis]).reduce(f64::max);
-    let next = second.iter().map(|item| item.0[axis]).reduce(f64::min);
-    (n_first, split(f64::midpoint(last.unwrap_or(upper), next.unwrap_or(upper)), axis))
+    let last = first.iter().map(coordinate).reduce(f64::max).unwrap_or(upper);
+    let next = second.iter().map(coordinate).reduce(f64::min).unwrap_or(upper);
+    (n_first, split(f64::midpoint(last, next), axis))
 }
 
 /// Brings the items of which this holds to the front; how many there are.
