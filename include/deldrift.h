@@ -628,8 +628,6 @@ deldrift_status deldrift_move_vertices(deldrift_triangulation *t,
 ///
 /// Cost: count, in the mean over many calls.
 ///
-/// Cost: count, in the mean over many calls.
-///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_OUT_OF_MEMORY. Not to
 /// be called at the same time as any other call on t.
@@ -689,8 +687,6 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
 /// removal is staged, are not read. Read during the call only. report: as for deldrift_commit_timestamp. Ends all views.
-///
-/// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
 /// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
@@ -823,8 +819,6 @@ deldrift_status deldrift_staged_count(const deldrift_triangulation *t, size_t *c
 ///
 /// Cost: constant.
 ///
-/// Cost: constant.
-///
 /// Errors: DELDRIFT_NULL_ARGUMENT.
 deldrift_status deldrift_memory_bytes(const deldrift_triangulation *t,
                                       size_t *bytes);
@@ -899,8 +893,6 @@ deldrift_status deldrift_cells(const deldrift_triangulation *t,
 /// vertices, neighbours: buffers with room for capacity rows of 3 (2D) or 4 (3D) numbers; one that is
 /// NULL is not filled. count: receives the number of cells, which is also written when the buffers are
 /// too small. NULL for both with capacity 0 asks for the count alone, with another it is DELDRIFT_NULL_ARGUMENT.
-///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
@@ -1395,9 +1387,7 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// for circumcentres and for the cells of each vertex while it runs. For vertices in one hyperplane, in a box, it takes
 /// the time and the memory of creating a triangulation of these. Calls the callbacks of the options.
 ///
-/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
-///
-/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
+/// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
@@ -1432,12 +1422,11 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// it runs. What is cut by the box, and is nearly in a face of it, takes as long as for deldrift_voronoi_volumes. Calls
 /// the callbacks of the options.
 ///
-/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
-///
-/// Cost: n + m, and in a box d² at most for the d neighbours of each vertex whose Voronoi cell is at its boundary.
+/// Cost: n + m.
 ///
 /// Errors: as deldrift_voronoi_volumes: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY,
+/// DELDRIFT_CANCELLED.
 deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
                                         const double *low,
                                         const double *high,
@@ -1532,8 +1521,6 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 ///
 /// Cost: n log n + m, whatever the data are.
 ///
-/// Cost: n log n + m, whatever the data are.
-///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_OPTIONS,
 /// DELDRIFT_INVALID_DATA, DELDRIFT_COINCIDENT (if vertices are hidden and the options reject it),
 /// DELDRIFT_TOO_MANY_VERTICES, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. May be called from
@@ -1557,8 +1544,6 @@ deldrift_status deldrift_load(const void *data,
 ///
 /// Cost: n + m.
 ///
-/// Cost: n + m.
-///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_IO_ERROR, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_save_file(const deldrift_triangulation *t,
                                    const char *path);
@@ -1568,8 +1553,6 @@ deldrift_status deldrift_save_file(const deldrift_triangulation *t,
 /// Its header is read first, and the rest only if that is right and the file as long as it says; it is read as a whole
 /// then, so that memory for it is needed during the call, too. Pipes, devices, sockets and directories are refused with
 /// DELDRIFT_IO_ERROR.
-///
-/// Cost: that of deldrift_load.
 ///
 /// Cost: that of deldrift_load.
 ///
