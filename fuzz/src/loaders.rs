@@ -256,9 +256,13 @@ fn positions_of(t: *const deldrift_triangulation, d: usize) -> Vec<Option<Place>
     assert_eq!(c!(deldrift_id_count(t, &mut n)), DELDRIFT_OK);
     let mut numbers = vec![0.0; n * d];
     assert_eq!(c!(deldrift_copy_positions(t, numbers.as_mut_ptr(), n, &mut n)), DELDRIFT_OK);
-    let place =
-        |p: &[f64]| (!p[0].is_nan()).then(|| std::array::from_fn(|k| p.get(k).copied().unwrap_or(0.0)));
-    numbers.chunks_exact(d).map(place).collect()
+    // Vertices whose insertion is staged have places, too.
+    let place = |(v, p): (u32, &[f64])| {
+        let mut is_present = false;
+        assert_eq!(c!(deldrift_is_present(t, v, &mut is_present)), DELDRIFT_OK);
+        is_present.then(|| std::array::from_fn(|k| p.get(k).copied().unwrap_or(0.0)))
+    };
+    (0..).zip(numbers.chunks_exact(d)).map(place).collect()
 }
 
 /// Compares with a fresh build; the dimension.
