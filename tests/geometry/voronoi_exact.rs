@@ -200,6 +200,19 @@ fn differences_may_be_as_small_as_numbers_are() {
     }
 }
 
+/// Half of the distance between two vertices is zero, and what they share has corners beyond the range of numbers.
+#[test]
+fn no_volume_is_a_product_of_zero_and_infinity() {
+    let least = f64::from_bits(1);
+    let places = [[0.0, 0.0], [least, 0.0], [-1e57, 1.0], [1e57, 1.0], [-1e57, -1.0], [1e57, -2.0]];
+    let t = MovingTriangulation::<Plane>::new(&places, Options::default()).expect("good points");
+    assert!(!t.voronoi_volumes(None).expect("room").iter().any(|x| x.is_nan()));
+    assert!(!t.voronoi_facets(None).expect("room").iter().any(|x| x.is_nan()));
+    let places = [[0.0; 3], [least, 0.0, 0.0], [0.0, least, 0.0], [0.0, 0.0, least], [1e57, 1e57, 1.0]];
+    let t = MovingTriangulation::<Space>::new(&places, Options::default()).expect("good points");
+    assert!(!t.voronoi_volumes(None).expect("room").iter().any(|x| x.is_nan()));
+}
+
 /// Vertices in one hyperplane have cells in a box, and the rest of them is infinite.
 fn flat<G: Exact>() {
     let rng = &mut Rng::new(5);

@@ -389,7 +389,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 /// Area or volume of the pyramid from a vertex to a Voronoi facet, by the measure of that and the length of the edge.
 #[inline(always)]
 fn pyramid<G: Dimension>([measure, length]: [f64; 2]) -> f64 {
-    0.5 * length * measure / G::D as f64
+    // Half of the least length is zero.
+    if measure == f64::INFINITY { measure } else { 0.5 * length * measure / G::D as f64 }
 }
 
 /// A box that is one.
