@@ -71,14 +71,9 @@ impl Auto {
         self.scope
     }
 
-    /// Whether the next commit is to rebuild without trying to repair.
-    pub(super) fn is_rebuild_due(&self) -> bool {
-        self.rebuilds > 0
-    }
-
     /// Whether the next commit is to rebuild without trying to repair; counts it.
     pub(super) fn take_rebuild(&mut self) -> bool {
-        let rebuilds = self.is_rebuild_due();
+        let rebuilds = self.rebuilds > 0;
         self.rebuilds = self.rebuilds.saturating_sub(1);
         rebuilds
     }

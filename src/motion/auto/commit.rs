@@ -29,8 +29,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                 self.commit_by_placement_or_rebuilding(given, report)
             };
         }
+        let is_rebuild_due = self.auto.take_rebuild();
         if !self.keeps_for_scope() {
-            let is_way_due = self.auto.is_rebuild_due() || self.auto.scope() != Scope::All;
+            let is_way_due = is_rebuild_due || self.auto.scope() != Scope::All;
             match self.outlook(given, is_way_due) {
                 Outlook::AtRest => return Ok(()),
                 Outlook::Together => return self.commit_together(given, report),
@@ -40,7 +41,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         let before = self.evaluations();
-        if self.auto.take_rebuild() {
+        if is_rebuild_due {
             self.rebuild_given(given, report)?;
             let after = self.evaluations();
             self.auto.note_rebuild([before, after]);
