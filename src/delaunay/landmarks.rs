@@ -38,7 +38,8 @@ const LONG_WALK: u64 = 40;
 /// A goal no farther than this number of edges is reached in a few steps.
 const SHORT_IN_EDGES: f64 = 2.0;
 
-/// ... unless the shortest edge of the cell is shorter by far: then there may be any number of cells in between.
+/// A goal is reached in a few steps only if it is no farther than this number of shortest edges of the cell, too: where
+/// cells are long and thin, any number of them may be in between.
 const SHORT_IN_SHORTEST_EDGES: f64 = 16.0;
 
 /// A place more than this number of edges from a site is away from it: some fifty sites are nearer in the plane.
