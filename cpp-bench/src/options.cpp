@@ -211,7 +211,7 @@ private:
                                  options_.point_sets.empty() && options_.series.empty() && point_set_sizes_.empty());
         const bool is_shortened = preset_ == "smoke" || n_repeats_ > 0 || n_timestamps_ > 0 || n_checks_ > 0 ||
                                   n_slow_timestamps_ > 0;
-        const Options whole;
+        const Options whole{};
         return is_chosen || is_shortened || options_.threads != whole.threads || options_.seed != whole.seed ||
                options_.snap != whole.snap || options_.large_points_2d != whole.large_points_2d ||
                options_.large_points_3d != whole.large_points_3d;

@@ -398,6 +398,14 @@ TEST_CASE("options") {
     CHECK_THROWS_WITH(parse({"--target", "loop"}), Contains("for runs with --targets"));
     CHECK(parse({"--structured", "--point-set-size", "700"}).preset.structured_sizes == std::vector<std::size_t>{700});
     CHECK_THROWS_WITH(parse({"--point-set", "grid"}), Contains("for runs with --structured"));
+    // What does less than a record leaves it alone.
+    const std::string records = parse({}).results;
+    CHECK(parse({"--targets", "--preset", "full"}).results == records);
+    CHECK(parse({"--targets", "--target", "loop"}).results == records + "/partial");
+    CHECK(parse({"--preset", "smoke"}).results == records + "/partial");
+    CHECK(parse({"--repeat", "3"}).results == records + "/partial");
+    CHECK(parse({"--report", "--scenario", "man"}).results == records);
+    CHECK(parse({"--preset", "smoke", "--results", "here"}).results == "here");
     CHECK_MESSAGE(parse({}).with_structured, "a whole run has the structured table");
     CHECK_MESSAGE(!parse({"--scenario", "walk_3d"}).with_structured, "a part of it has not");
 }
