@@ -128,7 +128,7 @@ impl<G: Dimension> Delaunay<G> {
                 || self.exactly_winds_once(ghosts))
     }
 
-    /// The same, of ghosts that are all there are.
+    /// Whether the hull is in one part and winds once, of ghosts that are all there are, by exact signs.
     fn exactly_winds_once(&self, ghosts: &[Slot]) -> bool {
         let Some(o) = self.inner() else { return false };
         let mut n_crossings = 0;

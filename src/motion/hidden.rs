@@ -212,7 +212,7 @@ impl Hidden {
         if self.count > 0 {
             memory::lengthen(&mut representatives, n, VertexId::NONE)?;
         }
-        // Who is above another has a lower id.
+        // A vertex above another one has a lower id.
         for (&id, branches) in
             ids.iter().zip(&self.branches).filter(|(_, branches)| **branches != NO_BRANCHES)
         {
