@@ -86,7 +86,7 @@ macro_rules! for_algorithms {
             commits: Rebuild,
             keeps: "",
             immediate: None,
-            by: rebuild_given(),
+            by: rebuild(),
         }
 
         /// Takes the moved vertices one by one. Where no certificate of the star fails, only the coordinates change;
@@ -124,7 +124,7 @@ macro_rules! for_algorithms {
             commits: Together,
             keeps: "",
             immediate: None,
-            by: commit_by_repair(),
+            by: commit_by_repair(Start::AtOrigins),
         }
 
         /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report

@@ -1,20 +1,27 @@
 //! How the parts of a commit end: each may give up where too much would have to be done, and says what it leaves
 //! behind.
 
-/// How far a commit that checks only some certificates has come. Where it has given up, all that is kept is as it was
-/// but for the positions.
+/// Where vertices are of which the cells have not been changed yet.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Start {
+    /// None has moved.
+    AtOrigins,
+    /// All are at their goals, which for this number of them is another place than before.
+    AtGoals { n_moved: u64 },
+}
+
+/// How far a commit that checks only some certificates has come.
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Attempt {
-    /// The vertices are at their new positions, and the cells are theirs.
+    /// The vertices are at their goals, and the cells are theirs.
     Committed,
-    /// The attempt has given up; no vertex has moved.
-    NotBegun,
-    /// The attempt has given up; all vertices are at their new positions, and no cell has changed.
-    OnlyMoved,
+    /// The attempt has given up, and no cell has changed: another algorithm can start from what it leaves.
+    GivenUp(Start),
 }
 
-/// What has become of the vertices of a whole staging when those beyond their tolerance are queued.
+/// What has become of all vertices when those beyond their tolerance are queued.
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Advance {
@@ -52,9 +59,9 @@ pub(super) enum Prospect {
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Edited {
-    /// There were none, or they have been made one by one; staged vertices have not moved.
+    /// There were none, or they have been made one by one; no vertex has moved.
     WithoutMoves,
-    /// A kernel has been built with them, and with all staged vertices at their new positions.
+    /// A kernel has been built with them, and with all vertices at their goals.
     WithMoves,
 }
 

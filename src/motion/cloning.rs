@@ -27,6 +27,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             hidden: self.hidden.copied()?,
             n_present: self.n_present,
             staging: self.staging.copied()?,
+            queue: Vec::new(),
             edits: self.edits.copied()?,
             regions: self.regions.copied()?,
             switching: self.switching.clone(),

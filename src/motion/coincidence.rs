@@ -22,7 +22,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Lets a vertex that has no site of its own join another's.
     pub(super) fn hide(&mut self, vertex: VertexId, s: SiteId) -> Result<()> {
         self.hidden.reserve(self.site_of.len())?;
-        self.transaction.reserve_displaced(self.hidden.count() + 1)?;
         self.transaction.reserve_log()?;
         let representative = self.kernel.site(s).id;
         self.note_visibility(vertex.max(representative), false)?;

@@ -1,10 +1,10 @@
 //! The commit: one timestamp, all or nothing.
 
 use super::algorithms::for_algorithms;
-use super::attempt::Edited;
+use super::attempt::{Edited, Start};
+use super::goals::Moves;
 use super::outlook::Outlook;
 use super::regions::Filter;
-use super::staging::Given;
 use super::{Algorithm, CommitReport, MovingTriangulation};
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
@@ -19,23 +19,22 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::Cancelled`], [`Error::Coincident`] if the options reject that, [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`].
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
-        self.commit_given(Given::nothing())
+        let mut staging = std::mem::take(&mut self.staging);
+        let done = self.commit(&mut staging.moves(self.n_present));
+        if done.is_ok() {
+            staging.clear();
+        }
+        self.staging = staging;
+        done
     }
 
-    /// Makes the next timestamp of the staged positions, or of those given that are not staged yet.
-    fn commit_given(&mut self, given: Given<'_, G>) -> Result<CommitReport> {
+    /// Makes these moves, and the staged edits, the next timestamp.
+    fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         self.prepare_tracking()?;
         let mut report = CommitReport::default();
         let before = self.evaluations();
-        self.staging.set_applied(0);
-        self.staging.tidy();
-        if self.edits.are_none() {
-            self.staging.forget_full_list(self.n_present);
-        } else {
-            self.staging.list()?;
-        }
         self.begin()?;
-        let advanced = self.edit_and_advance(given, &mut report);
+        let advanced = self.edit_and_advance(moves, &mut report);
         if let Err(error) = advanced.and_then(|()| self.views.prepare(&self.kernel)) {
             self.undo();
             return Err(error);
@@ -43,7 +42,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.views.begin_commit();
         self.publish();
         self.enter_evaluations(&mut report, before);
-        self.staging.clear();
         self.end_edits();
         self.statistics.timestamp += 1;
         self.count(report);
@@ -62,12 +60,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         if let Some(vertex) = self.staging.first_staged() {
             return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
         }
-        if self.expect_whole(positions.len())? {
-            let done = self.commit_given(Given::all(positions));
-            if done.is_err() {
-                self.staging.clear();
-            }
-            return done;
+        if self.can_stage_whole(positions.len()) && !positions.is_empty() {
+            return self.commit(&mut Moves::lent(positions));
         }
         let before = memory::copy_of(self.edits.insertions())?;
         self.move_all(positions)?;
@@ -79,21 +73,21 @@ impl<G: Dimension> MovingTriangulation<G> {
         done
     }
 
-    /// Makes the edits, and brings the staged vertices to their new positions.
-    fn edit_and_advance(&mut self, given: Given<'_, G>, report: &mut CommitReport) -> Result<()> {
-        match self.make_edits(report)? {
+    /// Makes the edits, and brings the vertices to their goals.
+    fn edit_and_advance(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
+        match self.make_edits(moves, report)? {
             Edited::WithMoves => Ok(()),
-            Edited::WithoutMoves => self.advance(given, report),
+            Edited::WithoutMoves => self.advance(moves, report),
         }
     }
 
-    /// Brings the staged vertices to their new positions.
-    fn advance(&mut self, mut given: Given<'_, G>, report: &mut CommitReport) -> Result<()> {
+    /// Brings the vertices to their goals.
+    fn advance(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
         // Without cells nothing is looked at but this, and by rebuilding not even that.
         let algorithm = self.options.algorithm;
         let may_rest = !self.kernel.has_cells() && algorithm != Algorithm::Rebuilding;
-        if !may_rest || self.outlook(&given, false) != Outlook::AtRest {
-            self.commit_by(algorithm, &mut given, report)?;
+        if !may_rest || self.outlook(moves, false) != Outlook::AtRest {
+            self.commit_by(algorithm, moves, report)?;
         }
         self.reject_coincidence()
     }
@@ -118,15 +112,15 @@ macro_rules! commit_by {
         }
     )+) => {
         impl<G: Dimension> MovingTriangulation<G> {
-            /// Brings the staged vertices to their new positions.
+            /// Brings the vertices to their goals.
             fn commit_by(
                 &mut self,
                 algorithm: Algorithm,
-                given: &mut Given<'_, G>,
+                moves: &mut Moves<'_, G>,
                 report: &mut CommitReport,
             ) -> Result<()> {
                 match algorithm {
-                    $(Algorithm::$variant => self.$method($($argument,)* given, report),)+
+                    $(Algorithm::$variant => self.$method($($argument,)* moves, report),)+
                 }
             }
         }

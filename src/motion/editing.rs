@@ -6,6 +6,8 @@
 
 use super::attempt::{Edited, SingleEdits};
 use super::constants::constants;
+use super::goals::{Goals, Movers, Moves};
+use super::rebuilding::move_to;
 use super::staging::check_position;
 use super::{CommitReport, MAX_VERTICES, MovingTriangulation};
 use crate::delaunay::order::{Keyed, hilbert_order};
@@ -89,7 +91,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Makes all edits, and all moves as well where a kernel is built for them.
-    pub(super) fn make_edits(&mut self, report: &mut CommitReport) -> Result<Edited> {
+    pub(super) fn make_edits(
+        &mut self,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Edited> {
         if self.edits.are_none() {
             return Ok(Edited::WithoutMoves);
         }
@@ -103,7 +109,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.begin()?;
             (report.inserted, report.removed) = (0, 0);
         }
-        self.rebuild_edited(report)?;
+        self.rebuild_edited(moves, report)?;
         Ok(Edited::WithMoves)
     }
 
@@ -208,11 +214,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(ordered)
     }
 
-    /// Triangulates the vertices that stay, at their new positions, and those that come.
-    fn rebuild_edited(&mut self, report: &mut CommitReport) -> Result<()> {
+    /// Triangulates the vertices that stay, at their goals, and those that come.
+    fn rebuild_edited(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
+        let goals = moves.checked()?;
+        let Movers::Listed(movers) = moves.movers() else {
+            unreachable!("where there are edits, moves are listed");
+        };
         let room = self.hidden.count() + self.edits.insertions().len();
         let mut next = self.kernel.successor(room, |site| site.point, |_| {})?;
-        let ready = self.edit_sites(&mut next, report);
+        let ready = self.edit_sites(&mut next, movers, goals, report);
         let (n_in, n_out) = self.staged_edits();
         self.build_and_adopt(next, ready, report)?;
         for &v in self.edits.removals() {
@@ -225,10 +235,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Gives a new kernel the sites of all vertices that are to be there, where they are to be.
-    fn edit_sites(&mut self, next: &mut Delaunay<G>, report: &mut CommitReport) -> Result<()> {
+    fn edit_sites(
+        &mut self,
+        next: &mut Delaunay<G>,
+        movers: &[VertexId],
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         let spread = self.spread_hidden(next)?;
-        for &v in self.staging.vertices() {
-            report.moved += u64::from(self.move_to_staged(next, v, self.own_site(&spread, v)));
+        for &v in movers {
+            report.moved += u64::from(move_to(next, self.own_site(&spread, v), goals.of(v)));
         }
         for &v in self.edits.removals() {
             next.discard_site(self.own_site(&spread, v))?;

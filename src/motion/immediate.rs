@@ -170,10 +170,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.regions.invalidate();
             return self.relocate_alone(vertex, q, report);
         };
-        self.prepare_regions(filter, report)?;
-        self.staging.grow_for(self.site_of.len())?;
-        self.staging.positions_mut()[vertex] = *q;
-        if self.accept(vertex, report) {
+        self.prepare_regions(filter, &[], report)?;
+        if self.accept(vertex, q, report).is_some() {
             report.moved = 1;
             return Ok(());
         }

@@ -1,7 +1,7 @@
 //! Calls that stage moves.
 
 use super::MovingTriangulation;
-use super::staging::{Given, check_position, first_bad, stage_block};
+use super::staging::check_position;
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
@@ -23,7 +23,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             });
         }
         self.staging.reserve(self.site_of.len(), vertices.len())?;
-        let before = self.staging.vertices().len();
+        let before = self.staging.n_listed();
         for (index, (&vertex, position)) in vertices.iter().zip(positions).enumerate() {
             if let Err(error) = self.stage("vertices", index, vertex, position) {
                 self.staging.truncate(before);
@@ -64,7 +64,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         self.staging.reserve(n_ids, positions.len())?;
-        let before = self.staging.vertices().len();
+        let before = self.staging.n_listed();
         for (index, position) in positions.iter().enumerate() {
             let vertex = VertexId::at(index);
             let staged = if self.site_of[vertex] != SiteId::NONE {
@@ -93,30 +93,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         Error::WrongCount { argument: "count", given, wanted, coming }
     }
 
-    /// Whether moves of the first `n` vertices can be staged whole.
-    fn can_stage_whole(&self, n: usize) -> bool {
+    /// Whether the first `n` vertices are all that there are, and nothing is staged.
+    pub(super) fn can_stage_whole(&self, n: usize) -> bool {
         let n_ids = self.site_of.len();
         self.staging.count() == 0 && n == n_ids && self.n_present == n_ids && self.edits.are_none()
-    }
-
-    /// Says that all vertices are staged, though their positions are not yet, if these can be staged whole.
-    pub(super) fn expect_whole(&mut self, n: usize) -> Result<bool> {
-        if n == 0 || !self.can_stage_whole(n) {
-            return Ok(false);
-        }
-        self.staging.reserve(n, 0)?;
-        self.staging.expect_whole();
-        Ok(true)
-    }
-
-    /// Stages positions that are not staged yet.
-    pub(super) fn stage_given(&mut self, given: &mut Given<'_, G>) -> Result<()> {
-        match given.take() {
-            Some(positions) if !stage_block::<G>(self.staging.positions_mut(), positions) => {
-                Err(first_bad::<G>(positions))
-            }
-            _ => Ok(()),
-        }
     }
 
     #[inline(always)]

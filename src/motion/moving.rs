@@ -1,11 +1,11 @@
-//! All vertices of a whole staging, moved in one loop.
+//! All vertices, moved in one loop.
 //!
-//! Applying a move exchanges the staged position with that of the vertex's site. Vertices are taken in the order of
-//! their ids, and sites are stored in another one, so of a large triangulation they are asked for in advance. Positions
-//! that are not staged yet are staged block by block on the way: so they are read once, and written once more in the
-//! cache next to the processor.
+//! Block by block goals are checked and copied to where the origins are to be, in the cache next to the processor, and
+//! there exchanged with the positions of the sites. So goals are read once, and origins written once to memory. Vertices
+//! are taken in the order of their ids, and sites are stored in another one, so of a large triangulation they are asked
+//! for in advance.
 //!
-//! Every vertex must have a site of its own: a staging is whole only if no vertex is removed, and none may be hidden.
+//! Every vertex must have a site of its own: none may be removed, and none hidden.
 //!
 //! Cost of a hundred thousand vertices, tests included: 3.3 ns each in the plane, 4.1 in space (`make targets`,
 //! `tolerance_test`).
@@ -19,7 +19,8 @@ use std::ops::ControlFlow;
 
 use super::MovingTriangulation;
 use super::attempt::Advance;
-use super::staging::{Given, first_bad, stage_block};
+use super::goals::Moves;
+use super::staging::copy_checked;
 use super::tolerance::Fixed;
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
@@ -99,28 +100,28 @@ impl<G: Dimension> Movers<'_, G> {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Moves the vertices of a whole staging that are within their tolerance, or all if `MOVES_ALL`, and queues the
-    /// others; the staging holds the old positions of those that have moved. None moves if those to be queued are more
-    /// than `most`.
+    /// Moves the vertices that are within their tolerance, or all if `MOVES_ALL`, and queues those that are not. None
+    /// moves if those to be queued are more than `most`.
     ///
     /// This loop is what a timestamp costs that changes nothing.
     ///
-    /// Undoing knows which vertices have moved: the staging says that the others are applied, and so are those queued
-    /// if `MOVES_ALL`. That holds also after the error that one of the positions given is bad, when some are at other
-    /// places than given.
+    /// The origins of all are known afterwards, also after the error that one of the goals is bad, when some vertices
+    /// have stayed where they were.
     pub(super) fn move_and_queue<const MOVES_ALL: bool>(
         &mut self,
         most: usize,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
+        queue: &mut Vec<VertexId>,
     ) -> Result<Advance> {
-        let mut blocks = Blocks { given: given.positions(), are_good: true };
+        queue.clear();
+        let mut blocks = Blocks::of(moves);
         let moved = if size_of_val(self.kernel.sites()) > CACHE_BYTES {
-            self.move_and_queue_from::<MOVES_ALL, true>(most, &mut blocks)?
+            self.move_and_queue_from::<MOVES_ALL, true>(most, &mut blocks, queue)?
         } else {
-            self.move_and_queue_from::<MOVES_ALL, false>(most, &mut blocks)?
+            self.move_and_queue_from::<MOVES_ALL, false>(most, &mut blocks, queue)?
         };
         if moved != Advance::TooManyBeyond {
-            blocks.end(given)?;
+            moves.end_check(blocks.are_good)?;
         }
         Ok(moved)
     }
@@ -130,17 +131,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         most: usize,
         blocks: &mut Blocks<'_, G>,
+        queue: &mut Vec<VertexId>,
     ) -> Result<Advance> {
         if let Some(avx2) = Avx2::new() {
             return avx2.run_with(
                 self,
-                most,
+                (most, queue),
                 blocks,
                 #[inline(always)]
-                |t, most, blocks| {
+                |t, (most, queue), blocks| {
                     t.move_and_queue_by::<MOVES_ALL, IS_FAR>(
                         most,
                         blocks,
+                        queue,
                         #[inline(always)]
                         |fixed, places| {
                             let tolerances = fixed.each_ref().map(Fixed::tolerance);
@@ -161,6 +164,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.move_and_queue_by::<MOVES_ALL, IS_FAR>(
             most,
             blocks,
+            queue,
             |fixed, places| bits_of(fixed, places),
             |movers, places, sites_of| {
                 places.iter_mut().zip(sites_of).map(|(p, &s)| movers.exchange(p, s)).sum()
@@ -174,20 +178,20 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         most: usize,
         blocks: &mut Blocks<'_, G>,
+        queue: &mut Vec<VertexId>,
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
         exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[SiteId; LANES]) -> u64,
     ) -> Result<Advance> {
         let n = self.site_of.len();
         let sites = self.kernel.sites_mut();
-        let (positions, queue) = self.staging.parts_mut();
+        let origins = self.transaction.origins_mut().of_all_mut(n)?;
         let mut movers = Movers { sites, queue, most, n_moved: 0 };
-        let positions = &mut positions[..n];
         let (fixed, last_fixed) = self.regions.fixed()[..n].as_chunks::<LANES>();
         let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
         let mut ended = None;
-        'blocks: for (block, positions) in positions.chunks_mut(BLOCK).enumerate() {
+        'blocks: for (block, positions) in origins.chunks_mut(BLOCK).enumerate() {
             let first = block * BLOCK;
-            blocks.stage(first, positions, &self.site_of[first..], movers.sites);
+            blocks.copy(first, positions, &self.site_of[first..], movers.sites);
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
             let (fixed, at) = (&fixed[first / LANES..], &sites_of[first / LANES..]);
             for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(at).enumerate() {
@@ -218,61 +222,53 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let n_moved = movers.n_moved;
         let Some((end, room)) = ended else {
-            self.staging.apply_others();
-            if MOVES_ALL {
-                self.staging.set_applied(self.staging.vertices().len());
+            if !MOVES_ALL {
+                // Those that are queued have been left where they are, and their goals where origins are to be.
+                movers.queue.iter().for_each(|&v| origins[v] = movers.sites[self.site_of[v]].point);
             }
+            self.transaction.origins_mut().note_all();
             return Ok(Advance::Moved(n_moved));
         };
-        let queue = std::mem::take(self.staging.vertices_mut());
-        let not_moved = if MOVES_ALL { &[] } else { &queue[..] };
+        let not_moved = if MOVES_ALL { &[] } else { &movers.queue[..] };
         // Those that have not moved are exchanged in vain.
         for v in VertexId::range(0..end).chain(not_moved.iter().copied()) {
-            self.exchange_position(v);
+            std::mem::swap(&mut movers.sites[self.site_of[v]].point, &mut origins[v]);
         }
-        *self.staging.vertices_mut() = queue;
-        self.staging.vertices_mut().clear();
+        movers.queue.clear();
         room.map(|()| Advance::TooManyBeyond)
     }
 }
 
-/// Stages positions that are not staged yet, block by block.
+/// Copies goals block by block, and checks them.
 struct Blocks<'p, G: Dimension> {
-    given: Option<&'p [G::Point]>,
+    goals: &'p [G::Point],
     are_good: bool,
 }
 
-impl<G: Dimension> Blocks<'_, G> {
-    /// Stages the positions of the vertices from `first` on; for bad ones those where the vertices are.
-    #[inline(always)]
-    fn stage(&mut self, first: usize, staged: &mut [G::Point], sites_of: &[SiteId], sites: &[Site<G>]) {
-        if let Some(given) = self.given {
-            let place = |k: usize| sites[sites_of[k]].point;
-            self.are_good &= stage_good::<G>(staged, &given[first..], place);
-        }
+impl<'p, G: Dimension> Blocks<'p, G> {
+    fn of(moves: &Moves<'p, G>) -> Self {
+        Blocks { goals: moves.unchecked(), are_good: true }
     }
 
-    /// Everything is staged.
-    fn end(self, given: &mut Given<'_, G>) -> Result<()> {
-        given.take();
-        match self.given {
-            Some(positions) if !self.are_good => Err(first_bad::<G>(positions)),
-            _ => Ok(()),
-        }
+    /// Copies the goals of the vertices from `first` on; for bad ones the places where the vertices are.
+    #[inline(always)]
+    fn copy(&mut self, first: usize, to: &mut [G::Point], sites_of: &[SiteId], sites: &[Site<G>]) {
+        let place = |k: usize| sites[sites_of[k]].point;
+        self.are_good &= copy_good::<G>(to, &self.goals[first..], place);
     }
 }
 
-/// Stages positions, and other ones in the place of those that are bad; whether none is.
+/// Copies goals, and other places for those that are bad; whether none is.
 #[inline(always)]
-fn stage_good<G: Dimension>(
-    staged: &mut [G::Point],
-    given: &[G::Point],
+fn copy_good<G: Dimension>(
+    to: &mut [G::Point],
+    goals: &[G::Point],
     other: impl Fn(usize) -> G::Point,
 ) -> bool {
-    let are_good = stage_block::<G>(staged, given);
+    let are_good = copy_checked::<G>(to, goals);
     if !are_good {
-        for (k, p) in staged.iter_mut().enumerate() {
-            if !stage_block::<G>(std::slice::from_mut(p), &given[k..]) {
+        for (k, p) in to.iter_mut().enumerate() {
+            if !copy_checked::<G>(std::slice::from_mut(p), &goals[k..]) {
                 *p = other(k);
             }
         }

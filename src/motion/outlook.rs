@@ -4,7 +4,7 @@
 
 use super::MovingTriangulation;
 use super::constants::constants;
-use super::staging::Given;
+use super::goals::{Movers, Moves};
 use crate::delaunay::{Dimension, Site};
 use crate::ids::VertexId;
 use crate::machine::prefetch::{AHEAD, prefetch};
@@ -24,7 +24,7 @@ pub(super) enum Outlook {
 }
 
 /// What the vertices looked at so far do.
-struct Moves<G: Dimension> {
+struct Seen<G: Dimension> {
     /// By which vector all of them go, if by one.
     common: Option<G::Point>,
     n_moving: usize,
@@ -33,49 +33,47 @@ struct Moves<G: Dimension> {
 impl<G: Dimension> MovingTriangulation<G> {
     /// What the vertices are going to do, none of which has moved yet. Whether few move is found out only if that is
     /// asked for: it may take a look at all.
-    pub(super) fn outlook(&self, given: &Given<'_, G>, asks_for_few: bool) -> Outlook {
-        let staged = given.positions().unwrap_or(self.staging.positions());
-        if self.staging.is_whole() {
-            let all = VertexId::range(0..self.site_of.len());
-            return self.outlook_of(all, staged, asks_for_few);
+    pub(super) fn outlook(&self, moves: &Moves<'_, G>, asks_for_few: bool) -> Outlook {
+        let goals = moves.unchecked();
+        match moves.movers() {
+            Movers::All => self.outlook_of(VertexId::range(0..goals.len()), goals, asks_for_few),
+            Movers::Listed(vertices) => self.outlook_of(vertices.iter().copied(), goals, asks_for_few),
         }
-        debug_assert!(self.staging.applied() == 0);
-        self.outlook_of(self.staging.vertices().iter().copied(), staged, asks_for_few)
     }
 
-    /// As [`outlook`](Self::outlook), of these vertices, the only ones that are staged.
+    /// What these vertices are going to do, the only ones that may move.
     #[inline(always)]
     fn outlook_of(
         &self,
         vertices: impl ExactSizeIterator<Item = VertexId> + Clone,
-        staged: &[G::Point],
+        goals: &[G::Point],
         asks_for_few: bool,
     ) -> Outlook {
         let (n, are_all) = (self.n_present, vertices.len() == self.n_present);
         let sites = self.kernel.sites();
         let is_far = self.kernel.is_far();
         let mut ahead = vertices.clone().skip(AHEAD);
-        let mut moves = Moves::<G> { common: None, n_moving: 0 };
+        let mut seen = Seen::<G> { common: None, n_moving: 0 };
         for (k, v) in vertices.enumerate() {
             if is_far && let Some(next) = ahead.next() {
                 prefetch(sites, self.site_of[next].index());
             }
-            let is_known = moves.enter(k == 0, &sites[self.site_of[v]], &staged[v]);
-            let is_alike = moves.common.is_some();
-            if is_known && !is_alike && !(asks_for_few && constants::<G>().are_few(moves.n_moving, n)) {
+            let is_known = seen.enter(k == 0, &sites[self.site_of[v]], &goals[v]);
+            let is_alike = seen.common.is_some();
+            if is_known && !is_alike && !(asks_for_few && constants::<G>().are_few(seen.n_moving, n)) {
                 return Outlook::Unknown;
             }
         }
-        match moves {
-            Moves { n_moving: 0, .. } => Outlook::AtRest,
-            Moves { common: Some(_), .. } if are_all => Outlook::Together,
-            Moves { n_moving, .. } if constants::<G>().are_few(n_moving, n) => Outlook::FewMove,
+        match seen {
+            Seen { n_moving: 0, .. } => Outlook::AtRest,
+            Seen { common: Some(_), .. } if are_all => Outlook::Together,
+            Seen { n_moving, .. } if constants::<G>().are_few(n_moving, n) => Outlook::FewMove,
             _ => Outlook::Unknown,
         }
     }
 }
 
-impl<G: Dimension> Moves<G> {
+impl<G: Dimension> Seen<G> {
     /// Enters a vertex; whether anything else is known now than before.
     #[inline(always)]
     fn enter(&mut self, is_first: bool, site: &Site<G>, place: &G::Point) -> bool {

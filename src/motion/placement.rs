@@ -7,34 +7,24 @@
 //! new and some at their old positions: two may meet that are never at the same place at a timestamp; they share a site
 //! for that while.
 //!
-//! **Threads.** Where many vertices go far away and the cells are sorted, several threads relocate most of them [side
-//! by side](Delaunay::place_side_by_side), each in its range of the cells, some thousands at a time. Where one in a
-//! hundred of a million vertices leaps, a repair on two threads is 1.3 to 1.5 times as fast as on one (`make targets`:
-//! *threads_leaping*); the gain is the same after twenty such commits (`examples/thread_scaling`: *later*). Vertices
-//! that go to near places are relocated by one thread, as that takes little more than to find out whose cells they
-//! change.
+//! Vertices are placed on one thread.
 
 use super::constants::constants;
+use super::goals::{Goals, Movers, Moves};
 use super::repair::Budget;
-use super::staging::Given;
 use super::{CommitReport, MovingTriangulation};
 use crate::delaunay::order::{Keyed, hilbert_order};
-use crate::delaunay::{Dimension, Goal, Insertion, Relocation, Shortcut};
+use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
-use std::ops::Range;
 
 /// Vertices looked at to find out whether many go far away.
 const SAMPLE: usize = 64;
 
 /// Many vertices go far away if more than one in this number does.
 const AWAY_SHARE: usize = 4;
-
-/// Vertices placed side by side at a time, at most, and also for each of those at a time how many there are in all.
-const MOST_SIDE_BY_SIDE: usize = 1 << 14;
-const LEFT_PER_PLACED: usize = 16;
 
 /// Where a vertex has been placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,189 +37,116 @@ pub(super) enum Placed {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Relocates the staged vertices one after the other.
+    /// Relocates the vertices one after the other.
     pub(super) fn commit_by_placement(
         &mut self,
         shortcut: Shortcut,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        self.queue_for_placement(given)?;
-        self.place_side_by_side(report)?;
-        self.place_staged(report, |t, v, new, report| t.relocate(v, new, shortcut, report))
+        let (queue, goals) = self.queue_for_placement(moves)?;
+        self.place_all(&queue, goals, report, |t, v, goal, report| t.relocate(v, goal, shortcut, report))?;
+        self.queue = queue;
+        Ok(())
     }
 
-    /// Relocates the staged vertices one after the other, with flips, and rebuilds where what is left would take longer
-    /// than that.
+    /// Relocates the vertices one after the other, with flips, and rebuilds where what is left would take longer than
+    /// that.
     pub(super) fn commit_by_placement_or_rebuilding(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        self.queue_for_placement(given)?;
-        self.place_staged_within_budget(0, report)
+        let (queue, goals) = self.queue_for_placement(moves)?;
+        self.place_within_budget(&queue, goals, 0, report)?;
+        self.queue = queue;
+        Ok(())
     }
 
-    /// Relocates the staged vertices that are not applied yet, with flips, while that costs less than to rebuild; after
-    /// a sweep with `exact` exact evaluations, or none.
-    pub(super) fn place_staged_within_budget(&mut self, exact: u64, report: &mut CommitReport) -> Result<()> {
-        self.place_side_by_side(report)?;
-        let left = self.staging.vertices().len() - self.staging.applied();
-        let slowdown = self.slowdown(1.0);
+    /// Relocates these vertices, with flips, while that costs less than to rebuild; after a sweep with `exact` exact
+    /// evaluations, or none.
+    pub(super) fn place_within_budget(
+        &mut self,
+        queue: &[VertexId],
+        goals: Goals<'_, G>,
+        exact: u64,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let (left, slowdown) = (queue.len(), self.slowdown(1.0));
         let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report, slowdown);
-        self.place_staged(report, |t, v, new, report| {
-            let placed = t.relocate(v, new, Shortcut::Flips, report)?;
+        self.place_all(queue, goals, report, |t, v, goal, report| {
+            let placed = t.relocate(v, goal, Shortcut::Flips, report)?;
             Ok(if budget.is_exceeded::<G>(t.evaluations(), report) { Placed::NeedBuild } else { placed })
         })
     }
 
-    fn queue_for_placement(&mut self, given: &mut Given<'_, G>) -> Result<()> {
-        self.stage_given(given)?;
-        self.staging.list()?;
+    fn queue_for_placement<'p>(&mut self, moves: &mut Moves<'p, G>) -> Result<(Vec<VertexId>, Goals<'p, G>)> {
+        let goals = moves.checked()?;
+        let mut queue = self.queue_of(moves)?;
         self.regions.invalidate();
-        self.order_queue();
-        Ok(())
+        self.order_for_placement(&mut queue, goals);
+        Ok((queue, goals))
     }
 
-    /// Relocates those of the staged vertices that go far away on several threads, as far as these can.
-    fn place_side_by_side(&mut self, report: &mut CommitReport) -> Result<()> {
-        // With fewer sites at once the others stay as near to each other as they were.
-        let most = MOST_SIDE_BY_SIDE.min(self.n_present / LEFT_PER_PLACED).max(1);
-        let n = self.staging.vertices().len();
-        let first = self.staging.applied();
-        if self.kernel.placing_threads(n - first) < 2 || !self.goals_are_away(1) {
-            return Ok(());
+    /// The vertices that are to move, in the memory of queues.
+    pub(super) fn queue_of(&mut self, moves: &Moves<'_, G>) -> Result<Vec<VertexId>> {
+        let mut queue = std::mem::take(&mut self.queue);
+        queue.clear();
+        memory::reserve(&mut queue, moves.count())?;
+        match moves.movers() {
+            Movers::All => queue.extend(VertexId::range(0..moves.count())),
+            Movers::Listed(vertices) => queue.extend_from_slice(vertices),
         }
-        // If not for this commit, for the next one.
-        self.transaction.want_order();
-        if !self.kernel.are_cells_sorted() {
-            return Ok(());
-        }
-        let n_chunks = (n - first).div_ceil(most);
-        self.spread_queue(n_chunks)?;
-        let size = (n - first).div_ceil(n_chunks);
-        let placed = (first..n).step_by(size).try_for_each(|start| {
-            if !self.monitor(start as f64 / n as f64) {
-                return Err(Error::Cancelled);
-            }
-            self.place_chunk_side_by_side(start..n.min(start + size), report)
-        });
-        self.kernel.end_side_by_side();
-        placed
+        Ok(queue)
     }
 
-    /// Puts every `n_chunks`-th of the staged vertices that are not applied yet first, then those after these, and so
-    /// on, so that each chunk has some everywhere.
-    fn spread_queue(&mut self, n_chunks: usize) -> Result<()> {
-        if n_chunks < 2 {
-            return Ok(());
-        }
-        let first = self.staging.applied();
-        let queue = &mut self.staging.vertices_mut()[first..];
-        let before = memory::copy_of(queue)?;
-        let spread = (0..n_chunks).flat_map(|chunk| before.iter().skip(chunk).step_by(n_chunks));
-        queue.iter_mut().zip(spread).for_each(|(v, spread)| *v = *spread);
-        Ok(())
-    }
-
-    /// Relocates those of a range of the staged vertices that go far away, on several threads, as far as these can;
-    /// none of them is applied yet. Those that have been relocated are put behind the applied ones. Where that fails
-    /// midway, the kernel's log has the places of all.
-    fn place_chunk_side_by_side(&mut self, queue: Range<usize>, report: &mut CommitReport) -> Result<()> {
-        let (mut goals, mut at, mut placed) = (Vec::new(), Vec::new(), Vec::new());
-        memory::reserve_exact(&mut goals, queue.len())?;
-        memory::reserve_exact(&mut at, queue.len())?;
-        for k in queue {
-            let v = self.staging.vertices()[k];
-            let (site, place) = (self.site_of[v], self.staging.positions()[v]);
-            if !self.is_shared(site) && self.kernel.is_away(site, &place) {
-                goals.push(Goal { site, place });
-                at.push(k);
-            }
-        }
-        self.kernel.place_side_by_side(&mut goals, &mut placed)?;
-        // From the first in the queue to the last, each changes places with one that has not been relocated.
-        placed.sort_unstable_by_key(|&(goal, _)| goal);
-        for &(goal, other) in &placed {
-            let (v, new) = self.note_placed(at[goal as usize], goals[goal as usize].place, report);
-            if let Some(other) = other
-                && let Err(error) = self.hide(v, other)
-            {
-                // It counts as not moved; what has become of its site is in the record.
-                self.staging.positions_mut()[v] = new;
-                self.staging.set_applied(self.staging.applied() - 1);
-                return Err(error);
-            }
-        }
-        Ok(())
-    }
-
-    /// Enters that the `k`-th staged vertex, which was here, has been placed; returns it, and where it is.
-    fn note_placed(&mut self, k: usize, old: G::Point, report: &mut CommitReport) -> (VertexId, G::Point) {
-        let first = self.staging.applied();
-        let vertices = self.staging.vertices_mut();
-        vertices.swap(first, k);
-        let v = vertices[first];
-        self.staging.set_applied(first + 1);
-        report.moved += 1;
-        report.placements += 1;
-        (v, std::mem::replace(&mut self.staging.positions_mut()[v], old))
-    }
-
-    /// Relocates the staged vertices that are not applied yet, one after the other.
-    pub(super) fn place_staged(
+    /// Relocates these vertices, which are where they were when the commit began, one after the other.
+    pub(super) fn place_all(
         &mut self,
+        queue: &[VertexId],
+        goals: Goals<'_, G>,
         report: &mut CommitReport,
         mut relocate: impl FnMut(&mut Self, VertexId, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
-        let (first, n) = (self.staging.applied(), self.staging.vertices().len());
+        let (n_there, n) = (goals.n_movers() - queue.len(), goals.n_movers() as f64);
         let is_far = self.kernel.is_far();
-        for k in first..n {
+        self.transaction.origins_mut().make_room(self.site_of.len(), queue.len())?;
+        for (k, &v) in queue.iter().enumerate() {
             if !self.kernel.has_cells() {
                 // Nothing to walk in: what is left is placed at once.
-                return self.commit_by_rebuilding(k, report);
+                return self.rebuild_moving(&queue[k..], goals, report);
             }
-            let is_call_due = (k - first).is_multiple_of(constants::<G>().relocations_per_call);
-            if is_call_due && !self.monitor(k as f64 / n as f64) {
+            let is_call_due = k.is_multiple_of(constants::<G>().relocations_per_call);
+            if is_call_due && !self.monitor((n_there + k) as f64 / n) {
                 return Err(Error::Cancelled);
             }
             if is_far {
-                self.prefetch_staged(k);
+                self.prefetch_queued(&queue[k + 1..], goals);
             }
-            self.staging.set_applied(k + 1);
-            let v = self.staging.vertices()[k];
-            let old = self.kernel.site(self.site_of[v]).point;
-            let new = std::mem::replace(&mut self.staging.positions_mut()[v], old);
-            if new != old {
-                report.moved += 1;
-                match relocate(self, v, &new, report) {
-                    Ok(Placed::InCells) => {}
-                    Ok(Placed::NeedBuild) => return self.commit_by_rebuilding(k + 1, report),
-                    Err(error) => {
-                        // It counts as not moved; what has become of its site is in the record.
-                        self.staging.positions_mut()[v] = new;
-                        self.staging.set_applied(k);
-                        return Err(error);
-                    }
-                }
+            let (old, goal) = (self.kernel.site(self.site_of[v]).point, goals.of(v));
+            if goal == old {
+                continue;
+            }
+            report.moved += 1;
+            self.transaction.origins_mut().note(v, old);
+            if relocate(self, v, &goal, report)? == Placed::NeedBuild {
+                return self.rebuild_moving(&queue[k + 1..], goals, report);
             }
         }
         Ok(())
     }
 
-    /// Asks for what the relocations after the `k`-th one will read: vertices that are staged are far from each other
-    /// where they are few.
+    /// Asks for what the next relocations will read: vertices that move are far from each other where they are few.
     #[inline(always)]
-    fn prefetch_staged(&self, k: usize) {
-        let staged = self.staging.vertices();
+    fn prefetch_queued(&self, next: &[VertexId], goals: Goals<'_, G>) {
         for step in 0..4 {
-            if let Some(&v) = staged.get(k + 2 * (4 - step)) {
+            if let Some(&v) = next.get(2 * (4 - step) - 1) {
                 self.kernel.prefetch_star(self.site_of[v], step);
             }
         }
-        if let Some(&v) = staged.get(k + 10) {
+        if let Some(&v) = next.get(9) {
             prefetch(&self.site_of, v.index());
-            prefetch(self.staging.positions(), v.index());
+            goals.prefetch(v);
         }
     }
 
@@ -279,46 +196,28 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(Placed::InCells)
     }
 
-    /// Puts the staged vertices that are not applied yet, and have sites of their own, in the order in which to
-    /// relocate them: that of their goals along a Hilbert curve if many go far away and the caches do not hold all;
-    /// that of storage otherwise, and where there is no memory for the other.
-    pub(super) fn order_queue(&mut self) {
-        let is_worth = self.kernel.is_far() && self.goals_are_away(SAMPLE);
-        if !is_worth || self.order_queue_by_goal().is_err() {
-            self.order_queue_by_site();
+    /// Puts vertices in the order in which to relocate them: that of their goals along a Hilbert curve if many go far
+    /// away and the caches do not hold all; that of storage otherwise, and where there is no memory for the other.
+    pub(super) fn order_for_placement(&self, queue: &mut [VertexId], goals: Goals<'_, G>) {
+        let is_worth = self.kernel.is_far() && self.goals_are_away(queue, goals);
+        if !is_worth || order_by_goal(queue, goals).is_err() {
+            self.order_by_site(queue);
         }
     }
 
-    /// Whether of the staged vertices that are not applied yet there are this number, and many of them go far away,
-    /// which shows in a sample.
-    fn goals_are_away(&self, least: usize) -> bool {
-        let queue = &self.staging.vertices()[self.staging.applied()..];
-        if !self.kernel.has_cells() || queue.len() < least.max(1) {
+    /// Whether there are more than a few of these vertices, and many of them go far away, which shows in a sample.
+    fn goals_are_away(&self, queue: &[VertexId], goals: Goals<'_, G>) -> bool {
+        if !self.kernel.has_cells() || queue.len() < SAMPLE {
             return false;
         }
-        let is_away = |&&v: &&VertexId| self.kernel.is_away(self.site_of[v], &self.staging.positions()[v]);
+        let is_away = |&&v: &&VertexId| self.kernel.is_away(self.site_of[v], &goals.of(v));
         let sample = queue.iter().step_by((queue.len() / SAMPLE).max(1));
         sample.clone().filter(is_away).count() * AWAY_SHARE >= sample.len()
     }
 
-    fn order_queue_by_goal(&mut self) -> Result<()> {
-        let applied = self.staging.applied();
-        let (positions, vertices) = self.staging.parts_mut();
-        let queue = &mut vertices[applied..];
-        let mut keyed = Vec::new();
-        memory::reserve_exact(&mut keyed, queue.len())?;
-        keyed.extend(queue.iter().map(|v| Keyed::new(v.get())));
-        let keyed = hilbert_order::<G>(keyed, |v| &positions[VertexId::new(v)])?;
-        queue.iter_mut().zip(&keyed).for_each(|(v, k)| *v = VertexId::new(k.item()));
-        Ok(())
-    }
-
-    /// Puts the staged vertices that are not applied yet in storage order, so that each starts near the one
-    /// before.
-    pub(super) fn order_queue_by_site(&mut self) {
+    /// Puts vertices in storage order, so that each starts near the one before.
+    pub(super) fn order_by_site(&self, queue: &mut [VertexId]) {
         let (site_of, kernel) = (&self.site_of, &self.kernel);
-        let applied = self.staging.applied();
-        let queue = &mut self.staging.vertices_mut()[applied..];
         if self.hidden.count() > 0 {
             queue.sort_unstable_by_key(|&v| site_of[v]);
             return;
@@ -329,6 +228,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         queue.sort_unstable();
         queue.iter_mut().for_each(|s| *s = kernel.site(SiteId::new(*s)).id.get());
     }
+}
+
+/// Puts vertices in the order of their goals along a Hilbert curve.
+fn order_by_goal<G: Dimension>(queue: &mut [VertexId], goals: Goals<'_, G>) -> Result<()> {
+    let mut keyed = Vec::new();
+    memory::reserve_exact(&mut keyed, queue.len())?;
+    keyed.extend(queue.iter().map(|v| Keyed::new(v.get())));
+    let keyed = hilbert_order::<G>(keyed, |v| &goals.positions()[VertexId::new(v)])?;
+    queue.iter_mut().zip(&keyed).for_each(|(v, k)| *v = VertexId::new(k.item()));
+    Ok(())
 }
 
 #[cfg(test)]
@@ -354,9 +263,10 @@ mod tests {
             (0..G::D).for_each(|axis| goal[axis] += reach * (rng.unit() - p[axis]));
             t.move_vertices(&[v], &[goal]).expect("a good place");
         }
-        t.order_queue();
-        let goals: Vec<_> =
-            t.staging.vertices().iter().map(|&v| (t.site_of[v], t.staging.positions()[v])).collect();
+        let mut staging = std::mem::take(&mut t.staging);
+        let (queue, goals) = t.queue_for_placement(&mut staging.moves(n)).expect("room");
+        let goals: Vec<_> = queue.iter().map(|&v| (t.site_of[v], goals.of(v))).collect();
+        t.staging = staging;
         let between = |w: &[(SiteId, G::Point)]| squared_distance(&w[0].1, &w[1].1).sqrt();
         let mean = goals.windows(2).map(between).sum::<f64>() / goals.len() as f64;
         t.commit_timestamp().expect("room");

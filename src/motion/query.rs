@@ -336,6 +336,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.kernel.memory_bytes()
             + memory::bytes_of(&self.site_of)
             + self.staging.memory_bytes()
+            + memory::bytes_of(&self.queue)
             + self.regions.memory_bytes()
             + memory::bytes_of_made(&self.repair, Repair::memory_bytes)
             + self.edits.memory_bytes()

@@ -9,56 +9,51 @@
 use std::cell::Cell;
 
 use super::constants::constants;
+use super::goals::{Goals, Movers, Moves};
 use super::hidden::Hidden;
 use super::moving::differ;
-use super::staging::{Given, Staging};
 use super::{CoincidencePolicy, CommitReport, MovingTriangulation};
 use crate::delaunay::{Delaunay, Dimension, Merge, Site};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
-use crate::machine::prefetch::prefetch;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Triangulates all vertices at their new positions, where none has moved yet.
-    pub(super) fn rebuild_given(
-        &mut self,
-        given: &mut Given<'_, G>,
-        report: &mut CommitReport,
-    ) -> Result<()> {
-        self.stage_given(given)?;
-        self.rebuild_staged(report)
-    }
-
-    /// Triangulates all staged vertices at their new positions, where none has moved yet.
-    pub(super) fn rebuild_staged(&mut self, report: &mut CommitReport) -> Result<()> {
-        if !self.staging.is_whole() {
-            return self.commit_by_rebuilding(0, report);
+    /// Triangulates all vertices at their goals, where none has moved yet.
+    pub(super) fn rebuild(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
+        let goals = moves.checked()?;
+        if let Movers::Listed(vertices) = moves.movers() {
+            return self.rebuild_moving(vertices, goals, report);
         }
-        let (positions, moved) = (self.staging.positions(), Cell::new(0));
+        let moved = Cell::new(0);
         let place = |site: &Site<G>| {
-            let p = positions[site.id];
-            moved.set(moved.get() + u64::from(differ::<G>(&site.point, &p)));
-            p
+            let goal = goals.of(site.id);
+            moved.set(moved.get() + u64::from(differ::<G>(&site.point, &goal)));
+            goal
         };
-        let announce = |site: &Site<G>| prefetch(positions, site.id.index());
+        let announce = |site: &Site<G>| goals.prefetch(site.id);
         let mut next = self.kernel.successor(self.hidden.count(), place, announce)?;
         report.moved += moved.get();
         let spread = self.spread_hidden(&mut next).map(|spread| {
             for &(v, s) in &spread {
-                report.moved += u64::from(self.move_to_staged(&mut next, v, s));
+                report.moved += u64::from(move_to(&mut next, s, goals.of(v)));
             }
         });
         self.build_and_adopt(next, spread, report)
     }
 
-    /// Triangulates all vertices, the listed ones from `first` on at their new positions, all others where they are.
-    pub(super) fn commit_by_rebuilding(&mut self, first: usize, report: &mut CommitReport) -> Result<()> {
+    /// Triangulates all vertices, these at their goals, all others where they are.
+    pub(super) fn rebuild_moving(
+        &mut self,
+        vertices: &[VertexId],
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
         let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
         let spread = self.spread_hidden(&mut next).map(|spread| {
-            for &v in &self.staging.vertices()[first..] {
+            for &v in vertices {
                 let s = self.own_site(&spread, v);
-                report.moved += u64::from(self.move_to_staged(&mut next, v, s));
+                report.moved += u64::from(move_to(&mut next, s, goals.of(v)));
             }
         });
         self.build_and_adopt(next, spread, report)
@@ -85,14 +80,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             next.set_point(self.own_site(&spread, vertex), *q);
         });
         self.build_and_adopt(next, spread, report)
-    }
-
-    /// Puts the site of a vertex in a new kernel where it is staged; whether it was elsewhere.
-    pub(super) fn move_to_staged(&self, next: &mut Delaunay<G>, vertex: VertexId, s: SiteId) -> bool {
-        let p = self.staging.positions()[vertex];
-        let differ = differ::<G>(&next.site(s).point, &p);
-        next.set_point(s, p);
-        differ
     }
 
     /// Gives every hidden vertex a site of its own in a new kernel, at the place where it is. Returns vertices and
@@ -212,24 +199,13 @@ impl<G: Dimension> MovingTriangulation<G> {
             hidden.for_all_at(kernel.site(s).id, |v| site_of[v] = s);
         }
     }
-
-    /// Exchanges the position of a vertex that has a site of its own with the staged one; whether they differ.
-    pub(super) fn exchange_position(&mut self, vertex: VertexId) -> bool {
-        exchange_position_of(&mut self.kernel, &mut self.staging, self.site_of[vertex], vertex)
-    }
 }
 
-/// Exchanges the position of a site with the one staged for its vertex; whether they differ.
-pub(super) fn exchange_position_of<G: Dimension>(
-    kernel: &mut Delaunay<G>,
-    staging: &mut Staging<G>,
-    s: SiteId,
-    vertex: VertexId,
-) -> bool {
-    let old = kernel.site(s).point;
-    let new = std::mem::replace(&mut staging.positions_mut()[vertex], old);
-    kernel.set_point(s, new);
-    old != new
+/// Puts a site of a new kernel somewhere; whether it was elsewhere.
+pub(super) fn move_to<G: Dimension>(next: &mut Delaunay<G>, s: SiteId, goal: G::Point) -> bool {
+    let differ = differ::<G>(&next.site(s).point, &goal);
+    next.set_point(s, goal);
+    differ
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
-//! What undoing a change needs beside the kernel's log and the staging.
+//! What undoing a change needs beside the kernel's log.
 
+use super::origins::Origins;
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
@@ -31,12 +32,12 @@ pub(super) struct Counts {
     pub(super) visibilities: usize,
 }
 
-/// What undoing needs beside the kernel's log and the staging.
+/// What undoing needs beside the kernel's log.
 #[derive(Debug)]
 pub(super) struct Transaction<G: Dimension> {
     vertices: Vec<VertexBefore>,
-    /// Room for the old positions of vertices that are at shared places when undoing begins.
-    displaced: Vec<(VertexId, G::Point)>,
+    /// Where the vertices were that have moved.
+    origins: Origins<G>,
     before: Counts,
     /// Whether the kernel is a new one.
     has_rebuilt: bool,
@@ -48,7 +49,7 @@ impl<G: Dimension> Default for Transaction<G> {
     fn default() -> Self {
         Transaction {
             vertices: Vec::new(),
-            displaced: Vec::new(),
+            origins: Origins::default(),
             before: Counts::default(),
             has_rebuilt: false,
             wants_order: false,
@@ -57,18 +58,10 @@ impl<G: Dimension> Default for Transaction<G> {
 }
 
 impl<G: Dimension> Transaction<G> {
-    /// Makes room for the positions of all vertices at shared places, `n_hidden` of which are hidden.
-    pub(super) fn reserve_displaced(&mut self, n_hidden: usize) -> Result<()> {
-        let missing = (2 * n_hidden).saturating_sub(self.displaced.capacity());
-        if missing == 0 {
-            return Ok(());
-        }
-        memory::reserve(&mut self.displaced, 2 * n_hidden)
-    }
-
     /// A change begins.
     pub(super) fn begin(&mut self, now: Counts) {
         debug_assert!(self.vertices.is_empty());
+        self.origins.begin();
         (self.has_rebuilt, self.wants_order) = (false, false);
         self.before = now;
     }
@@ -99,15 +92,16 @@ impl<G: Dimension> Transaction<G> {
         self.vertices.pop()
     }
 
-    /// Keeps the old position of a vertex at a shared place, for which there is [room](Self::reserve_displaced).
-    pub(super) fn displace(&mut self, vertex: VertexId, position: G::Point) {
-        debug_assert!(self.displaced.len() < self.displaced.capacity());
-        self.displaced.push((vertex, position));
+    /// Where the vertices were that have moved.
+    #[inline(always)]
+    pub(super) fn origins(&self) -> &Origins<G> {
+        &self.origins
     }
 
-    /// Takes the old position of a vertex at a shared place.
-    pub(super) fn pop_displaced(&mut self) -> Option<(VertexId, G::Point)> {
-        self.displaced.pop()
+    /// Where the vertices were that have moved, to note more.
+    #[inline(always)]
+    pub(super) fn origins_mut(&mut self) -> &mut Origins<G> {
+        &mut self.origins
     }
 
     /// Whether a new kernel is in place.
@@ -132,7 +126,6 @@ impl<G: Dimension> Transaction<G> {
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
-        self.vertices.capacity() * size_of::<VertexBefore>()
-            + self.displaced.capacity() * size_of::<(VertexId, G::Point)>()
+        self.vertices.capacity() * size_of::<VertexBefore>() + self.origins.memory_bytes()
     }
 }

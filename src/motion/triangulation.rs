@@ -10,7 +10,7 @@ use super::options::Options;
 use super::regions::Regions;
 use super::repair::Repair;
 use super::report::{CommitReport, Evaluations};
-use super::staging::{Staging, first_bad};
+use super::staging::{Staging, are_good, first_bad};
 use super::switching::Switching;
 use super::transaction::Transaction;
 use super::views::Views;
@@ -19,7 +19,7 @@ use crate::error::{Error, Result, StagedEdit};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
-use crate::predicates::{Array, exact_calls, is_in_range};
+use crate::predicates::exact_calls;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
@@ -33,6 +33,8 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(super) hidden: Hidden,
     pub(super) n_present: usize,
     pub(super) staging: Staging<G>,
+    /// Memory for the vertices that a commit places.
+    pub(super) queue: Vec<VertexId>,
     pub(super) edits: Edits<G>,
     pub(super) regions: Regions<G>,
     pub(super) switching: Switching,
@@ -92,6 +94,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             hidden,
             n_present,
             staging: Staging::default(),
+            queue: Vec::new(),
             edits: Edits::default(),
             regions: Regions::default(),
             switching: Switching::default(),
@@ -157,8 +160,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if positions.len() > MAX_VERTICES {
             return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
         }
-        // Without a branch for each, several at a time are looked at.
-        if !G::Point::flattened(positions).iter().fold(true, |are_good, &x| are_good & is_in_range(x)) {
+        if !are_good::<G>(positions) {
             return Err(first_bad::<G>(positions));
         }
         self.n_present = positions.len();

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! What is kept for undoing: the rows of cells and the sites that were removed, added or renamed
-//! ([`Delaunay::begin`]), the site of each vertex that came to or left a place, and with whom, and, of a
-//! commit, where the moved vertices were ([`staging`](super::staging): applying a move exchanges the two positions). A
+//! ([`Delaunay::begin`](crate::delaunay::Delaunay::begin)), the site of each vertex that came to or left a place, and
+//! with whom, and where the vertices were that have moved ([`origins`](super::origins)). A
 //! [rebuilding](super::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
 //!
 //! Memory is reserved before a change, so [`undo`](MovingTriangulation::undo) needs none, and cannot fail.
@@ -40,7 +40,6 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Begins a change.
     pub(super) fn begin(&mut self) -> Result<()> {
-        self.transaction.reserve_displaced(self.hidden.count())?;
         self.kernel.begin()?;
         self.transaction.begin(Counts {
             present: self.n_present,
@@ -74,7 +73,6 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Puts all back as it was when the change began. Needs no memory.
     pub(super) fn undo(&mut self) {
         debug_assert!(!self.transaction.has_rebuilt(), "nothing fails after a new kernel is in place");
-        self.take_moves_back();
         while let Some(VertexBefore { vertex, site, event }) = self.transaction.pop_logged() {
             self.site_of[vertex] = site;
             match event {
@@ -87,47 +85,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.n_present = before.present;
         self.views.visibilities().truncate(before.visibilities);
         self.kernel.undo();
-        while let Some((vertex, position)) = self.transaction.pop_displaced() {
-            self.kernel.set_point(self.site_of[vertex], position);
-        }
+        self.transaction.origins().put_back(&mut self.kernel, &self.site_of);
         self.regions.invalidate();
-    }
-
-    /// Stages all applied moves again, and puts the vertices back where they were, those at shared places later.
-    fn take_moves_back(&mut self) {
-        let n_listed = self.staging.vertices().len();
-        if self.staging.others_applied() {
-            // While whole the flags are free for the few that have not moved.
-            for k in self.staging.applied()..n_listed {
-                let vertex = self.staging.vertices()[k];
-                self.staging.set_flag(vertex, true);
-            }
-            for vertex in VertexId::range(0..self.site_of.len()) {
-                if !self.staging.flag(vertex) {
-                    self.take_move_back(vertex);
-                }
-            }
-            for k in self.staging.applied()..n_listed {
-                let vertex = self.staging.vertices()[k];
-                self.staging.set_flag(vertex, false);
-            }
-        } else {
-            for k in 0..self.staging.applied() {
-                self.take_move_back(self.staging.vertices()[k]);
-            }
-        }
-        self.staging.set_applied(0);
-        self.staging.end_queue();
-    }
-
-    fn take_move_back(&mut self, vertex: VertexId) {
-        let s = self.site_of[vertex];
-        if !self.is_shared(s) {
-            self.exchange_position(vertex);
-            return;
-        }
-        let here = self.kernel.site(s).point;
-        let old = std::mem::replace(&mut self.staging.positions_mut()[vertex], here);
-        self.transaction.displace(vertex, old);
     }
 }

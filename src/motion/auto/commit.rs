@@ -4,57 +4,56 @@ use super::choice::{Round, Scope};
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
-use crate::motion::attempt::Attempt;
+use crate::motion::attempt::{Attempt, Start};
 use crate::motion::constants::{Constants, constants};
+use crate::motion::goals::Moves;
 use crate::motion::outlook::Outlook;
 use crate::motion::regions::Filter;
-use crate::motion::staging::Given;
 use crate::motion::{Algorithm, CommitReport, MovingTriangulation, SwitchingRule};
 
 impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_auto(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let is_of_few = constants::<G>().are_few(self.staging.count(), self.n_present);
+        let is_of_few = constants::<G>().are_few(moves.count(), self.n_present);
         self.auto.note_few(is_of_few);
         if !self.kernel.has_cells() {
-            return self.rebuild_given(given, report);
+            return self.rebuild(moves, report);
         }
         if is_of_few {
             return if self.regions.kept_for() == Some(Filter::Tolerance) {
-                self.commit_by_tolerance(given, report)
+                self.commit_by_tolerance(moves, report)
             } else {
-                self.commit_by_placement_or_rebuilding(given, report)
+                self.commit_by_placement_or_rebuilding(moves, report)
             };
         }
         let is_rebuild_due = self.auto.take_rebuild();
         if !self.keeps_for_scope() {
             let is_way_due = is_rebuild_due || self.auto.scope() != Scope::All;
-            match self.outlook(given, is_way_due) {
+            match self.outlook(moves, is_way_due) {
                 Outlook::AtRest => return Ok(()),
-                Outlook::Together => return self.commit_together(given, report),
+                Outlook::Together => return self.commit_together(moves, report),
                 // They do not tell how all will move.
-                Outlook::FewMove => return self.commit_by_repair(given, report),
+                Outlook::FewMove => return self.commit_by_repair(Start::AtOrigins, moves, report),
                 Outlook::Unknown => {}
             }
         }
         let before = self.evaluations();
         if is_rebuild_due {
-            self.rebuild_given(given, report)?;
+            self.rebuild(moves, report)?;
             let after = self.evaluations();
             self.auto.note_rebuild([before, after]);
             return Ok(());
         }
-        if self.staging.is_whole()
-            && self.hidden.count() == 0
-            && self.commit_by_scope(given, report)? == Attempt::Committed
-        {
-            return Ok(());
-        }
+        let can_check_less = moves.are_of_all() && self.hidden.count() == 0;
+        let start = match self.commit_by_scope(can_check_less, moves, report)? {
+            Attempt::Committed => return Ok(()),
+            Attempt::GivenUp(start) => start,
+        };
         memory::made(&mut self.repair)?.set_limit(self.auto.limit());
-        let repaired = self.commit_by_repair(given, report);
+        let repaired = self.commit_by_repair(start, moves, report);
         let (evaluations, slowdown) =
             ([before, self.evaluations()], self.slowdown(constants::<G>().repaired_alone));
         let repair = memory::made(&mut self.repair)?;
@@ -77,52 +76,55 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves all vertices, which go by one exact vector. Whatever the cells are a function of stays as it is but for
     /// that, so they stay.
-    fn commit_together(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
+    fn commit_together(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
         self.regions.invalidate();
-        if self.staging.is_whole() && self.hidden.count() == 0 {
-            self.move_all_staged(given)?;
+        if moves.are_of_all() && self.hidden.count() == 0 {
+            self.move_everything(moves)?;
         } else {
-            self.stage_given(given)?;
-            self.staging.list()?;
-            self.move_listed_together();
+            self.move_sites_together(moves)?;
         }
         (report.moved, report.unchanged) = (self.n_present as u64, self.n_present as u64);
         Ok(())
     }
 
-    /// Moves all vertices, which are listed, with those that share their sites.
-    fn move_listed_together(&mut self) {
-        let n = self.staging.vertices().len();
+    /// Moves all vertices, some of which share their sites.
+    fn move_sites_together(&mut self, moves: &mut Moves<'_, G>) -> Result<()> {
+        let (goals, movers) = (moves.checked()?, self.queue_of(moves)?);
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
-        // Those that are hidden first: where they are is where their sites still are.
-        for k in 0..n {
-            let v = self.staging.vertices()[k];
-            let site = self.kernel.site(self.site_of[v]);
-            if site.id != v {
-                self.staging.positions_mut()[v] = site.point;
-            }
-        }
-        for k in 0..n {
-            let v = self.staging.vertices()[k];
-            if self.kernel.site(self.site_of[v]).id == v {
-                let p = self.staging.positions()[v];
+        let origins = self.transaction.origins_mut();
+        origins.make_room(self.site_of.len(), movers.len())?;
+        for &v in &movers {
+            let s = self.site_of[v];
+            let site = self.kernel.site(s);
+            if site.id == v {
+                let goal = goals.of(v);
                 for axis in 0..G::D {
-                    (lower[axis], upper[axis]) = (lower[axis].min(p[axis]), upper[axis].max(p[axis]));
+                    (lower[axis], upper[axis]) = (lower[axis].min(goal[axis]), upper[axis].max(goal[axis]));
                 }
-                self.exchange_position(v);
+                origins.note(v, site.point);
+                self.kernel.set_point(s, goal);
             }
         }
-        self.staging.set_applied(n);
         self.kernel.cover(&lower, &upper);
+        self.queue = movers;
+        Ok(())
     }
 
-    /// Commits by watching or by slack, if that is in force.
-    fn commit_by_scope(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<Attempt> {
-        let mut ended = Attempt::NotBegun;
+    /// Commits by watching or by slack, if that is in force and `can` be done.
+    fn commit_by_scope(
+        &mut self,
+        can: bool,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Attempt> {
+        let mut ended = Attempt::GivenUp(Start::AtOrigins);
+        if !can {
+            return Ok(ended);
+        }
         if self.auto.scope() == Scope::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
-            if (is_kept || self.auto.take_due() || self.is_sample_within(given)?)
-                && self.commit_by_watching(constants::<G>().max_share_beyond, given, report)?
+            if (is_kept || self.auto.take_due() || self.is_sample_within(moves)?)
+                && self.commit_by_watching(constants::<G>().max_share_beyond, moves, report)?
                     == Attempt::Committed
             {
                 if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.n_present, report) {
@@ -134,7 +136,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if self.auto.scope() == Scope::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
-            ended = self.commit_by_slack(given, report)?;
+            ended = self.commit_by_slack(moves, report)?;
             if ended == Attempt::Committed {
                 if was_kept {
                     self.auto.weigh_slack::<G>(self.n_present, report);
@@ -158,10 +160,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether all but a few of a sample of the vertices stay within tolerance.
-    fn is_sample_within(&mut self, given: &mut Given<'_, G>) -> Result<bool> {
-        self.stage_given(given)?;
+    fn is_sample_within(&mut self, moves: &mut Moves<'_, G>) -> Result<bool> {
         let &Constants { sampled_vertices: sample, min_share_within, .. } = constants::<G>();
-        Ok(self.sampled_share(&SwitchingRule { sample, ..SwitchingRule::default() }) >= min_share_within)
+        let rule = SwitchingRule { sample, ..SwitchingRule::default() };
+        Ok(self.sampled_share(&rule, moves)? >= min_share_within)
     }
 
     /// Relocations in a round.
@@ -212,7 +214,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         } else if self.auto.has_waited() && ended.are_most_unchanged {
             // Without the memory for them all goes on as it did.
-            let _ = self.prepare_regions(Filter::Tolerance, &mut CommitReport::default());
+            let _ = self.prepare_regions(Filter::Tolerance, &[], &mut CommitReport::default());
         }
     }
 }

@@ -1,32 +1,31 @@
 //! All vertices moved, whatever their tolerances, on several threads where that pays.
 
-use super::{BLOCK, Blocks, exchange, sites_at, stage_good};
+use super::{BLOCK, copy_good, exchange, sites_at};
 use crate::delaunay::{Dimension, Site};
 use crate::error::Result;
 use crate::ids::SiteId;
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch_at};
 use crate::machine::threads;
 use crate::motion::MovingTriangulation;
-use crate::motion::staging::Given;
+use crate::motion::goals::Moves;
 use crate::simd::{Avx2, LANES, Lanes};
 
 /// Moves of this number of vertices take a few times as long as a thread takes to wake up.
 const MOVED_AT_LEAST: usize = 1 << 14;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Moves all vertices of a whole staging, on several threads where that pays; returns how many positions differ.
-    /// Errors as those of [`move_and_queue`](Self::move_and_queue).
-    pub(in crate::motion) fn move_all_staged(&mut self, given: &mut Given<'_, G>) -> Result<u64> {
+    /// Moves all vertices, on several threads where that pays; returns how many goals differ from the places before. The
+    /// origins of all are known afterwards, also after the error that one of the goals is bad.
+    pub(in crate::motion) fn move_everything(&mut self, moves: &mut Moves<'_, G>) -> Result<u64> {
         let n_threads = self.kernel.threads().for_work(self.site_of.len(), MOVED_AT_LEAST, 256);
+        let origins = self.transaction.origins_mut().of_all_mut(self.site_of.len())?;
         let sites = self.kernel.sites_mut();
         let sites = SharedSites { start: sites.as_mut_ptr(), n: sites.len() };
         // SAFETY: every vertex has a site of its own, and these are borrowed for as long as this takes.
-        let moved = unsafe {
-            sites.move_all(self.staging.positions_mut(), given.positions(), &self.site_of, n_threads)
-        };
-        self.staging.apply_others();
+        let moved = unsafe { sites.move_all(origins, moves.unchecked(), &self.site_of, n_threads) };
+        self.transaction.origins_mut().note_all();
         self.kernel.cover(&moved.lower, &moved.upper);
-        Blocks { given: given.positions(), are_good: moved.are_good }.end(given)?;
+        moves.end_check(moved.are_good)?;
         Ok(moved.n)
     }
 }
@@ -84,28 +83,28 @@ struct SharedSites<G: Dimension> {
 unsafe impl<G: Dimension> Send for SharedSites<G> {}
 
 impl<G: Dimension> SharedSites<G> {
-    /// Exchanges positions with those of sites.
+    /// Moves sites to their goals, and enters their origins.
     ///
     /// # Safety
     /// `sites_of` are indices of these sites, no two the same, and nothing else uses the sites meanwhile.
     unsafe fn move_all(
         self,
-        positions: &mut [G::Point],
-        given: Option<&[G::Point]>,
+        origins: &mut [G::Point],
+        goals: &[G::Point],
         sites_of: &[SiteId],
         n_threads: usize,
     ) -> Moved<G> {
         if n_threads > 1 {
-            let middle = positions.len() / n_threads * (n_threads / 2);
-            let (positions, more_positions) = positions.split_at_mut(middle);
-            let (given, more_given) = given.map(|given| given.split_at(middle)).unzip();
+            let middle = origins.len() / n_threads * (n_threads / 2);
+            let (origins, more_origins) = origins.split_at_mut(middle);
+            let (goals, more_goals) = goals.split_at(middle);
             let (sites_of, more_sites_of) = sites_of.split_at(middle);
             let n_more_threads = n_threads - n_threads / 2;
             let (mut moved, more) = threads::join(
                 // SAFETY: the caller's promise, for a half of the sites; the two halves have no site in common.
-                || unsafe { self.move_all(positions, given, sites_of, n_threads / 2) },
+                || unsafe { self.move_all(origins, goals, sites_of, n_threads / 2) },
                 // SAFETY: the caller's promise, for the other half.
-                move || unsafe { self.move_all(more_positions, more_given, more_sites_of, n_more_threads) },
+                move || unsafe { self.move_all(more_origins, more_goals, more_sites_of, n_more_threads) },
             );
             moved.n += more.n;
             moved.are_good &= more.are_good;
@@ -115,7 +114,7 @@ impl<G: Dimension> SharedSites<G> {
         let Some(avx2) = Avx2::new() else {
             // SAFETY: the caller's promise.
             return unsafe {
-                self.move_blocks(positions, given, sites_of, |sites, moved, places, sites_of| {
+                self.move_blocks(origins, goals, sites_of, |sites, moved, places, sites_of| {
                     places.iter_mut().zip(sites_of).for_each(|(p, &s)| sites.move_one(p, s, moved));
                 })
             };
@@ -123,15 +122,15 @@ impl<G: Dimension> SharedSites<G> {
         let mut covered = [avx2.splat(f64::INFINITY), avx2.splat(f64::NEG_INFINITY)];
         let mut moved = avx2.run_with(
             self,
-            (positions, given, sites_of),
+            (origins, goals, sites_of),
             &mut covered,
             #[inline(always)]
-            |sites, (positions, given, sites_of), covered| {
+            |sites, (origins, goals, sites_of), covered| {
                 // SAFETY: the caller's promise.
                 unsafe {
                     sites.move_blocks(
-                        positions,
-                        given,
+                        origins,
+                        goals,
                         sites_of,
                         #[inline(always)]
                         |sites, moved, places, sites_of| {
@@ -146,28 +145,26 @@ impl<G: Dimension> SharedSites<G> {
         moved
     }
 
-    /// Exchanges positions with those of sites, block by block, by an exchange of several positions at a time.
+    /// Copies goals block by block, and exchanges them with the positions of sites by an exchange of several at a time.
     ///
     /// # Safety
     /// `sites_of` are indices of these sites, no two the same, and nothing else uses the sites meanwhile.
     #[inline(always)]
     unsafe fn move_blocks(
         self,
-        positions: &mut [G::Point],
-        given: Option<&[G::Point]>,
+        origins: &mut [G::Point],
+        goals: &[G::Point],
         sites_of: &[SiteId],
         mut exchange: impl FnMut(Self, &mut Moved<G>, &mut [G::Point; LANES], &[SiteId; LANES]),
     ) -> Moved<G> {
         debug_assert!(sites_of.iter().all(|s| s.index() < self.n));
         let is_far = self.n * size_of::<Site<G>>() > CACHE_BYTES;
         let mut moved = Moved::none();
-        for (first, positions) in (0..).step_by(BLOCK).zip(positions.chunks_mut(BLOCK)) {
+        for (first, positions) in (0..).step_by(BLOCK).zip(origins.chunks_mut(BLOCK)) {
             let sites_of = &sites_of[first..];
-            if let Some(given) = given {
-                // SAFETY: these are indices of sites that nothing else uses.
-                let place = |k: usize| unsafe { (*self.start.add(sites_of[k].index())).point };
-                moved.are_good &= stage_good::<G>(positions, &given[first..], place);
-            }
+            // SAFETY: these are indices of sites that nothing else uses.
+            let place = |k: usize| unsafe { (*self.start.add(sites_of[k].index())).point };
+            moved.are_good &= copy_good::<G>(positions, &goals[first..], place);
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
             let (at, last_at) = sites_of[..LANES * places.len() + last_places.len()].as_chunks::<LANES>();
             for (k, (places, at)) in places.iter_mut().zip(at).enumerate() {

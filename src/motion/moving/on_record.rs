@@ -6,8 +6,8 @@ use crate::error::Result;
 use crate::ids::SiteId;
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch};
 use crate::motion::MovingTriangulation;
+use crate::motion::goals::Moves;
 use crate::motion::slack::Slacks;
-use crate::motion::staging::Given;
 use crate::predicates::{distance_above, distances_above};
 use crate::simd::{Avx2, LANES};
 
@@ -22,11 +22,11 @@ pub(in crate::motion) struct Motion {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Moves all vertices of a whole staging, and adds to the ways of their sites. Slacks must be kept. Errors as those
-    /// of [`move_and_queue`](Self::move_and_queue).
-    pub(in crate::motion) fn move_all_on_record(&mut self, given: &mut Given<'_, G>) -> Result<Motion> {
+    /// Moves all vertices, and adds to the ways of their sites. Slacks must be kept. The origins of all are known
+    /// afterwards, also after the error that one of the goals is bad.
+    pub(in crate::motion) fn move_all_on_record(&mut self, moves: &mut Moves<'_, G>) -> Result<Motion> {
         let Some(avx2) = Avx2::new() else {
-            return self.move_all_on_record_by(given, |sites, places, sites_of| {
+            return self.move_all_on_record_by(moves, |sites, places, sites_of| {
                 std::array::from_fn(|k| {
                     let (point, p) = (&mut sites[sites_of[k]].point, &mut places[k]);
                     let distance = distance_above(point, p);
@@ -38,11 +38,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         avx2.run_with(
             avx2,
             self,
-            given,
+            moves,
             #[inline(always)]
-            |avx2, t, given| {
+            |avx2, t, moves| {
                 t.move_all_on_record_by(
-                    given,
+                    moves,
                     #[inline(always)]
                     |sites, places, sites_of| {
                         // SAFETY: every vertex has a site of its own, and the sites are borrowed.
@@ -62,16 +62,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(always)]
     fn move_all_on_record_by(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         mut exchange: impl FnMut(&mut [Site<G>], &mut [G::Point; LANES], &[SiteId; LANES]) -> [f64; LANES],
     ) -> Result<Motion> {
         let slacks = self.regions.slacks().expect("they have been prepared");
         let mut record = Record { longest: slacks.longest_way(), n: 0, sum: 0.0, greatest: 0.0 };
         let sites = self.kernel.sites_mut();
         let is_far = size_of_val(sites) > CACHE_BYTES;
-        let mut blocks = Blocks { given: given.positions(), are_good: true };
-        for (first, positions) in (0..).step_by(BLOCK).zip(self.staging.positions_mut().chunks_mut(BLOCK)) {
-            blocks.stage(first, positions, &self.site_of[first..], sites);
+        let mut blocks = Blocks::of(moves);
+        let origins = self.transaction.origins_mut().of_all_mut(self.site_of.len())?;
+        for (first, positions) in (0..).step_by(BLOCK).zip(origins.chunks_mut(BLOCK)) {
+            blocks.copy(first, positions, &self.site_of[first..], sites);
             let sites_of = &self.site_of[first..];
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
             let (at, last_at) = sites_of[..LANES * places.len() + last_places.len()].as_chunks::<LANES>();
@@ -88,10 +89,10 @@ impl<G: Dimension> MovingTriangulation<G> {
                 std::mem::swap(point, p);
             }
         }
-        self.staging.apply_others();
+        self.transaction.origins_mut().note_all();
         let Record { n: moved, sum, greatest, .. } = record;
         let fits = slacks.end_motion(&mut self.kernel, sum / moved.max(1) as f64, greatest);
-        blocks.end(given)?;
+        moves.end_check(blocks.are_good)?;
         Ok(Motion { moved, greatest, fits })
     }
 }

@@ -5,6 +5,7 @@ use crate::delaunay::{Plane, Space};
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::motion::Options;
+use crate::motion::goals::Movers;
 use crate::motion::regions::Filter;
 use crate::motion::{Algorithm, Level};
 use crate::random::Rng;
@@ -20,17 +21,11 @@ fn positions<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
     t.site_of.iter().map(|&s| t.kernel.site(s).point).collect()
 }
 
-/// A triangulation with tolerances, and all its vertices staged: some of them where they are, some with one coordinate
-/// that stays, some far away. Returns these places and which are beyond tolerance.
-/// They are staged at once, or going to be on the way.
-fn staged<G: Dimension>(
-    n: usize,
-    at_once: bool,
-    rng: &mut Rng,
-) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
+/// A triangulation with tolerances, and goals of all its vertices: some of them where they are, some with one
+/// coordinate that stays, some far away. Returns these places and which are beyond tolerance.
+fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
-    let other_positions = t.staging.positions().to_vec();
-    t.regions.prepare(Filter::Tolerance, &mut t.kernel, n, &other_positions).expect("room");
+    t.regions.prepare(Filter::Tolerance, &mut t.kernel, n, &[]).expect("room");
     let mut places = positions(&t);
     let far = points::<G>(n, rng);
     for (p, far) in places.iter_mut().zip(far) {
@@ -43,80 +38,76 @@ fn staged<G: Dimension>(
     }
     let fixed = t.regions.fixed();
     let beyond = VertexId::range(0..n).filter(|&v| !fixed[v].holds(&places[v])).collect();
-    if at_once {
-        t.move_all(&places).expect("good places");
-    } else {
-        assert!(t.expect_whole(n).expect("room"));
-    }
+    t.begin().expect("room");
     (t, places, beyond)
 }
 
-fn given_unless<G: Dimension>(at_once: bool, places: &[G::Point]) -> Given<'_, G> {
-    if at_once { Given::nothing() } else { Given::all(places) }
+/// Moves of all vertices, lent or as if they were staged.
+fn moves_of<G: Dimension>(are_lent: bool, places: &[G::Point]) -> Moves<'_, G> {
+    if are_lent { Moves::lent(places) } else { Moves::staged(places, Movers::All) }
+}
+
+fn origins<G: Dimension>(t: &MovingTriangulation<G>) -> &[G::Point] {
+    assert!(t.transaction.origins().are_of_all());
+    t.transaction.origins().positions()
 }
 
 fn agree<G: Dimension>() {
     let rng = &mut Rng::new(5);
     let (mut n_beyond, mut n_moved) = (0, 0);
     // More than a block of them as well.
-    for (n, at_once) in (G::D + 1..60).chain([2 * BLOCK + 3]).flat_map(|n| [(n, true), (n, false)]) {
-        let (mut t, places, beyond) = staged::<G>(n, at_once, rng);
+    for (n, are_lent) in (G::D + 1..60).chain([2 * BLOCK + 3]).flat_map(|n| [(n, true), (n, false)]) {
+        let (mut t, places, beyond) = aimed::<G>(n, rng);
         let before = positions(&t);
         let is_beyond = |v: usize| beyond.contains(&VertexId::at(v));
         let differ = |v: &usize| before[*v] != places[*v];
         let n_of = |moves_all: bool| (0..n).filter(|&v| moves_all || !is_beyond(v)).filter(differ).count();
         (n_beyond, n_moved) = (n_beyond + beyond.len(), n_moved + n_of(false));
+        let (mut moves, mut queue) = (moves_of(are_lent, &places), Vec::new());
 
         if !beyond.is_empty() {
-            let (most, given) = (beyond.len() - 1, &mut given_unless(at_once, &places));
-            assert_eq!(
-                t.move_and_queue::<false>(most, given).expect("room"),
-                Advance::TooManyBeyond,
-                "{n} vertices"
-            );
-            assert_eq!(
-                t.move_and_queue::<true>(most, given).expect("room"),
-                Advance::TooManyBeyond,
-                "{n} vertices"
-            );
-            t.stage_given(given).expect("good places");
-            assert!(t.staging.vertices().is_empty() && !t.staging.others_applied());
-            assert_eq!(
-                [&positions(&t)[..], t.staging.positions()],
-                [&before[..], &places[..]],
-                "{n} vertices"
-            );
+            let most = beyond.len() - 1;
+            for moved in [
+                t.move_and_queue::<false>(most, &mut moves, &mut queue),
+                t.move_and_queue::<true>(most, &mut moves, &mut queue),
+            ] {
+                assert_eq!(moved.expect("room"), Advance::TooManyBeyond, "{n} vertices");
+            }
+            assert!(queue.is_empty() && !t.transaction.origins().are_of_all());
+            assert_eq!(positions(&t), before, "{n} vertices");
         }
 
-        let moved = t.move_and_queue::<false>(beyond.len(), &mut given_unless(at_once, &places));
+        let moved = t.move_and_queue::<false>(beyond.len(), &mut moves, &mut queue);
         assert_eq!(moved.expect("room"), Advance::Moved(n_of(false) as u64));
-        assert_eq!(t.staging.vertices(), beyond, "{n} vertices");
+        assert_eq!(queue, beyond, "{n} vertices");
+        assert_eq!(origins(&t), before, "{n} vertices");
         for v in 0..n {
-            let expected = if is_beyond(v) { [before[v], places[v]] } else { [places[v], before[v]] };
-            assert_eq!([positions(&t)[v], t.staging.positions()[v]], expected, "vertex {v} of {n}");
+            let expected = if is_beyond(v) { before[v] } else { places[v] };
+            assert_eq!(positions(&t)[v], expected, "vertex {v} of {n}");
         }
+        t.undo();
+        assert_eq!(positions(&t), before, "{n} vertices");
 
         for moved_by in 0..3 {
-            let (mut t, places, beyond) = staged::<G>(n, at_once, rng);
-            let given = &mut given_unless(at_once, &places);
+            let (mut t, places, beyond) = aimed::<G>(n, rng);
+            let moves = &mut moves_of(are_lent, &places);
             let before = positions(&t);
             let n_moved = (0..n).filter(|&v| before[v] != places[v]).count() as u64;
             if moved_by == 0 {
-                assert_eq!(t.move_and_queue::<true>(n, given).expect("room"), Advance::Moved(n_moved));
-                assert_eq!(t.staging.vertices(), beyond, "{n} vertices");
+                let moved = t.move_and_queue::<true>(n, moves, &mut queue);
+                assert_eq!(moved.expect("room"), Advance::Moved(n_moved));
+                assert_eq!(queue, beyond, "{n} vertices");
             } else if moved_by == 1 {
-                assert_eq!(t.move_all_staged(given).expect("good places"), n_moved);
+                assert_eq!(t.move_everything(moves).expect("good places"), n_moved);
             } else {
                 let other_positions = vec![G::Point::default(); n];
                 let computed = t.regions.prepare(Filter::Slack, &mut t.kernel, n, &other_positions);
                 computed.expect("room");
-                assert_eq!(t.move_all_on_record(given).expect("good places").moved, n_moved);
+                assert_eq!(t.move_all_on_record(moves).expect("good places").moved, n_moved);
             }
-            assert_eq!(
-                [&positions(&t)[..], t.staging.positions()],
-                [&places[..], &before[..]],
-                "{n} vertices"
-            );
+            assert_eq!([&positions(&t)[..], origins(&t)], [&places[..], &before[..]], "{n} vertices");
+            t.undo();
+            assert_eq!(positions(&t), before, "{n} vertices");
         }
     }
     assert!(n_beyond > 200 && n_moved > 400, "{n_beyond} beyond, {n_moved} moved");
@@ -140,9 +131,9 @@ fn threads_share_the_moves() {
         let (first, second) =
             (points::<Space>(2_000, &mut Rng::new(1)), points::<Space>(2_000, &mut Rng::new(2)));
         let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
-        t.move_all(&second).expect("good places");
-        assert_eq!(t.move_all_staged(&mut Given::nothing()).expect("good places"), 2_000);
-        assert_eq!([&positions(&t)[..], t.staging.positions()], [&second[..], &first[..]]);
+        t.begin().expect("room");
+        assert_eq!(t.move_everything(&mut Moves::lent(&second)).expect("good places"), 2_000);
+        assert_eq!([&positions(&t)[..], origins(&t)], [&second[..], &first[..]]);
     }
 }
 

@@ -4,63 +4,81 @@ use super::Filter;
 use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 use crate::ids::VertexId;
+use crate::motion::goals::Goals;
 use crate::motion::placement::Placed;
 use crate::motion::safe_region::Admission;
 use crate::motion::{CommitReport, MovingTriangulation};
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The pre-computations for a filter, unless what the last commit has kept is valid. Positions must be staged.
+    /// The pre-computations for a filter, unless what the last commit has kept is valid. `other_positions` are those
+    /// of a [`Store`](super::Store).
     pub(in crate::motion) fn prepare_regions(
         &mut self,
         filter: Filter,
+        other_positions: &[G::Point],
         report: &mut CommitReport,
     ) -> Result<()> {
         if self.regions.kept_for() != Some(filter) {
             let (kernel, n_ids) = (&mut self.kernel, self.site_of.len());
-            report.tolerances += self.regions.prepare(filter, kernel, n_ids, self.staging.positions())?;
+            report.tolerances += self.regions.prepare(filter, kernel, n_ids, other_positions)?;
         }
         Ok(())
     }
 
-    /// Moves those of the listed vertices that stay in their regions, and puts them before the others.
-    pub(in crate::motion) fn accept_listed(&mut self, report: &mut CommitReport) {
-        let mut vertices = std::mem::take(self.staging.vertices_mut());
-        let first = self.staging.applied();
-        let mut applied = first;
-        for k in first..vertices.len() {
-            if self.accept(vertices[k], report) {
-                vertices.swap(applied, k);
-                applied += 1;
+    /// Moves those of the queued vertices that stay in their regions; the others stay in the queue.
+    pub(in crate::motion) fn accept_queued(
+        &mut self,
+        queue: &mut Vec<VertexId>,
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.transaction.origins_mut().make_room(self.site_of.len(), queue.len())?;
+        queue.retain(|&v| match self.accept(v, &goals.of(v), report) {
+            Some(origin) => {
+                self.transaction.origins_mut().note(v, origin);
+                false
             }
-        }
-        *self.staging.vertices_mut() = vertices;
-        self.staging.set_applied(applied);
+            None => true,
+        });
+        Ok(())
     }
 
-    /// Moves a vertex to where it is staged if it stays in its region.
+    /// Moves a vertex if it stays in its region; returns where it was.
     #[inline(always)]
-    pub(in crate::motion) fn accept(&mut self, vertex: VertexId, report: &mut CommitReport) -> bool {
+    pub(in crate::motion) fn accept(
+        &mut self,
+        vertex: VertexId,
+        goal: &G::Point,
+        report: &mut CommitReport,
+    ) -> Option<G::Point> {
         let s = self.site_of[vertex];
-        let p = self.staging.positions()[vertex];
         if self.is_shared(s) {
-            return false;
+            return None;
         }
-        match self.regions.admit(&mut self.kernel, vertex, s, &p) {
-            Some(Admission::WithinTolerance) => report.within_tolerance += 1,
-            Some(Admission::WithinSafeRegion) => report.within_safe_region += 1,
-            None => return false,
+        match self.regions.admit(&mut self.kernel, vertex, s, goal)? {
+            Admission::WithinTolerance => report.within_tolerance += 1,
+            Admission::WithinSafeRegion => report.within_safe_region += 1,
         }
-        self.kernel.cover(&p, &p);
-        report.moved += u64::from(self.exchange_position(vertex));
-        true
+        self.kernel.cover(goal, goal);
+        let origin = self.kernel.site(s).point;
+        self.kernel.set_point(s, *goal);
+        report.moved += u64::from(origin != *goal);
+        Some(origin)
     }
 
     /// Places the queued vertices; the regions follow.
-    pub(in crate::motion) fn place_queued(&mut self, report: &mut CommitReport) -> Result<()> {
-        self.order_queue_by_site();
+    pub(in crate::motion) fn place_queued(
+        &mut self,
+        mut queue: Vec<VertexId>,
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.order_by_site(&mut queue);
         self.with_regions(report, |t, report| {
-            t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
-        })
+            t.place_all(&queue, goals, report, |t, v, goal, report| t.relocate_noted(v, goal, report))
+        })?;
+        self.queue = queue;
+        Ok(())
     }
 
     /// Relocates a vertex; the regions are told.
@@ -93,7 +111,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 let mut relocated = self.regions.end_change();
                 relocated.retain(|&v| !self.is_shared(self.site_of[v]));
                 let (kernel, site_of) = (&mut self.kernel, &self.site_of);
-                let other_positions = self.staging.positions();
+                let other_positions = self.transaction.origins().positions();
                 let n = self.regions.follow(kept, changed, relocated, kernel, site_of, other_positions);
                 // Without the memory for it none are kept, and the next commit says so.
                 report.tolerances += n.unwrap_or_default();

@@ -1,7 +1,7 @@
 //! *Repair*: move everything at once, look at every certificate once, and mend what broke.
 //!
 //! ```text
-//! move all staged vertices
+//! move all vertices
 //! where few vertices have moved, take these back and place them one by one; no sweep
 //! rebuild if a sample of the cells foretells that this is faster; where some vertices have moved and nearly all around
 //!     them fails, take these back and place them one by one
@@ -35,74 +35,88 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::motion::attempt::{Mending, Prospect};
+use crate::motion::attempt::{Mending, Prospect, Start};
 use crate::motion::constants::constants;
-use crate::motion::staging::Given;
+use crate::motion::goals::{Goals, Movers, Moves};
 use crate::motion::{CommitReport, MovingTriangulation};
 use crate::predicates::exact_calls;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Brings the staged vertices to their new positions by a sweep and repair of what failed. Those that are there
-    /// already may be taken back like the others.
+    /// Brings the vertices to their goals by a sweep and repair of what failed. Those that are there already may be
+    /// taken back like the others.
     pub(in crate::motion) fn commit_by_repair(
         &mut self,
-        given: &mut Given<'_, G>,
+        start: Start,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let are_all = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if !are_all {
-            self.stage_given(given)?;
-            self.staging.list()?;
-        }
         if !self.kernel.has_cells() {
-            return self.commit_by_rebuilding(self.staging.applied(), report);
+            return self.rebuild(moves, report);
         }
         self.regions.invalidate();
-        let accepted = report.moved;
         let mut repair = memory::take_made(&mut self.repair)?;
-        let begun = if are_all {
-            // An attempt by slack may have moved them.
-            let moved =
-                if self.staging.others_applied() { Ok(self.n_moved()) } else { self.move_all_staged(given) };
-            moved.and_then(|moved| self.begin_moves(&mut repair, moved))
-        } else {
-            self.move_staged(&mut repair)
-        };
-        repair.failures.is_sweep_due = true;
-        let mended = begun.and_then(|()| {
-            if repair.places.n_new == 0 {
-                // No vertex of the cells has moved.
-                self.settle(&mut repair);
-                report.moved = 0;
-                return Ok(Mending::Mended);
-            }
-            self.mend(&mut repair, report)
-        });
-        report.unchanged += report.moved.saturating_sub(accepted);
-        let exact = repair.exact;
+        let done = self.move_and_repair(&mut repair, start, moves, report);
         self.repair = Some(repair);
-        if mended? == Mending::TooMuch {
-            return self.commit_by_rebuilding(self.staging.applied(), report);
-        }
-        self.transaction.want_order();
-        self.place_staged_within_budget(exact, report)
+        done
     }
 
-    /// Mends a triangulation all staged vertices of which have been moved, as
-    /// [`commit_by_repair`](Self::commit_by_repair) does, after a check that has found failures.
+    fn move_and_repair(
+        &mut self,
+        repair: &mut Repair,
+        start: Start,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.begin_moves(repair)?;
+        match (start, moves.movers()) {
+            (Start::AtGoals { n_moved }, _) => self.note_all_moved(repair, n_moved),
+            (Start::AtOrigins, Movers::All) if self.hidden.count() == 0 => {
+                let n_moved = self.move_everything(moves)?;
+                self.note_all_moved(repair, n_moved);
+            }
+            (Start::AtOrigins, _) => self.move_queued(repair, moves)?,
+        }
+        let goals = moves.checked()?;
+        repair.failures.is_sweep_due = true;
+        let accepted = report.moved;
+        let mended = if repair.places.n_new == 0 {
+            // No vertex of the cells has moved.
+            self.settle(repair, goals);
+            report.moved = 0;
+            Mending::Mended
+        } else {
+            self.mend(repair, goals, report)?
+        };
+        report.unchanged += report.moved.saturating_sub(accepted);
+        if mended == Mending::TooMuch {
+            return self.rebuild_moving(&repair.places.queue, goals, report);
+        }
+        self.transaction.want_order();
+        self.place_within_budget(&repair.places.queue, goals, repair.exact, report)
+    }
+
+    /// Mends a triangulation all vertices of which have been moved, as [`commit_by_repair`](Self::commit_by_repair)
+    /// does, after a check that has found failures. Those to be placed are in the [queue](Repair::queue).
     pub(in crate::motion) fn mend_moved(
         &mut self,
         repair: &mut Repair,
+        goals: Goals<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Mending> {
-        self.begin_moves(repair, report.moved)?;
-        self.mend(repair, report)
+        self.begin_moves(repair)?;
+        self.note_all_moved(repair, report.moved);
+        self.mend(repair, goals, report)
     }
 
     /// Takes back what must be, and flips.
-    fn mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
+    fn mend(
+        &mut self,
+        repair: &mut Repair,
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Mending> {
         let mended = self.mend_failures(repair, report);
-        self.settle(repair);
+        self.settle(repair, goals);
         report.moved = repair.places.n_new as u64;
         mended
     }
@@ -220,12 +234,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Makes the cells a triangulation by flips, as they are now, if that can be done in at most `most` certificates
     /// and with at most `most_back` vertices taken back.
     fn untangle_once(&mut self, repair: &mut Repair, most: u64, most_back: usize) -> Result<bool> {
-        let Self { kernel, staging, .. } = self;
+        let Self { kernel, transaction, .. } = self;
+        let origins = transaction.origins();
         let Repair { failures, suspects, places, .. } = repair;
         let first = places.queue.len();
         let mut take_back = |kernel: &mut Delaunay<G>, sites: &[SiteId]| {
-            let s = places.farthest(kernel, staging, sites).filter(|_| places.queue.len() < most_back);
-            s.map_or(Ok(()), |s| places.take_back(kernel, staging, s)).map(|()| s)
+            let s = places.farthest(kernel, origins, sites).filter(|_| places.queue.len() < most_back);
+            s.map_or(Ok(()), |s| places.take_back(kernel, origins, s)).map(|()| s)
         };
         let is_done = kernel.untangle(failures, suspects, most, &mut take_back);
         places.unchecked = first..places.queue.len();
@@ -251,8 +266,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     pub(super) fn check_ridges(&self, repair: &mut Repair) -> Result<()> {
-        let (at, before) = (&repair.places.at, self.staging.positions());
-        let before = |id: VertexId| (at[id] != At::Old).then(|| &before[id]);
+        let (at, origins) = (&repair.places.at, self.transaction.origins());
+        let before = |id: VertexId| matches!(at[id], At::New | At::Listed).then(|| origins.of(id));
         self.kernel.check_ridges(&mut repair.failures, before)
     }
 
@@ -268,40 +283,34 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(self.kernel.winds_once(&failures.ghosts))
     }
 
-    /// Notes the vertices that have been moved: of a whole staging all, `moved` of which have gone to another place.
-    fn begin_moves(&mut self, repair: &mut Repair, moved: u64) -> Result<()> {
+    /// A repair begins.
+    fn begin_moves(&mut self, repair: &mut Repair) -> Result<()> {
         repair.places.begin(self.site_of.len())?;
         (repair.exact, repair.share_failing, repair.was_foreseen) = (0, 0.0, false);
-        let places = &mut repair.places;
-        if self.staging.is_whole() {
-            places.at.resize(self.site_of.len(), At::New);
-            places.n_new = moved as usize;
-            return Ok(());
-        }
-        places.at.resize(self.site_of.len(), At::Rest);
-        for &v in &self.staging.vertices()[..self.staging.applied()] {
-            if self.kernel.site(self.site_of[v]).point != self.staging.positions()[v] {
-                places.at[v] = At::New;
-                places.n_new += 1;
-            }
-        }
         Ok(())
     }
 
-    /// Moves all staged vertices that have sites of their own and have not moved yet.
-    fn move_staged(&mut self, repair: &mut Repair) -> Result<()> {
-        self.begin_moves(repair, 0)?;
+    /// Notes that all vertices have been moved, this number of them to another place.
+    fn note_all_moved(&mut self, repair: &mut Repair, n_moved: u64) {
+        repair.places.at.resize(self.site_of.len(), At::New);
+        repair.places.n_new = n_moved as usize;
+    }
+
+    /// Moves the vertices that have sites of their own, one by one, and queues the others.
+    fn move_queued(&mut self, repair: &mut Repair, moves: &mut Moves<'_, G>) -> Result<()> {
+        let goals = moves.checked()?;
+        let movers = self.queue_of(moves)?;
+        let (places, origins) = (&mut repair.places, self.transaction.origins_mut());
+        places.at.resize(self.site_of.len(), At::Rest);
         // At shared places there are the hidden vertices, and no more representatives than these.
-        let places = &mut repair.places;
-        memory::reserve(&mut places.queue, self.staging.vertices().len().min(2 * self.hidden.count()))?;
+        memory::reserve(&mut places.queue, movers.len().min(2 * self.hidden.count()))?;
+        origins.make_room(self.site_of.len(), movers.len())?;
         // Sites are asked for in advance, as they are in another order than the vertices.
-        let (site_of, applied) = (&self.site_of[..], self.staging.applied());
-        let (positions, queued) = self.staging.parts_mut();
+        let site_of = &self.site_of[..];
         let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
         let sites = self.kernel.sites_mut();
-        let queued = &queued[applied..];
-        for (k, &v) in queued.iter().enumerate() {
-            if let Some(&next) = queued.get(k + AHEAD) {
+        for (k, &v) in movers.iter().enumerate() {
+            if let Some(&next) = movers.get(k + AHEAD) {
                 prefetch(sites, site_of[next].index());
             }
             let s = site_of[v];
@@ -310,42 +319,26 @@ impl<G: Dimension> MovingTriangulation<G> {
                 places.queue.push(v);
                 continue;
             }
-            let p = &mut positions[v];
+            let goal = goals.of(v);
             for axis in 0..G::D {
-                lower[axis] = if p[axis] < lower[axis] { p[axis] } else { lower[axis] };
-                upper[axis] = if p[axis] > upper[axis] { p[axis] } else { upper[axis] };
+                lower[axis] = if goal[axis] < lower[axis] { goal[axis] } else { lower[axis] };
+                upper[axis] = if goal[axis] > upper[axis] { goal[axis] } else { upper[axis] };
             }
             let point = &mut sites[s].point;
-            if point != p {
-                std::mem::swap(point, p);
+            if *point != goal {
+                origins.note(v, *point);
+                *point = goal;
                 places.at[v] = At::New;
                 places.n_new += 1;
             }
         }
         self.kernel.cover(&lower, &upper);
+        self.queue = movers;
         Ok(())
     }
 
-    /// How many vertices of a whole staging, all applied, have gone to another place.
-    fn n_moved(&self) -> u64 {
-        let before = self.staging.positions();
-        let has_moved = |&v: &VertexId| self.kernel.site(self.site_of[v]).point != before[v];
-        VertexId::range(0..self.site_of.len()).filter(has_moved).count() as u64
-    }
-
-    /// Puts the vertices that are to be placed behind the others; of a whole staging they are all that is listed. There
-    /// is room for them.
-    fn settle(&mut self, repair: &mut Repair) {
-        let is_whole = self.staging.is_whole();
-        let vertices = self.staging.vertices_mut();
-        if is_whole {
-            vertices.clear();
-        } else if !repair.places.queue.is_empty() {
-            vertices.retain(|&v| repair.places.at[v] != At::Old);
-        }
-        let applied = vertices.len();
-        vertices.append(&mut repair.places.queue);
-        self.staging.set_applied(applied);
-        self.order_queue();
+    /// Orders the vertices that are to be placed.
+    fn settle(&mut self, repair: &mut Repair, goals: Goals<'_, G>) {
+        self.order_for_placement(&mut repair.places.queue, goals);
     }
 }

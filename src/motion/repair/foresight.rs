@@ -64,9 +64,9 @@ impl Findings {
 impl<G: Dimension> MovingTriangulation<G> {
     /// Sweeps all cells, of which `most` may fail, unless a sample shows what to do.
     pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
-        // Once a whole staging is applied, it holds the positions from before.
         let has_rest = 4 * repair.places.n_new <= 3 * self.n_present;
-        let before = (has_rest && self.staging.others_applied()).then_some(self.staging.positions());
+        let origins = self.transaction.origins();
+        let before = (has_rest && origins.are_of_all()).then_some(origins.positions());
         let n_cells = self.kernel.complex().n_finite() as f64;
         repair.was_foreseen = true;
         let start = exact_calls();
@@ -92,7 +92,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let start = exact_calls();
         let most = repair.limit.map_or(most, |limit| most.min((limit * n_cells) as usize));
-        let before = (has_rest && self.staging.others_applied()).then_some(self.staging.positions());
+        let origins = self.transaction.origins();
+        let before = (has_rest && origins.are_of_all()).then_some(origins.positions());
         let is_done = self.kernel.sweep(&mut repair.failures, most, before)?;
         let found = Findings::of(&repair.failures, exact_calls() - start, 1.0);
         let prospect = self.prospect(found, repair);

@@ -8,8 +8,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::machine::{memory, threads};
-use crate::motion::rebuilding::exchange_position_of;
-use crate::motion::staging::Staging;
+use crate::motion::origins::Origins;
 use crate::predicates::squared_distance;
 
 /// To find those of this number of vertices that have moved takes a few times as long as a thread takes to wake up.
@@ -53,14 +52,16 @@ impl Places {
     pub(super) fn farthest<G: Dimension>(
         &self,
         kernel: &Delaunay<G>,
-        staging: &Staging<G>,
+        origins: &Origins<G>,
         sites: &[SiteId],
     ) -> Option<SiteId> {
         let displacement = |s: SiteId| {
             let site = kernel.site(s);
-            let other = &staging.positions()[site.id];
-            let is_new = self.at[site.id] == At::New && site.point != *other;
-            is_new.then(|| squared_distance(&site.point, other))
+            if self.at[site.id] != At::New {
+                return None;
+            }
+            let origin = origins.of(site.id);
+            (site.point != *origin).then(|| squared_distance(&site.point, origin))
         };
         let finite = sites.iter().filter(|&&s| s != INFINITE);
         let with_displacement = finite.filter_map(|&s| displacement(s).map(|d| (d, s)));
@@ -71,12 +72,12 @@ impl Places {
     pub(super) fn take_back<G: Dimension>(
         &mut self,
         kernel: &mut Delaunay<G>,
-        staging: &mut Staging<G>,
+        origins: &Origins<G>,
         s: SiteId,
     ) -> Result<()> {
-        self.reserve(staging, 1)?;
+        memory::reserve(&mut self.queue, 1)?;
         let v = kernel.site(s).id;
-        exchange_position_of(kernel, staging, s, v);
+        kernel.set_point(s, *origins.of(v));
         self.at[v] = At::Old;
         self.queue.push(v);
         self.n_new -= 1;
@@ -88,18 +89,18 @@ impl Places {
     pub(super) fn list_new<G: Dimension>(
         &mut self,
         kernel: &Delaunay<G>,
-        staging: &Staging<G>,
+        origins: &Origins<G>,
         site_of: &[SiteId],
     ) -> Result<()> {
         let Self { at, queue, .. } = self;
-        let (old, n) = (staging.positions(), site_of.len());
+        let n = site_of.len();
         let list = |range, moved: &mut Vec<VertexId>| {
             VertexId::range(range).try_for_each(|v| {
                 // Sites are in another order than vertices.
                 if let Some(&later) = site_of.get(v.index() + AHEAD) {
                     prefetch(kernel.sites(), later.index());
                 }
-                let has_moved = at[v] == At::New && kernel.site(site_of[v]).point != old[v];
+                let has_moved = at[v] == At::New && kernel.site(site_of[v]).point != *origins.of(v);
                 if has_moved { memory::push(moved, v) } else { Ok(()) }
             })
         };
@@ -117,14 +118,6 @@ impl Places {
             queue.truncate(before);
         }
         listed
-    }
-
-    /// Makes room for this number of vertices more in the queue. It has to fit where the staged vertices are listed,
-    /// too.
-    pub(super) fn reserve<G: Dimension>(&mut self, staging: &mut Staging<G>, more: usize) -> Result<()> {
-        memory::reserve(&mut self.queue, more)?;
-        let listed = staging.vertices_mut();
-        memory::reserve(listed, (self.queue.len() + more).saturating_sub(listed.len()))
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

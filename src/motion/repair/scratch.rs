@@ -3,7 +3,7 @@
 use super::places::Places;
 use crate::complex::Facet;
 use crate::delaunay::Failures;
-use crate::ids::{SiteId, Slot};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 
 /// Scratch memory of repairs.
@@ -43,6 +43,11 @@ impl Repair {
     /// Cells that may have failed, each once.
     pub(in crate::motion) fn touched(&self) -> &[Slot] {
         &self.touched
+    }
+
+    /// Vertices that have been taken back, to be placed, in the order in which to do so.
+    pub(in crate::motion) fn queue(&self) -> &[VertexId] {
+        &self.places.queue
     }
 
     /// From now on, rebuilds where more failures for each finite cell are found.

@@ -45,7 +45,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let corners = self.kernel.complex().cell(c).corners;
         let s = self.farthest(repair, corners.as_ref())?;
         let site = self.kernel.site(s);
-        let old = &self.staging.positions()[site.id];
+        let old = self.transaction.origins().of(site.id);
         let gone = squared_distance(&site.point, old);
         let mut others = corners.as_ref().iter().filter(|&&other| other != s);
         others.all(|&other| squared_distance(self.kernel.place(other), old) < gone).then_some(s)
@@ -63,7 +63,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if let Some(&c) = cells.get(k + STEP) {
             for &s in complex.cell(c).corners.as_ref() {
-                prefetch(self.staging.positions(), self.kernel.site(s).id.index());
+                prefetch(self.transaction.origins().positions(), self.kernel.site(s).id.index());
             }
         }
     }
@@ -148,11 +148,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Takes all vertices back, so that the cells are those before.
     pub(super) fn take_all_back(&mut self, repair: &mut Repair) -> Result<()> {
         let Repair { places, .. } = repair;
-        places.reserve(&mut self.staging, places.n_new)?;
+        memory::reserve(&mut places.queue, places.n_new)?;
         let first = places.queue.len();
-        places.list_new(&self.kernel, &self.staging, &self.site_of)?;
+        let origins = self.transaction.origins();
+        places.list_new(&self.kernel, origins, &self.site_of)?;
         for &v in &places.queue[first..] {
-            self.exchange_position(v);
+            self.kernel.set_point(self.site_of[v], *origins.of(v));
             places.at[v] = At::Old;
         }
         places.n_new = 0;
@@ -161,7 +162,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Takes a vertex back to its old place, and looks at its star.
     pub(super) fn take_back(&mut self, repair: &mut Repair, s: SiteId) -> Result<()> {
-        repair.places.take_back(&mut self.kernel, &mut self.staging, s)?;
+        repair.places.take_back(&mut self.kernel, self.transaction.origins(), s)?;
         self.kernel.check_star(s, &mut repair.failures)
     }
 
@@ -176,7 +177,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Of these sites, the one that has moved farthest and is at its new place.
     pub(super) fn farthest(&self, repair: &Repair, sites: &[SiteId]) -> Option<SiteId> {
-        repair.places.farthest(&self.kernel, &self.staging, sites)
+        repair.places.farthest(&self.kernel, self.transaction.origins(), sites)
     }
 }
 

@@ -19,8 +19,8 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::motion::goals::Moves;
 use crate::motion::regions::Filter;
-use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -28,16 +28,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_safe_region(
         &mut self,
         filter: Filter,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
         if !self.kernel.has_cells() {
-            return self.rebuild_given(given, report);
+            return self.rebuild(moves, report);
         }
-        self.stage_given(given)?;
-        self.prepare_regions(filter, report)?;
-        self.staging.list()?;
-        self.accept_listed(report);
-        self.place_queued(report)
+        let goals = moves.checked()?;
+        self.prepare_regions(filter, goals.positions(), report)?;
+        let mut queue = self.queue_of(moves)?;
+        self.accept_queued(&mut queue, goals, report)?;
+        self.place_queued(queue, goals, report)
     }
 }

@@ -61,7 +61,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         for &s in &self.site_of {
             chunks.point::<G>(if s == SiteId::NONE { &nowhere } else { &self.kernel.site(s).point })?;
         }
-        self.staged_vertices().try_for_each(|v| chunks.point::<G>(&self.staging.positions()[v]))?;
+        self.staged_vertices().try_for_each(|v| chunks.point::<G>(self.staging.goal(v)))?;
         insertions.iter().try_for_each(|(_, point)| chunks.point::<G>(point))
     }
 

@@ -22,42 +22,44 @@ use super::slacks::Expired;
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
-use crate::motion::attempt::Attempt;
+use crate::motion::attempt::{Attempt, Start};
 use crate::motion::constants::constants;
+use crate::motion::goals::Moves;
 use crate::motion::moving::Motion;
 use crate::motion::regions::Filter;
 use crate::motion::repair::Repair;
-use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by slack where that is possible, else by repair.
     pub(in crate::motion) fn slack_or_repair(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let can = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
-        if can && self.commit_by_slack(given, report)? == Attempt::Committed {
-            return Ok(());
+        let can = self.kernel.has_cells() && moves.are_of_all() && self.hidden.count() == 0;
+        let attempt =
+            if can { self.commit_by_slack(moves, report)? } else { Attempt::GivenUp(Start::AtOrigins) };
+        match attempt {
+            Attempt::Committed => Ok(()),
+            Attempt::GivenUp(start) => self.commit_by_repair(start, moves, report),
         }
-        self.commit_by_repair(given, report)
     }
 
-    /// Brings all vertices of a whole staging to their new positions, and that alone if too many bi-cells have no slack
-    /// left. No two vertices may share a site.
+    /// Brings all vertices to their goals, and that alone if too many bi-cells have no slack left. No two vertices may
+    /// share a site.
     pub(in crate::motion) fn commit_by_slack(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Slack) {
-            self.stage_given(given)?;
+            let goals = moves.checked()?;
             self.sort_cells(constants::<G>().replaced_to_sort_first)?;
-            self.prepare_regions(Filter::Slack, report)?;
+            self.prepare_regions(Filter::Slack, goals.positions(), report)?;
         }
         let mut repair = memory::take_made(&mut self.repair)?;
-        let done = self.move_check_and_mend(&mut repair, given, report);
+        let done = self.move_check_and_mend(&mut repair, moves, report);
         self.repair = Some(repair);
         done
     }
@@ -65,25 +67,25 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_check_and_mend(
         &mut self,
         repair: &mut Repair,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
-        let Motion { moved, greatest, fits } = self.move_all_on_record(given)?;
+        let Motion { moved, greatest, fits } = self.move_all_on_record(moves)?;
         let most = (self.kernel.complex().n_finite() as f64 * constants::<G>().max_share_expired) as usize;
-        let (before, (failures, _)) = (self.staging.positions(), repair.begin_check());
+        let (origins, (failures, _)) = (self.transaction.origins().positions(), repair.begin_check());
         let slacks = self.regions.slacks().expect("they have been prepared");
-        let expired = slacks.check_expired(&self.kernel, before, greatest, most, failures)?;
+        let expired = slacks.check_expired(&self.kernel, origins, greatest, most, failures)?;
         if !fits {
             self.regions.invalidate();
         }
         let Expired::Checked(n) = expired else {
-            return Ok(Attempt::OnlyMoved);
+            return Ok(Attempt::GivenUp(Start::AtGoals { n_moved: moved }));
         };
         report.moved += moved;
         report.tolerances += n;
         self.kernel.count_certificates(3 * n as usize);
         if !repair.is_unneeded() {
-            self.mend_checked(repair, report)?;
+            self.mend_checked(repair, &[], moves.checked()?, report)?;
         }
         Ok(Attempt::Committed)
     }

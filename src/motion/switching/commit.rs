@@ -11,47 +11,56 @@ use super::Switching;
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::motion::staging::Given;
+use crate::motion::goals::{Movers, Moves};
 use crate::motion::{CommitReport, MovingTriangulation, SwitchingRule};
 use crate::predicates::{displacement_limit, squared_distance};
 
 impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_switching(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        self.stage_given(given)?;
         let mut rule = self.options.switching;
         rule.sample = rule.sample.min(self.site_of.len() as u32);
         let group = u64::from(rule.period.max(1));
-        if self.switching.begin_commit(group) && self.sampled_share(&rule) >= rule.share_for::<G>() {
+        if self.switching.begin_commit(group) && self.sampled_share(&rule, moves)? >= rule.share_for::<G>() {
             self.switching.switch();
         }
         if self.switching.has_switched() {
-            self.commit_by_tolerance(given, report)
+            self.commit_by_tolerance(moves, report)
         } else {
-            self.rebuild_staged(report)
+            self.rebuild(moves, report)
         }
     }
 
-    /// Share of a sample of the vertices whose displacement is within their tolerance.
-    pub(in crate::motion) fn sampled_share(&mut self, rule: &SwitchingRule) -> f64 {
+    /// Share of a sample of the vertices whose displacement is within their tolerance. Those that stay where they are
+    /// count as such.
+    pub(in crate::motion) fn sampled_share(
+        &mut self,
+        rule: &SwitchingRule,
+        moves: &mut Moves<'_, G>,
+    ) -> Result<f64> {
+        let (movers, goals) = (moves.movers(), moves.checked()?);
         if self.site_of.is_empty() || !self.kernel.has_cells() {
-            return 0.0;
+            return Ok(0.0);
         }
         let mut within = 0;
         for _ in 0..rule.sample {
-            let v = VertexId::at(self.switching.draw(rule.seed, self.site_of.len()));
-            if !self.is_present(v) || !self.staging.is_staged(v) {
+            let k = self.switching.draw(rule.seed, self.site_of.len());
+            let mover = match movers {
+                Movers::All => Some(VertexId::at(k)),
+                Movers::Listed(vertices) => vertices.get(k).copied(),
+            };
+            let Some(v) = mover else {
                 within += 1;
                 continue;
-            }
+            };
             let s = self.site_of[v];
-            let displacement = squared_distance(&self.kernel.site(s).point, &self.staging.positions()[v]);
+            let displacement = squared_distance(&self.kernel.site(s).point, &goals.of(v));
             within += u32::from(displacement < displacement_limit(self.tolerance_of_site(s)));
         }
-        f64::from(within) / f64::from(rule.sample.max(1))
+        Ok(f64::from(within) / f64::from(rule.sample.max(1)))
     }
 
     /// Starts over with rebuilding, when the algorithm is chosen again.

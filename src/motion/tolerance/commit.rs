@@ -32,42 +32,44 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::motion::attempt::Advance;
+use crate::motion::goals::Moves;
 use crate::motion::regions::Filter;
-use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Algorithm 1.
     pub(in crate::motion) fn commit_by_tolerance(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
         if !self.kernel.has_cells() {
-            return self.rebuild_given(given, report);
+            return self.rebuild(moves, report);
         }
         if self.regions.kept_for() != Some(Filter::Tolerance) {
-            self.stage_given(given)?;
-            self.prepare_regions(Filter::Tolerance, report)?;
+            let goals = moves.checked()?;
+            self.prepare_regions(Filter::Tolerance, goals.positions(), report)?;
         }
-        if self.staging.is_whole() && self.hidden.count() == 0 {
-            self.accept_all(given, report)?;
+        let queue = if moves.are_of_all() && self.hidden.count() == 0 {
+            self.accept_all(moves, report)?
         } else {
-            self.stage_given(given)?;
-            self.staging.list()?;
-            self.accept_listed(report);
-        }
-        self.place_queued(report)
+            let mut queue = self.queue_of(moves)?;
+            self.accept_queued(&mut queue, moves.checked()?, report)?;
+            queue
+        };
+        self.place_queued(queue, moves.checked()?, report)
     }
 
-    /// Moves the vertices of a whole staging that stay within tolerance, and queues the others.
-    fn accept_all(&mut self, given: &mut Given<'_, G>, report: &mut CommitReport) -> Result<()> {
-        let Advance::Moved(moved) = self.move_and_queue::<false>(usize::MAX, given)? else {
+    /// Moves all vertices that stay within tolerance; returns the others.
+    fn accept_all(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<Vec<VertexId>> {
+        let mut beyond = std::mem::take(&mut self.queue);
+        let Advance::Moved(moved) = self.move_and_queue::<false>(usize::MAX, moves, &mut beyond)? else {
             unreachable!("there is room for all in the queue");
         };
         report.moved += moved;
-        report.within_tolerance += (self.site_of.len() - self.staging.vertices().len()) as u64;
-        Ok(())
+        report.within_tolerance += (self.site_of.len() - beyond.len()) as u64;
+        Ok(beyond)
     }
 }

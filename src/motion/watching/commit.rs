@@ -40,79 +40,92 @@
 
 use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
+use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::attempt::{Advance, Attempt, Mending};
+use crate::motion::attempt::{Advance, Attempt, Mending, Start};
 use crate::motion::constants::constants;
+use crate::motion::goals::{Goals, Moves};
 use crate::motion::regions::Filter;
 use crate::motion::repair::Repair;
-use crate::motion::staging::Given;
 use crate::motion::{CommitReport, MovingTriangulation};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
     pub(in crate::motion) fn watch_or_repair(
         &mut self,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let can_watch = self.kernel.has_cells() && self.staging.is_whole() && self.hidden.count() == 0;
+        let can_watch = self.kernel.has_cells() && moves.are_of_all() && self.hidden.count() == 0;
         let most = constants::<G>().max_share_beyond_alone;
-        if can_watch && self.commit_by_watching(most, given, report)? == Attempt::Committed {
-            return Ok(());
+        let attempt = if can_watch {
+            self.commit_by_watching(most, moves, report)?
+        } else {
+            Attempt::GivenUp(Start::AtOrigins)
+        };
+        match attempt {
+            Attempt::Committed => Ok(()),
+            Attempt::GivenUp(start) => self.commit_by_repair(start, moves, report),
         }
-        self.commit_by_repair(given, report)
     }
 
-    /// Brings all vertices of a whole staging to their new positions, or none if more than this share of them leave
+    /// Brings all vertices to their goals, or none if more than this share of them leave
     /// their tolerance. No two vertices may share a site.
     pub(in crate::motion) fn commit_by_watching(
         &mut self,
         max_share_beyond: f64,
-        given: &mut Given<'_, G>,
+        moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Watch) {
-            self.stage_given(given)?;
+            let goals = moves.checked()?;
             self.sort_cells(constants::<G>().replaced_to_sort_first)?;
-            self.prepare_regions(Filter::Watch, report)?;
+            self.prepare_regions(Filter::Watch, goals.positions(), report)?;
         }
         let most = (self.n_present as f64 * max_share_beyond) as usize;
-        let Advance::Moved(moved) = self.move_and_queue::<true>(most, given)? else {
-            return Ok(Attempt::NotBegun);
+        let mut beyond = std::mem::take(&mut self.queue);
+        let Advance::Moved(moved) = self.move_and_queue::<true>(most, moves, &mut beyond)? else {
+            self.queue = beyond;
+            return Ok(Attempt::GivenUp(Start::AtOrigins));
         };
         report.moved += moved;
-        let n_beyond = self.staging.vertices().len();
-        report.within_tolerance += (self.n_present - n_beyond) as u64;
-        if n_beyond + self.regions.n_watched() > 0 {
+        report.within_tolerance += (self.n_present - beyond.len()) as u64;
+        if beyond.len() + self.regions.n_watched() > 0 {
             let mut repair = memory::take_made(&mut self.repair)?;
-            let done = self.check_and_mend(&mut repair, report);
+            let done = self.check_and_mend(&mut repair, &beyond, moves.checked()?, report);
             self.repair = Some(repair);
             done?;
         }
+        self.queue = beyond;
         Ok(Attempt::Committed)
     }
 
     /// Checks the bi-cells that may have failed. If all hold, those of the vertices beyond are computed; else what has
     /// failed is mended.
-    fn check_and_mend(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<()> {
-        self.check_moved(repair)?;
+    fn check_and_mend(
+        &mut self,
+        repair: &mut Repair,
+        beyond: &[VertexId],
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.check_moved(repair, beyond)?;
         if !repair.is_unneeded() {
-            return self.mend_checked(repair, report);
+            return self.mend_checked(repair, beyond, goals, report);
         }
-        report.unchanged += self.staging.vertices().len() as u64;
+        report.unchanged += beyond.len() as u64;
         if let Some(watching) = self.regions.watching() {
-            let sites = self.staging.vertices().iter().map(|&v| self.site_of[v]);
-            let other_positions = self.staging.positions();
-            report.tolerances +=
-                watching.recompute(&mut self.kernel, other_positions, repair.touched(), sites);
+            let sites = beyond.iter().map(|&v| self.site_of[v]);
+            let origins = self.transaction.origins().positions();
+            report.tolerances += watching.recompute(&mut self.kernel, origins, repair.touched(), sites);
         }
         Ok(())
     }
 
     /// Checks the bi-cells that are not held; lists the cells of the stars of the vertices beyond, each once.
-    fn check_moved(&mut self, repair: &mut Repair) -> Result<()> {
+    fn check_moved(&mut self, repair: &mut Repair, beyond: &[VertexId]) -> Result<()> {
         let (failures, touched) = repair.begin_check();
-        for &v in self.staging.vertices() {
+        for &v in beyond {
             let s = self.site_of[v];
             let point = self.kernel.site(s).point;
             self.kernel.cover(&point, &point);
@@ -120,7 +133,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             memory::collect(touched, self.kernel.gathered_star().iter().map(|&(c, _)| c))?;
         }
         self.kernel.tidy_changes(touched);
-        let (kernel, before) = (&self.kernel, self.staging.positions());
+        let (kernel, before) = (&self.kernel, self.transaction.origins().positions());
         let mut waiting = Waiting::default();
         let mut checked = Ok(());
         if let Some(watching) = self.regions.watching() {
@@ -137,22 +150,28 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(())
     }
 
-    /// Repairs what a check of some certificates of a whole staging has found. The listed vertices and those placed
-    /// have their bi-cells recomputed, like all new cells.
+    /// Repairs what a check of some certificates has found, all vertices being at their goals. Those beyond their
+    /// tolerance and those placed have their bi-cells recomputed, like all new cells.
     pub(in crate::motion) fn mend_checked(
         &mut self,
         repair: &mut Repair,
+        beyond: &[VertexId],
+        goals: Goals<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
         self.with_regions(report, |t, report| {
-            for &v in t.staging.vertices() {
+            for &v in beyond {
                 t.regions.note_relocated(v)?;
             }
             t.kernel.record_all(repair.touched())?;
-            if t.mend_moved(repair, report)? == Mending::TooMuch {
-                return t.commit_by_rebuilding(t.staging.applied(), report);
+            let mended = t.mend_moved(repair, goals, report)?;
+            let queue = repair.queue();
+            match mended {
+                Mending::Mended => {
+                    t.place_all(queue, goals, report, |t, v, goal, report| t.relocate_noted(v, goal, report))
+                }
+                Mending::TooMuch => t.rebuild_moving(queue, goals, report),
             }
-            t.place_staged(report, |t, v, new, report| t.relocate_noted(v, new, report))
         })
     }
 }
