@@ -4,7 +4,7 @@
 //! rows; the tables of README.md and docs/ARCHITECTURE.md and the list of CHANGELOG.md are checked against them
 //! (ffi-tests/algorithms.rs). So an algorithm needs a file with its commit, a row here, and its documentation.
 
-use super::regions::Filter;
+use crate::motion::region_kind::Filter;
 
 /// What an algorithm is there for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

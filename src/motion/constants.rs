@@ -4,8 +4,8 @@
 //! motions take with it and with other values. It prints each beside the measured one, and by how much the one here is
 //! slower. Change one where that is clearly more than the noise printed next to it, twice.
 
-use super::report::Evaluations;
 use crate::delaunay::Dimension;
+use crate::motion::report::Evaluations;
 
 /// What the parts of a commit cost, in nanoseconds; only the ratios matter.
 #[derive(Clone, Copy, Debug)]
@@ -359,8 +359,9 @@ fn in_force() -> &'static Table {
 /// Other values, to be measured.
 #[cfg(feature = "internals")]
 pub mod trial {
-    use super::{TABLE, Table};
     use std::cell::Cell;
+
+    use super::{TABLE, Table};
 
     thread_local! {
         pub(super) static IN_FORCE: Cell<&'static Table> = const { Cell::new(&TABLE) };

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use super::Algorithm;
 use crate::delaunay::Dimension;
 pub use crate::machine::pace::Monitor;
+use crate::motion::algorithms::Algorithm;
 
 /// When *rebuilding + tolerance* swaps from the one to the other: by default as in the report. (`make calibrate`
 /// measures other values.)

@@ -1,0 +1,47 @@
+//! A second triangulation like the first.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::machine::memory;
+use crate::motion::options::{Monitor, Options};
+use crate::motion::state::transaction::Transaction;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// An independent triangulation that is as this one: positions, ids, cells with their indices, hidden vertices,
+    /// what is staged, the timestamp, statistics, options, the changes that have not been taken, and what the algorithm
+    /// keeps between commits. The callback of the options is `monitor`, as that of this one cannot be copied. Views,
+    /// and lists of changes that have been taken, stay with this one.
+    ///
+    /// If there are arrays of [`cells`](Self::cells), they are brought up to date. A pass over what is kept.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
+        let Options { algorithm, threads, coincidence, track_changes, switching, .. } = self.options;
+        let mut kernel = self.kernel.copied()?;
+        kernel.pace_mut().set_monitor(monitor);
+        Ok(MovingTriangulation {
+            kernel,
+            site_of: memory::copy_of(&self.site_of)?,
+            hidden: self.hidden.copied()?,
+            n_present: self.n_present,
+            staging: self.staging.copied()?,
+            queue: Vec::new(),
+            edits: self.edits.copied()?,
+            regions: self.regions.copied()?,
+            switching: self.switching.clone(),
+            repair: None,
+            auto: self.auto.clone(),
+            options: Options { algorithm, threads, coincidence, track_changes, switching, monitor: None },
+            statistics: self.statistics,
+            n_moved: self.n_moved,
+            sorted_stride: self.sorted_stride,
+            transaction: Transaction::default(),
+            views: self.views.copied(&self.kernel)?,
+            foreseen: Default::default(),
+            taken: None,
+            takes_changes: self.takes_changes,
+        })
+    }
+}

@@ -1,0 +1,131 @@
+//! The commit: one timestamp, all or nothing.
+
+use crate::delaunay::{Dimension, Shortcut};
+use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::motion::algorithms::{Algorithm, for_algorithms};
+use crate::motion::region_kind::Filter;
+use crate::motion::report::CommitReport;
+use crate::motion::state::goals::Moves;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::ways::attempt::{Edited, Start};
+use crate::motion::ways::outlook::Outlook;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Makes the staged positions the next timestamp.
+    ///
+    /// On an error the triangulation is at the timestamp before, and the moves stay staged.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`], [`Error::Coincident`] if the options reject that, [`Error::TooManyCells`],
+    /// [`Error::OutOfMemory`].
+    pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
+        let mut staging = std::mem::take(&mut self.staging);
+        let done = self.commit(&mut staging.moves(self.n_present));
+        if done.is_ok() {
+            staging.clear();
+        }
+        self.staging = staging;
+        done
+    }
+
+    /// Makes these moves, and the staged edits, the next timestamp.
+    fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
+        self.prepare_tracking()?;
+        let mut report = CommitReport::default();
+        let before = self.evaluations();
+        self.begin()?;
+        let advanced = self.edit_and_advance(moves, &mut report);
+        if let Err(error) = advanced.and_then(|()| self.views.prepare(&self.kernel)) {
+            self.undo();
+            return Err(error);
+        }
+        self.views.begin_commit();
+        self.publish();
+        self.enter_evaluations(&mut report, before);
+        self.end_edits();
+        self.statistics.timestamp += 1;
+        self.count(report);
+        report.timestamp = self.statistics.timestamp;
+        report.coincident = self.statistics.coincident;
+        self.follow_commit(&report);
+        Ok(report)
+    }
+
+    /// Makes the positions given the next timestamp: as [`move_all`](Self::move_all) and
+    /// [`commit_timestamp`](Self::commit_timestamp). On an error no move is staged, and insertions are staged as before.
+    ///
+    /// # Errors
+    /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.
+    pub fn commit_positions(&mut self, positions: &[G::Point]) -> Result<CommitReport> {
+        if let Some(vertex) = self.staging.first_staged() {
+            return Err(Error::DuplicateMove { argument: "positions", index: vertex.index(), vertex });
+        }
+        if self.can_stage_whole(positions.len()) && !positions.is_empty() {
+            return self.commit(&mut Moves::lent(positions));
+        }
+        let before = memory::copy_of(self.edits.insertions())?;
+        self.move_all(positions)?;
+        let done = self.commit_timestamp();
+        if done.is_err() {
+            self.staging.clear();
+            self.edits.restore_insertions(before);
+        }
+        done
+    }
+
+    /// Makes the edits, and brings the vertices to their goals.
+    fn edit_and_advance(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
+        match self.make_edits(moves, report)? {
+            Edited::WithMoves => Ok(()),
+            Edited::WithoutMoves => self.advance(moves, report),
+        }
+    }
+
+    /// Brings the vertices to their goals.
+    fn advance(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
+        // Without cells nothing is looked at but this, and by rebuilding not even that.
+        let algorithm = self.options.algorithm;
+        let may_rest = !self.kernel.has_cells() && algorithm != Algorithm::Rebuilding;
+        if !may_rest || self.outlook(moves, false) != Outlook::AtRest {
+            self.commit_by(algorithm, moves, report)?;
+        }
+        self.reject_coincidence()
+    }
+
+    /// Tells the monitor how far the work is; whether to go on.
+    pub(in crate::motion) fn monitor(&mut self, fraction: f64) -> bool {
+        self.kernel.pace_mut().ask(fraction)
+    }
+}
+
+/// Makes the calls of the methods that commit, from the table of algorithms.
+macro_rules! commit_by {
+    (default $default:ident; $(
+        $(#[doc = $line:literal])+
+        $variant:ident = $code:literal {
+            name: $name:literal,
+            purpose: $purpose:ident,
+            commits: $commits:ident,
+            keeps: $keeps:literal,
+            immediate: $immediate:ident$(($filter:ident))?,
+            by: $method:ident($($argument:expr),*),
+        }
+    )+) => {
+        impl<G: Dimension> MovingTriangulation<G> {
+            /// Brings the vertices to their goals.
+            fn commit_by(
+                &mut self,
+                algorithm: Algorithm,
+                moves: &mut Moves<'_, G>,
+                report: &mut CommitReport,
+            ) -> Result<()> {
+                match algorithm {
+                    $(Algorithm::$variant => self.$method($($argument,)* moves, report),)+
+                }
+            }
+        }
+    };
+}
+
+for_algorithms!(commit_by);

@@ -1,0 +1,71 @@
+//! Compaction: what removed vertices have left behind goes.
+//!
+//! The id of a removed vertex is not given again, nor is its place in arrays by id, and free sites and cells stay
+//! where they are. So a triangulation grows with the number of insertions. A compaction gives the present vertices
+//! the ids from 0 on, in the order of those that they have: ties are broken by the order of ids, so the cells stay
+//! the same.
+//!
+//! All that is to be kept is copied, with sites and cells in the order of a fresh build, and then takes the place of
+//! what there was: a compaction that fails has changed nothing. Scratch memory goes, and so do tolerances: the next
+//! commit that wants some computes them.
+//!
+//! Cost: the sort of a fresh build, without its insertions, and a pass over all old ids, sites and cells; while it
+//! lasts, the memory of a second triangulation.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+use crate::motion::filters::regions::Regions;
+use crate::motion::state::transaction::Transaction;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones
+    /// alone. Returns the new id of each old one, [`NO_VERTEX`](super::NO_VERTEX) for vertices that have been removed.
+    ///
+    /// All else stays: positions, cells with their indices in [`cells`](Self::cells), what is staged, the timestamp.
+    /// [`changed_cells`](Self::changed_cells) and [`take_changes`](Self::take_changes) go on as they would have, with
+    /// vertices under their new ids.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory): for the time of the call there are two triangulations.
+    pub fn compact(&mut self) -> Result<Vec<VertexId>> {
+        let ids = self.dense_ids()?;
+        let n = self.n_present + self.staged_edits().0;
+        let mut site_of = Vec::new();
+        memory::reserve_exact(&mut site_of, n)?;
+        let (kernel, slots) = self.kernel.compacted(&ids)?;
+        let hidden = self.hidden.renumbered(&ids, n)?;
+        let staging = self.staging.renumbered(&ids, n)?;
+        let edits = self.edits.renumbered(&ids, n)?;
+        let views = self.views.renumbered(&self.kernel, &ids, &slots, kernel.complex().n_slots())?;
+        // From here on nothing fails.
+        site_of.resize(n, SiteId::NONE);
+        self.note_tolerances_dropped();
+        (self.site_of, self.staging, self.edits, self.views) = (site_of, staging, edits, views);
+        let stride = kernel.mean_stride();
+        self.adopt(kernel, hidden, stride);
+        self.find_sites();
+        (self.regions, self.repair) = (Regions::default(), None);
+        (self.transaction, self.taken) = (Transaction::default(), None);
+        Ok(ids)
+    }
+
+    /// For each id the number of vertices with lower ones that are present or about to be inserted, [`VertexId::NONE`]
+    /// for those removed.
+    fn dense_ids(&self) -> Result<Vec<VertexId>> {
+        let mut ids = Vec::new();
+        memory::reserve_exact(&mut ids, self.site_of.len())?;
+        let first = VertexId::new(0);
+        ids.extend(self.site_of.iter().map(|&s| if s == SiteId::NONE { VertexId::NONE } else { first }));
+        for k in 0..self.staged_edits().0 {
+            ids[self.coming(k)] = first;
+        }
+        let all = VertexId::range(0..ids.len());
+        for (next, id) in all.zip(ids.iter_mut().filter(|id| **id != VertexId::NONE)) {
+            *id = next;
+        }
+        Ok(ids)
+    }
+}

@@ -1,0 +1,258 @@
+//! Insertions and removals that wait for the next commit, with the moves.
+//!
+//! A staged insertion gets its id at once; the vertex is present from the commit on. The commit removes and inserts
+//! first, at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or
+//! go, or those that go have more neighbours in all than there are vertices, it rebuilds. Either way all of it is one transaction.
+
+use crate::delaunay::order::{Keyed, hilbert_order};
+use crate::delaunay::{Delaunay, Dimension, Insertion};
+use crate::error::{Error, Result};
+use crate::ids::{SiteId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::constants::constants;
+use crate::motion::report::CommitReport;
+use crate::motion::state::checking::check_position;
+use crate::motion::state::goals::{Goals, Movers, Moves};
+use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
+use crate::motion::ways::attempt::{Edited, SingleEdits};
+use crate::motion::ways::rebuilding::move_to;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those
+    /// of the others follow. They are present from the next commit on.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
+    pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
+        let (n, first) = (positions.len(), self.site_of.len());
+        if n > MAX_VERTICES - first {
+            return Err(Error::TooManyVertices { given: first.saturating_add(n), limit: MAX_VERTICES });
+        }
+        self.staging.list()?;
+        self.staging.make_room(n)?;
+        memory::reserve(&mut self.site_of, n)?;
+        self.edits.reserve_insertions(n)?;
+        for (index, position) in positions.iter().enumerate() {
+            check_position::<G>("positions", index, position)?;
+        }
+        for (id, position) in VertexId::range(first..first + n).zip(positions) {
+            let checked = check_position::<G>("positions", 0, position)?;
+            self.edits.insert(id, checked);
+        }
+        self.site_of.resize(first + n, SiteId::NONE);
+        self.staging.grow(self.site_of.len());
+        Ok(VertexId::at(first))
+    }
+
+    /// Stages the removal of vertices, all of them or, on an error, none. Moves staged for them are forgotten, and no
+    /// more can be staged.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`]; [`Error::StagedVertex`] if the removal is staged already, or
+    /// the insertion; [`Error::OutOfMemory`].
+    pub fn stage_removals(&mut self, vertices: &[VertexId]) -> Result<()> {
+        self.staging.list()?;
+        self.edits.reserve_removals(vertices.len(), self.site_of.len())?;
+        let before = self.edits.removals().len();
+        for (index, &vertex) in vertices.iter().enumerate() {
+            if let Err(error) = self.site_of_vertex("vertices", index, vertex) {
+                self.edits.truncate_removals(before);
+                return Err(error);
+            }
+            self.edits.remove(vertex);
+        }
+        vertices.iter().for_each(|&vertex| self.staging.unstage(vertex));
+        Ok(())
+    }
+
+    /// The id of a staged insertion.
+    pub(in crate::motion) fn coming(&self, k: usize) -> VertexId {
+        self.edits.insertions()[k].0
+    }
+
+    /// Number of staged insertions and removals.
+    pub fn staged_edits(&self) -> (usize, usize) {
+        (self.edits.insertions().len(), self.edits.removals().len())
+    }
+
+    /// Forgets what waits. Ids that were given last are given back.
+    pub(in crate::motion) fn discard_edits(&mut self) {
+        for id in self.edits.forget_insertions() {
+            if id.index() + 1 == self.site_of.len() {
+                self.site_of.pop();
+            }
+        }
+        self.staging.shrink(self.site_of.len());
+        self.edits.clear();
+    }
+
+    /// The edits have been made.
+    pub(in crate::motion) fn end_edits(&mut self) {
+        self.edits.clear();
+    }
+
+    /// Makes all edits, and all moves as well where a kernel is built for them.
+    pub(in crate::motion) fn make_edits(
+        &mut self,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Edited> {
+        if self.edits.are_none() {
+            return Ok(Edited::WithoutMoves);
+        }
+        let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
+        if self.kernel.has_cells() && constants::<G>().rebuilt_per_edit * n_edits <= self.n_present {
+            if self.edit_cells(report)? == SingleEdits::Made {
+                return Ok(Edited::WithoutMoves);
+            }
+            // Once more from the beginning.
+            self.undo();
+            self.begin()?;
+            (report.inserted, report.removed) = (0, 0);
+        }
+        self.rebuild_edited(moves, report)?;
+        Ok(Edited::WithMoves)
+    }
+
+    /// Removes and inserts one vertex after the other.
+    fn edit_cells(&mut self, report: &mut CommitReport) -> Result<SingleEdits> {
+        let insertions = self.ordered_insertions()?;
+        self.with_regions(report, |t, report| {
+            let mut most_link_sites = None;
+            for k in 0..t.edits.removals().len() {
+                let vertex = t.edits.removals()[k];
+                if !t.remove_unless_high(vertex)? {
+                    let most = match most_link_sites {
+                        Some(most) => most,
+                        None if t.are_links_too_large(k)? => return Ok(SingleEdits::NeedBuild),
+                        None => *most_link_sites.insert(t.kernel.link_sites() + t.n_present as u64),
+                    };
+                    if t.kernel.link_sites() > most {
+                        return Ok(SingleEdits::NeedBuild);
+                    }
+                    t.remove_present(vertex)?;
+                }
+                report.removed += 1;
+            }
+            let mut near = Slot::NONE;
+            for (id, q) in insertions {
+                let s = t.kernel.add_site(q, id)?;
+                t.log_vertex(id)?;
+                t.site_of[id] = s;
+                match t.kernel.insert_site(s, near)? {
+                    Insertion::New => near = t.kernel.site(s).cell,
+                    Insertion::Coincident(at) => t.hide(id, at)?,
+                    Insertion::Spans => return Ok(SingleEdits::NeedBuild),
+                }
+                t.n_present += 1;
+                t.regions.note_relocated(id)?;
+                report.inserted += 1;
+            }
+            Ok(SingleEdits::Made)
+        })
+    }
+
+    /// Takes a vertex out.
+    pub(in crate::motion) fn remove_present(&mut self, vertex: VertexId) -> Result<()> {
+        let s = self.site_of[vertex];
+        self.log_vertex(vertex)?;
+        if self.is_shared(s) {
+            self.leave(vertex)?;
+        } else {
+            self.kernel.remove_site(s)?;
+        }
+        self.note_removed(vertex);
+        Ok(())
+    }
+
+    /// Takes a vertex out unless its degree is high; whether it has.
+    fn remove_unless_high(&mut self, vertex: VertexId) -> Result<bool> {
+        let s = self.site_of[vertex];
+        if self.is_shared(s) {
+            self.remove_present(vertex)?;
+            return Ok(true);
+        }
+        self.log_vertex(vertex)?;
+        if !self.kernel.remove_site_unless_high(s)? {
+            return Ok(false);
+        }
+        self.note_removed(vertex);
+        Ok(true)
+    }
+
+    fn note_removed(&mut self, vertex: VertexId) {
+        self.site_of[vertex] = SiteId::NONE;
+        self.n_present -= 1;
+    }
+
+    /// Whether to triangulate the links of those vertices of high degree that are still to be removed, from the `k`-th
+    /// removal on, takes longer than to build all: whether they have more sites.
+    #[cold]
+    fn are_links_too_large(&mut self, k: usize) -> Result<bool> {
+        let mut n_sites = 0;
+        for k in k..self.edits.removals().len() {
+            let s = self.site_of[self.edits.removals()[k]];
+            if !self.is_shared(s) {
+                n_sites += self.kernel.link_sites_of(s)?;
+            }
+            if n_sites > self.n_present {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The insertions along a Hilbert curve, so that each walk begins near its end.
+    fn ordered_insertions(&self) -> Result<Vec<(VertexId, G::Point)>> {
+        let insertions = self.edits.insertions();
+        let mut keyed = Vec::new();
+        memory::reserve_exact(&mut keyed, insertions.len())?;
+        keyed.extend((0..insertions.len() as u32).map(Keyed::new));
+        let keyed = hilbert_order::<G>(keyed, |k| &insertions[k as usize].1)?;
+        let mut ordered = Vec::new();
+        memory::reserve_exact(&mut ordered, insertions.len())?;
+        ordered.extend(keyed.iter().map(|k| insertions[k.item() as usize]));
+        Ok(ordered)
+    }
+
+    /// Triangulates the vertices that stay, at their goals, and those that come.
+    fn rebuild_edited(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
+        let goals = moves.checked()?;
+        let Movers::Listed(movers) = moves.movers() else {
+            unreachable!("where there are edits, moves are listed");
+        };
+        let room = self.hidden.count() + self.edits.insertions().len();
+        let mut next = self.kernel.successor(room, |site| site.point, |_| {})?;
+        let ready = self.edit_sites(&mut next, movers, goals, report);
+        let (n_in, n_out) = self.staged_edits();
+        self.build_and_adopt(next, ready, report)?;
+        for &v in self.edits.removals() {
+            self.site_of[v] = SiteId::NONE;
+        }
+        self.n_present = self.n_present + n_in - n_out;
+        report.inserted += n_in as u64;
+        report.removed += n_out as u64;
+        Ok(())
+    }
+
+    /// Gives a new kernel the sites of all vertices that are to be there, where they are to be.
+    fn edit_sites(
+        &mut self,
+        next: &mut Delaunay<G>,
+        movers: &[VertexId],
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let spread = self.spread_hidden(next)?;
+        for &v in movers {
+            report.moved += u64::from(move_to(next, self.own_site(&spread, v), goals.of(v)));
+        }
+        for &v in self.edits.removals() {
+            next.discard_site(self.own_site(&spread, v))?;
+        }
+        for &(id, q) in self.edits.insertions() {
+            next.add_site(q, id)?;
+        }
+        Ok(())
+    }
+}

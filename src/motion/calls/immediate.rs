@@ -1,0 +1,214 @@
+//! One vertex at a time: relocations, insertions and removals that are visible at once.
+
+use crate::delaunay::{Dimension, Insertion, Shortcut};
+use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+use crate::motion::algorithms::{Algorithm, Immediate};
+use crate::motion::region_kind::Filter;
+use crate::motion::report::CommitReport;
+use crate::motion::state::checking::{check_position, differ};
+use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
+use crate::motion::ways::placement::Placed;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Moves one vertex at once, whatever is staged for others.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
+    /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
+    #[inline]
+    pub fn relocate_vertex(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
+        if self.relocate_within_tolerance(vertex, position) {
+            return Ok(());
+        }
+        self.relocate_checked(vertex, position)
+    }
+
+    /// The long way of [`relocate_vertex`](Self::relocate_vertex), kept out of the short one's registers.
+    #[inline(never)]
+    fn relocate_checked(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
+        let s = self.present_site("vertex", 0, vertex)?;
+        let q = check_position::<G>("position", 0, position)?;
+        if self.staging.is_staged(vertex) {
+            return Err(Error::DuplicateMove { argument: "vertex", index: 0, vertex });
+        }
+        let old = self.kernel.site(s).point;
+        if old == q {
+            return Ok(());
+        }
+        self.prefetch_next_stars(vertex);
+        let before = self.evaluations();
+        let mut report = CommitReport { moved: 1, ..CommitReport::default() };
+        let relocated = self.transact(|t| {
+            t.reject_occupied(vertex, &q)?;
+            t.relocate_filtered(vertex, &q, &mut report)
+        });
+        if let Err(error) = relocated {
+            // Undoing does not know the place of a vertex that was only moved.
+            self.kernel.set_point(self.site_of[vertex], old);
+            return Err(error);
+        }
+        self.enter_evaluations(&mut report, before);
+        self.count(report);
+        if self.options.algorithm == Algorithm::Auto && self.kernel.has_cells() {
+            self.follow_relocations(&report);
+        }
+        Ok(())
+    }
+
+    /// Inserts a vertex; its id is one above the highest ever given, or left by the latest [`compact`](Self::compact).
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
+    /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
+    pub fn insert_vertex(&mut self, position: &G::Point) -> Result<VertexId> {
+        let q = check_position::<G>("position", 0, position)?;
+        if self.site_of.len() >= MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: self.site_of.len() + 1, limit: MAX_VERTICES });
+        }
+        let id = VertexId::at(self.site_of.len());
+        self.reject_occupied(id, &q)?;
+        self.staging.list()?;
+        self.staging.make_room(1)?;
+        memory::push(&mut self.site_of, SiteId::NONE)?;
+        let before = self.evaluations();
+        let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
+        let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
+        if let Err(error) = inserted {
+            self.site_of.pop();
+            return Err(error);
+        }
+        self.n_present += 1;
+        self.staging.grow(self.site_of.len());
+        self.enter_evaluations(&mut report, before);
+        self.count(report);
+        Ok(id)
+    }
+
+    /// Gives the highest of all ids a site, or a place at one.
+    fn insert_at(&mut self, id: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+        let s = self.kernel.add_site(*q, id)?;
+        self.site_of[id] = s;
+        let inserted = self.with_regions(report, |t, _| {
+            // Undoing does not know of a site that is in without cells, so nothing may fail after that.
+            t.regions.make_room_to_note()?;
+            let inserted = t.kernel.insert_site_anywhere(s)?;
+            if let Insertion::Coincident(at) = inserted {
+                // The new id is the highest of all, so it is the one to hide: nothing else changes.
+                t.hide(id, at)?;
+            }
+            t.regions.note_relocated(id)?;
+            Ok(inserted)
+        })?;
+        if inserted == Insertion::Spans { self.rebuild_as_is(report) } else { Ok(()) }
+    }
+
+    /// Removes a vertex and its staged move, if any. Its id is not given again before a [`compact`](Self::compact).
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
+    pub fn remove_vertex(&mut self, vertex: VertexId) -> Result<()> {
+        self.present_site("vertex", 0, vertex)?;
+        self.staging.list()?;
+        let before = self.evaluations();
+        let mut report = CommitReport { removed: 1, ..CommitReport::default() };
+        self.transact(|t| t.with_regions(&mut report, |t, _| t.remove_present(vertex)))?;
+        self.staging.unstage(vertex);
+        self.edits.forget_removal(vertex);
+        self.enter_evaluations(&mut report, before);
+        self.count(report);
+        Ok(())
+    }
+
+    /// The short way of [`relocate_vertex`](Self::relocate_vertex): moves a vertex that certainly stays within the
+    /// tolerance kept of it if nothing follows from that but a few counts. Otherwise it does nothing and says
+    /// `false`; the long way finds out what is to be done, or is wrong. It cannot panic, so C needs no fence around it.
+    ///
+    /// No other vertex can be at the new place. All are within their tolerances, so the cells still are a triangulation
+    /// when this one has moved, and positive; if two of its vertices were at one place, cells of theirs would overlap.
+    ///
+    /// Sites are not stored in the order of ids, so what they hold comes late. Nothing waits for it here: a vertex
+    /// that is there already is moved like the others, and counts nothing.
+    #[inline(always)]
+    pub(crate) fn relocate_within_tolerance(&mut self, vertex: VertexId, position: &G::Point) -> bool {
+        let v = vertex.index();
+        let Some(tolerances) = self.regions.tolerances() else {
+            return false;
+        };
+        let (Some(&s), Some(fixed)) = (self.site_of.get(v), tolerances.fixed().get(v)) else {
+            return false;
+        };
+        let Ok(q) = check_position::<G>("position", 0, position) else {
+            return false;
+        };
+        let is_auto = self.options.algorithm == Algorithm::Auto;
+        let may_move = self.kernel.has_cells()
+            && self.filters_by_kept(Filter::Tolerance)
+            && fixed.holds(&q)
+            && !self.staging.is_staged(vertex)
+            && (self.hidden.count() == 0 || s != SiteId::NONE && !self.is_shared(s))
+            && self.kernel.is_covered(&q)
+            && (!is_auto || self.may_count_within());
+        // A removed vertex has no site.
+        let Some(site) = self.kernel.sites_mut().get_mut(s.index()).filter(|_| may_move) else {
+            return false;
+        };
+        let old = std::mem::replace(&mut site.point, q);
+        let moved = differ::<G>(&old, &q);
+        self.statistics.moved += u64::from(moved);
+        self.statistics.within_tolerance += u64::from(moved);
+        if is_auto {
+            self.count_within(moved);
+        }
+        true
+    }
+
+    /// Moves one vertex at once, by the filter in force if there is one.
+    fn relocate_filtered(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+        let Some(filter) = self.immediate_filter().filter(|_| self.kernel.has_cells()) else {
+            self.regions.invalidate();
+            return self.relocate_alone(vertex, q, report);
+        };
+        self.prepare_regions(filter, &[], report)?;
+        if self.accept(vertex, q, report).is_some() {
+            report.moved = 1;
+            return Ok(());
+        }
+        match self.with_regions(report, |t, report| t.relocate_noted(vertex, q, report))? {
+            Placed::InCells => Ok(()),
+            Placed::NeedBuild => self.rebuild_as_is(report),
+        }
+    }
+
+    /// Moves one vertex at once, without a filter.
+    fn relocate_alone(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
+        if !self.kernel.has_cells() {
+            return self.rebuild_with(vertex, q, report);
+        }
+        match self.relocate(vertex, q, Shortcut::Flips, report)? {
+            Placed::InCells => Ok(()),
+            Placed::NeedBuild => self.rebuild_as_is(report),
+        }
+    }
+
+    /// Whether immediate relocations are filtered by the regions of this filter, which are kept.
+    #[inline(always)]
+    fn filters_by_kept(&self, kept: Filter) -> bool {
+        match self.options.algorithm.immediate() {
+            Immediate::None => false,
+            Immediate::By(filter) | Immediate::WhileKept(filter) => filter == kept,
+            Immediate::OnceSwitched(filter) => filter == kept && self.switching.has_switched(),
+        }
+    }
+
+    /// The filter in force for immediate relocations.
+    fn immediate_filter(&self) -> Option<Filter> {
+        match self.options.algorithm.immediate() {
+            Immediate::None => None,
+            Immediate::By(filter) => Some(filter),
+            Immediate::OnceSwitched(filter) => self.switching.has_switched().then_some(filter),
+            Immediate::WhileKept(filter) => self.regions.kept_for().filter(|&kept| kept == filter),
+        }
+    }
+}

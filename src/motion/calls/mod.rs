@@ -1,0 +1,9 @@
+//! What programs call to change a triangulation: moves and edits that wait, commits, changes of one vertex at once,
+//! compaction and copies.
+
+pub(in crate::motion) mod cloning;
+pub(in crate::motion) mod commit;
+pub(in crate::motion) mod compaction;
+pub(in crate::motion) mod editing;
+pub(in crate::motion) mod immediate;
+pub(in crate::motion) mod moves;

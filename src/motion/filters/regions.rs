@@ -1,0 +1,273 @@
+//! Regions: what lets a vertex move without checking its certificates (report, sections 2.3, 2.4).
+//!
+//! | room | keeps |
+//! |---|---|
+//! | [`tolerance`](super::tolerance) | a tolerance for each vertex |
+//! | [`safe_region`](super::safe_region) | a delimiter for each bi-cell, and tolerances |
+//! | [`watching`](super::watching) | tolerances, and the bi-cells that would make them too small |
+//! | [`slack`](super::slack) | a tolerance for each bi-cell |
+//!
+//! A room has a [`Store`], what it keeps, and a commit. Those of one room are kept at a time, and only while they are
+//! valid.
+//!
+//! Invariant of what is kept: the ball around the fixed position of each vertex, of its tolerance, is inside all its
+//! safe regions, or, when watching, inside those of the bi-cells that are not watched.
+//!
+//! While cells change (a queue, an insertion, a removal) no regions are kept. They are again once
+//! every bi-cell that has a new cell or a relocated vertex has been computed at the positions of that moment
+//! ([`with_regions`]): the points of all other bi-cells have stayed, since they were last known to be on
+//! their sides, or moved within their regions. Where most bi-cells are concerned all are computed, which
+//! also makes good for tolerances that have only been lowered for long.
+//!
+//! [`with_regions`]: super::MovingTriangulation::with_regions
+
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::constants::constants;
+use crate::motion::filters::margin::Margin;
+use crate::motion::filters::safe_regions::{Admission, SafeRegions};
+use crate::motion::filters::slack::Slacks;
+use crate::motion::filters::store::Store;
+use crate::motion::filters::tolerance::{Fixed, Tolerances};
+use crate::motion::filters::watching::Watching;
+use crate::motion::region_kind::Filter;
+
+/// Regions that are valid.
+#[derive(Debug)]
+pub(in crate::motion) enum Kept<G: Dimension> {
+    Tolerance(Tolerances<G>),
+    SafeRegion(SafeRegions<G>),
+    Watching(Watching<G>),
+    Slack(Slacks<G>),
+}
+
+impl<G: Dimension> Kept<G> {
+    /// Nothing yet for a filter.
+    fn empty(filter: Filter) -> Self {
+        match filter {
+            Filter::Tolerance => Kept::Tolerance(Tolerances::default()),
+            Filter::SafeRegion => Kept::SafeRegion(SafeRegions::new(false)),
+            Filter::Both => Kept::SafeRegion(SafeRegions::new(true)),
+            Filter::Watch => Kept::Watching(Watching::default()),
+            Filter::Slack => Kept::Slack(Slacks::default()),
+        }
+    }
+
+    fn copied(&self) -> Result<Self> {
+        Ok(match self {
+            Kept::Tolerance(store) => Kept::Tolerance(store.copied()?),
+            Kept::SafeRegion(store) => Kept::SafeRegion(store.copied()?),
+            Kept::Watching(store) => Kept::Watching(store.copied()?),
+            Kept::Slack(store) => Kept::Slack(store.copied()?),
+        })
+    }
+
+    /// The filter that they are for.
+    #[inline(always)]
+    fn filter(&self) -> Filter {
+        match self {
+            Kept::Tolerance(_) => Filter::Tolerance,
+            Kept::SafeRegion(regions) if regions.tests_tolerance() => Filter::Both,
+            Kept::SafeRegion(_) => Filter::SafeRegion,
+            Kept::Watching(_) => Filter::Watch,
+            Kept::Slack(_) => Filter::Slack,
+        }
+    }
+
+    fn store(&self) -> &dyn Store<G> {
+        match self {
+            Kept::Tolerance(store) => store,
+            Kept::SafeRegion(store) => store,
+            Kept::Watching(store) => store,
+            Kept::Slack(store) => store,
+        }
+    }
+
+    fn store_mut(&mut self) -> &mut dyn Store<G> {
+        match self {
+            Kept::Tolerance(store) => store,
+            Kept::SafeRegion(store) => store,
+            Kept::Watching(store) => store,
+            Kept::Slack(store) => store,
+        }
+    }
+}
+
+/// The regions of one filter, if any are kept.
+#[derive(Debug)]
+pub(in crate::motion) struct Regions<G: Dimension> {
+    kept: Option<Box<Kept<G>>>,
+    /// Regions that are no longer valid: their memory serves the next ones for the same filter.
+    spare: Option<Box<Kept<G>>>,
+    /// The kernel's record of changed cells, or its memory.
+    changed: Vec<Slot>,
+    /// Vertices that have been relocated during the change under way.
+    relocated: Vec<VertexId>,
+}
+
+impl<G: Dimension> Default for Regions<G> {
+    fn default() -> Self {
+        Regions { kept: None, spare: None, changed: Vec::new(), relocated: Vec::new() }
+    }
+}
+
+impl<G: Dimension> Regions<G> {
+    /// A copy of what is kept.
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        let kept = self.kept.as_deref().map(|kept| memory::boxed(kept.copied()?)).transpose()?;
+        Ok(Regions { kept, ..Regions::default() })
+    }
+
+    /// The filter that regions are kept for.
+    #[inline(always)]
+    pub(in crate::motion) fn kept_for(&self) -> Option<Filter> {
+        self.kept.as_deref().map(Kept::filter)
+    }
+
+    /// The report's pre-computations, for a filter; returns the number of bi-cells computed. `other_positions` as for a
+    /// [`Store`].
+    pub(in crate::motion) fn prepare(
+        &mut self,
+        filter: Filter,
+        kernel: &mut Delaunay<G>,
+        n_ids: usize,
+        other_positions: &[G::Point],
+    ) -> Result<u64> {
+        self.invalidate();
+        let spare = self.spare.take().filter(|spare| spare.filter() == filter);
+        let mut kept = spare.map_or_else(|| memory::boxed(Kept::empty(filter)), Ok)?;
+        let n = kept.store_mut().prepare(kernel, n_ids, other_positions)?;
+        self.kept = Some(kept);
+        Ok(n)
+    }
+
+    /// The triangulation has changed without the regions.
+    #[inline(always)]
+    pub(in crate::motion) fn invalidate(&mut self) {
+        if let Some(kept) = self.kept.take() {
+            self.spare = Some(kept);
+        }
+    }
+
+    /// Whether a vertex that has site `s` for itself certainly stays in its region when it moves to `p`.
+    #[inline(always)]
+    pub(in crate::motion) fn admit(
+        &self,
+        kernel: &mut Delaunay<G>,
+        vertex: VertexId,
+        s: SiteId,
+        p: &G::Point,
+    ) -> Option<Admission> {
+        match self.kept.as_deref() {
+            Some(Kept::Tolerance(tolerances)) => {
+                tolerances.fixed()[vertex].holds(p).then_some(Admission::WithinTolerance)
+            }
+            Some(Kept::SafeRegion(regions)) => regions.admit(kernel, vertex, s, p),
+            // All vertices move, and their bi-cells are checked after that.
+            Some(Kept::Watching(_) | Kept::Slack(_)) | None => None,
+        }
+    }
+
+    /// Fixed positions and tolerances by vertex id, of the tolerance algorithm or of watching.
+    #[inline(always)]
+    pub(in crate::motion) fn fixed(&self) -> &[Fixed<G>] {
+        match self.kept.as_deref() {
+            Some(Kept::Tolerance(tolerances)) => tolerances.fixed(),
+            Some(Kept::Watching(watching)) => watching.fixed(),
+            Some(Kept::SafeRegion(_) | Kept::Slack(_)) | None => &[],
+        }
+    }
+
+    /// The store of the tolerance algorithm, if that is kept.
+    #[inline(always)]
+    pub(in crate::motion) fn tolerances(&self) -> Option<&Tolerances<G>> {
+        if let Some(Kept::Tolerance(tolerances)) = self.kept.as_deref() { Some(tolerances) } else { None }
+    }
+
+    /// The store of watching, if that is kept.
+    pub(in crate::motion) fn watching(&mut self) -> Option<&mut Watching<G>> {
+        if let Some(Kept::Watching(watching)) = self.kept.as_deref_mut() { Some(watching) } else { None }
+    }
+
+    /// About how many bi-cells are watched.
+    pub(in crate::motion) fn n_watched(&self) -> usize {
+        if let Some(Kept::Watching(watching)) = self.kept.as_deref() { watching.n_watched() } else { 0 }
+    }
+
+    /// The store of slack, if that is kept.
+    pub(in crate::motion) fn slacks(&mut self) -> Option<&mut Slacks<G>> {
+        if let Some(Kept::Slack(slacks)) = self.kept.as_deref_mut() { Some(slacks) } else { None }
+    }
+
+    /// Makes the kernel's static filter as sharp as what the regions, if any are kept, may let pass allows.
+    pub(in crate::motion) fn tighten_filter(&mut self, kernel: &mut Delaunay<G>) {
+        if let Some(kept) = &mut self.kept {
+            kept.store_mut().tighten_filter(kernel);
+        } else {
+            kernel.tighten_filter();
+        }
+    }
+
+    /// A vertex has been relocated: all bi-cells of its site are among the changes.
+    pub(in crate::motion) fn note_relocated(&mut self, vertex: VertexId) -> Result<()> {
+        memory::push(&mut self.relocated, vertex)
+    }
+
+    /// Makes sure that a vertex can be [noted](Self::note_relocated) without a failure.
+    pub(in crate::motion) fn make_room_to_note(&mut self) -> Result<()> {
+        memory::reserve(&mut self.relocated, 1)
+    }
+
+    /// A change begins, during which no regions are kept. Returns those that can [follow](Self::follow) it, and
+    /// memory for the record of cells that this takes.
+    pub(in crate::motion) fn begin_change(&mut self) -> Option<(Box<Kept<G>>, Vec<Slot>)> {
+        self.relocated.clear();
+        let kept = self.kept.take()?;
+        Some((kept, std::mem::take(&mut self.changed)))
+    }
+
+    /// The vertices relocated during the change, which is over.
+    pub(in crate::motion) fn end_change(&mut self) -> Vec<VertexId> {
+        std::mem::take(&mut self.relocated)
+    }
+
+    /// Computes the bi-cells of all facets of the `changed` cells, and keeps the regions again; returns the number of
+    /// bi-cells.
+    pub(in crate::motion) fn follow(
+        &mut self,
+        mut kept: Box<Kept<G>>,
+        mut changed: Vec<Slot>,
+        relocated: Vec<VertexId>,
+        kernel: &mut Delaunay<G>,
+        site_of: &[SiteId],
+        other_positions: &[G::Point],
+    ) -> Result<u64> {
+        let store = kept.store_mut();
+        store.forget_cells(&changed);
+        kernel.tidy_changes(&mut changed);
+        let most = constants::<G>().max_share_followed * kernel.complex().n_finite() as f64;
+        let n = if changed.len() as f64 > most {
+            store.prepare(kernel, site_of.len(), other_positions)
+        } else {
+            store.follow(kernel, site_of, other_positions, &changed, &relocated)
+        }?;
+        (self.changed, self.relocated) = (changed, relocated);
+        self.kept = Some(kept);
+        Ok(n)
+    }
+
+    /// What was kept when a change began cannot follow it.
+    pub(in crate::motion) fn give_up(&mut self, kept: Box<Kept<G>>) {
+        self.spare = Some(kept);
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        let bytes_of = |kept| memory::bytes_of_made(kept, |kept: &Kept<G>| kept.store().memory_bytes());
+        bytes_of(&self.kept)
+            + bytes_of(&self.spare)
+            + memory::bytes_of(&self.changed)
+            + memory::bytes_of(&self.relocated)
+    }
+}

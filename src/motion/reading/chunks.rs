@@ -1,0 +1,85 @@
+//! Bytes and text on their way out, handed on in chunks.
+
+use std::fmt::{self, Write};
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+
+/// Bytes that are handed on at a time, at most.
+const CHUNK: usize = 1 << 14;
+
+/// What waits to be handed on to `put`.
+pub(in crate::motion) struct Chunks<P> {
+    put: P,
+    n: usize,
+    bytes: [u8; CHUNK],
+}
+
+impl<E, P: FnMut(&[u8]) -> Result<(), E>> Chunks<P> {
+    pub(in crate::motion) fn new(put: P) -> Self {
+        Chunks { put, n: 0, bytes: [0; CHUNK] }
+    }
+
+    fn flush(&mut self) -> Result<(), E> {
+        let n = std::mem::take(&mut self.n);
+        (self.put)(&self.bytes[..n])
+    }
+
+    /// Writes a few bytes.
+    #[inline(always)]
+    pub(in crate::motion) fn write<const N: usize>(&mut self, bytes: [u8; N]) -> Result<(), E> {
+        const { assert!(N <= CHUNK) };
+        if self.n + N > CHUNK {
+            self.flush()?;
+        }
+        self.bytes[self.n..self.n + N].copy_from_slice(&bytes);
+        self.n += N;
+        Ok(())
+    }
+
+    pub(in crate::motion) fn point<G: Dimension>(&mut self, point: &G::Point) -> Result<(), E> {
+        (0..G::D).try_for_each(|axis| self.write(point[axis].to_le_bytes()))
+    }
+
+    pub(in crate::motion) fn numbers(&mut self, numbers: &[u32]) -> Result<(), E> {
+        numbers.iter().try_for_each(|number| self.write(number.to_le_bytes()))
+    }
+
+    fn append(&mut self, mut more: &[u8]) -> Result<(), E> {
+        while !more.is_empty() {
+            if self.n == CHUNK {
+                self.flush()?;
+            }
+            let (now, later) = more.split_at(more.len().min(CHUNK - self.n));
+            self.bytes[self.n..self.n + now.len()].copy_from_slice(now);
+            self.n += now.len();
+            more = later;
+        }
+        Ok(())
+    }
+
+    /// Writes a text.
+    pub(in crate::motion) fn text(&mut self, text: fmt::Arguments<'_>) -> Result<(), E> {
+        let mut writer = Text { chunks: self, failed: Ok(()) };
+        // It fails where a chunk cannot be handed on.
+        let _ = writer.write_fmt(text);
+        writer.failed
+    }
+
+    /// Hands on the rest.
+    pub(in crate::motion) fn end(mut self) -> Result<(), E> {
+        self.flush()
+    }
+}
+
+struct Text<'c, E, P> {
+    chunks: &'c mut Chunks<P>,
+    failed: Result<(), E>,
+}
+
+impl<E, P: FnMut(&[u8]) -> Result<(), E>> Write for Text<'_, E, P> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.failed = self.chunks.append(text.as_bytes());
+        if self.failed.is_ok() { Ok(()) } else { Err(fmt::Error) }
+    }
+}

@@ -1,0 +1,179 @@
+//! VTK's XML format for unstructured grids, as read by ParaView and VTK: a text that says where each array is, and the
+//! arrays behind it, appended raw, little-endian, each after the number of its bytes.
+
+use std::fmt::{self, Write};
+
+use crate::complex::Corners;
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::machine::memory;
+use crate::motion::reading::chunks::Chunks;
+use crate::motion::reading::exporting::rank;
+use crate::motion::triangulation::MovingTriangulation;
+
+/// Numbers for each vertex, or for each cell, that are written along.
+#[derive(Clone, Copy, Debug)]
+pub struct Field<'f> {
+    /// What it is called.
+    pub name: &'f str,
+    /// How many numbers each has.
+    pub components: usize,
+    /// The numbers, by vertex id (those of removed vertices are not written), or by index of the cells.
+    pub values: &'f [f64],
+}
+
+/// What the array of vertex ids is called.
+const VERTEX: &str = "vertex";
+
+impl Field<'_> {
+    /// Checks that fields of vertices, or those of cells, have different names of characters that XML has.
+    pub(crate) fn check_names(argument: &'static str, fields: &[Field<'_>]) -> Result<()> {
+        let refuse = |index, wanted| Err(Error::InvalidName { argument, index, wanted });
+        let is_odd = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+        if let Some(index) = fields.iter().position(|field| field.name.contains(is_odd)) {
+            return refuse(index, "without control characters, U+FFFE and U+FFFF, which XML does not have");
+        }
+        if argument == "vertex_fields"
+            && let Some(index) = fields.iter().position(|field| field.name == VERTEX)
+        {
+            return refuse(index, "another than \"vertex\", which is that of the ids");
+        }
+        let mut order = Vec::new();
+        memory::reserve_exact(&mut order, fields.len())?;
+        order.extend(0..fields.len());
+        order.sort_unstable_by_key(|&index| (fields[index].name, index));
+        let again = order.windows(2).find(|pair| fields[pair[0]].name == fields[pair[1]].name);
+        again.map_or(Ok(()), |pair| refuse(pair[1], "another than those of the fields before"))
+    }
+}
+
+/// A text in the value of an attribute: of characters that XML has.
+struct Attribute<'t>(&'t str);
+
+impl fmt::Display for Attribute<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.chars().try_for_each(|c| match c {
+            '&' => f.write_str("&amp;"),
+            '<' => f.write_str("&lt;"),
+            '>' => f.write_str("&gt;"),
+            '"' => f.write_str("&quot;"),
+            c => f.write_char(c),
+        })
+    }
+}
+
+/// Says where arrays are.
+struct Directory<'c, P> {
+    chunks: &'c mut Chunks<P>,
+    offset: usize,
+}
+
+impl<E, P: FnMut(&[u8]) -> Result<(), E>> Directory<'_, P> {
+    /// An array of `n` rows of `components` entries of `bytes` bytes.
+    fn array(&mut self, kind: &str, name: &str, components: usize, bytes: usize) -> Result<(), E> {
+        let (name, offset) = (Attribute(name), self.offset);
+        self.offset += size_of::<u64>() + bytes;
+        self.chunks.text(format_args!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" \
+             offset=\"{offset}\"/>\n"
+        ))
+    }
+
+    fn fields(&mut self, fields: &[Field<'_>], n: usize) -> Result<(), E> {
+        fields.iter().try_for_each(|f| self.array("Float64", f.name, f.components, 8 * f.components * n))
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Hands on the bytes of a `.vtu` file, some thousand at a time. The points have three coordinates, the third being
+    /// 0 in the plane, and their ids as an array `vertex`.
+    ///
+    /// # Errors
+    /// [`Error::InvalidName`] if a field is called what XML does not have, or as another one;
+    /// [`Error::WrongCount`] if one has no or too few numbers, or too many; [`Error::OutOfMemory`]; all before the first
+    /// byte; and those of `put`, with which it ends.
+    pub fn write_vtu<E: From<Error>>(
+        &self,
+        vertex_fields: &[Field<'_>],
+        cell_fields: &[Field<'_>],
+        put: impl FnMut(&[u8]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        Field::check_names("vertex_fields", vertex_fields)?;
+        Field::check_names("cell_fields", cell_fields)?;
+        let (cells, ranks) = (self.cells()?, self.ranks()?);
+        let n_coming = self.staged_edits().0;
+        let sides = [(vertex_fields, self.id_count(), n_coming), (cell_fields, cells.corners.len(), 0)];
+        for (fields, n, coming) in sides {
+            for field in fields {
+                let wanted = n.saturating_mul(field.components);
+                if field.components == 0 || field.values.len() != wanted {
+                    let given = field.values.len();
+                    let coming = coming.saturating_mul(field.components);
+                    return Err(Error::WrongCount { argument: "values", given, wanted, coming }.into());
+                }
+            }
+        }
+        let mut chunks = Chunks::new(put);
+        self.write_directory(vertex_fields, cell_fields, &mut chunks)?;
+        let (n, n_cells) = (self.vertex_count(), cells.corners.len());
+        let size = |chunks: &mut Chunks<_>, bytes: usize| chunks.write((bytes as u64).to_le_bytes());
+        size(&mut chunks, 24 * n)?;
+        for v in self.present() {
+            chunks.point::<G>(&self.kernel.site(self.site_of[v]).point)?;
+            (G::D..3).try_for_each(|_| chunks.write(0_f64.to_le_bytes()))?;
+        }
+        size(&mut chunks, 8 * G::Corners::N * n_cells)?;
+        for row in cells.corners {
+            row.as_ref().iter().try_for_each(|&v| chunks.write(u64::from(rank(&ranks, v)).to_le_bytes()))?;
+        }
+        size(&mut chunks, 8 * n_cells)?;
+        (1..=n_cells as u64).try_for_each(|k| chunks.write((k * G::Corners::N as u64).to_le_bytes()))?;
+        size(&mut chunks, n_cells)?;
+        (0..n_cells).try_for_each(|_| chunks.write([if G::D == 2 { 5 } else { 10 }]))?;
+        size(&mut chunks, 4 * n)?;
+        self.present().try_for_each(|v| chunks.numbers(&[v.get()]))?;
+        for field in vertex_fields {
+            size(&mut chunks, 8 * field.components * n)?;
+            for v in self.present() {
+                let row = &field.values[v.index() * field.components..][..field.components];
+                row.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
+            }
+        }
+        for field in cell_fields {
+            size(&mut chunks, 8 * field.values.len())?;
+            field.values.iter().try_for_each(|value| chunks.write(value.to_le_bytes()))?;
+        }
+        chunks.text(format_args!("\n</AppendedData>\n</VTKFile>\n"))?;
+        chunks.end()
+    }
+
+    /// Writes what is before the arrays, in the order in which these follow.
+    fn write_directory<E>(
+        &self,
+        vertex_fields: &[Field<'_>],
+        cell_fields: &[Field<'_>],
+        chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
+    ) -> Result<(), E> {
+        let (n, n_cells) = (self.vertex_count(), self.cell_count());
+        let mut directory = Directory { chunks, offset: 0 };
+        directory.chunks.text(format_args!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+             <UnstructuredGrid>\n<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n_cells}\">\n<Points>\n"
+        ))?;
+        directory.array("Float64", "Points", 3, 24 * n)?;
+        directory.chunks.text(format_args!("</Points>\n<Cells>\n"))?;
+        // VTK 9.0 wants one type for both, of those that it has for itself.
+        directory.array("Int64", "connectivity", 1, 8 * G::Corners::N * n_cells)?;
+        directory.array("Int64", "offsets", 1, 8 * n_cells)?;
+        directory.array("UInt8", "types", 1, n_cells)?;
+        directory.chunks.text(format_args!("</Cells>\n<PointData>\n"))?;
+        directory.array("UInt32", VERTEX, 1, 4 * n)?;
+        directory.fields(vertex_fields, n)?;
+        directory.chunks.text(format_args!("</PointData>\n<CellData>\n"))?;
+        directory.fields(cell_fields, n_cells)?;
+        directory.chunks.text(format_args!(
+            "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_"
+        ))
+    }
+}

@@ -1,0 +1,89 @@
+//! The cells around some of the vertices.
+//!
+//! Of few vertices the stars are listed and sorted. Where they are many, a pass over all cells looks for those that
+//! have a vertex of the list as a corner.
+
+use crate::complex::Corners;
+use crate::delaunay::{Dimension, IndexSet};
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::motion::reading::query::cells_at;
+use crate::motion::state::cells::Cells;
+use crate::motion::state::marks::Bits;
+use crate::motion::triangulation::MovingTriangulation;
+
+/// The share of the vertices from which on a pass over all cells is faster than their stars: of 100,000 vertices 0.03
+/// in the plane and 0.02 in space, with hardly a difference in between.
+const LEAST_SHARE: f64 = 0.025;
+
+/// Steps in which the star of a vertex is asked for, and how many vertices in advance to begin each.
+const STEPS: usize = 4;
+const VERTICES_PER_STEP: usize = 2;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The cells of which at least one of these vertices is a corner: ascending, each once. Vertices may be listed more
+    /// than once; hidden ones have no cells.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn cells_around(&self, vertices: &[VertexId]) -> Result<Vec<CellId>> {
+        for (index, &vertex) in vertices.iter().enumerate() {
+            self.present_site("vertices", index, vertex)?;
+        }
+        let cells = self.cell_arrays()?;
+        if cells.corners().is_empty() {
+            return Ok(Vec::new());
+        }
+        if vertices.len() as f64 > LEAST_SHARE * self.vertex_count() as f64 {
+            self.find_around(cells, vertices)
+        } else {
+            self.list_around(cells, vertices)
+        }
+    }
+
+    /// Those of the stars.
+    fn list_around(&self, cells: &Cells<G>, vertices: &[VertexId]) -> Result<Vec<CellId>> {
+        let index_of = cells.index_of();
+        let (mut list, mut star) = (Vec::new(), IndexSet::new());
+        for (k, &vertex) in vertices.iter().enumerate() {
+            for step in 0..STEPS {
+                if let Some(&next) = vertices.get(k + VERTICES_PER_STEP * (STEPS - step)) {
+                    self.kernel.prefetch_star(self.site_of[next], step);
+                }
+            }
+            let s = self.site_of[vertex];
+            if self.kernel.site(s).id != vertex {
+                continue;
+            }
+            star.clear();
+            self.kernel.list_star(s, &mut star, |slot| prefetch(index_of, slot.index()))?;
+            memory::reserve(&mut list, star.as_slice().len())?;
+            list.extend(cells_at(&star, index_of));
+        }
+        list.sort_unstable();
+        list.dedup();
+        Ok(list)
+    }
+
+    /// Those that a pass over all cells finds.
+    fn find_around(&self, cells: &Cells<G>, vertices: &[VertexId]) -> Result<Vec<CellId>> {
+        let mut is_listed = Bits::default();
+        is_listed.grow(self.id_count())?;
+        vertices.iter().for_each(|&vertex| _ = is_listed.insert(vertex));
+        let corners = cells.corners();
+        let mut list = Vec::new();
+        memory::lengthen(&mut list, corners.len(), CellId::NONE)?;
+        let mut n = 0;
+        for (cell, row) in CellId::range(0..corners.len()).zip(corners) {
+            // No branch, as the answer cannot be predicted: what is not to stay is overwritten.
+            list[n] = cell;
+            n +=
+                usize::from((0..G::Corners::N).fold(false, |is_around, i| is_around | is_listed.has(row[i])));
+        }
+        list.truncate(n);
+        Ok(list)
+    }
+}

@@ -1,0 +1,129 @@
+//! Areas and volumes of Voronoi cells that are cut by a box.
+//!
+//! # Idea
+//!
+//! Let *a* be the place of the vertex, or that in the box which is nearest to it. A cell in the box consists of the
+//! pyramids from *a* to its facets and to what it has of the faces of the box. That, in its face, consists of those from
+//! the foot of *a* on the face to sides of Voronoi facets and to what the cell has of the edges of the box; and that of
+//! what is between the foot on the edge and corners of facets, or the end of the edge. With heights as factors, each of
+//! these is one term; where *a* is on the other side, it is negative. So a cell is a sum over its facets, their sides
+//! and corners on the box, and those corners of the box that are in it: nothing has to be put together, the terms are
+//! exact but for the rounding of corners, and there are as few as there are corners.
+//!
+//! A corner of the box is in the cell of the vertex that is nearest to it. Faces are where cutting facets assumes them
+//! (`cut_facets.rs`): a little farther out, the later the more. So of vertices equally near, it is the one that is
+//! farthest out along the last axis; then, along the one before.
+
+use std::cmp::Ordering;
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::VertexId;
+use crate::motion::reading::geometry::clipping::{Clip, Vector};
+use crate::motion::reading::geometry::incidence::Neighbours;
+use crate::motion::reading::geometry::voronoi::{Progress, Voronoi};
+use crate::predicates::compare_distance;
+
+/// A corner of a box, and which of the faces at it are high, a bit for each axis.
+#[derive(Clone, Copy)]
+pub(super) struct BoxCorner {
+    at: Vector,
+    highs: usize,
+}
+
+impl BoxCorner {
+    pub(super) fn all<G: Dimension>(clip: &Clip) -> impl Iterator<Item = BoxCorner> {
+        let low = *clip.low();
+        let high = *clip.high();
+        (0..1 << G::D).map(move |highs| {
+            let at = [0, 1, 2].map(|axis| if highs >> axis & 1 == 1 { high[axis] } else { low[axis] });
+            BoxCorner { at, highs }
+        })
+    }
+
+    /// In coordinates of the dimension.
+    pub(super) fn point<G: Dimension>(&self) -> G::Point {
+        let mut point = G::Point::default();
+        (0..G::D).for_each(|axis| point[axis] = self.at[axis]);
+        point
+    }
+
+    /// Whether it is in the cell of the first of two vertices rather than of the other one.
+    fn prefers(&self, p: &Vector, q: &Vector) -> bool {
+        let farther_out = |axis: usize| {
+            let order = p[axis].partial_cmp(&q[axis]).expect("numbers");
+            if self.highs >> axis & 1 == 1 { order } else { order.reverse() }
+        };
+        match compare_distance(&self.at, p, q) {
+            Ordering::Equal => {
+                (0..3).rev().map(farther_out).find(|order| order.is_ne()) == Some(Ordering::Greater)
+            }
+            order => order == Ordering::Less,
+        }
+    }
+
+    /// The vertex in whose cell it is, from one that is near, by those that have a facet with each.
+    pub(super) fn owner(
+        &self,
+        near: VertexId,
+        place: impl Fn(VertexId) -> Vector,
+        mut list: impl FnMut(VertexId, &mut Vec<VertexId>) -> Result<()>,
+    ) -> Result<VertexId> {
+        let (mut owner, mut others) = (near, Vec::new());
+        loop {
+            list(owner, &mut others)?;
+            let better = |&best: &VertexId, w: &VertexId| self.prefers(&place(*w), &place(best));
+            let next = others.iter().fold(owner, |best, w| if better(&best, w) { *w } else { best });
+            if next == owner {
+                return Ok(owner);
+            }
+            owner = next;
+        }
+    }
+
+    /// The area or volume between it and a place in the box.
+    pub(super) fn product<G: Dimension>(&self, clip: &Clip, apex: &Vector) -> f64 {
+        let height = |axis: usize| {
+            if self.highs >> axis & 1 == 1 { clip.extent(axis) - apex[axis] } else { apex[axis] }
+        };
+        (0..G::D).map(height).product()
+    }
+}
+
+impl<G: Dimension> Voronoi<'_, G> {
+    /// Computes the areas or volumes of the cells of some vertices, which do not fit in the box.
+    pub(super) fn cut_volumes(
+        &mut self,
+        clip: &Clip,
+        mut neighbours: Neighbours<'_, G>,
+        vertices: impl Iterator<Item = VertexId>,
+        volumes: &mut [f64],
+        progress: &mut Progress,
+    ) -> Result<()> {
+        let mut list = Vec::new();
+        for v in vertices {
+            let apex = clip.offset_within(&self.place(v));
+            neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
+            let mut volume = 0.0;
+            for &(w, first) in &list {
+                if self.cut_around([v, w], first, clip)? {
+                    volume += self.facet.pyramids(clip, &apex);
+                }
+                progress.advance(self.ring.cells.len())?;
+            }
+            volumes[v.index()] = volume;
+        }
+        for corner in BoxCorner::all::<G>(clip) {
+            let near = self.t.nearest_vertex(&corner.point::<G>())?.expect("there are vertices");
+            let owner = corner.owner(
+                near,
+                |v| self.place(v),
+                |v, others| neighbours.list(v, VertexId::new(0), others, |w, _| w),
+            )?;
+            let apex = clip.offset_within(&self.place(owner));
+            volumes[owner.index()] += corner.product::<G>(clip, &apex);
+        }
+        volumes.iter_mut().for_each(|volume| *volume = if *volume < 0.0 { 0.0 } else { *volume });
+        Ok(())
+    }
+}

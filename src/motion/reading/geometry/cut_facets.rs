@@ -1,0 +1,428 @@
+//! Voronoi facets that are not in a box as a whole, cut by its faces.
+//!
+//! # Idea
+//!
+//! In its bisector a facet is a convex polygon; in the plane, a piece of a line. Its sides are where it meets the cells
+//! of the vertices of the edge's link, in the order of these. One that is unbounded has a side at infinity. Each face of
+//! the box in turn cuts off what is beyond it: corners are kept or not, and where the one follows the other, there is a
+//! new corner on the face.
+//!
+//! A corner is known by the two sides that meet in it, so that whether it is beyond a face is a sign of a polynomial in
+//! the coordinates of vertices and the box. These signs are exact ([`Meeting`]). A corner *on* a face is not beyond it.
+//! That is to say, the faces are a little farther out, each by more than all before it: no other corner is as close to
+//! one. So nothing but what is convex is cut, a cut crosses two sides or none, and all facets agree about the box.
+//!
+//! Coordinates are computed at the end, of the corners that are left, each from the vertices and faces that define it,
+//! not from corners that have been cut off. So none is far off because others are far away.
+//!
+//! # Corners at infinity
+//!
+//! One has a direction, of which the signs of the coordinates are known. A face along which that goes has all or nothing
+//! of the side that leads to the corner; if none does, as in the middle of a plane that is a facet as a whole, either
+//! will do, unless the plane is parallel to the face.
+//!
+//! # Cost
+//!
+//! In proportion to the number of sides, as the box has but 2 D faces.
+
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
+use crate::machine::memory;
+use crate::motion::reading::geometry::clipping::{
+    Clip, Face, Vector, cross, dot, length_by, minus, normalised,
+};
+use crate::motion::reading::geometry::rings::Ring;
+use crate::predicates::{Meeting, sign_of_cross};
+
+/// What a corner other than a circumcentre may be off by, in sizes of the box: 2⁻⁴⁴.
+const TOLERANCE: f64 = 1.0 / (1u64 << 44) as f64;
+
+/// A side of a facet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Side {
+    /// Where the cell of another vertex begins, which is at this place.
+    With(Vector),
+    /// On a face of the box.
+    On(Face),
+    AtInfinity,
+    /// There is none: in the plane a corner is on one side alone.
+    None,
+}
+
+/// A corner of a facet, and the sides before and after it.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    sides: [Side; 2],
+    /// The cell of which it is the circumcentre, if any.
+    cell: CellId,
+    /// The signs of the direction in which it is, if it is at infinity.
+    direction: [i32; 3],
+}
+
+impl Corner {
+    fn of_cell(cell: CellId, sides: [Side; 2]) -> Self {
+        Corner { sides, cell, direction: [0; 3] }
+    }
+
+    fn far(direction: [i32; 3], sides: [Side; 2]) -> Self {
+        Corner { sides, cell: CellId::NONE, direction }
+    }
+
+    fn is_far(&self) -> bool {
+        self.direction != [0; 3]
+    }
+}
+
+/// What is known of the circumcentres of cells.
+pub(super) struct Centres<'c, P> {
+    /// Their places; infinite where these are not accurate for the box.
+    pub(super) places: &'c [P],
+    /// The faces that each is beyond.
+    pub(super) sides: &'c [u8],
+}
+
+/// A facet, or what is left of it.
+#[derive(Debug, Default)]
+pub(super) struct CutFacet {
+    at: Vector,
+    to: Vector,
+    /// The signs of the coordinates of the edge.
+    normal: [i32; 3],
+    is_plane: bool,
+    corners: Vec<Corner>,
+    cut: Vec<Corner>,
+    is_beyond: Vec<bool>,
+    /// The corners that are left, from the box's corner of least coordinates.
+    places: Vec<Vector>,
+}
+
+fn negated(direction: [i32; 3]) -> [i32; 3] {
+    direction.map(|sign| -sign)
+}
+
+impl CutFacet {
+    /// Begins with the bisector of two places.
+    fn begin(&mut self, [at, to]: [Vector; 2], is_plane: bool) {
+        (self.at, self.to, self.is_plane) = (at, to, is_plane);
+        self.normal = [0, 1, 2].map(|axis| i32::from(to[axis] > at[axis]) - i32::from(to[axis] < at[axis]));
+        self.corners.clear();
+    }
+
+    fn push(&mut self, corner: Corner) -> Result<()> {
+        memory::push(&mut self.corners, corner)
+    }
+
+    /// The signs of the product of the normal with a unit vector.
+    fn along(&self, axis: usize) -> [i32; 3] {
+        let mut direction = [0; 3];
+        direction[(axis + 1) % 3] = self.normal[(axis + 2) % 3];
+        direction[(axis + 2) % 3] = -self.normal[(axis + 1) % 3];
+        direction
+    }
+
+    /// The direction in which one goes along the cell of a vertex that is on the left, counter-clockwise around this.
+    fn along_cell_of(&self, place: &Vector) -> [i32; 3] {
+        [0, 1, 2].map(|axis| sign_of_cross([&self.at, &self.to, place], axis))
+    }
+
+    /// The direction of a facet in the plane, the first end of the edge on the left.
+    fn along_line(&self) -> [i32; 3] {
+        [-self.normal[1], self.normal[0], 0]
+    }
+
+    /// Makes it the facet of an edge between two places with a ring that is [oriented](Ring::orient), whole.
+    pub(super) fn fill(
+        &mut self,
+        edge: [Vector; 2],
+        ring: &Ring,
+        place: impl Fn(VertexId) -> Vector,
+        is_plane: bool,
+        has_left: bool,
+    ) -> Result<()> {
+        self.begin(edge, is_plane);
+        let side = |k: usize| Side::With(place(ring.link[k % ring.link.len()]));
+        if is_plane {
+            return self.fill_line(ring, side, has_left);
+        }
+        memory::reserve(&mut self.corners, ring.cells.len() + 2)?;
+        for (k, &cell) in ring.cells.iter().enumerate() {
+            self.corners.push(Corner::of_cell(cell, [side(k), side(k + 1)]));
+        }
+        if !ring.is_closed {
+            let last = ring.link.len() - 1;
+            let [first_way, last_way] = [0, last].map(|k| self.along_cell_of(&place(ring.link[k])));
+            self.corners.push(Corner::far(last_way, [side(last), Side::AtInfinity]));
+            self.corners.push(Corner::far(negated(first_way), [Side::AtInfinity, side(0)]));
+        }
+        Ok(())
+    }
+
+    /// In the plane: from the right of the edge to its left.
+    fn fill_line(&mut self, ring: &Ring, side: impl Fn(usize) -> Side, has_left: bool) -> Result<()> {
+        let of_cell = |k: usize| Corner::of_cell(ring.cells[k], [side(k), Side::None]);
+        let far = |direction| Corner::far(direction, [Side::AtInfinity, Side::None]);
+        let left = if has_left { of_cell(0) } else { far(self.along_line()) };
+        let right = match (has_left, ring.is_closed) {
+            (true, true) => of_cell(1),
+            (true, false) => far(negated(self.along_line())),
+            (false, _) => of_cell(0),
+        };
+        self.push(right)?;
+        self.push(left)
+    }
+
+    /// Makes it the facet between two vertices of a set that is in one hyperplane, whole. In space, `others` are at most
+    /// two, the cells of which it meets.
+    pub(super) fn fill_flat(&mut self, edge: [Vector; 2], others: &[Vector], is_plane: bool) -> Result<()> {
+        self.begin(edge, is_plane);
+        let infinity = Side::AtInfinity;
+        if is_plane {
+            let way = self.along_line();
+            self.push(Corner::far(negated(way), [infinity, Side::None]))?;
+            return self.push(Corner::far(way, [infinity, Side::None]));
+        }
+        for place in others {
+            let way = self.along_cell_of(place);
+            self.push(Corner::far(negated(way), [infinity, Side::With(*place)]))?;
+            self.push(Corner::far(way, [Side::With(*place), infinity]))?;
+        }
+        match others {
+            [] => {
+                let axis = (0..3).find(|&axis| self.normal[axis] != 0).expect("two places");
+                let [first, second] = [1, 2].map(|k| self.along((axis + k) % 3));
+                let ways = if self.normal[axis] > 0 { [first, second] } else { [second, first] };
+                for way in [ways[0], ways[1], negated(ways[0]), negated(ways[1])] {
+                    self.push(Corner::far(way, [infinity; 2]))?;
+                }
+            }
+            [place] => {
+                // Any direction on the left of the way.
+                let way = self.along_cell_of(place);
+                let axis = (0..3).find(|&axis| way[axis] != 0).expect("places that are not on a line");
+                let across = self.along(axis).map(|sign| sign * way[axis]);
+                self.push(Corner::far(across, [infinity; 2]))?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Where sides meet, as seen from a place; the axes `also` are fixed as well.
+    fn meet<T>(
+        &self,
+        sides: [Side; 2],
+        clip: &Clip,
+        also: [Option<f64>; 3],
+        from: Vector,
+        then: impl FnOnce(Meeting) -> T,
+    ) -> T {
+        let (mut others, mut n) = ([self.to; 3], 1);
+        let mut meeting =
+            Meeting { vertex: self.at, others: &[], from, is_fixed: [false, false, self.is_plane] };
+        for (axis, place) in also.into_iter().enumerate() {
+            if let Some(place) = place {
+                (meeting.is_fixed[axis], meeting.from[axis]) = (true, place);
+            }
+        }
+        for side in sides {
+            match side {
+                Side::With(place) => {
+                    others[n] = place;
+                    n += 1;
+                }
+                Side::On(face) => {
+                    (meeting.is_fixed[face.axis], meeting.from[face.axis]) = (true, clip.bound(face));
+                }
+                Side::AtInfinity | Side::None => {}
+            }
+        }
+        then(Meeting { others: &others[..n], ..meeting })
+    }
+
+    /// Whether a corner is beyond a face.
+    fn is_beyond<P>(&self, corner: &Corner, face: Face, clip: &Clip, centres: &Centres<P>) -> bool {
+        if corner.cell != CellId::NONE {
+            return centres.sides[corner.cell.index()] & face.bit() != 0;
+        }
+        // One on the opposite face is as far from this one as it can be.
+        if corner.sides.iter().any(|side| matches!(side, Side::On(on) if on.axis == face.axis)) {
+            return false;
+        }
+        let mut from = self.at;
+        from[face.axis] = clip.bound(face);
+        let sign = if !corner.is_far() {
+            self.meet(corner.sides, clip, [None; 3], from, |meeting| meeting.sign(face.axis))
+        } else if corner.direction[face.axis] != 0 {
+            corner.direction[face.axis]
+        } else {
+            self.sign_of_parallel(corner, face.axis, clip, from)
+        };
+        sign == face.outward()
+    }
+
+    /// The side of a face on which what leads to a corner at infinity is, parallel to that.
+    fn sign_of_parallel(&self, corner: &Corner, axis: usize, clip: &Clip, from: Vector) -> i32 {
+        let is_on_line = |side: &Side| matches!(side, Side::With(_) | Side::On(_));
+        let others = [(axis + 1) % 3, (axis + 2) % 3];
+        let mut also = [None; 3];
+        if corner.sides.iter().any(is_on_line) {
+            // Anywhere along the line.
+            let along = others.into_iter().find(|&k| corner.direction[k] != 0).expect("a direction");
+            also[along] = Some(self.at[along]);
+        } else if others.iter().all(|&k| self.normal[k] == 0) {
+            others.iter().for_each(|&k| also[k] = Some(self.at[k]));
+        } else {
+            return 0;
+        }
+        self.meet(corner.sides, clip, also, from, |meeting| meeting.sign(axis))
+    }
+
+    /// The faces that some corner may be beyond, by their bits: no corner that is new is beyond others.
+    fn faces_to_cut<P>(&self, centres: &Centres<P>) -> u8 {
+        let faces = |corner: &Corner| {
+            if corner.is_far() { u8::MAX } else { centres.sides[corner.cell.index()] }
+        };
+        self.corners.iter().fold(0, |all, corner| all | faces(corner))
+    }
+
+    /// Cuts off what is outside of a box.
+    pub(super) fn cut<P>(&mut self, clip: &Clip, centres: &Centres<P>) -> Result<()> {
+        let faces = self.faces_to_cut(centres);
+        for k in 0..if self.is_plane { 4 } else { 6 } {
+            let face = Face { axis: k / 2, is_high: k % 2 == 1 };
+            if faces & face.bit() == 0 {
+                continue;
+            }
+            self.is_beyond.clear();
+            memory::reserve(&mut self.is_beyond, self.corners.len())?;
+            for corner in &self.corners {
+                self.is_beyond.push(self.is_beyond(corner, face, clip, centres));
+            }
+            if self.is_beyond.iter().all(|&is_beyond| is_beyond) {
+                self.corners.clear();
+                return Ok(());
+            }
+            if self.is_beyond.iter().any(|&is_beyond| is_beyond) {
+                self.cut_by(face)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Cuts off what is beyond a face.
+    fn cut_by(&mut self, face: Face) -> Result<()> {
+        if self.is_plane {
+            let cut = self.is_beyond.iter().position(|&is_beyond| is_beyond).expect("one that is beyond");
+            self.corners[cut] = Corner::of_cell(CellId::NONE, [Side::On(face), Side::None]);
+            return Ok(());
+        }
+        let n = self.corners.len();
+        self.cut.clear();
+        memory::reserve(&mut self.cut, 2 * n)?;
+        let way = self.along(face.axis).map(|sign| sign * face.outward());
+        for k in 0..n {
+            let (corner, next) = (self.corners[k], (k + 1) % n);
+            if !self.is_beyond[k] {
+                self.cut.push(corner);
+            }
+            let side = corner.sides[1];
+            // One on a side at infinity is at that end of the new side that it makes.
+            let end = |way| if side == Side::AtInfinity { way } else { [0; 3] };
+            match (self.is_beyond[k], self.is_beyond[next]) {
+                (false, true) => self.cut.push(Corner::far(end(negated(way)), [side, Side::On(face)])),
+                (true, false) => self.cut.push(Corner::far(end(way), [Side::On(face), side])),
+                _ => {}
+            }
+        }
+        std::mem::swap(&mut self.corners, &mut self.cut);
+        Ok(())
+    }
+
+    /// Computes the places of the corners.
+    pub(super) fn place<P: AsRef<[f64]>>(&mut self, clip: &Clip, centres: &Centres<P>) -> Result<()> {
+        self.places.clear();
+        memory::reserve(&mut self.places, self.corners.len())?;
+        for corner in &self.corners {
+            self.places.push(self.place_of(corner, clip, centres));
+        }
+        Ok(())
+    }
+
+    fn place_of<P: AsRef<[f64]>>(&self, corner: &Corner, clip: &Clip, centres: &Centres<P>) -> Vector {
+        let within = |axis: usize, offset: f64| offset.clamp(0.0, clip.extent(axis));
+        if corner.cell != CellId::NONE {
+            let centre = centres.places[corner.cell.index()].as_ref();
+            if centre[0].is_finite() {
+                let offset = |axis: usize| centre.get(axis).map_or(0.0, |x| x - clip.low()[axis]);
+                return [0, 1, 2].map(|axis| within(axis, offset(axis)));
+            }
+        }
+        debug_assert!(!corner.is_far());
+        self.meet(corner.sides, clip, [None; 3], *clip.low(), |meeting| {
+            [0, 1, 2].map(|axis| {
+                if meeting.is_fixed[axis] {
+                    meeting.from[axis] - clip.low()[axis]
+                } else {
+                    within(axis, meeting.offset(axis, TOLERANCE * clip.size))
+                }
+            })
+        })
+    }
+
+    /// Its length or area.
+    pub(super) fn measure(&self) -> f64 {
+        let normal = minus(&self.to, &self.at);
+        match self.places[..] {
+            [] => 0.0,
+            [p, q] if self.is_plane => {
+                let along = minus(&q, &p);
+                length_by(dot(&along, &along), &along)
+            }
+            [first, ref others @ ..] => {
+                let mut doubled = [0.0; 3];
+                for pair in others.windows(2) {
+                    let more = cross(&minus(&pair[0], &first), &minus(&pair[1], &first));
+                    doubled = [0, 1, 2].map(|axis| doubled[axis] + more[axis]);
+                }
+                (0.5 * dot(&doubled, &normalised(&normal))).max(0.0)
+            }
+        }
+    }
+
+    /// What it adds to the area or volume of the cell of its edge's first end: the pyramid above it, and those above its
+    /// sides and corners on faces of the box, as `cut_cells.rs` has them. All have their apex at the same place in the
+    /// box.
+    pub(super) fn pyramids(&self, clip: &Clip, apex: &Vector) -> f64 {
+        let n = self.places.len();
+        let from_apex = |k: usize| minus(&self.places[k % n], apex);
+        // How far the apex is from a face.
+        let height = |face: Face| {
+            if face.is_high { clip.extent(face.axis) - apex[face.axis] } else { apex[face.axis] }
+        };
+        let mut sum = 0.0;
+        for (k, corner) in self.corners.iter().enumerate() {
+            let p = from_apex(k);
+            if self.is_plane {
+                if let Side::On(face) = corner.sides[0] {
+                    let along = 1 - face.axis;
+                    sum += 0.5 * height(face) * f64::from(self.normal[along]) * p[along];
+                }
+                continue;
+            }
+            let q = from_apex(k + 1);
+            sum += dot(&from_apex(0), &cross(&p, &q)) / 6.0;
+            if let Side::On(face) = corner.sides[1] {
+                let doubled = f64::from(face.outward()) * cross(&q, &p)[face.axis];
+                sum += height(face) * doubled / 6.0;
+            }
+            if let [Side::On(face), Side::On(next)] = corner.sides {
+                let along = 3 - face.axis - next.axis;
+                sum += height(face) * height(next) * f64::from(self.normal[along]) * p[along] / 3.0;
+            }
+        }
+        if self.is_plane && n == 2 {
+            sum += 0.5 * cross(&from_apex(0), &from_apex(1))[2];
+        }
+        sum
+    }
+}

@@ -1,0 +1,126 @@
+//! Voronoi cells of vertices in one hyperplane, cut by a box.
+//!
+//! While all vertices are on a line, or in space in a plane, there are no cells that tell which Voronoi cells meet. With
+//! further places, as few as make the vertices span the dimension, there are: those of a triangulation of all. In it,
+//! the sphere of a cell of vertices in a hyperplane and one other place meets the hyperplane in the sphere of the
+//! vertices alone, so it holds no other vertex: these cells are a Delaunay triangulation of the vertices in their
+//! hyperplane. What is said of the further places is left out.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::VertexId;
+use crate::machine::memory;
+use crate::motion::options::Options;
+use crate::motion::reading::geometry::clipping::{Clip, Vector, greatest, in_space};
+use crate::motion::reading::geometry::cut_cells::BoxCorner;
+use crate::motion::reading::geometry::cut_facets::{Centres, CutFacet};
+use crate::motion::reading::geometry::incidence::Neighbours;
+use crate::motion::reading::geometry::rings::Ring;
+use crate::motion::reading::geometry::voronoi::Progress;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::sign_of_cross;
+
+/// Axes along which places are moved from the first one of a set to make it span the dimension.
+fn missing_axes<G: Dimension>(places: &[Vector]) -> Vec<usize> {
+    let first = &places[0];
+    let Some(second) = places.iter().find(|p| *p != first) else { return Vec::new() };
+    let normal = |p: &Vector| (0..3).find(|&axis| sign_of_cross([first, second, p], axis) != 0);
+    match if G::D == 3 { places.iter().find_map(normal) } else { None } {
+        Some(axis) => vec![axis],
+        None => {
+            let along = (0..G::D).find(|&axis| first[axis] != second[axis]).expect("other places");
+            (0..G::D).filter(|&axis| axis != along).collect()
+        }
+    }
+}
+
+/// The same places, and others with which they span the dimension: those that are moved by their own size.
+fn spanning<G: Dimension>(mut places: Vec<G::Point>) -> Result<Vec<G::Point>> {
+    let mut in_space_all = Vec::new();
+    memory::collect(&mut in_space_all, places.iter().map(in_space::<G>))?;
+    let size = in_space_all.iter().fold(0.0f64, |most, p| most.max(greatest(p)));
+    let step = if size > 0.0 { size } else { 1.0 };
+    for axis in missing_axes::<G>(&in_space_all) {
+        let mut place = places[0];
+        place[axis] -= step.copysign(place[axis]);
+        memory::push(&mut places, place)?;
+    }
+    Ok(places)
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Computes the areas or volumes of the Voronoi cells of vertices in one hyperplane, in a box.
+    pub(super) fn flat_volumes(
+        &self,
+        clip: &Clip,
+        volumes: &mut [f64],
+        progress: &mut Progress,
+    ) -> Result<()> {
+        let (mut ids, mut places) = (Vec::new(), Vec::new());
+        memory::collect(&mut ids, self.kernel.live_sites().map(|s| self.kernel.site(s).id))?;
+        if ids.is_empty() {
+            return Ok(());
+        }
+        ids.sort_unstable();
+        memory::collect(&mut places, ids.iter().map(|&v| self.kernel.site(self.site_of[v]).point))?;
+        let options = Options { threads: self.options.threads, ..Options::default() };
+        let spanning = MovingTriangulation::<G>::new(&spanning::<G>(places)?, options)?;
+        spanning.volumes_of_first(ids.len(), clip, progress, |v, volume| {
+            volumes[ids[v.index()].index()] += volume
+        })
+    }
+
+    /// Tells parts of the areas or volumes of the Voronoi cells of the first vertices, which are in one hyperplane, as
+    /// if there were no others.
+    fn volumes_of_first(
+        &self,
+        n: usize,
+        clip: &Clip,
+        progress: &mut Progress,
+        mut tell: impl FnMut(VertexId, f64),
+    ) -> Result<()> {
+        let cells = self.cell_arrays()?;
+        progress.expect(2 * cells.corners().len());
+        let mut neighbours = Neighbours::new(cells, self.id_count())?;
+        let (mut ring, mut facet, mut list) = (Ring::default(), CutFacet::default(), Vec::new());
+        let centres = Centres::<G::Point> { places: &[], sides: &[] };
+        for v in VertexId::range(0..n) {
+            let at = self.place_in_space(v);
+            let apex = clip.offset_within(&at);
+            neighbours.list(v, VertexId::new(0), &mut list, |w, cell| (w, cell))?;
+            for &(w, first) in list.iter().filter(|(w, _)| w.index() < n) {
+                ring.go_around(cells, [v, w], first)?;
+                let (mut others, mut n_others) = ([at; 2], 0);
+                for &z in ring.link.iter().filter(|z| G::D == 3 && z.index() < n) {
+                    others[n_others] = self.place_in_space(z);
+                    n_others += 1;
+                }
+                facet.fill_flat([at, self.place_in_space(w)], &others[..n_others], G::D == 2)?;
+                facet.cut(clip, &centres)?;
+                facet.place(clip, &centres)?;
+                tell(v, facet.pyramids(clip, &apex));
+                progress.advance(ring.cells.len())?;
+            }
+        }
+        for corner in BoxCorner::all::<G>(clip) {
+            let near = self.nearest_of_first(n, &corner)?;
+            let owner = corner.owner(
+                near,
+                |v| self.place_in_space(v),
+                |v, others| {
+                    neighbours.list(v, VertexId::new(0), others, |w, _| w)?;
+                    others.retain(|w| w.index() < n);
+                    Ok(())
+                },
+            )?;
+            tell(owner, corner.product::<G>(clip, &clip.offset_within(&self.place_in_space(owner))));
+        }
+        Ok(())
+    }
+
+    /// Of the first vertices, one from which to look for that nearest to a corner of the box.
+    fn nearest_of_first(&self, n: usize, corner: &BoxCorner) -> Result<VertexId> {
+        let nearest = self.nearest_vertex(&corner.point::<G>())?.expect("there are vertices");
+        Ok(if nearest.index() < n { nearest } else { VertexId::new(0) })
+    }
+}

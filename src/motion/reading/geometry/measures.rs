@@ -1,0 +1,146 @@
+//! Numbers of each cell: circumsphere, volume, and whether its circumradius is within a bound.
+
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::{CellId, Slot};
+use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::Measures;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// What `measure` gives for the corners of the cells in some slots; `later` tells which of them is at an index.
+    #[inline(always)]
+    fn measures<'t, T: 't>(
+        &'t self,
+        slots: impl ExactSizeIterator<Item = Slot> + 't,
+        later: impl Fn(usize) -> Option<Slot> + 't,
+        measure: impl Fn(&[&'t G::Point]) -> T + 't,
+    ) -> impl ExactSizeIterator<Item = T> + 't {
+        let kernel = &self.kernel;
+        slots.enumerate().map(move |(index, slot)| {
+            if let Some(next) = later(index + AHEAD) {
+                prefetch(kernel.complex().cells(), next.index());
+            }
+            if let Some(next) = later(index + AHEAD / 2) {
+                let corners = kernel.complex().cell(next).corners;
+                corners.as_ref().iter().for_each(|s| prefetch(kernel.sites(), s.index()));
+            }
+            measure(&kernel.places(slot)[..G::D + 1])
+        })
+    }
+
+    /// Those of all cells, in the order of [`cells`](Self::cells).
+    #[inline(always)]
+    fn measures_of_all<'t, T: 't>(
+        &'t self,
+        measure: impl Fn(&[&'t G::Point]) -> T + 't,
+    ) -> Result<impl ExactSizeIterator<Item = T> + 't> {
+        let slots = self.cell_arrays()?.slots();
+        Ok(self.measures(slots.iter().copied(), |k| slots.get(k).copied(), measure))
+    }
+
+    /// Those of the cells of these indices.
+    #[inline(always)]
+    fn measures_of<'t, T: 't>(
+        &'t self,
+        cells: &'t [CellId],
+        measure: impl Fn(&[&'t G::Point]) -> T + 't,
+    ) -> Result<impl ExactSizeIterator<Item = T> + 't> {
+        let slots = self.cell_arrays()?.slots();
+        if let Some(index) = cells.iter().position(|cell| cell.index() >= slots.len()) {
+            return Err(Error::NoSuchCell {
+                argument: "cells",
+                index,
+                cell: cells[index],
+                cells: slots.len(),
+            });
+        }
+        let slot_of = |&cell: &CellId| slots[cell];
+        Ok(self.measures(cells.iter().map(slot_of), move |k| cells.get(k).map(slot_of), measure))
+    }
+
+    /// Circumcentre and squared circumradius of each cell, in the order of [`cells`](Self::cells).
+    ///
+    /// A coordinate of a centre is off by at most 10⁻⁹ circumradii and its own rounding, a squared radius by 4·10⁻⁹ of
+    /// itself; by a few last bits unless the cell is nearly flat. They are infinite where the value is too large for a
+    /// number, and never NaN.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn circumspheres(&self) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + '_> {
+        self.measures_of_all(G::Point::circumsphere)
+    }
+
+    /// As [`circumspheres`](Self::circumspheres), of the cells of these indices, in their order.
+    ///
+    /// Rounding depends on the order in which the kernel has the corners of a cell. That may change when the cell is
+    /// removed and created again between two readings, so a value that is kept meanwhile agrees with that of a full
+    /// pass within the errors documented, not always bit by bit. So it is with [`volumes_of`](Self::volumes_of).
+    ///
+    /// # Errors
+    /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
+    pub fn circumspheres_of<'t>(
+        &'t self,
+        cells: &'t [CellId],
+    ) -> Result<impl ExactSizeIterator<Item = (G::Point, f64)> + 't> {
+        self.measures_of(cells, G::Point::circumsphere)
+    }
+
+    /// Area or volume of each cell, in the order of [`cells`](Self::cells): positive, with a relative error of at most
+    /// 10⁻⁹, and of a few last bits unless the cell is nearly flat.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn volumes(&self) -> Result<impl ExactSizeIterator<Item = f64> + '_> {
+        self.measures_of_all(G::Point::volume)
+    }
+
+    /// As [`volumes`](Self::volumes), of the cells of these indices, in their order.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
+    pub fn volumes_of<'t>(&'t self, cells: &'t [CellId]) -> Result<impl ExactSizeIterator<Item = f64> + 't> {
+        self.measures_of(cells, G::Point::volume)
+    }
+
+    /// Whether the squared circumradius of each cell is at most `squared_radius`, decided exactly; in the order of
+    /// [`cells`](Self::cells).
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] if the bound is negative or NaN, [`Error::OutOfMemory`].
+    pub fn mask_by_circumradius(
+        &self,
+        squared_radius: f64,
+    ) -> Result<impl ExactSizeIterator<Item = bool> + '_> {
+        check_squared_radius(squared_radius)?;
+        self.measures_of_all(
+            #[inline(always)]
+            move |cell| G::Point::is_circumradius_within(cell, squared_radius),
+        )
+    }
+
+    /// As [`mask_by_circumradius`](Self::mask_by_circumradius), of the cells of these indices, in their order.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] if the bound is negative or NaN, [`Error::NoSuchCell`], [`Error::OutOfMemory`].
+    pub fn mask_by_circumradius_of<'t>(
+        &'t self,
+        cells: &'t [CellId],
+        squared_radius: f64,
+    ) -> Result<impl ExactSizeIterator<Item = bool> + 't> {
+        check_squared_radius(squared_radius)?;
+        self.measures_of(
+            cells,
+            #[inline(always)]
+            move |cell| G::Point::is_circumradius_within(cell, squared_radius),
+        )
+    }
+}
+
+/// A bound must be a number that is not negative.
+fn check_squared_radius(value: f64) -> Result<()> {
+    if value.is_nan() || value < 0.0 {
+        return Err(Error::InvalidValue { argument: "squared_radius", index: 0, value, wanted: "0 or more" });
+    }
+    Ok(())
+}

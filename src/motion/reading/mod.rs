@@ -1,0 +1,9 @@
+//! What programs call to read a triangulation. Nothing here changes the cells.
+
+pub(in crate::motion) mod cells;
+pub(in crate::motion) mod chunks;
+pub(in crate::motion) mod exporting;
+pub(in crate::motion) mod geometry;
+pub(in crate::motion) mod query;
+pub(in crate::motion) mod saving;
+pub(in crate::motion) mod tolerances;

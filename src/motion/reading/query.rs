@@ -1,0 +1,350 @@
+//! Questions that change nothing. They may be asked from several threads at once.
+
+use std::cmp::Ordering;
+
+use crate::complex::INFINITE;
+use crate::delaunay::{Dimension, IndexSet, Level, Place, Violation};
+use crate::error::Result;
+use crate::ids::{CellId, SiteId, Slot, VertexId};
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::motion::algorithms::Algorithm;
+use crate::motion::report::CommitReport;
+use crate::motion::state::cells::Cells;
+use crate::motion::state::changes::Taken;
+use crate::motion::state::checking::check_position;
+use crate::motion::state::repair::Repair;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::compare_distance;
+
+/// A search for the nearest vertex that has looked around so many others is on a long way.
+const MANY_STARS: u32 = 8;
+
+/// Where a point lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Location {
+    /// At the place of this vertex (the representative).
+    Vertex(VertexId),
+    /// In the closure of the cell of this index, at no vertex.
+    Cell(CellId),
+    /// Outside the convex hull, beyond a facet of the cell of this index.
+    Outside(CellId),
+    /// There are no cells: the points are fewer than `D + 1` or in one hyperplane.
+    NoCells,
+}
+
+/// Indices of the finite cells in some slots.
+pub(crate) fn cells_at(slots: &IndexSet<Slot>, index_of: &[CellId]) -> impl Iterator<Item = CellId> {
+    slots.as_slice().iter().map(|&slot| index_of[slot]).filter(|&index| index != CellId::NONE)
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The algorithm of commits.
+    pub fn algorithm(&self) -> Algorithm {
+        self.options.algorithm
+    }
+
+    /// Changes the algorithm of later commits.
+    pub fn set_algorithm(&mut self, algorithm: Algorithm) {
+        if algorithm != self.options.algorithm {
+            self.reset_switching();
+        }
+        self.options.algorithm = algorithm;
+    }
+
+    /// Vertices present, hidden ones included.
+    pub fn vertex_count(&self) -> usize {
+        self.n_present
+    }
+
+    /// Ids given so far; those below it are valid unless removed.
+    pub fn id_count(&self) -> usize {
+        self.site_of.len()
+    }
+
+    /// Whether the vertex is present.
+    pub fn is_present(&self, vertex: VertexId) -> bool {
+        self.site_of.get(vertex.index()).is_some_and(|&s| s != SiteId::NONE)
+    }
+
+    /// Number of finite cells.
+    pub fn cell_count(&self) -> usize {
+        self.kernel.complex().n_finite()
+    }
+
+    /// Position of a vertex at the current timestamp; a staged one is not seen.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    pub fn position(&self, vertex: VertexId) -> Result<G::Point> {
+        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
+    }
+
+    /// Where a vertex of this id is at the current timestamp, or where it will be inserted if that is staged.
+    pub fn position_or_goal(&self, vertex: VertexId) -> Option<G::Point> {
+        match self.site_of.get(vertex.index()) {
+            Some(&s) if s != SiteId::NONE => Some(self.kernel.site(s).point),
+            _ => self.edits.insertion(vertex).copied(),
+        }
+    }
+
+    /// Indices of the finite cells around the place of a vertex, in no particular order, in `out`, which is cleared
+    /// first.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn star(&self, vertex: VertexId, out: &mut Vec<CellId>) -> Result<()> {
+        let mut slots = IndexSet::new();
+        let (index_of, _) = self.list_star(vertex, &mut slots)?;
+        out.clear();
+        memory::collect(out, cells_at(&slots, index_of))
+    }
+
+    /// Enters the slots of the cells around the place of a vertex into an empty set; returns the index of the cell in
+    /// each slot, for [`cells_at`], and the number of those that are finite.
+    pub(crate) fn list_star(
+        &self,
+        vertex: VertexId,
+        slots: &mut IndexSet<Slot>,
+    ) -> Result<(&[CellId], usize)> {
+        let s = self.present_site("vertex", 0, vertex)?;
+        let cells = self.cell_arrays()?;
+        let index_of = cells.index_of();
+        self.prefetch_next_stars(vertex);
+        self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot.index()))?;
+        // A program that asks for a star goes on to read the rows of its cells.
+        let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index.index()));
+        let n = asked.count();
+        self.kernel.prefetch_around(s, slots);
+        Ok((index_of, n))
+    }
+
+    /// Where a point lies.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn locate(&self, position: &G::Point) -> Result<Location> {
+        let q = check_position::<G>("position", 0, position)?;
+        let cells = self.cell_arrays()?;
+        Ok(self.location(cells, self.kernel.locate(&q, Slot::NONE)))
+    }
+
+    /// Where points lie, told to `found` one after the other. Each is looked for from the one before, the first from
+    /// `near`, if that is near it. This is only where to begin: it need not be right, nor name anything.
+    ///
+    /// # Errors
+    /// Those of [`locate`](Self::locate), before any location is told.
+    pub fn locate_points(
+        &self,
+        positions: &[G::Point],
+        near: Option<Location>,
+        mut found: impl FnMut(Location),
+    ) -> Result<()> {
+        for (index, position) in positions.iter().enumerate() {
+            check_position::<G>("positions", index, position)?;
+        }
+        let cells = self.cell_arrays()?;
+        let mut near = self.start_near(near)?;
+        for position in positions {
+            let place = self.kernel.locate(position, near);
+            near = self.slot_at(place);
+            found(self.location(cells, place));
+        }
+        Ok(())
+    }
+
+    /// The slot of a cell near a location, [`Slot::NONE`] if none is known.
+    pub(in crate::motion) fn start_near(&self, near: Option<Location>) -> Result<Slot> {
+        let cells = self.cell_arrays()?;
+        Ok(near.map_or(Slot::NONE, |near| self.slot_of(cells, near)))
+    }
+
+    /// The slot of a cell at a place, to begin a search at.
+    pub(in crate::motion) fn slot_at(&self, place: Place) -> Slot {
+        match place {
+            Place::Site(s) => self.kernel.site(s).cell,
+            Place::Cell(c) | Place::Outside(c) => c,
+            Place::NoCells => Slot::NONE,
+        }
+    }
+
+    /// The name of a place.
+    fn location(&self, cells: &Cells<G>, place: Place) -> Location {
+        let index_of = |c: Slot| cells.index_of()[c];
+        match place {
+            Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
+            Place::Cell(c) => Location::Cell(index_of(c)),
+            Place::Outside(c) => {
+                Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell()))
+            }
+            Place::NoCells => Location::NoCells,
+        }
+    }
+
+    /// The slot of a cell at a place that need not exist; [`Slot::NONE`] if there is no such place.
+    fn slot_of(&self, cells: &Cells<G>, location: Location) -> Slot {
+        match location {
+            Location::Vertex(v) => match self.present_site("hint", 0, v) {
+                Ok(s) => self.kernel.site(s).cell,
+                Err(_) => Slot::NONE,
+            },
+            Location::Cell(index) | Location::Outside(index) => cells.slot(index).unwrap_or(Slot::NONE),
+            Location::NoCells => Slot::NONE,
+        }
+    }
+
+    /// The vertex nearest to a point, the lowest id among the nearest; `None` if there are no vertices. Distances
+    /// are compared exactly.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
+    pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
+        let q = check_position::<G>("position", 0, position)?;
+        let start = match self.kernel.locate(&q, Slot::NONE) {
+            Place::Site(s) => return Ok(Some(self.kernel.site(s).id)),
+            Place::NoCells => return Ok(self.nearest_of(&q, self.kernel.live_sites())),
+            Place::Cell(c) | Place::Outside(c) => {
+                let corners = self.kernel.complex().cell(c).corners;
+                let finite = corners.as_ref().iter().copied().filter(|&s| s != INFINITE);
+                finite.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
+            }
+        };
+        // Some neighbour of a vertex that is not the nearest is nearer; the nearest ones are on an empty sphere
+        // around the point, so they are connected by edges.
+        let mut best = start;
+        let (mut nearest, mut star, mut link) = (IndexSet::new(), IndexSet::new(), IndexSet::new());
+        nearest.insert(start)?;
+        // Those before this one have been looked around.
+        let (mut next, mut n_stars) = (0, 0);
+        while let Some(&s) = nearest.as_slice().get(next) {
+            next += 1;
+            n_stars += 1;
+            // Where cells are long, a landmark can be nearer by far.
+            if n_stars == MANY_STARS
+                && let Some(landmark) = self.nearer_landmark(&q, best)
+            {
+                best = landmark;
+                nearest.clear();
+                nearest.insert(best)?;
+                next = 0;
+                continue;
+            }
+            link.clear();
+            star.clear();
+            self.kernel.list_star(s, &mut star, |_| {})?;
+            for &c in star.as_slice() {
+                for &x in self.kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE) {
+                    if link.insert(x)? {
+                        prefetch(self.kernel.sites(), x.index());
+                    }
+                }
+            }
+            for &x in link.as_slice() {
+                match self.compare(&q, x, best) {
+                    Ordering::Less => {
+                        best = x;
+                        nearest.clear();
+                        nearest.insert(x)?;
+                        next = 0;
+                    }
+                    Ordering::Equal => {
+                        nearest.insert(x)?;
+                    }
+                    Ordering::Greater => {}
+                }
+            }
+        }
+        Ok(nearest.as_slice().iter().map(|&s| self.kernel.site(s).id).min())
+    }
+
+    /// A landmark that is nearer to `q` than a site, if one is known.
+    #[cold]
+    fn nearer_landmark(&self, q: &G::Point, than: SiteId) -> Option<SiteId> {
+        self.kernel.landmark(q).filter(|&landmark| self.compare(q, landmark, than) == Ordering::Less)
+    }
+
+    fn compare(&self, q: &G::Point, a: SiteId, b: SiteId) -> Ordering {
+        compare_distance(q, &self.kernel.site(a).point, &self.kernel.site(b).point)
+    }
+
+    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = SiteId>) -> Option<VertexId> {
+        let mut best = sites.next()?;
+        for s in sites {
+            let order = self.compare(q, s, best);
+            if order == Ordering::Less
+                || order == Ordering::Equal && self.kernel.site(s).id < self.kernel.site(best).id
+            {
+                best = s;
+            }
+        }
+        Some(self.kernel.site(best).id)
+    }
+
+    /// The lowest id among the vertices at the place of this one.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
+        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).id)
+    }
+
+    /// Checks the triangulation: see [`Level`].
+    ///
+    /// # Errors
+    /// The first violation found.
+    pub fn validate(&self, level: Level) -> std::result::Result<(), Violation> {
+        self.kernel.validate(level)?;
+        self.check_sites()
+    }
+
+    /// Every vertex is at a site that it represents or where it is hidden.
+    fn check_sites(&self) -> std::result::Result<(), Violation> {
+        let violation = |message| Err(Violation { level: Level::Structure, message });
+        let mut hidden = 0;
+        let vertices = VertexId::range(0..self.site_of.len()).zip(&self.site_of);
+        for (v, &s) in vertices.filter(|&(_, &s)| s != SiteId::NONE) {
+            let site = self.kernel.site(s);
+            if !site.is_live() || site.id > v {
+                let message = format_args!("vertex {v} is at a site of vertex {}", site.id);
+                return violation(memory::text(message));
+            }
+            hidden += usize::from(site.id != v);
+        }
+        let sites = self.kernel.live_sites().count();
+        if hidden != self.hidden.count() || sites + hidden != self.n_present {
+            return violation(memory::text(format_args!(
+                "{} vertices, but {sites} places with {hidden} hidden vertices ({} listed)",
+                self.n_present,
+                self.hidden.count()
+            )));
+        }
+        Ok(())
+    }
+
+    /// Sums over all commits and immediate calls; `timestamp` and `coincident` are those of now.
+    pub fn statistics(&self) -> CommitReport {
+        self.statistics
+    }
+
+    /// Timestamp reached: 0 at creation.
+    pub fn timestamp(&self) -> u64 {
+        self.statistics.timestamp
+    }
+
+    /// Bytes held, views included.
+    pub fn memory_bytes(&self) -> usize {
+        self.kernel.memory_bytes()
+            + memory::bytes_of(&self.site_of)
+            + self.staging.memory_bytes()
+            + memory::bytes_of(&self.queue)
+            + self.regions.memory_bytes()
+            + memory::bytes_of_made(&self.repair, Repair::memory_bytes)
+            + self.edits.memory_bytes()
+            + self.hidden.memory_bytes()
+            + self.transaction.memory_bytes()
+            + self.views.memory_bytes()
+            + memory::bytes_of_made(&self.taken, Taken::memory_bytes)
+    }
+}

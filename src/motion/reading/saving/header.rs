@@ -1,0 +1,175 @@
+//! The first bytes: what the data are, and how much of each kind there is.
+
+use crate::damage::Damage;
+use crate::motion::report::CommitReport;
+
+/// What data begin with. A byte above 127, and ends of lines of either kind, tell a file that has been taken for text
+/// on its way.
+const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
+
+/// The version of the format.
+const VERSION: u32 = 1;
+
+/// Bytes of the header.
+pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
+
+/// Bytes of the checksum at the end.
+const CHECKSUM: usize = 4;
+
+const N_SUMS: usize = 12;
+
+/// Sums above this are saved as this, and refused: no program reaches it, and so none that has been loaded overflows.
+const GREATEST_SUM: u64 = (1 << 62) - 1;
+
+/// How much there is of everything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Header {
+    pub(super) dimension: u32,
+    pub(super) ids: usize,
+    pub(super) cells: usize,
+    pub(super) moves: usize,
+    pub(super) insertions: usize,
+    pub(super) removals: usize,
+    /// All but the number of hidden vertices.
+    pub(super) statistics: CommitReport,
+}
+
+impl Header {
+    /// Bytes of all data, if they are not too many for a number.
+    pub(super) fn size(&self) -> Option<u64> {
+        let (d, places) = (u128::from(self.dimension), [self.ids, self.moves, self.insertions]);
+        let numbers = [self.ids, self.moves, self.insertions, self.removals];
+        let sum = |counts: &[usize]| counts.iter().map(|&n| n as u128).sum::<u128>();
+        let bytes = SIZE as u128
+            + 8 * d * sum(&places)
+            + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
+            + CHECKSUM as u128;
+        u64::try_from(bytes).ok()
+    }
+
+    /// Its bytes.
+    pub(super) fn bytes(&self) -> [u8; SIZE] {
+        let mut bytes = [0; SIZE];
+        bytes[..8].copy_from_slice(&MAGIC);
+        bytes[8..12].copy_from_slice(&VERSION.to_le_bytes());
+        bytes[12..16].copy_from_slice(&self.dimension.to_le_bytes());
+        let size = self.size().expect("what is in memory has a size");
+        let counts = [self.ids, self.cells, self.moves, self.insertions, self.removals].map(|n| n as u64);
+        let numbers =
+            std::iter::once(size).chain(counts).chain([self.statistics.timestamp.min(GREATEST_SUM)]);
+        let numbers = numbers.chain(sums(&self.statistics).map(|sum| sum.min(GREATEST_SUM)));
+        for (place, number) in bytes[16..].chunks_exact_mut(8).zip(numbers) {
+            place.copy_from_slice(&number.to_le_bytes());
+        }
+        bytes
+    }
+
+    /// Reads it, and checks that the data are as long as it says, of which `given` bytes are there, and these are the
+    /// first.
+    pub(super) fn read(data: &[u8], given: u64) -> Result<Self, Damage> {
+        let n_magic = MAGIC.len().min(data.len());
+        if data[..n_magic] != MAGIC[..n_magic] {
+            return Err(Damage::Foreign);
+        }
+        if data.len() < SIZE {
+            return Err(Damage::NoHeader { given: data.len(), wanted: SIZE });
+        }
+        let number = |at: usize| u64::from_le_bytes(data[at..at + 8].try_into().expect("eight bytes"));
+        if word(data, 8) != VERSION {
+            return Err(Damage::Version { given: word(data, 8), latest: VERSION });
+        }
+        if number(16) != given {
+            return Err(Damage::Size { given: given as usize, wanted: number(16) });
+        }
+        let dimension = word(data, 12);
+        if !matches!(dimension, 2 | 3) {
+            return Err(Damage::Dimension { given: dimension });
+        }
+        let count = |at| usize::try_from(number(at)).map_err(|_| Damage::Counts);
+        let mut header = Header {
+            dimension,
+            ids: count(24)?,
+            cells: count(32)?,
+            moves: count(40)?,
+            insertions: count(48)?,
+            removals: count(56)?,
+            statistics: CommitReport::default(),
+        };
+        if header.size() != Some(number(16)) {
+            return Err(Damage::Counts);
+        }
+        let mut numbers = [0; 1 + N_SUMS];
+        for (at, place) in (64..).step_by(8).zip(&mut numbers) {
+            *place = number(at);
+            if *place > GREATEST_SUM {
+                return Err(Damage::Sum { offset: at, value: *place });
+            }
+        }
+        let [timestamp, sums @ ..] = numbers;
+        header.statistics = of_sums(timestamp, sums);
+        Ok(header)
+    }
+}
+
+/// The number of four bytes at a place.
+fn word(data: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(data[at..at + 4].try_into().expect("four bytes"))
+}
+
+/// Checks the checksum at the end of data whose header is right.
+pub(super) fn check_sum(data: &[u8]) -> Result<(), Damage> {
+    let end = data.len() - CHECKSUM;
+    let (given, wanted) = (word(data, end), crc32fast::hash(&data[..end]));
+    if given == wanted { Ok(()) } else { Err(Damage::Checksum { given, wanted }) }
+}
+
+/// The sums, in the order in which they are saved.
+fn sums(statistics: &CommitReport) -> [u64; N_SUMS] {
+    [
+        statistics.moved,
+        statistics.unchanged,
+        statistics.placements,
+        statistics.flips,
+        statistics.rebuilds,
+        statistics.within_tolerance,
+        statistics.within_safe_region,
+        statistics.tolerances,
+        statistics.certificates,
+        statistics.exact_calls,
+        statistics.inserted,
+        statistics.removed,
+    ]
+}
+
+fn of_sums(timestamp: u64, sums: [u64; N_SUMS]) -> CommitReport {
+    let [
+        moved,
+        unchanged,
+        placements,
+        flips,
+        rebuilds,
+        within_tolerance,
+        within_safe_region,
+        tolerances,
+        certificates,
+        exact_calls,
+        inserted,
+        removed,
+    ] = sums;
+    CommitReport {
+        timestamp,
+        moved,
+        unchanged,
+        placements,
+        flips,
+        rebuilds,
+        within_tolerance,
+        within_safe_region,
+        tolerances,
+        certificates,
+        exact_calls,
+        coincident: 0,
+        inserted,
+        removed,
+    }
+}

@@ -1,0 +1,190 @@
+//! Making a triangulation of bytes that may be anything.
+
+use crate::complex::Corners;
+use crate::damage::{Damage, LoadError};
+use crate::delaunay::{Delaunay, Dimension, Rows};
+use crate::error::{Error, Result};
+use crate::ids::{CellId, Id, SiteId, VertexId};
+use crate::machine::memory;
+use crate::machine::threads::Threads;
+use crate::motion::options::Options;
+use crate::motion::reading::saving::Saved;
+use crate::motion::reading::saving::header::{Header, SIZE};
+use crate::motion::state::cells::Cells;
+use crate::motion::state::checking::check_position;
+use crate::motion::state::hidden::Hidden;
+use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
+use crate::predicates::is_in_range;
+
+/// What has not been read.
+struct Reader<'d>(&'d [u8]);
+
+impl<'d> Reader<'d> {
+    /// The next entries, of `N` bytes each; they are there, as the header has been checked.
+    fn entries<const N: usize>(&mut self, n: usize) -> &'d [[u8; N]] {
+        let (entries, rest) = self.0.split_at(n * N);
+        self.0 = rest;
+        entries.as_chunks().0
+    }
+
+    fn points<G: Dimension>(&mut self, n: usize) -> Result<Vec<G::Point>> {
+        let mut points = Vec::new();
+        memory::reserve_exact(&mut points, n)?;
+        points.extend(self.entries::<8>(n * G::D).chunks_exact(G::D).map(|bytes| {
+            let mut point = G::Point::default();
+            // The sum makes -0 into 0, so that equal places are equal bits.
+            (0..G::D).for_each(|axis| point[axis] = f64::from_le_bytes(bytes[axis]) + 0.0);
+            point
+        }));
+        Ok(points)
+    }
+
+    fn numbers<I: Id>(&mut self, n: usize) -> Result<Vec<I>> {
+        let mut numbers = Vec::new();
+        memory::reserve_exact(&mut numbers, n)?;
+        numbers.extend(self.entries(n).iter().map(|&bytes| I::new(u32::from_le_bytes(bytes))));
+        Ok(numbers)
+    }
+
+    fn rows<I: Id, C: Corners<I>>(&mut self, n: usize) -> Result<Vec<C>> {
+        let mut rows = Vec::new();
+        memory::reserve_exact(&mut rows, n)?;
+        rows.extend(self.entries(n * C::N).chunks_exact(C::N).map(|bytes| {
+            let mut row = C::filled(I::new(0));
+            (0..C::N).for_each(|i| row[i] = I::new(u32::from_le_bytes(bytes[i])));
+            row
+        }));
+        Ok(rows)
+    }
+}
+
+/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere; returns how
+/// many are present.
+fn check_vertices<G: Dimension>(
+    positions: &[G::Point],
+    representatives: &[VertexId],
+) -> Result<usize, Damage> {
+    let mut n_present = 0;
+    for (vertex, &first) in VertexId::range(0..positions.len()).zip(representatives) {
+        let p = &positions[vertex];
+        if first == VertexId::NONE {
+            if let Some(axis) = (0..G::D).find(|&axis| !p[axis].is_nan()) {
+                return Err(Damage::Absent { vertex, axis, value: p[axis] });
+            }
+            continue;
+        }
+        n_present += 1;
+        if let Some(axis) = (0..G::D).find(|&axis| !is_in_range(p[axis])) {
+            return Err(Damage::Position { vertex, axis, value: p[axis] });
+        }
+        if first != vertex {
+            if first > vertex || representatives[first] != first {
+                return Err(Damage::Representative { vertex, given: first });
+            }
+            if positions[first] != *p {
+                return Err(Damage::Apart { vertex, representative: first });
+            }
+        }
+    }
+    Ok(n_present)
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The triangulation that has been saved, under other options. The cells have the indices that they
+    /// had, and are as [`cells`](Self::cells) shows them; no changes have been taken.
+    ///
+    /// It gives the same cells as the one that was saved, after the same calls: cells created by them may have other
+    /// indices.
+    ///
+    /// Cost: the sort of a fresh build, and a few passes over the data, whatever they hold; memory for at most 16 times
+    /// as many bytes. The monitor of the options is called.
+    ///
+    /// # Errors
+    /// [`LoadError::Data`] if it is not one of this dimension, or the bytes are none at all;
+    /// [`Error::OutOfMemory`], [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`], and
+    /// [`Error::Coincident`] if there are hidden vertices, and the options reject that.
+    pub fn load(saved: &Saved<'_>, mut options: Options) -> Result<Self, LoadError> {
+        let Saved { header, data } = saved;
+        if header.dimension != G::D as u32 {
+            return Err(Damage::Dimension { given: header.dimension }.into());
+        }
+        if header.ids > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: header.ids, limit: MAX_VERTICES }.into());
+        }
+        let mut reader = Reader(&data[SIZE..]);
+        let positions = reader.points::<G>(header.ids)?;
+        let moved = reader.points::<G>(header.moves)?;
+        let coming = reader.points::<G>(header.insertions)?;
+        let representatives = reader.numbers::<VertexId>(header.ids)?;
+        let n_present = check_vertices::<G>(&positions, &representatives)?;
+        let corners = reader.rows::<VertexId, G::Vertices>(header.cells)?;
+        let neighbours = reader.rows::<CellId, G::Neighbours>(header.cells)?;
+        let rows = Rows { corners: &corners, neighbours: &neighbours };
+        let is_site = |v: VertexId| representatives[v] == v;
+        let threads = Threads::at_most(options.threads);
+        let mut unmonitored = |_| true;
+        let monitor: &mut dyn FnMut(f64) -> bool = match &mut options.monitor {
+            Some(monitor) => monitor,
+            None => &mut unmonitored,
+        };
+        let (kernel, mut site_of) = Delaunay::of_rows(&positions, is_site, rows, threads, monitor)?;
+        drop(positions);
+        for (v, &first) in VertexId::range(0..header.ids).zip(&representatives) {
+            if first != VertexId::NONE && first != v {
+                site_of[v] = site_of[first];
+            }
+        }
+        let hidden = Hidden::of_representatives(&representatives)?;
+        drop(representatives);
+        let cells = Cells::of_rows(corners, neighbours, kernel.complex().n_slots())?;
+        let mut t = MovingTriangulation::of_parts(kernel, site_of, hidden, n_present, options);
+        t.sorted_stride = t.kernel.mean_stride();
+        t.reject_coincidence()?;
+        t.views.show(cells)?;
+        t.statistics = header.statistics;
+        t.statistics.coincident = t.hidden.count() as u64;
+        t.stage_saved(header, &mut reader, &moved, &coming)?;
+        Ok(t)
+    }
+
+    /// Stages what was staged.
+    fn stage_saved(
+        &mut self,
+        header: &Header,
+        reader: &mut Reader<'_>,
+        moved: &[G::Point],
+        coming: &[G::Point],
+    ) -> Result<(), LoadError> {
+        let moves = reader.numbers::<VertexId>(header.moves)?;
+        let insertions = reader.numbers::<VertexId>(header.insertions)?;
+        let removals = reader.numbers::<VertexId>(header.removals)?;
+        self.edits.reserve_insertions(insertions.len())?;
+        let mut last = None;
+        for (index, (&vertex, position)) in insertions.iter().zip(coming).enumerate() {
+            let is_free = self.site_of.get(vertex.index()) == Some(&SiteId::NONE);
+            if !is_free || last.is_some_and(|last| vertex <= last) {
+                return Err(Damage::Insertion { vertex }.into());
+            }
+            let checked = check_position::<G>("positions", index, position);
+            let position = checked.map_err(|error| of_staged(error, &insertions))?;
+            self.edits.insert(vertex, position);
+            last = Some(vertex);
+        }
+        self.stage_removals(&removals).map_err(|error| of_staged(error, &removals))?;
+        self.move_vertices(&moves, moved).map_err(|error| of_staged(error, &moves))
+    }
+}
+
+/// Why something cannot be staged that has been: the data are wrong, or there is no memory.
+fn of_staged(error: Error, vertices: &[VertexId]) -> LoadError {
+    match error {
+        Error::NoSuchVertex { vertex, .. }
+        | Error::RemovedVertex { vertex, .. }
+        | Error::StagedVertex { vertex, .. }
+        | Error::DuplicateMove { vertex, .. } => Damage::Staged { vertex }.into(),
+        Error::NotFinite { index, axis, value, .. } | Error::OutOfRange { index, axis, value, .. } => {
+            Damage::Position { vertex: vertices[index], axis, value }.into()
+        }
+        error => error.into(),
+    }
+}

@@ -1,0 +1,103 @@
+//! Writing all bytes, from the first to the last.
+
+use crate::delaunay::Dimension;
+use crate::error::{Error, Result};
+use crate::ids::{CellId, SiteId, VertexId};
+use crate::machine::memory;
+use crate::motion::reading::chunks::Chunks;
+use crate::motion::reading::saving::header::Header;
+use crate::motion::state::views::CellsView;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    fn header(&self) -> Header {
+        let (insertions, removals) = self.staged_edits();
+        Header {
+            dimension: G::D as u32,
+            ids: self.id_count(),
+            cells: self.cell_count(),
+            moves: self.staged_count(),
+            insertions,
+            removals,
+            statistics: self.statistics(),
+        }
+    }
+
+    /// How many bytes [`save`](Self::save) writes.
+    pub fn saved_size(&self) -> usize {
+        self.header().size().and_then(|size| usize::try_from(size).ok()).expect("it fits in memory")
+    }
+
+    /// Hands on all bytes from which [`load`](Self::load) makes a triangulation like this one, a few thousand at a
+    /// time. Before the first, it does what the first [`cells`](Self::cells) does.
+    ///
+    /// Cost: a pass over what is saved.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], before the first byte; and those of `put`, with which it ends.
+    pub fn save<E: From<Error>>(&self, mut put: impl FnMut(&[u8]) -> Result<(), E>) -> Result<(), E> {
+        let cells = self.cells()?;
+        let insertions = self.edits.insertions();
+        let mut checksum = crc32fast::Hasher::new();
+        let mut chunks = Chunks::new(|bytes: &[u8]| {
+            checksum.update(bytes);
+            put(bytes)
+        });
+        self.save_places(insertions, &mut chunks)?;
+        self.save_numbers(cells, insertions, &mut chunks)?;
+        chunks.end()?;
+        put(&checksum.finalize().to_le_bytes())
+    }
+
+    /// Writes the header, and where vertices are or go.
+    fn save_places<E>(
+        &self,
+        insertions: &[(VertexId, G::Point)],
+        chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
+    ) -> Result<(), E> {
+        chunks.write(self.header().bytes())?;
+        let mut nowhere = G::Point::default();
+        (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
+        for &s in &self.site_of {
+            chunks.point::<G>(if s == SiteId::NONE { &nowhere } else { &self.kernel.site(s).point })?;
+        }
+        self.staged_vertices().try_for_each(|v| chunks.point::<G>(self.staging.goal(v)))?;
+        insertions.iter().try_for_each(|(_, point)| chunks.point::<G>(point))
+    }
+
+    /// Writes which vertices are present and hidden, the cells, and what is staged.
+    fn save_numbers<E>(
+        &self,
+        cells: CellsView<'_, G>,
+        insertions: &[(VertexId, G::Point)],
+        chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
+    ) -> Result<(), E> {
+        for &s in &self.site_of {
+            let first = if s == SiteId::NONE { VertexId::NONE } else { self.kernel.site(s).id };
+            chunks.numbers(&[first.get()])?;
+        }
+        cells.corners.iter().try_for_each(|row| chunks.numbers(VertexId::numbers_of(row.as_ref())))?;
+        cells.neighbours.iter().try_for_each(|row| chunks.numbers(CellId::numbers_of(row.as_ref())))?;
+        self.staged_vertices().try_for_each(|v| chunks.numbers(&[v.get()]))?;
+        insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
+        chunks.numbers(VertexId::numbers_of(self.edits.removals()))
+    }
+
+    /// The vertices of which moves are staged, in the order of the calls.
+    fn staged_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        let n_unlisted = if self.staging.is_whole() { self.staging.count() } else { 0 };
+        VertexId::range(0..n_unlisted).chain(self.staging.listed())
+    }
+
+    /// All bytes that [`save`](Self::save) writes.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn saved(&self) -> Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        memory::reserve_exact(&mut bytes, self.saved_size())?;
+        self.save(|more| memory::append(&mut bytes, more))?;
+        debug_assert_eq!(bytes.len(), self.saved_size());
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,75 @@
+//! Tolerances, annulus widths and delimiters, for programs that ask (report, sections 2.2 to 2.4).
+
+use crate::complex::{Corners, Facet};
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{CellId, SiteId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::filters::bicell::BiCell;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::Delimiter;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Tolerance of a vertex at its current position: a certified lower bound of the distance that all vertices may
+    /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
+    /// shares its place with another, infinite while there are no cells.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
+    pub fn tolerance(&self, vertex: VertexId) -> Result<f64> {
+        let s = self.present_site("vertex", 0, vertex)?;
+        if self.is_shared(s) {
+            return Ok(0.0);
+        }
+        let mut tolerance = f64::INFINITY;
+        self.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance))?;
+        Ok(tolerance)
+    }
+
+    /// The [`tolerance`](Self::tolerance) of the vertex of a site that no two share; 0 without the memory to look.
+    pub(in crate::motion) fn tolerance_of_site(&mut self, s: SiteId) -> f64 {
+        if self.kernel.gather_star(s).is_err() {
+            return 0.0;
+        }
+        let star = self.kernel.gathered_star().iter();
+        star.fold(f64::INFINITY, |tolerance, &(c, _)| self.tolerance_around(c, tolerance))
+    }
+
+    /// The least of a tolerance and those of a cell's bi-cells.
+    fn tolerance_around(&self, cell: Slot, tolerance: f64) -> f64 {
+        let bicells = (0..G::Corners::N).map(|i| BiCell::of(&self.kernel, Facet::new(cell, i)));
+        bicells.fold(tolerance, |least, bicell| least.min(bicell.tolerance(least)))
+    }
+
+    /// Annulus width of the bi-cell beyond each facet of each finite cell, as a certified lower bound, in the order of
+    /// [`cells`](Self::cells): entry `i` of a cell is that of the facet opposite corner `i`. Every interior bi-cell is
+    /// listed from both sides; facets of the hull have none and hold NaN.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn annulus_widths(&self) -> Result<Vec<f64>> {
+        let cells = self.cell_arrays()?;
+        let mut widths = Vec::new();
+        memory::reserve_exact(&mut widths, cells.corners().len() * G::Corners::N)?;
+        for index in CellId::range(0..cells.corners().len()) {
+            for corner in 0..G::Corners::N {
+                let delimiter = BiCell::of(&self.kernel, cells.facet(index, corner)).delimiter();
+                widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
+            }
+        }
+        Ok(widths)
+    }
+
+    /// Standard delimiter of the bi-cell of the facet opposite corner `corner` of the finite cell of index `cell` in
+    /// [`cells`](Self::cells); `None` if there is no such facet or it is on the hull.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn standard_delimiter(&self, cell: CellId, corner: u32) -> Result<Option<Delimiter<G::Point>>> {
+        let cells = self.cell_arrays()?;
+        if cell.index() >= cells.corners().len() || corner as usize > G::D {
+            return Ok(None);
+        }
+        Ok(BiCell::of(&self.kernel, cells.facet(cell, corner as usize)).delimiter())
+    }
+}

@@ -1,0 +1,390 @@
+//! The cells as callers see them: by vertex id, finite cells only, in dense arrays that are brought up to date.
+//!
+//! **Identity.** A cell is its set of vertices. One that is there before and after keeps its index, and the order of
+//! its corners unless it has been turned over, whatever has become of its slot: rows of slots that have changed are
+//! compared first with what the slot holds now, and what is left on both sides is matched by corners. Only where
+//! cells have become fewer, the last ones are *renumbered* to fill the holes.
+//!
+//! Invariants: `slots` and `index_of` are inverse to each other for all cells that have not changed since. The order of
+//! the corners in a row, beside that in its slot, is in `orderings`.
+//!
+//! Cost: in proportion to the slots that have changed; when most have, one pass over all. `make bench` times steps,
+//! which read the cells and what has changed, beside commits alone.
+
+mod comparing;
+mod gluing;
+mod renumbering;
+
+use crate::complex::{Corners, Facet};
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::constants::reading;
+use crate::motion::state::changes::{Taken, Tracker, renumber};
+use crate::motion::state::marks::{Bits, Marks};
+use crate::motion::state::matching::Matcher;
+use crate::motion::state::ordering::Ordering;
+
+/// Neighbour of a cell across a facet of the convex hull.
+pub const NO_CELL: CellId = CellId::NONE;
+
+/// Mirror index of a facet of the convex hull.
+pub const NO_CORNER: u8 = u8::MAX;
+
+/// Whether `n_changed` changed slots are too many of `n_slots` to be compared one by one.
+pub(in crate::motion) fn are_most(n_changed: usize, n_slots: usize) -> bool {
+    n_changed as f64 > reading().max_share_listed * n_slots as f64
+}
+
+/// Memory for this number of changes is always kept.
+const KEPT_CHANGES: usize = 64;
+
+/// The arrays behind a view.
+#[derive(Debug)]
+pub(in crate::motion) struct Cells<G: Dimension> {
+    corners: Vec<G::Vertices>,
+    neighbours: Vec<G::Neighbours>,
+    /// By slot of the kernel's complex, the index of its cell in the arrays; [`NO_CELL`] if it has none.
+    index_of: Vec<CellId>,
+    /// The slot of each index.
+    slots: Vec<Slot>,
+    /// By index, how the row lists the corners of its slot; there may be more than cells.
+    orderings: Vec<Ordering>,
+    /// A bit for each lost cell that has been found, or whose index has been given to another one. All are 0 between
+    /// calls.
+    is_settled: Bits,
+    /// What has changed since the program last took the changes, if it ever did.
+    since_taken: Option<Tracker<G::Vertices>>,
+    /// What has changed since the latest commit began, if that is tracked.
+    since_commit: Option<Tracker<G::Vertices>>,
+    /// Whether the commit of `since_commit` has succeeded: the tracker may be there from a first one that failed.
+    has_committed: bool,
+    scratch: Scratch<G::Vertices>,
+}
+
+/// A slot that holds another cell than before.
+#[derive(Clone, Copy, Debug)]
+struct Found<C> {
+    slot: Slot,
+    /// The index of the cell, if it was there before; else [`NO_CELL`].
+    index: CellId,
+    ids: C,
+}
+
+/// Lists of a refreshment.
+#[derive(Debug)]
+struct Scratch<C> {
+    /// Indices whose slot no longer holds their cell.
+    lost: Vec<CellId>,
+    /// Slots that hold another finite cell than before, if they are known; else, those that hold one that was not
+    /// there.
+    found: Vec<Found<C>>,
+    matcher: Matcher<C>,
+    /// Slots of cells that have other indices.
+    moved: Vec<Slot>,
+    /// Slots of cells that have been turned over.
+    turned: Vec<Slot>,
+}
+
+impl<C> Default for Scratch<C> {
+    fn default() -> Self {
+        Scratch {
+            lost: Vec::new(),
+            found: Vec::new(),
+            matcher: Matcher::default(),
+            moved: Vec::new(),
+            turned: Vec::new(),
+        }
+    }
+}
+
+impl<C: Corners<VertexId>> Scratch<C> {
+    fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.lost)
+            + memory::bytes_of(&self.moved)
+            + memory::bytes_of(&self.turned)
+            + self.found.capacity() * size_of::<Found<C>>()
+            + self.matcher.memory_bytes()
+    }
+}
+
+impl<G: Dimension> Default for Cells<G> {
+    fn default() -> Self {
+        Cells {
+            corners: Vec::new(),
+            neighbours: Vec::new(),
+            index_of: Vec::new(),
+            slots: Vec::new(),
+            orderings: Vec::new(),
+            is_settled: Bits::default(),
+            since_taken: None,
+            since_commit: None,
+            has_committed: false,
+            scratch: Scratch::default(),
+        }
+    }
+}
+
+/// The vertex ids of a slot's corners.
+#[inline(always)]
+fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> G::Vertices {
+    let sites = kernel.complex().cell(slot).corners;
+    let mut ids = G::Vertices::filled(VertexId::NONE);
+    for i in 0..G::Corners::N {
+        ids[i] = kernel.site(sites[i]).id;
+    }
+    ids
+}
+
+/// Whether a slot holds a finite cell.
+#[inline(always)]
+fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> bool {
+    kernel.complex().is_live(slot) && !kernel.complex().cell(slot).is_ghost()
+}
+
+impl<G: Dimension> Cells<G> {
+    /// Vertex ids of each cell.
+    #[inline(always)]
+    pub(in crate::motion) fn corners(&self) -> &[G::Vertices] {
+        &self.corners
+    }
+
+    /// Index of the neighbour opposite each corner of each cell.
+    #[inline(always)]
+    pub(in crate::motion) fn neighbours(&self) -> &[G::Neighbours] {
+        &self.neighbours
+    }
+
+    /// By slot of the kernel's complex, the index of its cell; [`NO_CELL`] if it has none.
+    #[inline(always)]
+    pub(in crate::motion) fn index_of(&self) -> &[CellId] {
+        &self.index_of
+    }
+
+    /// The slot of the cell of an index, if there is such a cell.
+    pub(in crate::motion) fn slot(&self, index: CellId) -> Option<Slot> {
+        self.slots.get(index.index()).copied()
+    }
+
+    /// The slot of each cell.
+    #[inline(always)]
+    pub(in crate::motion) fn slots(&self) -> &[Slot] {
+        &self.slots
+    }
+
+    /// For each corner of a cell the place, in the row of the neighbour opposite it, of the corner that is opposite the
+    /// same facet; [`NO_CORNER`] on the hull, and after the last corner.
+    #[inline(always)]
+    pub(in crate::motion) fn mirrors(&self, kernel: &Delaunay<G>, index: CellId) -> [u8; 4] {
+        let cell = kernel.complex().cell(self.slots[index]);
+        let mut mirrors = [NO_CORNER; 4];
+        for i in 0..G::Corners::N {
+            let place = self.orderings[index].place(i);
+            let across = self.neighbours[index][place];
+            if across != NO_CELL {
+                mirrors[place] = self.orderings[across].place(cell.neighbour(i).index()) as u8;
+            }
+        }
+        mirrors
+    }
+
+    /// Tracks what changes from now on, which is when a commit begins.
+    pub(in crate::motion) fn track_commit(&mut self) -> Result<()> {
+        if self.since_commit.is_none() {
+            self.since_commit = Some(Tracker::of(self.corners.len())?);
+        }
+        Ok(())
+    }
+
+    /// A commit begins: if its changes are tracked, the cells of now are their base.
+    pub(in crate::motion) fn begin_commit(&mut self) {
+        if let Some(tracker) = &mut self.since_commit {
+            tracker.reset();
+            self.has_committed = true;
+        }
+    }
+
+    /// Lists, ascending, the cells created since the latest commit began, if that is tracked; none before the first.
+    pub(in crate::motion) fn list_created(&self) -> Result<Vec<CellId>> {
+        let mut created = Vec::new();
+        if let Some(tracker) = self.since_commit.as_ref().filter(|_| self.has_committed) {
+            tracker.list_created(&self.corners, &mut created)?;
+        }
+        Ok(created)
+    }
+
+    /// Lists what has changed since this was last [ended](Self::end_taking): everything, as created, if it never was.
+    pub(in crate::motion) fn take(&mut self, taken: &mut Taken<G::Vertices>, n_ids: usize) -> Result<()> {
+        let tracker = match &mut self.since_taken {
+            Some(tracker) => tracker,
+            none => none.insert(Tracker::of_none(self.corners.len())?),
+        };
+        taken.list(tracker, &self.corners, n_ids)
+    }
+
+    /// What has been listed has been taken.
+    pub(in crate::motion) fn end_taking(&mut self) {
+        self.since_taken.as_mut().expect("it has been listed").reset();
+    }
+
+    /// The cells are in other slots, listed by the old ones.
+    pub(in crate::motion) fn renumber_slots(&mut self, slots: &[Slot]) {
+        for slot in &mut self.slots {
+            *slot = slots.get(slot.index()).copied().unwrap_or(Slot::NONE);
+        }
+    }
+
+    /// Brings the arrays up to date: only the `dirty` slots have changed, or any, if there is no list of them. After an
+    /// error they can be brought up to date later.
+    pub(in crate::motion) fn refresh(
+        &mut self,
+        kernel: &Delaunay<G>,
+        dirty: Option<&Marks<Slot>>,
+    ) -> Result<()> {
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let done = self.refresh_with(kernel, dirty, &mut scratch);
+        if done.is_err() {
+            scratch.lost.iter().for_each(|&index| self.is_settled.clear_around(index));
+        }
+        self.scratch = scratch;
+        done
+    }
+
+    fn refresh_with(
+        &mut self,
+        kernel: &Delaunay<G>,
+        dirty: Option<&Marks<Slot>>,
+        scratch: &mut Scratch<G::Vertices>,
+    ) -> Result<()> {
+        scratch.lost.clear();
+        scratch.found.clear();
+        scratch.moved.clear();
+        scratch.turned.clear();
+        if self.corners.is_empty() {
+            return self.fill(kernel);
+        }
+        self.is_settled.grow(self.corners.len())?;
+        match dirty {
+            Some(dirty) => {
+                self.compare_slots(kernel, dirty.as_slice(), scratch)?;
+                let Scratch { lost, found, matcher, turned, .. } = scratch;
+                matcher.list(&self.corners, lost)?;
+                self.find_lost(matcher, found, turned)?;
+            }
+            None => self.compare_all(kernel, scratch)?,
+        }
+        self.reserve(kernel, scratch)?;
+        self.renumber(kernel, scratch);
+        match dirty {
+            Some(dirty) => self.glue_slots(kernel, dirty, &scratch.moved),
+            None => self.glue_all(kernel),
+        }
+        // Memory for many changes is not kept.
+        if scratch.found.capacity().max(scratch.matcher.capacity()) > self.corners.len() / 2 + KEPT_CHANGES {
+            *scratch = Scratch::default();
+        }
+        Ok(())
+    }
+
+    /// Makes room for all that [`renumber`](Self::renumber) writes.
+    fn reserve(&mut self, kernel: &Delaunay<G>, scratch: &mut Scratch<G::Vertices>) -> Result<()> {
+        let n = kernel.complex().n_finite();
+        let more = n.saturating_sub(self.corners.len());
+        memory::reserve_sparingly(&mut self.corners, more)?;
+        memory::reserve_sparingly(&mut self.neighbours, more)?;
+        memory::reserve_sparingly(&mut self.slots, more)?;
+        let n_orderings = n.max(self.orderings.len());
+        let more_orderings = n_orderings - self.orderings.len();
+        memory::reserve_sparingly(&mut self.orderings, more_orderings)?;
+        self.orderings.resize(n_orderings, Ordering::SAME);
+        let more_slots = kernel.complex().n_slots().saturating_sub(self.index_of.len());
+        memory::reserve_sparingly(&mut self.index_of, more_slots)?;
+        let (n_lost, n_found) = (scratch.lost.len(), scratch.found.len());
+        memory::reserve(&mut scratch.moved, n_lost)?;
+        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
+            tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n)?;
+        }
+        Ok(())
+    }
+
+    /// The index, in the complex, of a corner of a cell.
+    pub(in crate::motion) fn facet(&self, index: CellId, corner: usize) -> Facet {
+        let ordering = self.orderings[index];
+        let in_slot =
+            (0..G::Corners::N).find(|&i| ordering.place(i) == corner).expect("every place is taken");
+        Facet::new(self.slots[index], in_slot)
+    }
+
+    /// A copy of arrays that are up to date, in which vertices have other ids and cells other slots, `n_slots` in all:
+    /// those listed by the old ones. Every cell keeps its index.
+    pub(in crate::motion) fn renumbered(
+        &self,
+        ids: &[VertexId],
+        slots: &[Slot],
+        n_slots: usize,
+    ) -> Result<Self> {
+        let mut cells = Cells {
+            corners: memory::copy_of(&self.corners)?,
+            neighbours: memory::copy_of(&self.neighbours)?,
+            slots: memory::copy_of(&self.slots)?,
+            orderings: memory::copy_of(&self.orderings)?,
+            since_taken: self.since_taken.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
+            since_commit: self.since_commit.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
+            has_committed: self.has_committed,
+            ..Cells::default()
+        };
+        memory::reserve_exact(&mut cells.index_of, n_slots)?;
+        cells.index_of.resize(n_slots, NO_CELL);
+        cells.corners.iter_mut().for_each(|row| renumber(row, ids));
+        for (index, slot) in CellId::range(0..cells.slots.len()).zip(&mut cells.slots) {
+            *slot = slots[*slot];
+            cells.index_of[*slot] = index;
+        }
+        Ok(cells)
+    }
+
+    /// A copy, without scratch memory.
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        Ok(Cells {
+            corners: memory::copy_of(&self.corners)?,
+            neighbours: memory::copy_of(&self.neighbours)?,
+            index_of: memory::copy_of(&self.index_of)?,
+            slots: memory::copy_of(&self.slots)?,
+            orderings: memory::copy_of(&self.orderings)?,
+            since_taken: self.since_taken.as_ref().map(Tracker::copied).transpose()?,
+            since_commit: self.since_commit.as_ref().map(Tracker::copied).transpose()?,
+            has_committed: self.has_committed,
+            ..Cells::default()
+        })
+    }
+
+    /// The arrays of a kernel that has cell k of these rows in slot k, and as many slots.
+    pub(in crate::motion) fn of_rows(
+        corners: Vec<G::Vertices>,
+        neighbours: Vec<G::Neighbours>,
+        n_slots: usize,
+    ) -> Result<Self> {
+        let n = corners.len();
+        let (mut index_of, mut slots, mut orderings) = (Vec::new(), Vec::new(), Vec::new());
+        memory::reserve_exact(&mut index_of, n_slots)?;
+        index_of.extend(CellId::range(0..n));
+        index_of.resize(n_slots, NO_CELL);
+        memory::reserve_exact(&mut slots, n)?;
+        slots.extend(Slot::range(0..n));
+        memory::lengthen(&mut orderings, n, Ordering::SAME)?;
+        Ok(Cells { corners, neighbours, index_of, slots, orderings, ..Cells::default() })
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        let trackers = [&self.since_taken, &self.since_commit].into_iter().flatten();
+        memory::bytes_of(&self.corners)
+            + memory::bytes_of(&self.neighbours)
+            + memory::bytes_of(&self.index_of)
+            + memory::bytes_of(&self.slots)
+            + self.orderings.capacity()
+            + self.is_settled.memory_bytes()
+            + self.scratch.memory_bytes()
+            + trackers.map(Tracker::memory_bytes).sum::<usize>()
+    }
+}

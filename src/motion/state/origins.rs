@@ -1,0 +1,118 @@
+//! Where vertices were that a commit has moved.
+//!
+//! Every vertex that is moved is noted here first, or with all others. A vertex that is taken back has its origin here,
+//! certificates are compared with what they were there, and undoing puts all back. Where they go is in
+//! [`goals`](super::goals), for as long as the commit takes.
+
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+
+/// Of whom origins are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Known {
+    /// Of the listed vertices.
+    Listed,
+    /// Of every vertex.
+    All,
+}
+
+/// Where the vertices of a change were when it began, by id: of those that have moved.
+#[derive(Debug)]
+pub(in crate::motion) struct Origins<G: Dimension> {
+    positions: Vec<G::Point>,
+    /// Vertices that have moved one by one. One that has been taken back in between is listed twice.
+    listed: Vec<VertexId>,
+    known: Known,
+}
+
+impl<G: Dimension> Default for Origins<G> {
+    fn default() -> Self {
+        Origins { positions: Vec::new(), listed: Vec::new(), known: Known::Listed }
+    }
+}
+
+impl<G: Dimension> Origins<G> {
+    /// A change begins: nothing has moved.
+    pub(in crate::motion) fn begin(&mut self) {
+        self.listed.clear();
+        self.known = Known::Listed;
+    }
+
+    /// Makes room for this number of moves more, of `n_ids` vertices.
+    pub(in crate::motion) fn make_room(&mut self, n_ids: usize, more: usize) -> Result<()> {
+        if self.known == Known::Listed {
+            self.make_room_by_id(n_ids)?;
+            memory::reserve(&mut self.listed, more)?;
+        }
+        Ok(())
+    }
+
+    fn make_room_by_id(&mut self, n_ids: usize) -> Result<()> {
+        let missing = n_ids.saturating_sub(self.positions.len());
+        memory::reserve(&mut self.positions, missing)?;
+        self.positions.resize(self.positions.len() + missing, G::Point::default());
+        Ok(())
+    }
+
+    /// A vertex that was here is going to be moved; there is [room](Self::make_room).
+    #[inline(always)]
+    pub(in crate::motion) fn note(&mut self, vertex: VertexId, position: G::Point) {
+        if self.known == Known::Listed {
+            debug_assert!(self.listed.len() < self.listed.capacity());
+            self.positions[vertex] = position;
+            self.listed.push(vertex);
+        }
+    }
+
+    /// Memory for the origins of all `n` vertices, to be filled; then [`note_all`](Self::note_all) follows.
+    pub(in crate::motion) fn of_all_mut(&mut self, n: usize) -> Result<&mut [G::Point]> {
+        debug_assert!(self.listed.is_empty());
+        self.make_room_by_id(n)?;
+        Ok(&mut self.positions[..n])
+    }
+
+    /// All vertices have been moved, and their origins entered.
+    pub(in crate::motion) fn note_all(&mut self) {
+        self.known = Known::All;
+    }
+
+    /// Whether the origins of all vertices are known.
+    pub(in crate::motion) fn are_of_all(&self) -> bool {
+        self.known == Known::All
+    }
+
+    /// The vertices that have moved one by one.
+    pub(in crate::motion) fn listed(&self) -> &[VertexId] {
+        &self.listed
+    }
+
+    /// By vertex id, where the vertices were that have moved in this change, or in one before.
+    #[inline(always)]
+    pub(in crate::motion) fn positions(&self) -> &[G::Point] {
+        &self.positions
+    }
+
+    /// Where a vertex was that has moved.
+    #[inline(always)]
+    pub(in crate::motion) fn of(&self, vertex: VertexId) -> &G::Point {
+        &self.positions[vertex]
+    }
+
+    /// Puts all vertices that have moved back where they were. Each is at the site that it had then.
+    pub(in crate::motion) fn put_back(&self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) {
+        match self.known {
+            Known::All => {
+                std::iter::zip(site_of, &self.positions).for_each(|(&s, p)| kernel.set_point(s, *p));
+            }
+            Known::Listed => {
+                self.listed.iter().for_each(|&v| kernel.set_point(site_of[v], self.positions[v]));
+            }
+        }
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.positions) + memory::bytes_of(&self.listed)
+    }
+}

@@ -1,0 +1,131 @@
+//! What undoing a change needs beside the kernel's log.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+use crate::motion::state::origins::Origins;
+
+/// The site at which a vertex was, and what it has done since.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::motion) struct VertexBefore {
+    pub(in crate::motion) vertex: VertexId,
+    pub(in crate::motion) site: SiteId,
+    pub(in crate::motion) event: Event,
+}
+
+/// What a vertex has done.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::motion) enum Event {
+    /// It has got a site of its own, or lost it.
+    Alone,
+    /// It has joined those that this one represented.
+    Joined { representative: VertexId },
+    /// It has parted from those that this one represents.
+    Parted { representative: VertexId },
+}
+
+/// Numbers of vertices present, and of events of visibility.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::motion) struct Counts {
+    pub(in crate::motion) present: usize,
+    pub(in crate::motion) visibilities: usize,
+}
+
+/// What undoing needs beside the kernel's log.
+#[derive(Debug)]
+pub(in crate::motion) struct Transaction<G: Dimension> {
+    vertices: Vec<VertexBefore>,
+    /// Where the vertices were that have moved.
+    origins: Origins<G>,
+    before: Counts,
+    /// Whether the kernel is a new one.
+    has_rebuilt: bool,
+    /// Whether the cells are worth sorting when all is done.
+    wants_order: bool,
+}
+
+impl<G: Dimension> Default for Transaction<G> {
+    fn default() -> Self {
+        Transaction {
+            vertices: Vec::new(),
+            origins: Origins::default(),
+            before: Counts::default(),
+            has_rebuilt: false,
+            wants_order: false,
+        }
+    }
+}
+
+impl<G: Dimension> Transaction<G> {
+    /// A change begins.
+    pub(in crate::motion) fn begin(&mut self, now: Counts) {
+        debug_assert!(self.vertices.is_empty());
+        self.origins.begin();
+        (self.has_rebuilt, self.wants_order) = (false, false);
+        self.before = now;
+    }
+
+    /// A change has been made.
+    pub(in crate::motion) fn end(&mut self) {
+        self.vertices.clear();
+    }
+
+    /// The counts when the change began.
+    pub(in crate::motion) fn before(&self) -> Counts {
+        self.before
+    }
+
+    /// Makes room in the log for one vertex.
+    pub(in crate::motion) fn reserve_log(&mut self) -> Result<()> {
+        memory::reserve(&mut self.vertices, 1)
+    }
+
+    /// Keeps where a vertex was; there is [room](Self::reserve_log).
+    pub(in crate::motion) fn log(&mut self, before: VertexBefore) {
+        debug_assert!(self.vertices.len() < self.vertices.capacity());
+        self.vertices.push(before);
+    }
+
+    /// Takes where a vertex was out of the log, the last one first.
+    pub(in crate::motion) fn pop_logged(&mut self) -> Option<VertexBefore> {
+        self.vertices.pop()
+    }
+
+    /// Where the vertices were that have moved.
+    #[inline(always)]
+    pub(in crate::motion) fn origins(&self) -> &Origins<G> {
+        &self.origins
+    }
+
+    /// Where the vertices were that have moved, to note more.
+    #[inline(always)]
+    pub(in crate::motion) fn origins_mut(&mut self) -> &mut Origins<G> {
+        &mut self.origins
+    }
+
+    /// Whether a new kernel is in place.
+    pub(in crate::motion) fn has_rebuilt(&self) -> bool {
+        self.has_rebuilt
+    }
+
+    /// The cells are worth sorting when all is done.
+    pub(in crate::motion) fn want_order(&mut self) {
+        self.wants_order = true;
+    }
+
+    /// Whether the cells are worth sorting.
+    pub(in crate::motion) fn wants_order(&self) -> bool {
+        self.wants_order
+    }
+
+    /// A new kernel is in place: nothing can be undone, and nothing can fail.
+    pub(in crate::motion) fn adopt(&mut self) {
+        self.has_rebuilt = true;
+        self.vertices.clear();
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        self.vertices.capacity() * size_of::<VertexBefore>() + self.origins.memory_bytes()
+    }
+}

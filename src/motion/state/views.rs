@@ -1,0 +1,270 @@
+//! The arrays of cells that programs read: they are kept, and follow the changes.
+//!
+//! The [arrays](super::cells) are made when they are first asked for, and kept. A change leaves a list of the slots
+//! whose corners it has changed; the next reading brings the arrays up to date, at the cost of these. A program that
+//! never reads them pays nothing, and a change of no cell costs nothing.
+//!
+//! Several threads may read at the same time, the first one after a change included: it works while the others wait.
+
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::state::cells::{Cells, are_most};
+use crate::motion::state::marks::Marks;
+use crate::motion::state::visibility::Visibilities;
+
+/// The finite cells, by vertex id. Valid until the triangulation changes.
+#[derive(Clone, Copy, Debug)]
+pub struct CellsView<'t, G: Dimension> {
+    /// Vertex ids of each cell, positively oriented.
+    pub corners: &'t [G::Vertices],
+    /// Index of the neighbour opposite each corner, [`NO_CELL`](super::NO_CELL) on the hull.
+    pub neighbours: &'t [G::Neighbours],
+}
+
+/// Arrays that are not up to date, and the slots that have changed since they were.
+#[derive(Debug)]
+struct Behind<G: Dimension> {
+    cells: Option<Box<Cells<G>>>,
+    dirty: Marks<Slot>,
+    /// Whether any slot may have changed.
+    are_all: bool,
+}
+
+impl<G: Dimension> Default for Behind<G> {
+    fn default() -> Self {
+        Behind { cells: None, dirty: Marks::default(), are_all: true }
+    }
+}
+
+/// The arrays, up to date or behind, and what else is kept for programs that read the cells.
+#[derive(Debug)]
+pub(in crate::motion) struct Views<G: Dimension> {
+    current: OnceLock<Box<Cells<G>>>,
+    behind: Mutex<Behind<G>>,
+    changed: OnceLock<Vec<CellId>>,
+    visibilities: Visibilities,
+}
+
+impl<G: Dimension> Default for Views<G> {
+    fn default() -> Self {
+        Views {
+            current: OnceLock::new(),
+            behind: Mutex::default(),
+            changed: OnceLock::new(),
+            visibilities: Visibilities::default(),
+        }
+    }
+}
+
+impl<G: Dimension> Views<G> {
+    fn lock(&self) -> MutexGuard<'_, Behind<G>> {
+        // After a panic while arrays were refreshed, they are made from nothing.
+        self.behind.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn behind(&mut self) -> &mut Behind<G> {
+        self.behind.get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The arrays, up to date.
+    pub(in crate::motion) fn cells(&self, kernel: &Delaunay<G>) -> Result<&Cells<G>> {
+        if let Some(cells) = self.current.get() {
+            return Ok(cells);
+        }
+        let mut behind = self.lock();
+        if let Some(cells) = self.current.get() {
+            return Ok(cells);
+        }
+        let mut cells = match behind.cells.take() {
+            Some(cells) => cells,
+            None => memory::boxed(Cells::default())?,
+        };
+        let were_all = std::mem::replace(&mut behind.are_all, true);
+        let dirty = if were_all { None } else { Some(&behind.dirty) };
+        let done = cells.refresh(kernel, dirty);
+        if let Err(error) = done {
+            behind.cells = Some(cells);
+            behind.are_all = were_all;
+            return Err(error);
+        }
+        behind.dirty.clear();
+        behind.are_all = false;
+        Ok(self.current.get_or_init(|| cells))
+    }
+
+    /// The arrays, up to date, to be changed.
+    pub(in crate::motion) fn cells_mut(&mut self, kernel: &Delaunay<G>) -> Result<&mut Cells<G>> {
+        self.cells(kernel)?;
+        Ok(self.current.get_mut().expect("they are up to date"))
+    }
+
+    /// Makes sure that a change, of which the complex has a record, can be [followed](Self::follow).
+    #[inline(always)]
+    pub(in crate::motion) fn prepare(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        if kernel.complex().rows().is_empty() || !self.exist() { Ok(()) } else { self.prepare_kept(kernel) }
+    }
+
+    #[cold]
+    fn prepare_kept(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        let n_slots = kernel.complex().n_slots();
+        let n_rows = kernel.complex().rows().len();
+        let behind = self.behind();
+        if behind.are_all && behind.cells.is_some() {
+            return Ok(());
+        }
+        // When most have changed, that follows, and needs no list.
+        if are_most(behind.dirty.as_slice().len() + n_rows, n_slots) {
+            return Ok(());
+        }
+        behind.dirty.reserve(n_rows, n_slots)
+    }
+
+    /// Whether there are arrays, up to date or not.
+    #[inline(always)]
+    fn exist(&mut self) -> bool {
+        self.current.get().is_some() || self.behind().cells.is_some()
+    }
+
+    /// The cells of the record have changed.
+    #[inline(always)]
+    pub(in crate::motion) fn follow(&mut self, kernel: &Delaunay<G>) {
+        if !kernel.complex().rows().is_empty() && self.exist() {
+            self.follow_kept(kernel);
+        }
+    }
+
+    #[cold]
+    fn follow_kept(&mut self, kernel: &Delaunay<G>) {
+        self.fall_behind();
+        let n_slots = kernel.complex().n_slots();
+        let rows = kernel.complex().rows();
+        let behind = self.behind();
+        if behind.are_all {
+            return;
+        }
+        if are_most(behind.dirty.as_slice().len() + rows.len(), n_slots) {
+            behind.dirty.clear();
+            behind.are_all = true;
+            return;
+        }
+        for row in rows {
+            behind.dirty.insert(row.slot);
+        }
+    }
+
+    /// All cells may have changed.
+    pub(in crate::motion) fn follow_all(&mut self) {
+        self.fall_behind();
+        let behind = self.behind();
+        behind.dirty.clear();
+        behind.are_all = true;
+    }
+
+    /// The arrays are not up to date any more.
+    fn fall_behind(&mut self) {
+        self.changed.take();
+        if let Some(cells) = self.current.take() {
+            self.behind().cells = Some(cells);
+        }
+    }
+
+    /// The cells have other slots now, by their old ones; no other has changed.
+    pub(in crate::motion) fn renumber_slots(&mut self, index: &[Slot]) {
+        if !self.exist() {
+            return;
+        }
+        self.fall_behind();
+        let behind = self.behind();
+        behind.dirty.clear();
+        behind.are_all = true;
+        if let Some(cells) = &mut behind.cells {
+            cells.renumber_slots(index);
+        }
+    }
+
+    /// A copy for a kernel of `n_slots` in which vertices have other ids and cells other slots: those listed by the old
+    /// ones.
+    pub(in crate::motion) fn renumbered(
+        &mut self,
+        kernel: &Delaunay<G>,
+        ids: &[VertexId],
+        slots: &[Slot],
+        n_slots: usize,
+    ) -> Result<Self> {
+        let visibilities = self.visibilities.renumbered(ids)?;
+        let mut views = Views { visibilities, ..Views::default() };
+        if self.exist() {
+            // What is not up to date has rows of vertices without an id.
+            let cells = self.cells(kernel)?.renumbered(ids, slots, n_slots)?;
+            views.current = OnceLock::from(memory::boxed(cells)?);
+            views.behind().are_all = false;
+        }
+        Ok(views)
+    }
+
+    /// A copy, of arrays that are brought up to date for it if there are any.
+    pub(in crate::motion) fn copied(&self, kernel: &Delaunay<G>) -> Result<Self> {
+        let visibilities = self.visibilities.copied()?;
+        let exist = self.current.get().is_some() || self.lock().cells.is_some();
+        let mut views = Views { visibilities, ..Views::default() };
+        if exist {
+            views.show(self.cells(kernel)?.copied()?)?;
+        }
+        Ok(views)
+    }
+
+    /// Takes these for the arrays; they are up to date.
+    pub(in crate::motion) fn show(&mut self, cells: Cells<G>) -> Result<()> {
+        self.current = OnceLock::from(memory::boxed(cells)?);
+        self.behind().are_all = false;
+        Ok(())
+    }
+
+    /// From now on changes are since this commit: the arrays have been up to date when it began.
+    pub(in crate::motion) fn begin_commit(&mut self) {
+        self.changed.take();
+        let cells = match self.current.get_mut() {
+            Some(cells) => Some(cells),
+            None => self.behind.get_mut().unwrap_or_else(PoisonError::into_inner).cells.as_mut(),
+        };
+        if let Some(cells) = cells {
+            cells.begin_commit();
+        }
+    }
+
+    /// Vertices hidden or shown since the program last took the changes.
+    pub(in crate::motion) fn visibilities(&mut self) -> &mut Visibilities {
+        &mut self.visibilities
+    }
+
+    /// The indices of the cells created since the latest commit began, as `list` lists them if they are not listed yet.
+    pub(in crate::motion) fn changed(
+        &self,
+        kernel: &Delaunay<G>,
+        list: impl FnOnce(&Cells<G>) -> Result<Vec<CellId>>,
+    ) -> Result<&[CellId]> {
+        if let Some(changed) = self.changed.get() {
+            return Ok(changed);
+        }
+        let cells = self.cells(kernel)?;
+        let _alone = self.lock();
+        if let Some(changed) = self.changed.get() {
+            return Ok(changed);
+        }
+        let changed = list(cells)?;
+        Ok(self.changed.get_or_init(|| changed))
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        let behind = self.lock();
+        let kept = self.current.get().or(behind.cells.as_ref());
+        behind.dirty.memory_bytes()
+            + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
+            + self.changed.get().map_or(0, |changed| changed.capacity() * 4)
+            + self.visibilities.memory_bytes()
+    }
+}

@@ -1,0 +1,224 @@
+//! The triangulation: the place where its parts meet.
+
+mod coincidence;
+mod foreseen;
+mod undoing;
+
+use crate::delaunay::{Delaunay, Dimension};
+use crate::error::{Error, Result, StagedEdit};
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+use crate::machine::threads::Threads;
+use crate::motion::constants::constants;
+use crate::motion::filters::regions::Regions;
+use crate::motion::options::Options;
+use crate::motion::plan::auto::Auto;
+use crate::motion::plan::switching::Switching;
+use crate::motion::report::{CommitReport, Evaluations};
+use crate::motion::state::changes::Taken;
+use crate::motion::state::checking::{are_good, first_bad};
+use crate::motion::state::edits::Edits;
+use crate::motion::state::hidden::Hidden;
+use crate::motion::state::repair::Repair;
+use crate::motion::state::staging::Staging;
+use crate::motion::state::transaction::Transaction;
+use crate::motion::state::views::Views;
+use crate::motion::triangulation::foreseen::Foreseen;
+use crate::predicates::exact_calls;
+
+/// Greatest number of vertex ids.
+pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
+
+/// A Delaunay triangulation whose vertices move.
+#[derive(Debug)]
+pub struct MovingTriangulation<G: Dimension> {
+    pub(in crate::motion) kernel: Delaunay<G>,
+    /// Site of each id; [`SiteId::NONE`] once removed.
+    pub(in crate::motion) site_of: Vec<SiteId>,
+    pub(in crate::motion) hidden: Hidden,
+    pub(in crate::motion) n_present: usize,
+    pub(in crate::motion) staging: Staging<G>,
+    /// Memory for the vertices that a commit places.
+    pub(in crate::motion) queue: Vec<VertexId>,
+    pub(in crate::motion) edits: Edits<G>,
+    pub(in crate::motion) regions: Regions<G>,
+    pub(in crate::motion) switching: Switching,
+    /// Memory of repairs, once there was one.
+    pub(in crate::motion) repair: Option<Box<Repair>>,
+    pub(in crate::motion) auto: Auto,
+    /// Without the monitor, which the kernel has.
+    pub(in crate::motion) options: Options,
+    pub(in crate::motion) statistics: CommitReport,
+    /// Moves and insertions since the kernel's static filter was made as sharp as possible.
+    pub(in crate::motion) n_moved: u64,
+    /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
+    pub(in crate::motion) sorted_stride: f64,
+    pub(in crate::motion) transaction: Transaction<G>,
+    pub(in crate::motion) views: Views<G>,
+    pub(in crate::motion) foreseen: Foreseen,
+    /// The changes taken last, and whether any ever were.
+    pub(in crate::motion) taken: Option<Box<Taken<G::Vertices>>>,
+    pub(in crate::motion) takes_changes: bool,
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Triangulates `positions`; vertex `i` is the `i`-th of them.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
+    /// [`Error::OutOfMemory`], [`Error::Cancelled`], [`Error::Coincident`] if the options reject that.
+    pub fn new(positions: &[G::Point], options: Options) -> Result<Self> {
+        let mut t = Self::unbuilt(options);
+        t.build_first(positions)?;
+        Ok(t)
+    }
+
+    /// A triangulation that is to be [built](Self::build_first). Inlined, it is made where it is going to be: it has
+    /// some kilobytes, and to move them takes longer than to build one of a few points.
+    #[inline(always)]
+    pub(crate) fn unbuilt(options: Options) -> Self {
+        let kernel = Delaunay::empty_on(Threads::at_most(options.threads));
+        Self::of_parts(kernel, Vec::new(), Hidden::default(), 0, options)
+    }
+
+    /// A triangulation of which nothing is known but the kernel, the site of each id, and which of the `n_present`
+    /// vertices are hidden.
+    #[inline(always)]
+    pub(in crate::motion) fn of_parts(
+        mut kernel: Delaunay<G>,
+        site_of: Vec<SiteId>,
+        hidden: Hidden,
+        n_present: usize,
+        mut options: Options,
+    ) -> Self {
+        kernel.pace_mut().set_monitor(options.monitor.take());
+        MovingTriangulation {
+            sorted_stride: 0.0,
+            kernel,
+            site_of,
+            hidden,
+            n_present,
+            staging: Staging::default(),
+            queue: Vec::new(),
+            edits: Edits::default(),
+            regions: Regions::default(),
+            switching: Switching::default(),
+            repair: None,
+            auto: Auto::default(),
+            options,
+            statistics: CommitReport::default(),
+            n_moved: 0,
+            transaction: Transaction::default(),
+            views: Views::default(),
+            foreseen: Foreseen::default(),
+            taken: None,
+            takes_changes: false,
+        }
+    }
+
+    /// The site of a vertex that must be present and not about to be removed.
+    #[inline(always)]
+    pub(in crate::motion) fn site_of_vertex(
+        &self,
+        argument: &'static str,
+        index: usize,
+        vertex: VertexId,
+    ) -> Result<SiteId> {
+        let s = self.present_site(argument, index, vertex)?;
+        if self.edits.is_leaving(vertex) {
+            return Err(Error::StagedVertex { argument, index, vertex, staged: StagedEdit::Removal });
+        }
+        Ok(s)
+    }
+
+    /// The site of a vertex that must be present.
+    pub(in crate::motion) fn present_site(
+        &self,
+        argument: &'static str,
+        index: usize,
+        vertex: VertexId,
+    ) -> Result<SiteId> {
+        match self.site_of.get(vertex.index()) {
+            Some(&s) if s != SiteId::NONE => Ok(s),
+            _ => Err(self.absent(argument, index, vertex)),
+        }
+    }
+
+    /// Why a vertex is not there.
+    #[cold]
+    fn absent(&self, argument: &'static str, index: usize, vertex: VertexId) -> Error {
+        let ids = self.site_of.len();
+        if vertex.index() >= ids {
+            Error::NoSuchVertex { argument, index, vertex, ids }
+        } else if self.edits.is_coming(vertex) {
+            Error::StagedVertex { argument, index, vertex, staged: StagedEdit::Insertion }
+        } else {
+            Error::RemovedVertex { argument, index, vertex }
+        }
+    }
+
+    /// Makes the sites and builds the cells for the first time. After an error the triangulation can only be dropped.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub(crate) fn build_first(&mut self, positions: &[G::Point]) -> Result<()> {
+        if positions.len() > MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: positions.len(), limit: MAX_VERTICES });
+        }
+        if !are_good::<G>(positions) {
+            return Err(first_bad::<G>(positions));
+        }
+        self.n_present = positions.len();
+        self.kernel.add_sites(positions)?;
+        memory::reserve_exact(&mut self.site_of, positions.len())?;
+        self.site_of.resize(positions.len(), SiteId::NONE);
+        self.sorted_stride = self.kernel.mean_stride();
+        let mut pace = std::mem::take(self.kernel.pace_mut());
+        let merges = self.kernel.rebuild(&mut |fraction| pace.ask(fraction));
+        *self.kernel.pace_mut() = pace;
+        let merges = merges?;
+        self.hidden = self.hide_merged(&self.kernel, &merges)?;
+        self.statistics.coincident = self.hidden.count() as u64;
+        self.find_sites();
+        Ok(())
+    }
+
+    /// What has been evaluated so far.
+    pub(in crate::motion) fn evaluations(&self) -> Evaluations {
+        Evaluations {
+            certificates: self.kernel.certificates(),
+            exact: exact_calls(),
+            link_sites: self.kernel.link_sites(),
+        }
+    }
+
+    /// Enters what was evaluated since then.
+    pub(in crate::motion) fn enter_evaluations(&self, report: &mut CommitReport, before: Evaluations) {
+        let now = self.evaluations();
+        report.certificates = now.certificates - before.certificates;
+        report.exact_calls = now.exact - before.exact;
+    }
+
+    /// Adds what was done to the sums.
+    pub(in crate::motion) fn count(&mut self, report: CommitReport) {
+        let sum = &mut self.statistics;
+        sum.moved += report.moved;
+        sum.unchanged += report.unchanged;
+        sum.placements += report.placements;
+        sum.flips += report.flips;
+        sum.rebuilds += report.rebuilds;
+        sum.inserted += report.inserted;
+        sum.removed += report.removed;
+        sum.within_tolerance += report.within_tolerance;
+        sum.within_safe_region += report.within_safe_region;
+        sum.tolerances += report.tolerances;
+        sum.certificates += report.certificates;
+        sum.exact_calls += report.exact_calls;
+        sum.coincident = self.hidden.count() as u64;
+        self.n_moved += report.moved + report.inserted;
+        if self.n_moved > constants::<G>().moves_per_fit * self.n_present as u64 {
+            self.n_moved = 0;
+            self.regions.tighten_filter(&mut self.kernel);
+        }
+    }
+}

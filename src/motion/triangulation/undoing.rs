@@ -1,0 +1,94 @@
+//! One change of the triangulation, made or undone.
+//!
+//! ```text
+//! begin
+//! change: note what is about to change, then change it
+//! if that failed: undo
+//! else: publish
+//! ```
+//!
+//! What is kept for undoing: the rows of cells and the sites that were removed, added or renamed
+//! ([`Delaunay::begin`](crate::delaunay::Delaunay::begin)), the site of each vertex that came to or left a place, and
+//! with whom, and where the vertices were that have moved ([`origins`](super::origins)). A
+//! [rebuilding](super::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
+//!
+//! Memory is reserved before a change, so [`undo`](MovingTriangulation::undo) needs none, and cannot fail.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::ids::VertexId;
+use crate::motion::constants::constants;
+use crate::motion::state::transaction::{Counts, Event, VertexBefore};
+use crate::motion::triangulation::MovingTriangulation;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// Makes a change, all of it or nothing.
+    pub(in crate::motion) fn transact<T>(
+        &mut self,
+        change: impl FnOnce(&mut Self) -> Result<T>,
+    ) -> Result<T> {
+        self.begin()?;
+        let done = change(self).and_then(|done| self.views.prepare(&self.kernel).map(|()| done));
+        match done {
+            Ok(done) => {
+                self.publish();
+                Ok(done)
+            }
+            Err(error) => {
+                self.undo();
+                Err(error)
+            }
+        }
+    }
+
+    /// Begins a change.
+    pub(in crate::motion) fn begin(&mut self) -> Result<()> {
+        self.kernel.begin()?;
+        self.transaction.begin(Counts {
+            present: self.n_present,
+            visibilities: self.views.visibilities().shortened_len(self.site_of.len()),
+        });
+        Ok(())
+    }
+
+    /// Keeps the site of a vertex before it gets one of its own, or loses it.
+    pub(in crate::motion) fn log_vertex(&mut self, vertex: VertexId) -> Result<()> {
+        self.transaction.reserve_log()?;
+        self.transaction.log(VertexBefore { vertex, site: self.site_of[vertex], event: Event::Alone });
+        Ok(())
+    }
+
+    /// Makes a change visible to programs that read the cells. Cannot fail.
+    pub(in crate::motion) fn publish(&mut self) {
+        if self.transaction.has_rebuilt() || self.kernel.has_given_up_cells() {
+            self.views.follow_all();
+        } else {
+            self.views.follow(&self.kernel);
+        }
+        self.kernel.end();
+        self.transaction.end();
+        if self.transaction.wants_order() {
+            // For speed alone: without the memory for it the cells stay as they are.
+            let _ = self.sort_cells(constants::<G>().replaced_to_sort);
+        }
+    }
+
+    /// Puts all back as it was when the change began. Needs no memory.
+    pub(in crate::motion) fn undo(&mut self) {
+        debug_assert!(!self.transaction.has_rebuilt(), "nothing fails after a new kernel is in place");
+        while let Some(VertexBefore { vertex, site, event }) = self.transaction.pop_logged() {
+            self.site_of[vertex] = site;
+            match event {
+                Event::Alone => {}
+                Event::Joined { representative } => self.hidden.part(representative.min(vertex), vertex),
+                Event::Parted { representative } => self.hidden.join(representative, vertex),
+            }
+        }
+        let before = self.transaction.before();
+        self.n_present = before.present;
+        self.views.visibilities().truncate(before.visibilities);
+        self.kernel.undo();
+        self.transaction.origins().put_back(&mut self.kernel, &self.site_of);
+        self.regions.invalidate();
+    }
+}

@@ -1,0 +1,302 @@
+//! One commit, by the algorithm chosen for it.
+
+use crate::delaunay::Dimension;
+use crate::error::Result;
+use crate::machine::memory;
+use crate::motion::algorithms::Algorithm;
+use crate::motion::constants::{Constants, constants};
+use crate::motion::options::SwitchingRule;
+use crate::motion::plan::auto::{Round, Scope};
+use crate::motion::region_kind::Filter;
+use crate::motion::report::CommitReport;
+use crate::motion::state::goals::Moves;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::ways::attempt::{Attempt, Start};
+use crate::motion::ways::outlook::Outlook;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    pub(in crate::motion) fn commit_by_auto(
+        &mut self,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        let is_of_few = constants::<G>().are_few(moves.count(), self.n_present);
+        self.auto.note_few(is_of_few);
+        if !self.kernel.has_cells() {
+            return self.rebuild(moves, report);
+        }
+        if is_of_few {
+            return if self.regions.kept_for() == Some(Filter::Tolerance) {
+                self.commit_by_tolerance(moves, report)
+            } else {
+                self.commit_by_placement_or_rebuilding(moves, report)
+            };
+        }
+        let is_rebuild_due = self.auto.take_rebuild();
+        if !self.keeps_for_scope() {
+            let is_way_due = is_rebuild_due || self.auto.scope() != Scope::All;
+            match self.outlook(moves, is_way_due) {
+                Outlook::AtRest => return Ok(()),
+                Outlook::Together => return self.commit_together(moves, report),
+                // They do not tell how all will move.
+                Outlook::FewMove => return self.commit_by_repair(Start::AtOrigins, moves, report),
+                Outlook::Unknown => {}
+            }
+        }
+        let before = self.evaluations();
+        if is_rebuild_due {
+            self.rebuild(moves, report)?;
+            let after = self.evaluations();
+            self.auto.note_rebuild([before, after]);
+            return Ok(());
+        }
+        let can_check_less = moves.are_of_all() && self.hidden.count() == 0;
+        let start = match self.commit_by_scope(can_check_less, moves, report)? {
+            Attempt::Committed => return Ok(()),
+            Attempt::GivenUp(start) => start,
+        };
+        memory::made(&mut self.repair)?.set_limit(self.auto.limit());
+        let repaired = self.commit_by_repair(start, moves, report);
+        let (evaluations, slowdown) =
+            ([before, self.evaluations()], self.slowdown(constants::<G>().repaired_alone));
+        let repair = memory::made(&mut self.repair)?;
+        repair.set_limit(None);
+        repaired?;
+        let swept = (self.kernel.n_certificates(), slowdown);
+        self.auto.learn::<G>(self.n_present, swept, report, repair, evaluations);
+        Ok(())
+    }
+
+    /// Whether what the scope in force wants is kept: then a commit in which little happens takes hardly any time.
+    fn keeps_for_scope(&self) -> bool {
+        let wanted = match self.auto.scope() {
+            Scope::All => return false,
+            Scope::Slack => Filter::Slack,
+            Scope::Watched => Filter::Watch,
+        };
+        self.regions.kept_for() == Some(wanted)
+    }
+
+    /// Moves all vertices, which go by one exact vector. Whatever the cells are a function of stays as it is but for
+    /// that, so they stay.
+    fn commit_together(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
+        self.regions.invalidate();
+        if moves.are_of_all() && self.hidden.count() == 0 {
+            self.move_everything(moves)?;
+        } else {
+            self.move_sites_together(moves)?;
+        }
+        (report.moved, report.unchanged) = (self.n_present as u64, self.n_present as u64);
+        Ok(())
+    }
+
+    /// Moves all vertices, some of which share their sites.
+    fn move_sites_together(&mut self, moves: &mut Moves<'_, G>) -> Result<()> {
+        let (goals, movers) = (moves.checked()?, self.queue_of(moves)?);
+        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
+        let origins = self.transaction.origins_mut();
+        origins.make_room(self.site_of.len(), movers.len())?;
+        for &v in &movers {
+            let s = self.site_of[v];
+            let site = self.kernel.site(s);
+            if site.id == v {
+                let goal = goals.of(v);
+                for axis in 0..G::D {
+                    (lower[axis], upper[axis]) = (lower[axis].min(goal[axis]), upper[axis].max(goal[axis]));
+                }
+                origins.note(v, site.point);
+                self.kernel.set_point(s, goal);
+            }
+        }
+        self.kernel.cover(&lower, &upper);
+        self.queue = movers;
+        Ok(())
+    }
+
+    /// Commits by watching or by slack, if that is in force and `can` be done.
+    fn commit_by_scope(
+        &mut self,
+        can: bool,
+        moves: &mut Moves<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<Attempt> {
+        let mut ended = Attempt::GivenUp(Start::AtOrigins);
+        if !can {
+            return Ok(ended);
+        }
+        if self.auto.scope() == Scope::Watched {
+            let is_kept = self.regions.kept_for() == Some(Filter::Watch);
+            if (is_kept || self.auto.take_due() || self.is_sample_within(moves)?)
+                && self.commit_by_watching(constants::<G>().max_share_beyond, moves, report)?
+                    == Attempt::Committed
+            {
+                if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.n_present, report) {
+                    self.regions.invalidate();
+                }
+                return Ok(Attempt::Committed);
+            }
+            self.auto.give_up::<G>(self.n_present, true);
+        }
+        if self.auto.scope() == Scope::Slack {
+            let was_kept = self.regions.kept_for() == Some(Filter::Slack);
+            ended = self.commit_by_slack(moves, report)?;
+            if ended == Attempt::Committed {
+                if was_kept {
+                    self.auto.weigh_slack::<G>(self.n_present, report);
+                }
+                if self.kernel.is_disordered(constants::<G>().replaced_to_sort_first) {
+                    // So that the next commit sorts the cells.
+                    self.regions.invalidate();
+                }
+                return Ok(ended);
+            }
+            self.auto.give_up::<G>(self.n_present, false);
+        }
+        Ok(ended)
+    }
+
+    /// All tolerances are going to be forgotten, though not for anything that the vertices do.
+    pub(in crate::motion) fn note_tolerances_dropped(&mut self) {
+        if self.regions.kept_for() == Some(Filter::Watch) {
+            self.auto.note_tolerances_dropped();
+        }
+    }
+
+    /// Whether all but a few of a sample of the vertices stay within tolerance.
+    fn is_sample_within(&mut self, moves: &mut Moves<'_, G>) -> Result<bool> {
+        let &Constants { sampled_vertices: sample, min_share_within, .. } = constants::<G>();
+        let rule = SwitchingRule { sample, ..SwitchingRule::default() };
+        Ok(self.sampled_share(&rule, moves)? >= min_share_within)
+    }
+
+    /// Relocations in a round.
+    fn round(&self, is_kept: bool) -> u64 {
+        let constants = constants::<G>();
+        let all = self.n_present as f64;
+        let round = if is_kept { all / constants.shorter_rounds } else { all };
+        round.max(f64::from(constants.sampled_vertices)) as u64
+    }
+
+    /// Whether the next relocation within tolerance is surely not the last one of its round.
+    #[inline(always)]
+    pub(in crate::motion) fn may_count_within(&self) -> bool {
+        self.auto.may_count_within()
+    }
+
+    /// Counts an immediate relocation within tolerance that is not the last one of its round, if there was one.
+    #[inline(always)]
+    pub(in crate::motion) fn count_within(&mut self, relocated: bool) {
+        self.auto.count_within(relocated);
+    }
+
+    /// Counts the relocations of a commit of few vertices.
+    pub(in crate::motion) fn follow_commit(&mut self, done: &CommitReport) {
+        if self.options.algorithm == Algorithm::Auto && self.auto.take_few() && self.kernel.has_cells() {
+            self.follow_relocations(done);
+        }
+    }
+
+    /// Counts relocations, and decides after a round of them whether tolerances are to be kept.
+    pub(in crate::motion) fn follow_relocations(&mut self, done: &CommitReport) {
+        let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
+        let round = self.round(is_kept);
+        if let Some(ended) = self.auto.count_relocations::<G>(round, done) {
+            self.follow_round(is_kept, ended);
+        }
+        if self.regions.kept_for() == Some(Filter::Tolerance) {
+            self.auto.grant(self.round(true));
+        }
+    }
+
+    /// Decides after a round.
+    fn follow_round(&mut self, is_kept: bool, ended: Round) {
+        if is_kept {
+            if !ended.are_most_within {
+                self.regions.invalidate();
+                self.auto.give_up::<G>(self.n_present, false);
+            }
+        } else if self.auto.has_waited() && ended.are_most_unchanged {
+            // Without the memory for them all goes on as it did.
+            let _ = self.prepare_regions(Filter::Tolerance, &[], &mut CommitReport::default());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::delaunay::{Level, Space};
+    use crate::motion::constants::constants;
+    use crate::motion::options::Options;
+    use crate::motion::region_kind::Filter;
+    use crate::motion::triangulation::MovingTriangulation;
+    use crate::random::Rng;
+
+    /// Random points in a cube, and their triangulation.
+    fn random(n: usize, side: f64, rng: &mut Rng) -> (Vec<[f64; 3]>, MovingTriangulation<Space>) {
+        let mut points = vec![[0.0; 3]; n];
+        points.as_flattened_mut().iter_mut().for_each(|x| *x = side * rng.unit());
+        let options = Options { threads: 1, ..Options::default() };
+        let t = MovingTriangulation::new(&points, options).expect("room");
+        (points, t)
+    }
+
+    /// Cells are sorted again as flips, placements and insertions replace them: after repairs, before slacks are
+    /// computed and while they are kept. They stay those of the triangulation.
+    #[test]
+    fn cells_are_sorted_again() {
+        let rng = &mut Rng::new(1);
+        // More cells than a processor's own cache holds.
+        let (n, side) = (6_000, 18.0);
+        let (mut now, mut t) = random(n, side, rng);
+        let first = constants::<Space>().replaced_to_sort_first;
+        for (step, n_commits, is_slack) in [(0.06, 60, false), (1e-4, 20, true), (1e-4, 3, true)] {
+            let mut n_sorted = 0;
+            for _ in 0..n_commits {
+                now.as_flattened_mut().iter_mut().for_each(|x| *x += step * (rng.unit() - 0.5));
+                let was_disordered = t.kernel.is_disordered(first);
+                let rebuilds = t.commit_positions(&now).expect("room").rebuilds;
+                n_sorted += u32::from(rebuilds == 0 && was_disordered && !t.kernel.is_disordered(first));
+            }
+            assert_eq!(t.regions.kept_for() == Some(Filter::Slack), is_slack);
+            assert!(if is_slack { n_sorted == 1 } else { n_sorted > 1 }, "{n_sorted} of {n_commits}");
+            assert_eq!(t.validate(Level::Delaunay), Ok(()));
+            while is_slack && !t.kernel.is_disordered(first) {
+                let place = [(); 3].map(|()| side * rng.unit());
+                t.insert_vertex(&place).expect("room");
+                now.push(place);
+            }
+        }
+    }
+
+    /// All vertices creep, and from some timestamp on this share of them leaps at each. Whether they are watched at the
+    /// end, and how many bi-cells are before the leaps and at the end.
+    fn watched_among_leaps(share: f64) -> (bool, usize, usize) {
+        let rng = &mut Rng::new(3);
+        let (n, side) = (6_000, 18.0);
+        let (mut now, mut t) = random(n, side, rng);
+        let mut n_before = 0;
+        for commit in 0..50 {
+            if commit == 10 {
+                n_before = t.regions.n_watched();
+            }
+            for p in &mut now {
+                let leaps = commit >= 10 && rng.unit() < share;
+                p.iter_mut()
+                    .for_each(|x| *x = if leaps { side * rng.unit() } else { *x + 1e-5 * rng.unit() });
+            }
+            t.commit_positions(&now).expect("room");
+        }
+        assert_eq!(t.validate(Level::Delaunay), Ok(()));
+        (t.regions.kept_for() == Some(Filter::Watch), n_before, t.regions.n_watched())
+    }
+
+    /// Where few vertices leap, the others stay watched, and hardly more bi-cells are; where many do, the leaps cost
+    /// more than watching spares.
+    #[test]
+    fn few_leaps_leave_the_others_watched() {
+        let (are_watched, n_before, n_after) = watched_among_leaps(5e-4);
+        assert!(are_watched && n_before > 100 && n_after < 2 * n_before, "{n_before} to {n_after}");
+        let (are_watched, ..) = watched_among_leaps(2e-2);
+        assert!(!are_watched);
+    }
+}

@@ -1,0 +1,124 @@
+//! Steps that commits with regions have in common.
+
+use crate::delaunay::{Dimension, Shortcut};
+use crate::error::Result;
+use crate::ids::VertexId;
+use crate::motion::filters::safe_regions::Admission;
+use crate::motion::region_kind::Filter;
+use crate::motion::report::CommitReport;
+use crate::motion::state::goals::Goals;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::ways::placement::Placed;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The pre-computations for a filter, unless what the last commit has kept is valid. `other_positions` are those
+    /// of a [`Store`](super::Store).
+    pub(in crate::motion) fn prepare_regions(
+        &mut self,
+        filter: Filter,
+        other_positions: &[G::Point],
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        if self.regions.kept_for() != Some(filter) {
+            let (kernel, n_ids) = (&mut self.kernel, self.site_of.len());
+            report.tolerances += self.regions.prepare(filter, kernel, n_ids, other_positions)?;
+        }
+        Ok(())
+    }
+
+    /// Moves those of the queued vertices that stay in their regions; the others stay in the queue.
+    pub(in crate::motion) fn accept_queued(
+        &mut self,
+        queue: &mut Vec<VertexId>,
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.transaction.origins_mut().make_room(self.site_of.len(), queue.len())?;
+        queue.retain(|&v| match self.accept(v, &goals.of(v), report) {
+            Some(origin) => {
+                self.transaction.origins_mut().note(v, origin);
+                false
+            }
+            None => true,
+        });
+        Ok(())
+    }
+
+    /// Moves a vertex if it stays in its region; returns where it was.
+    #[inline(always)]
+    pub(in crate::motion) fn accept(
+        &mut self,
+        vertex: VertexId,
+        goal: &G::Point,
+        report: &mut CommitReport,
+    ) -> Option<G::Point> {
+        let s = self.site_of[vertex];
+        if self.is_shared(s) {
+            return None;
+        }
+        match self.regions.admit(&mut self.kernel, vertex, s, goal)? {
+            Admission::WithinTolerance => report.within_tolerance += 1,
+            Admission::WithinSafeRegion => report.within_safe_region += 1,
+        }
+        self.kernel.cover(goal, goal);
+        let origin = self.kernel.site(s).point;
+        self.kernel.set_point(s, *goal);
+        report.moved += u64::from(origin != *goal);
+        Some(origin)
+    }
+
+    /// Places the queued vertices; the regions follow.
+    pub(in crate::motion) fn place_queued(
+        &mut self,
+        mut queue: Vec<VertexId>,
+        goals: Goals<'_, G>,
+        report: &mut CommitReport,
+    ) -> Result<()> {
+        self.order_by_site(&mut queue);
+        self.with_regions(report, |t, report| {
+            t.place_all(&queue, goals, report, |t, v, goal, report| t.relocate_noted(v, goal, report))
+        })?;
+        self.queue = queue;
+        Ok(())
+    }
+
+    /// Relocates a vertex; the regions are told.
+    pub(in crate::motion) fn relocate_noted(
+        &mut self,
+        vertex: VertexId,
+        q: &G::Point,
+        report: &mut CommitReport,
+    ) -> Result<Placed> {
+        // A failure after the relocation would have to take it back.
+        self.regions.make_room_to_note()?;
+        let placed = self.relocate(vertex, q, Shortcut::Flips, report)?;
+        self.regions.note_relocated(vertex)?;
+        Ok(placed)
+    }
+
+    /// Makes a change that the regions follow if any are kept. If it fails none are any more.
+    pub(in crate::motion) fn with_regions<T>(
+        &mut self,
+        report: &mut CommitReport,
+        change: impl FnOnce(&mut Self, &mut CommitReport) -> Result<T>,
+    ) -> Result<T> {
+        let Some((kept, record)) = self.regions.begin_change() else {
+            return change(self, report);
+        };
+        self.kernel.record_changes(record);
+        let done = change(self, report);
+        match self.kernel.take_changes().filter(|_| done.is_ok()) {
+            Some(changed) => {
+                let mut relocated = self.regions.end_change();
+                relocated.retain(|&v| !self.is_shared(self.site_of[v]));
+                let (kernel, site_of) = (&mut self.kernel, &self.site_of);
+                let other_positions = self.transaction.origins().positions();
+                let n = self.regions.follow(kept, changed, relocated, kernel, site_of, other_positions);
+                // Without the memory for it none are kept, and the next commit says so.
+                report.tolerances += n.unwrap_or_default();
+            }
+            None => self.regions.give_up(kept),
+        }
+        done
+    }
+}
