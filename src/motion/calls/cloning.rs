@@ -2,9 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::machine::memory;
 use crate::motion::options::{Monitor, Options};
-use crate::motion::state::transaction::Transaction;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -19,13 +17,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {
         let Options { algorithm, threads, coincidence, track_changes, switching, .. } = self.options;
-        let mut kernel = self.kernel.copied()?;
-        kernel.pace_mut().set_monitor(monitor);
+        let mut mesh = self.mesh.copied()?;
+        mesh.kernel.pace_mut().set_monitor(monitor);
         Ok(MovingTriangulation {
-            kernel,
-            site_of: memory::copy_of(&self.site_of)?,
-            hidden: self.hidden.copied()?,
-            n_present: self.n_present,
+            mesh,
             staging: self.staging.copied()?,
             queue: Vec::new(),
             edits: self.edits.copied()?,
@@ -36,12 +31,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             options: Options { algorithm, threads, coincidence, track_changes, switching, monitor: None },
             statistics: self.statistics,
             n_moved: self.n_moved,
-            sorted_stride: self.sorted_stride,
-            transaction: Transaction::default(),
-            views: self.views.copied(&self.kernel)?,
             foreseen: Default::default(),
             taken: None,
-            takes_changes: self.takes_changes,
         })
     }
 }

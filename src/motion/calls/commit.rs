@@ -21,7 +21,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`].
     pub fn commit_timestamp(&mut self) -> Result<CommitReport> {
         let mut staging = std::mem::take(&mut self.staging);
-        let done = self.commit(&mut staging.moves(self.n_present));
+        let done = self.commit(&mut staging.moves(self.mesh.n_present));
         if done.is_ok() {
             staging.clear();
         }
@@ -33,15 +33,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         self.prepare_tracking()?;
         let mut report = CommitReport::default();
-        let before = self.evaluations();
-        self.begin()?;
+        let before = self.mesh.evaluations();
+        self.mesh.begin()?;
         let advanced = self.edit_and_advance(moves, &mut report);
-        if let Err(error) = advanced.and_then(|()| self.views.prepare(&self.kernel)) {
+        if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();
             return Err(error);
         }
-        self.views.begin_commit();
-        self.publish();
+        self.mesh.views.begin_commit();
+        self.mesh.publish();
         self.enter_evaluations(&mut report, before);
         self.end_edits();
         self.statistics.timestamp += 1;
@@ -86,16 +86,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn advance(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
         // Without cells nothing is looked at but this, and by rebuilding not even that.
         let algorithm = self.options.algorithm;
-        let may_rest = !self.kernel.has_cells() && algorithm != Algorithm::Rebuilding;
+        let may_rest = !self.mesh.kernel.has_cells() && algorithm != Algorithm::Rebuilding;
         if !may_rest || self.outlook(moves, false) != Outlook::AtRest {
             self.commit_by(algorithm, moves, report)?;
         }
-        self.reject_coincidence()
-    }
-
-    /// Tells the monitor how far the work is; whether to go on.
-    pub(in crate::motion) fn monitor(&mut self, fraction: f64) -> bool {
-        self.kernel.pace_mut().ask(fraction)
+        self.mesh.reject_coincidence(self.options.coincidence)
     }
 }
 

@@ -32,23 +32,24 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory): for the time of the call there are two triangulations.
     pub fn compact(&mut self) -> Result<Vec<VertexId>> {
         let ids = self.dense_ids()?;
-        let n = self.n_present + self.staged_edits().0;
+        let n = self.mesh.n_present + self.staged_edits().0;
         let mut site_of = Vec::new();
         memory::reserve_exact(&mut site_of, n)?;
-        let (kernel, slots) = self.kernel.compacted(&ids)?;
-        let hidden = self.hidden.renumbered(&ids, n)?;
+        let (kernel, slots) = self.mesh.kernel.compacted(&ids)?;
+        let hidden = self.mesh.hidden.renumbered(&ids, n)?;
         let staging = self.staging.renumbered(&ids, n)?;
         let edits = self.edits.renumbered(&ids, n)?;
-        let views = self.views.renumbered(&self.kernel, &ids, &slots, kernel.complex().n_slots())?;
+        let views =
+            self.mesh.views.renumbered(&self.mesh.kernel, &ids, &slots, kernel.complex().n_slots())?;
         // From here on nothing fails.
         site_of.resize(n, SiteId::NONE);
         self.note_tolerances_dropped();
-        (self.site_of, self.staging, self.edits, self.views) = (site_of, staging, edits, views);
+        (self.mesh.site_of, self.staging, self.edits, self.mesh.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();
         self.adopt(kernel, hidden, stride);
-        self.find_sites();
+        self.mesh.find_sites();
         (self.regions, self.repair) = (Regions::default(), None);
-        (self.transaction, self.taken) = (Transaction::default(), None);
+        (self.mesh.transaction, self.taken) = (Transaction::default(), None);
         Ok(ids)
     }
 
@@ -56,9 +57,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// for those removed.
     fn dense_ids(&self) -> Result<Vec<VertexId>> {
         let mut ids = Vec::new();
-        memory::reserve_exact(&mut ids, self.site_of.len())?;
+        memory::reserve_exact(&mut ids, self.mesh.site_of.len())?;
         let first = VertexId::new(0);
-        ids.extend(self.site_of.iter().map(|&s| if s == SiteId::NONE { VertexId::NONE } else { first }));
+        ids.extend(self.mesh.site_of.iter().map(|&s| if s == SiteId::NONE { VertexId::NONE } else { first }));
         for k in 0..self.staged_edits().0 {
             ids[self.coming(k)] = first;
         }

@@ -24,13 +24,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
     pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
-        let (n, first) = (positions.len(), self.site_of.len());
+        let (n, first) = (positions.len(), self.mesh.site_of.len());
         if n > MAX_VERTICES - first {
             return Err(Error::TooManyVertices { given: first.saturating_add(n), limit: MAX_VERTICES });
         }
         self.staging.list()?;
         self.staging.make_room(n)?;
-        memory::reserve(&mut self.site_of, n)?;
+        memory::reserve(&mut self.mesh.site_of, n)?;
         self.edits.reserve_insertions(n)?;
         for (index, position) in positions.iter().enumerate() {
             check_position::<G>("positions", index, position)?;
@@ -39,8 +39,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             let checked = check_position::<G>("positions", 0, position)?;
             self.edits.insert(id, checked);
         }
-        self.site_of.resize(first + n, SiteId::NONE);
-        self.staging.grow(self.site_of.len());
+        self.mesh.site_of.resize(first + n, SiteId::NONE);
+        self.staging.grow(self.mesh.site_of.len());
         Ok(VertexId::at(first))
     }
 
@@ -52,7 +52,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// the insertion; [`Error::OutOfMemory`].
     pub fn stage_removals(&mut self, vertices: &[VertexId]) -> Result<()> {
         self.staging.list()?;
-        self.edits.reserve_removals(vertices.len(), self.site_of.len())?;
+        self.edits.reserve_removals(vertices.len(), self.mesh.site_of.len())?;
         let before = self.edits.removals().len();
         for (index, &vertex) in vertices.iter().enumerate() {
             if let Err(error) = self.site_of_vertex("vertices", index, vertex) {
@@ -78,11 +78,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Forgets what waits. Ids that were given last are given back.
     pub(in crate::motion) fn discard_edits(&mut self) {
         for id in self.edits.forget_insertions() {
-            if id.index() + 1 == self.site_of.len() {
-                self.site_of.pop();
+            if id.index() + 1 == self.mesh.site_of.len() {
+                self.mesh.site_of.pop();
             }
         }
-        self.staging.shrink(self.site_of.len());
+        self.staging.shrink(self.mesh.site_of.len());
         self.edits.clear();
     }
 
@@ -101,13 +101,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(Edited::WithoutMoves);
         }
         let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
-        if self.kernel.has_cells() && constants::<G>().rebuilt_per_edit * n_edits <= self.n_present {
+        if self.mesh.kernel.has_cells() && constants::<G>().rebuilt_per_edit * n_edits <= self.mesh.n_present
+        {
             if self.edit_cells(report)? == SingleEdits::Made {
                 return Ok(Edited::WithoutMoves);
             }
             // Once more from the beginning.
             self.undo();
-            self.begin()?;
+            self.mesh.begin()?;
             (report.inserted, report.removed) = (0, 0);
         }
         self.rebuild_edited(moves, report)?;
@@ -125,9 +126,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                     let most = match most_link_sites {
                         Some(most) => most,
                         None if t.are_links_too_large(k)? => return Ok(SingleEdits::NeedBuild),
-                        None => *most_link_sites.insert(t.kernel.link_sites() + t.n_present as u64),
+                        None => *most_link_sites.insert(t.mesh.kernel.link_sites() + t.mesh.n_present as u64),
                     };
-                    if t.kernel.link_sites() > most {
+                    if t.mesh.kernel.link_sites() > most {
                         return Ok(SingleEdits::NeedBuild);
                     }
                     t.remove_present(vertex)?;
@@ -136,15 +137,15 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             let mut near = Slot::NONE;
             for (id, q) in insertions {
-                let s = t.kernel.add_site(q, id)?;
-                t.log_vertex(id)?;
-                t.site_of[id] = s;
-                match t.kernel.insert_site(s, near)? {
-                    Insertion::New => near = t.kernel.site(s).cell,
-                    Insertion::Coincident(at) => t.hide(id, at)?,
+                let s = t.mesh.kernel.add_site(q, id)?;
+                t.mesh.log_vertex(id)?;
+                t.mesh.site_of[id] = s;
+                match t.mesh.kernel.insert_site(s, near)? {
+                    Insertion::New => near = t.mesh.kernel.site(s).cell,
+                    Insertion::Coincident(at) => t.mesh.hide(id, at)?,
                     Insertion::Spans => return Ok(SingleEdits::NeedBuild),
                 }
-                t.n_present += 1;
+                t.mesh.n_present += 1;
                 t.regions.note_relocated(id)?;
                 report.inserted += 1;
             }
@@ -154,12 +155,12 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Takes a vertex out.
     pub(in crate::motion) fn remove_present(&mut self, vertex: VertexId) -> Result<()> {
-        let s = self.site_of[vertex];
-        self.log_vertex(vertex)?;
-        if self.is_shared(s) {
-            self.leave(vertex)?;
+        let s = self.mesh.site_of[vertex];
+        self.mesh.log_vertex(vertex)?;
+        if self.mesh.is_shared(s) {
+            self.mesh.leave(vertex)?;
         } else {
-            self.kernel.remove_site(s)?;
+            self.mesh.kernel.remove_site(s)?;
         }
         self.note_removed(vertex);
         Ok(())
@@ -167,13 +168,13 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Takes a vertex out unless its degree is high; whether it has.
     fn remove_unless_high(&mut self, vertex: VertexId) -> Result<bool> {
-        let s = self.site_of[vertex];
-        if self.is_shared(s) {
+        let s = self.mesh.site_of[vertex];
+        if self.mesh.is_shared(s) {
             self.remove_present(vertex)?;
             return Ok(true);
         }
-        self.log_vertex(vertex)?;
-        if !self.kernel.remove_site_unless_high(s)? {
+        self.mesh.log_vertex(vertex)?;
+        if !self.mesh.kernel.remove_site_unless_high(s)? {
             return Ok(false);
         }
         self.note_removed(vertex);
@@ -181,8 +182,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn note_removed(&mut self, vertex: VertexId) {
-        self.site_of[vertex] = SiteId::NONE;
-        self.n_present -= 1;
+        self.mesh.site_of[vertex] = SiteId::NONE;
+        self.mesh.n_present -= 1;
     }
 
     /// Whether to triangulate the links of those vertices of high degree that are still to be removed, from the `k`-th
@@ -191,11 +192,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn are_links_too_large(&mut self, k: usize) -> Result<bool> {
         let mut n_sites = 0;
         for k in k..self.edits.removals().len() {
-            let s = self.site_of[self.edits.removals()[k]];
-            if !self.is_shared(s) {
-                n_sites += self.kernel.link_sites_of(s)?;
+            let s = self.mesh.site_of[self.edits.removals()[k]];
+            if !self.mesh.is_shared(s) {
+                n_sites += self.mesh.kernel.link_sites_of(s)?;
             }
-            if n_sites > self.n_present {
+            if n_sites > self.mesh.n_present {
                 return Ok(true);
             }
         }
@@ -221,15 +222,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Movers::Listed(movers) = moves.movers() else {
             unreachable!("where there are edits, moves are listed");
         };
-        let room = self.hidden.count() + self.edits.insertions().len();
-        let mut next = self.kernel.successor(room, |site| site.point, |_| {})?;
+        let room = self.mesh.hidden.count() + self.edits.insertions().len();
+        let mut next = self.mesh.kernel.successor(room, |site| site.point, |_| {})?;
         let ready = self.edit_sites(&mut next, movers, goals, report);
         let (n_in, n_out) = self.staged_edits();
         self.build_and_adopt(next, ready, report)?;
         for &v in self.edits.removals() {
-            self.site_of[v] = SiteId::NONE;
+            self.mesh.site_of[v] = SiteId::NONE;
         }
-        self.n_present = self.n_present + n_in - n_out;
+        self.mesh.n_present = self.mesh.n_present + n_in - n_out;
         report.inserted += n_in as u64;
         report.removed += n_out as u64;
         Ok(())
@@ -243,12 +244,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         goals: Goals<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let spread = self.spread_hidden(next)?;
+        let spread = self.mesh.spread_hidden(next)?;
         for &v in movers {
-            report.moved += u64::from(move_to(next, self.own_site(&spread, v), goals.of(v)));
+            report.moved += u64::from(move_to(next, self.mesh.own_site(&spread, v), goals.of(v)));
         }
         for &v in self.edits.removals() {
-            next.discard_site(self.own_site(&spread, v))?;
+            next.discard_site(self.mesh.own_site(&spread, v))?;
         }
         for &(id, q) in self.edits.insertions() {
             next.add_site(q, id)?;

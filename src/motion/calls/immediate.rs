@@ -33,25 +33,25 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.staging.is_staged(vertex) {
             return Err(Error::DuplicateMove { argument: "vertex", index: 0, vertex });
         }
-        let old = self.kernel.site(s).point;
+        let old = self.mesh.kernel.site(s).point;
         if old == q {
             return Ok(());
         }
-        self.prefetch_next_stars(vertex);
-        let before = self.evaluations();
+        self.foreseen.prefetch_next_stars(&self.mesh, vertex);
+        let before = self.mesh.evaluations();
         let mut report = CommitReport { moved: 1, ..CommitReport::default() };
         let relocated = self.transact(|t| {
-            t.reject_occupied(vertex, &q)?;
+            t.mesh.reject_occupied(vertex, &q, t.options.coincidence)?;
             t.relocate_filtered(vertex, &q, &mut report)
         });
         if let Err(error) = relocated {
             // Undoing does not know the place of a vertex that was only moved.
-            self.kernel.set_point(self.site_of[vertex], old);
+            self.mesh.kernel.set_point(self.mesh.site_of[vertex], old);
             return Err(error);
         }
         self.enter_evaluations(&mut report, before);
         self.count(report);
-        if self.options.algorithm == Algorithm::Auto && self.kernel.has_cells() {
+        if self.options.algorithm == Algorithm::Auto && self.mesh.kernel.has_cells() {
             self.follow_relocations(&report);
         }
         Ok(())
@@ -64,23 +64,23 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::OutOfMemory`]; [`Error::Coincident`] if the options reject that.
     pub fn insert_vertex(&mut self, position: &G::Point) -> Result<VertexId> {
         let q = check_position::<G>("position", 0, position)?;
-        if self.site_of.len() >= MAX_VERTICES {
-            return Err(Error::TooManyVertices { given: self.site_of.len() + 1, limit: MAX_VERTICES });
+        if self.mesh.site_of.len() >= MAX_VERTICES {
+            return Err(Error::TooManyVertices { given: self.mesh.site_of.len() + 1, limit: MAX_VERTICES });
         }
-        let id = VertexId::at(self.site_of.len());
-        self.reject_occupied(id, &q)?;
+        let id = VertexId::at(self.mesh.site_of.len());
+        self.mesh.reject_occupied(id, &q, self.options.coincidence)?;
         self.staging.list()?;
         self.staging.make_room(1)?;
-        memory::push(&mut self.site_of, SiteId::NONE)?;
-        let before = self.evaluations();
+        memory::push(&mut self.mesh.site_of, SiteId::NONE)?;
+        let before = self.mesh.evaluations();
         let mut report = CommitReport { inserted: 1, ..CommitReport::default() };
         let inserted = self.transact(|t| t.insert_at(id, &q, &mut report));
         if let Err(error) = inserted {
-            self.site_of.pop();
+            self.mesh.site_of.pop();
             return Err(error);
         }
-        self.n_present += 1;
-        self.staging.grow(self.site_of.len());
+        self.mesh.n_present += 1;
+        self.staging.grow(self.mesh.site_of.len());
         self.enter_evaluations(&mut report, before);
         self.count(report);
         Ok(id)
@@ -88,15 +88,15 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Gives the highest of all ids a site, or a place at one.
     fn insert_at(&mut self, id: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
-        let s = self.kernel.add_site(*q, id)?;
-        self.site_of[id] = s;
+        let s = self.mesh.kernel.add_site(*q, id)?;
+        self.mesh.site_of[id] = s;
         let inserted = self.with_regions(report, |t, _| {
             // Undoing does not know of a site that is in without cells, so nothing may fail after that.
             t.regions.make_room_to_note()?;
-            let inserted = t.kernel.insert_site_anywhere(s)?;
+            let inserted = t.mesh.kernel.insert_site_anywhere(s)?;
             if let Insertion::Coincident(at) = inserted {
                 // The new id is the highest of all, so it is the one to hide: nothing else changes.
-                t.hide(id, at)?;
+                t.mesh.hide(id, at)?;
             }
             t.regions.note_relocated(id)?;
             Ok(inserted)
@@ -111,7 +111,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn remove_vertex(&mut self, vertex: VertexId) -> Result<()> {
         self.present_site("vertex", 0, vertex)?;
         self.staging.list()?;
-        let before = self.evaluations();
+        let before = self.mesh.evaluations();
         let mut report = CommitReport { removed: 1, ..CommitReport::default() };
         self.transact(|t| t.with_regions(&mut report, |t, _| t.remove_present(vertex)))?;
         self.staging.unstage(vertex);
@@ -136,22 +136,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Some(tolerances) = self.regions.tolerances() else {
             return false;
         };
-        let (Some(&s), Some(fixed)) = (self.site_of.get(v), tolerances.fixed().get(v)) else {
+        let (Some(&s), Some(fixed)) = (self.mesh.site_of.get(v), tolerances.fixed().get(v)) else {
             return false;
         };
         let Ok(q) = check_position::<G>("position", 0, position) else {
             return false;
         };
         let is_auto = self.options.algorithm == Algorithm::Auto;
-        let may_move = self.kernel.has_cells()
+        let may_move = self.mesh.kernel.has_cells()
             && self.filters_by_kept(Filter::Tolerance)
             && fixed.holds(&q)
             && !self.staging.is_staged(vertex)
-            && (self.hidden.count() == 0 || s != SiteId::NONE && !self.is_shared(s))
-            && self.kernel.is_covered(&q)
+            && (self.mesh.hidden.count() == 0 || s != SiteId::NONE && !self.mesh.is_shared(s))
+            && self.mesh.kernel.is_covered(&q)
             && (!is_auto || self.may_count_within());
         // A removed vertex has no site.
-        let Some(site) = self.kernel.sites_mut().get_mut(s.index()).filter(|_| may_move) else {
+        let Some(site) = self.mesh.kernel.sites_mut().get_mut(s.index()).filter(|_| may_move) else {
             return false;
         };
         let old = std::mem::replace(&mut site.point, q);
@@ -166,7 +166,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves one vertex at once, by the filter in force if there is one.
     fn relocate_filtered(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
-        let Some(filter) = self.immediate_filter().filter(|_| self.kernel.has_cells()) else {
+        let Some(filter) = self.immediate_filter().filter(|_| self.mesh.kernel.has_cells()) else {
             self.regions.invalidate();
             return self.relocate_alone(vertex, q, report);
         };
@@ -183,7 +183,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves one vertex at once, without a filter.
     fn relocate_alone(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
-        if !self.kernel.has_cells() {
+        if !self.mesh.kernel.has_cells() {
             return self.rebuild_with(vertex, q, report);
         }
         match self.relocate(vertex, q, Shortcut::Flips, report)? {

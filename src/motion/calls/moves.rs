@@ -22,7 +22,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 coming: 0,
             });
         }
-        self.staging.reserve(self.site_of.len(), vertices.len())?;
+        self.staging.reserve(self.mesh.site_of.len(), vertices.len())?;
         let before = self.staging.n_listed();
         for (index, (&vertex, position)) in vertices.iter().zip(positions).enumerate() {
             if let Err(error) = self.stage("vertices", index, vertex, position) {
@@ -38,7 +38,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::WrongCount`] if `positions` has another length; otherwise as [`move_first`](Self::move_first).
     pub fn move_all(&mut self, positions: &[G::Point]) -> Result<()> {
-        if positions.len() == self.site_of.len() {
+        if positions.len() == self.mesh.site_of.len() {
             self.move_first(positions)
         } else {
             Err(self.wrong_count(positions.len()))
@@ -53,10 +53,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::WrongCount`] if there are more `positions` than ids; otherwise as
     /// [`move_vertices`](Self::move_vertices).
     pub fn move_first(&mut self, positions: &[G::Point]) -> Result<()> {
-        if positions.len() > self.site_of.len() {
+        if positions.len() > self.mesh.site_of.len() {
             return Err(self.wrong_count(positions.len()));
         }
-        let n_ids = self.site_of.len();
+        let n_ids = self.mesh.site_of.len();
         if self.can_stage_whole(positions.len()) {
             self.staging.reserve(n_ids, 0)?;
             if self.staging.stage_all(positions) {
@@ -67,7 +67,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let before = self.staging.n_listed();
         for (index, position) in positions.iter().enumerate() {
             let vertex = VertexId::at(index);
-            let staged = if self.site_of[vertex] != SiteId::NONE {
+            let staged = if self.mesh.site_of[vertex] != SiteId::NONE {
                 if self.edits.is_leaving(vertex) {
                     continue;
                 }
@@ -89,14 +89,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// There are more positions than ids, or another number of them where there must be one for each.
     #[cold]
     fn wrong_count(&self, given: usize) -> Error {
-        let (wanted, coming) = (self.site_of.len(), self.staged_edits().0);
+        let (wanted, coming) = (self.mesh.site_of.len(), self.staged_edits().0);
         Error::WrongCount { argument: "count", given, wanted, coming }
     }
 
     /// Whether the first `n` vertices are all that there are, and nothing is staged.
     pub(in crate::motion) fn can_stage_whole(&self, n: usize) -> bool {
-        let n_ids = self.site_of.len();
-        self.staging.count() == 0 && n == n_ids && self.n_present == n_ids && self.edits.are_none()
+        let n_ids = self.mesh.site_of.len();
+        self.staging.count() == 0 && n == n_ids && self.mesh.n_present == n_ids && self.edits.are_none()
     }
 
     #[inline(always)]

@@ -26,7 +26,6 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::constants::constants;
-use crate::motion::filters::margin::Margin;
 use crate::motion::filters::safe_regions::{Admission, SafeRegions};
 use crate::motion::filters::slack::Slacks;
 use crate::motion::filters::store::Store;

@@ -22,7 +22,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     pub(in crate::motion) fn cell_arrays(&self) -> Result<&Cells<G>> {
-        self.views.cells(&self.kernel)
+        self.mesh.views.cells(&self.mesh.kernel)
     }
 
     /// Indices, ascending, of the finite cells that did not exist when the latest commit began: of none before the
@@ -34,7 +34,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.options.track_changes {
             return Err(Error::ChangesNotTracked);
         }
-        self.views.changed(&self.kernel, Cells::list_created)
+        self.mesh.views.changed(&self.mesh.kernel, Cells::list_created)
     }
 
     /// Gets ready to track what a commit changes, if the options ask for it.
@@ -42,16 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.options.track_changes {
             return Ok(());
         }
-        self.views.cells_mut(&self.kernel)?.track_commit()
-    }
-
-    /// Puts the cells in the order of the sites, and the arrays follow. Sorted cells stay as they are until `replaced`
-    /// times as many as there are have been replaced.
-    pub(in crate::motion) fn sort_cells(&mut self, replaced: f64) -> Result<()> {
-        if let Some(index) = self.kernel.sort_cells(replaced)? {
-            self.views.renumber_slots(&index);
-        }
-        Ok(())
+        self.mesh.views.cells_mut(&self.mesh.kernel)?.track_commit()
     }
 
     /// What has changed since this was last called: everything, as created, at the first call. Commits and immediate
@@ -62,43 +53,35 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.
     pub fn take_changes(&mut self) -> Result<Changes<'_, G::Vertices>> {
-        let cells = self.views.cells_mut(&self.kernel)?;
-        cells.take(memory::made(&mut self.taken)?, self.site_of.len())?;
+        let cells = self.mesh.views.cells_mut(&self.mesh.kernel)?;
+        cells.take(memory::made(&mut self.taken)?, self.mesh.site_of.len())?;
         let mut taken = memory::take_made(&mut self.taken)?;
         let listed = self.list_visibilities(&mut taken);
         let taken = self.taken.insert(taken);
         listed?;
-        self.views.visibilities().truncate(0);
-        self.takes_changes = true;
-        self.views.cells_mut(&self.kernel).expect("they are up to date").end_taking();
+        self.mesh.views.visibilities().truncate(0);
+        self.mesh.takes_changes = true;
+        self.mesh.views.cells_mut(&self.mesh.kernel).expect("they are up to date").end_taking();
         Ok(taken.changes())
-    }
-
-    /// Notes that a vertex is about to be hidden or shown, if the program takes changes.
-    pub(in crate::motion) fn note_visibility(&mut self, vertex: VertexId, was_hidden: bool) -> Result<()> {
-        if !self.takes_changes {
-            return Ok(());
-        }
-        self.views.visibilities().note(vertex, was_hidden)
     }
 
     /// Lists the vertices that have been hidden or shown; at the first call all that are hidden.
     fn list_visibilities(&mut self, taken: &mut Taken<G::Vertices>) -> Result<()> {
-        if !self.takes_changes {
-            taken.reserve_vertices(self.hidden.count())?;
-            for v in VertexId::range(0..self.site_of.len()) {
-                if self.is_present(v) {
-                    taken.list_vertex(v, false, self.is_hidden(v));
+        if !self.mesh.takes_changes {
+            taken.reserve_vertices(self.mesh.hidden.count())?;
+            for v in VertexId::range(0..self.mesh.site_of.len()) {
+                if self.mesh.is_present(v) {
+                    taken.list_vertex(v, false, self.mesh.is_hidden(v));
                 }
             }
             return Ok(());
         }
-        taken.reserve_vertices(self.views.visibilities().len())?;
-        self.views.visibilities().keep_first();
-        for (vertex, was_hidden) in self.views.visibilities().iter() {
-            let s = self.site_of[vertex];
+        taken.reserve_vertices(self.mesh.views.visibilities().len())?;
+        self.mesh.views.visibilities().keep_first();
+        for (vertex, was_hidden) in self.mesh.views.visibilities().iter() {
+            let s = self.mesh.site_of[vertex];
             if s != SiteId::NONE {
-                let is_hidden = self.kernel.site(s).id != vertex;
+                let is_hidden = self.mesh.kernel.site(s).id != vertex;
                 taken.list_vertex(vertex, was_hidden, is_hidden);
             }
         }

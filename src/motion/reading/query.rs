@@ -54,22 +54,22 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Vertices present, hidden ones included.
     pub fn vertex_count(&self) -> usize {
-        self.n_present
+        self.mesh.n_present
     }
 
     /// Ids given so far; those below it are valid unless removed.
     pub fn id_count(&self) -> usize {
-        self.site_of.len()
+        self.mesh.site_of.len()
     }
 
     /// Whether the vertex is present.
     pub fn is_present(&self, vertex: VertexId) -> bool {
-        self.site_of.get(vertex.index()).is_some_and(|&s| s != SiteId::NONE)
+        self.mesh.is_present(vertex)
     }
 
     /// Number of finite cells.
     pub fn cell_count(&self) -> usize {
-        self.kernel.complex().n_finite()
+        self.mesh.kernel.complex().n_finite()
     }
 
     /// Position of a vertex at the current timestamp; a staged one is not seen.
@@ -77,13 +77,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn position(&self, vertex: VertexId) -> Result<G::Point> {
-        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).point)
+        Ok(self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?).point)
     }
 
     /// Where a vertex of this id is at the current timestamp, or where it will be inserted if that is staged.
     pub fn position_or_goal(&self, vertex: VertexId) -> Option<G::Point> {
-        match self.site_of.get(vertex.index()) {
-            Some(&s) if s != SiteId::NONE => Some(self.kernel.site(s).point),
+        match self.mesh.site_of.get(vertex.index()) {
+            Some(&s) if s != SiteId::NONE => Some(self.mesh.kernel.site(s).point),
             _ => self.edits.insertion(vertex).copied(),
         }
     }
@@ -111,12 +111,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         let s = self.present_site("vertex", 0, vertex)?;
         let cells = self.cell_arrays()?;
         let index_of = cells.index_of();
-        self.prefetch_next_stars(vertex);
-        self.kernel.list_star(s, slots, |slot| prefetch(index_of, slot.index()))?;
+        self.foreseen.prefetch_next_stars(&self.mesh, vertex);
+        self.mesh.kernel.list_star(s, slots, |slot| prefetch(index_of, slot.index()))?;
         // A program that asks for a star goes on to read the rows of its cells.
         let asked = cells_at(slots, index_of).inspect(|&index| prefetch(cells.corners(), index.index()));
         let n = asked.count();
-        self.kernel.prefetch_around(s, slots);
+        self.mesh.kernel.prefetch_around(s, slots);
         Ok((index_of, n))
     }
 
@@ -128,7 +128,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn locate(&self, position: &G::Point) -> Result<Location> {
         let q = check_position::<G>("position", 0, position)?;
         let cells = self.cell_arrays()?;
-        Ok(self.location(cells, self.kernel.locate(&q, Slot::NONE)))
+        Ok(self.location(cells, self.mesh.kernel.locate(&q, Slot::NONE)))
     }
 
     /// Where points lie, told to `found` one after the other. Each is looked for from the one before, the first from
@@ -148,7 +148,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let cells = self.cell_arrays()?;
         let mut near = self.start_near(near)?;
         for position in positions {
-            let place = self.kernel.locate(position, near);
+            let place = self.mesh.kernel.locate(position, near);
             near = self.slot_at(place);
             found(self.location(cells, place));
         }
@@ -164,7 +164,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The slot of a cell at a place, to begin a search at.
     pub(in crate::motion) fn slot_at(&self, place: Place) -> Slot {
         match place {
-            Place::Site(s) => self.kernel.site(s).cell,
+            Place::Site(s) => self.mesh.kernel.site(s).cell,
             Place::Cell(c) | Place::Outside(c) => c,
             Place::NoCells => Slot::NONE,
         }
@@ -174,10 +174,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn location(&self, cells: &Cells<G>, place: Place) -> Location {
         let index_of = |c: Slot| cells.index_of()[c];
         match place {
-            Place::Site(s) => Location::Vertex(self.kernel.site(s).id),
+            Place::Site(s) => Location::Vertex(self.mesh.kernel.site(s).id),
             Place::Cell(c) => Location::Cell(index_of(c)),
             Place::Outside(c) => {
-                Location::Outside(index_of(self.kernel.complex().cell(c).neighbour(G::D).cell()))
+                Location::Outside(index_of(self.mesh.kernel.complex().cell(c).neighbour(G::D).cell()))
             }
             Place::NoCells => Location::NoCells,
         }
@@ -187,7 +187,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn slot_of(&self, cells: &Cells<G>, location: Location) -> Slot {
         match location {
             Location::Vertex(v) => match self.present_site("hint", 0, v) {
-                Ok(s) => self.kernel.site(s).cell,
+                Ok(s) => self.mesh.kernel.site(s).cell,
                 Err(_) => Slot::NONE,
             },
             Location::Cell(index) | Location::Outside(index) => cells.slot(index).unwrap_or(Slot::NONE),
@@ -202,11 +202,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
     pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
         let q = check_position::<G>("position", 0, position)?;
-        let start = match self.kernel.locate(&q, Slot::NONE) {
-            Place::Site(s) => return Ok(Some(self.kernel.site(s).id)),
-            Place::NoCells => return Ok(self.nearest_of(&q, self.kernel.live_sites())),
+        let start = match self.mesh.kernel.locate(&q, Slot::NONE) {
+            Place::Site(s) => return Ok(Some(self.mesh.kernel.site(s).id)),
+            Place::NoCells => return Ok(self.nearest_of(&q, self.mesh.kernel.live_sites())),
             Place::Cell(c) | Place::Outside(c) => {
-                let corners = self.kernel.complex().cell(c).corners;
+                let corners = self.mesh.kernel.complex().cell(c).corners;
                 let finite = corners.as_ref().iter().copied().filter(|&s| s != INFINITE);
                 finite.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
             }
@@ -233,11 +233,13 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             link.clear();
             star.clear();
-            self.kernel.list_star(s, &mut star, |_| {})?;
+            self.mesh.kernel.list_star(s, &mut star, |_| {})?;
             for &c in star.as_slice() {
-                for &x in self.kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE) {
+                for &x in
+                    self.mesh.kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE)
+                {
                     if link.insert(x)? {
-                        prefetch(self.kernel.sites(), x.index());
+                        prefetch(self.mesh.kernel.sites(), x.index());
                     }
                 }
             }
@@ -256,17 +258,17 @@ impl<G: Dimension> MovingTriangulation<G> {
                 }
             }
         }
-        Ok(nearest.as_slice().iter().map(|&s| self.kernel.site(s).id).min())
+        Ok(nearest.as_slice().iter().map(|&s| self.mesh.kernel.site(s).id).min())
     }
 
     /// A landmark that is nearer to `q` than a site, if one is known.
     #[cold]
     fn nearer_landmark(&self, q: &G::Point, than: SiteId) -> Option<SiteId> {
-        self.kernel.landmark(q).filter(|&landmark| self.compare(q, landmark, than) == Ordering::Less)
+        self.mesh.kernel.landmark(q).filter(|&landmark| self.compare(q, landmark, than) == Ordering::Less)
     }
 
     fn compare(&self, q: &G::Point, a: SiteId, b: SiteId) -> Ordering {
-        compare_distance(q, &self.kernel.site(a).point, &self.kernel.site(b).point)
+        compare_distance(q, &self.mesh.kernel.site(a).point, &self.mesh.kernel.site(b).point)
     }
 
     fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = SiteId>) -> Option<VertexId> {
@@ -274,12 +276,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         for s in sites {
             let order = self.compare(q, s, best);
             if order == Ordering::Less
-                || order == Ordering::Equal && self.kernel.site(s).id < self.kernel.site(best).id
+                || order == Ordering::Equal && self.mesh.kernel.site(s).id < self.mesh.kernel.site(best).id
             {
                 best = s;
             }
         }
-        Some(self.kernel.site(best).id)
+        Some(self.mesh.kernel.site(best).id)
     }
 
     /// The lowest id among the vertices at the place of this one.
@@ -287,7 +289,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
-        Ok(self.kernel.site(self.present_site("vertex", 0, vertex)?).id)
+        Ok(self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?).id)
     }
 
     /// Checks the triangulation: see [`Level`].
@@ -295,7 +297,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// # Errors
     /// The first violation found.
     pub fn validate(&self, level: Level) -> std::result::Result<(), Violation> {
-        self.kernel.validate(level)?;
+        self.mesh.kernel.validate(level)?;
         self.check_sites()
     }
 
@@ -303,21 +305,21 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn check_sites(&self) -> std::result::Result<(), Violation> {
         let violation = |message| Err(Violation { level: Level::Structure, message });
         let mut hidden = 0;
-        let vertices = VertexId::range(0..self.site_of.len()).zip(&self.site_of);
+        let vertices = VertexId::range(0..self.mesh.site_of.len()).zip(&self.mesh.site_of);
         for (v, &s) in vertices.filter(|&(_, &s)| s != SiteId::NONE) {
-            let site = self.kernel.site(s);
+            let site = self.mesh.kernel.site(s);
             if !site.is_live() || site.id > v {
                 let message = format_args!("vertex {v} is at a site of vertex {}", site.id);
                 return violation(memory::text(message));
             }
             hidden += usize::from(site.id != v);
         }
-        let sites = self.kernel.live_sites().count();
-        if hidden != self.hidden.count() || sites + hidden != self.n_present {
+        let sites = self.mesh.kernel.live_sites().count();
+        if hidden != self.mesh.hidden.count() || sites + hidden != self.mesh.n_present {
             return violation(memory::text(format_args!(
                 "{} vertices, but {sites} places with {hidden} hidden vertices ({} listed)",
-                self.n_present,
-                self.hidden.count()
+                self.mesh.n_present,
+                self.mesh.hidden.count()
             )));
         }
         Ok(())
@@ -335,16 +337,12 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Bytes held, views included.
     pub fn memory_bytes(&self) -> usize {
-        self.kernel.memory_bytes()
-            + memory::bytes_of(&self.site_of)
+        self.mesh.memory_bytes()
             + self.staging.memory_bytes()
             + memory::bytes_of(&self.queue)
             + self.regions.memory_bytes()
             + memory::bytes_of_made(&self.repair, Repair::memory_bytes)
             + self.edits.memory_bytes()
-            + self.hidden.memory_bytes()
-            + self.transaction.memory_bytes()
-            + self.views.memory_bytes()
             + memory::bytes_of_made(&self.taken, Taken::memory_bytes)
     }
 }

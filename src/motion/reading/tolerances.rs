@@ -18,26 +18,26 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn tolerance(&self, vertex: VertexId) -> Result<f64> {
         let s = self.present_site("vertex", 0, vertex)?;
-        if self.is_shared(s) {
+        if self.mesh.is_shared(s) {
             return Ok(0.0);
         }
         let mut tolerance = f64::INFINITY;
-        self.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance))?;
+        self.mesh.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance))?;
         Ok(tolerance)
     }
 
     /// The [`tolerance`](Self::tolerance) of the vertex of a site that no two share; 0 without the memory to look.
     pub(in crate::motion) fn tolerance_of_site(&mut self, s: SiteId) -> f64 {
-        if self.kernel.gather_star(s).is_err() {
+        if self.mesh.kernel.gather_star(s).is_err() {
             return 0.0;
         }
-        let star = self.kernel.gathered_star().iter();
+        let star = self.mesh.kernel.gathered_star().iter();
         star.fold(f64::INFINITY, |tolerance, &(c, _)| self.tolerance_around(c, tolerance))
     }
 
     /// The least of a tolerance and those of a cell's bi-cells.
     fn tolerance_around(&self, cell: Slot, tolerance: f64) -> f64 {
-        let bicells = (0..G::Corners::N).map(|i| BiCell::of(&self.kernel, Facet::new(cell, i)));
+        let bicells = (0..G::Corners::N).map(|i| BiCell::of(&self.mesh.kernel, Facet::new(cell, i)));
         bicells.fold(tolerance, |least, bicell| least.min(bicell.tolerance(least)))
     }
 
@@ -53,7 +53,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut widths, cells.corners().len() * G::Corners::N)?;
         for index in CellId::range(0..cells.corners().len()) {
             for corner in 0..G::Corners::N {
-                let delimiter = BiCell::of(&self.kernel, cells.facet(index, corner)).delimiter();
+                let delimiter = BiCell::of(&self.mesh.kernel, cells.facet(index, corner)).delimiter();
                 widths.push(delimiter.map_or(f64::NAN, |delimiter| 2.0 * delimiter.half_width));
             }
         }
@@ -70,6 +70,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         if cell.index() >= cells.corners().len() || corner as usize > G::D {
             return Ok(None);
         }
-        Ok(BiCell::of(&self.kernel, cells.facet(cell, corner as usize)).delimiter())
+        Ok(BiCell::of(&self.mesh.kernel, cells.facet(cell, corner as usize)).delimiter())
     }
 }

@@ -20,9 +20,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let is_of_few = constants::<G>().are_few(moves.count(), self.n_present);
+        let is_of_few = constants::<G>().are_few(moves.count(), self.mesh.n_present);
         self.auto.note_few(is_of_few);
-        if !self.kernel.has_cells() {
+        if !self.mesh.kernel.has_cells() {
             return self.rebuild(moves, report);
         }
         if is_of_few {
@@ -43,14 +43,14 @@ impl<G: Dimension> MovingTriangulation<G> {
                 Outlook::Unknown => {}
             }
         }
-        let before = self.evaluations();
+        let before = self.mesh.evaluations();
         if is_rebuild_due {
             self.rebuild(moves, report)?;
-            let after = self.evaluations();
+            let after = self.mesh.evaluations();
             self.auto.note_rebuild([before, after]);
             return Ok(());
         }
-        let can_check_less = moves.are_of_all() && self.hidden.count() == 0;
+        let can_check_less = moves.are_of_all() && self.mesh.hidden.count() == 0;
         let start = match self.commit_by_scope(can_check_less, moves, report)? {
             Attempt::Committed => return Ok(()),
             Attempt::GivenUp(start) => start,
@@ -58,12 +58,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::made(&mut self.repair)?.set_limit(self.auto.limit());
         let repaired = self.commit_by_repair(start, moves, report);
         let (evaluations, slowdown) =
-            ([before, self.evaluations()], self.slowdown(constants::<G>().repaired_alone));
+            ([before, self.mesh.evaluations()], self.slowdown(constants::<G>().repaired_alone));
         let repair = memory::made(&mut self.repair)?;
         repair.set_limit(None);
         repaired?;
-        let swept = (self.kernel.n_certificates(), slowdown);
-        self.auto.learn::<G>(self.n_present, swept, report, repair, evaluations);
+        let swept = (self.mesh.kernel.n_certificates(), slowdown);
+        self.auto.learn::<G>(self.mesh.n_present, swept, report, repair, evaluations);
         Ok(())
     }
 
@@ -81,34 +81,34 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// that, so they stay.
     fn commit_together(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
         self.regions.invalidate();
-        if moves.are_of_all() && self.hidden.count() == 0 {
+        if moves.are_of_all() && self.mesh.hidden.count() == 0 {
             self.move_everything(moves)?;
         } else {
             self.move_sites_together(moves)?;
         }
-        (report.moved, report.unchanged) = (self.n_present as u64, self.n_present as u64);
+        (report.moved, report.unchanged) = (self.mesh.n_present as u64, self.mesh.n_present as u64);
         Ok(())
     }
 
     /// Moves all vertices, some of which share their sites.
     fn move_sites_together(&mut self, moves: &mut Moves<'_, G>) -> Result<()> {
         let (goals, movers) = (moves.checked()?, self.queue_of(moves)?);
-        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
-        let origins = self.transaction.origins_mut();
-        origins.make_room(self.site_of.len(), movers.len())?;
+        let (mut lower, mut upper) = (self.mesh.kernel.lower(), self.mesh.kernel.upper());
+        let origins = self.mesh.transaction.origins_mut();
+        origins.make_room(self.mesh.site_of.len(), movers.len())?;
         for &v in &movers {
-            let s = self.site_of[v];
-            let site = self.kernel.site(s);
+            let s = self.mesh.site_of[v];
+            let site = self.mesh.kernel.site(s);
             if site.id == v {
                 let goal = goals.of(v);
                 for axis in 0..G::D {
                     (lower[axis], upper[axis]) = (lower[axis].min(goal[axis]), upper[axis].max(goal[axis]));
                 }
                 origins.note(v, site.point);
-                self.kernel.set_point(s, goal);
+                self.mesh.kernel.set_point(s, goal);
             }
         }
-        self.kernel.cover(&lower, &upper);
+        self.mesh.kernel.cover(&lower, &upper);
         self.queue = movers;
         Ok(())
     }
@@ -130,27 +130,27 @@ impl<G: Dimension> MovingTriangulation<G> {
                 && self.commit_by_watching(constants::<G>().max_share_beyond, moves, report)?
                     == Attempt::Committed
             {
-                if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.n_present, report) {
+                if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.mesh.n_present, report) {
                     self.regions.invalidate();
                 }
                 return Ok(Attempt::Committed);
             }
-            self.auto.give_up::<G>(self.n_present, true);
+            self.auto.give_up::<G>(self.mesh.n_present, true);
         }
         if self.auto.scope() == Scope::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
             ended = self.commit_by_slack(moves, report)?;
             if ended == Attempt::Committed {
                 if was_kept {
-                    self.auto.weigh_slack::<G>(self.n_present, report);
+                    self.auto.weigh_slack::<G>(self.mesh.n_present, report);
                 }
-                if self.kernel.is_disordered(constants::<G>().replaced_to_sort_first) {
+                if self.mesh.kernel.is_disordered(constants::<G>().replaced_to_sort_first) {
                     // So that the next commit sorts the cells.
                     self.regions.invalidate();
                 }
                 return Ok(ended);
             }
-            self.auto.give_up::<G>(self.n_present, false);
+            self.auto.give_up::<G>(self.mesh.n_present, false);
         }
         Ok(ended)
     }
@@ -172,7 +172,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Relocations in a round.
     fn round(&self, is_kept: bool) -> u64 {
         let constants = constants::<G>();
-        let all = self.n_present as f64;
+        let all = self.mesh.n_present as f64;
         let round = if is_kept { all / constants.shorter_rounds } else { all };
         round.max(f64::from(constants.sampled_vertices)) as u64
     }
@@ -191,7 +191,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Counts the relocations of a commit of few vertices.
     pub(in crate::motion) fn follow_commit(&mut self, done: &CommitReport) {
-        if self.options.algorithm == Algorithm::Auto && self.auto.take_few() && self.kernel.has_cells() {
+        if self.options.algorithm == Algorithm::Auto && self.auto.take_few() && self.mesh.kernel.has_cells() {
             self.follow_relocations(done);
         }
     }
@@ -213,7 +213,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_kept {
             if !ended.are_most_within {
                 self.regions.invalidate();
-                self.auto.give_up::<G>(self.n_present, false);
+                self.auto.give_up::<G>(self.mesh.n_present, false);
             }
         } else if self.auto.has_waited() && ended.are_most_unchanged {
             // Without the memory for them all goes on as it did.
@@ -253,14 +253,14 @@ mod tests {
             let mut n_sorted = 0;
             for _ in 0..n_commits {
                 now.as_flattened_mut().iter_mut().for_each(|x| *x += step * (rng.unit() - 0.5));
-                let was_disordered = t.kernel.is_disordered(first);
+                let was_disordered = t.mesh.kernel.is_disordered(first);
                 let rebuilds = t.commit_positions(&now).expect("room").rebuilds;
-                n_sorted += u32::from(rebuilds == 0 && was_disordered && !t.kernel.is_disordered(first));
+                n_sorted += u32::from(rebuilds == 0 && was_disordered && !t.mesh.kernel.is_disordered(first));
             }
             assert_eq!(t.regions.kept_for() == Some(Filter::Slack), is_slack);
             assert!(if is_slack { n_sorted == 1 } else { n_sorted > 1 }, "{n_sorted} of {n_commits}");
             assert_eq!(t.validate(Level::Delaunay), Ok(()));
-            while is_slack && !t.kernel.is_disordered(first) {
+            while is_slack && !t.mesh.kernel.is_disordered(first) {
                 let place = [(); 3].map(|()| side * rng.unit());
                 t.insert_vertex(&place).expect("room");
                 now.push(place);

@@ -20,7 +20,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         if self.regions.kept_for() != Some(filter) {
-            let (kernel, n_ids) = (&mut self.kernel, self.site_of.len());
+            let (kernel, n_ids) = (&mut self.mesh.kernel, self.mesh.site_of.len());
             report.tolerances += self.regions.prepare(filter, kernel, n_ids, other_positions)?;
         }
         Ok(())
@@ -33,10 +33,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         goals: Goals<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        self.transaction.origins_mut().make_room(self.site_of.len(), queue.len())?;
+        self.mesh.transaction.origins_mut().make_room(self.mesh.site_of.len(), queue.len())?;
         queue.retain(|&v| match self.accept(v, &goals.of(v), report) {
             Some(origin) => {
-                self.transaction.origins_mut().note(v, origin);
+                self.mesh.transaction.origins_mut().note(v, origin);
                 false
             }
             None => true,
@@ -52,17 +52,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         goal: &G::Point,
         report: &mut CommitReport,
     ) -> Option<G::Point> {
-        let s = self.site_of[vertex];
-        if self.is_shared(s) {
+        let s = self.mesh.site_of[vertex];
+        if self.mesh.is_shared(s) {
             return None;
         }
-        match self.regions.admit(&mut self.kernel, vertex, s, goal)? {
+        match self.regions.admit(&mut self.mesh.kernel, vertex, s, goal)? {
             Admission::WithinTolerance => report.within_tolerance += 1,
             Admission::WithinSafeRegion => report.within_safe_region += 1,
         }
-        self.kernel.cover(goal, goal);
-        let origin = self.kernel.site(s).point;
-        self.kernel.set_point(s, *goal);
+        self.mesh.kernel.cover(goal, goal);
+        let origin = self.mesh.kernel.site(s).point;
+        self.mesh.kernel.set_point(s, *goal);
         report.moved += u64::from(origin != *goal);
         Some(origin)
     }
@@ -105,14 +105,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Some((kept, record)) = self.regions.begin_change() else {
             return change(self, report);
         };
-        self.kernel.record_changes(record);
+        self.mesh.kernel.record_changes(record);
         let done = change(self, report);
-        match self.kernel.take_changes().filter(|_| done.is_ok()) {
+        match self.mesh.kernel.take_changes().filter(|_| done.is_ok()) {
             Some(changed) => {
                 let mut relocated = self.regions.end_change();
-                relocated.retain(|&v| !self.is_shared(self.site_of[v]));
-                let (kernel, site_of) = (&mut self.kernel, &self.site_of);
-                let other_positions = self.transaction.origins().positions();
+                relocated.retain(|&v| !self.mesh.is_shared(self.mesh.site_of[v]));
+                let (kernel, site_of) = (&mut self.mesh.kernel, &self.mesh.site_of);
+                let other_positions = self.mesh.transaction.origins().positions();
                 let n = self.regions.follow(kept, changed, relocated, kernel, site_of, other_positions);
                 // Without the memory for it none are kept, and the next commit says so.
                 report.tolerances += n.unwrap_or_default();

@@ -108,7 +108,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Advance> {
         queue.clear();
         let mut blocks = Blocks::of(moves);
-        let moved = if size_of_val(self.kernel.sites()) > CACHE_BYTES {
+        let moved = if size_of_val(self.mesh.kernel.sites()) > CACHE_BYTES {
             self.move_and_queue_from::<MOVES_ALL, true>(most, &mut blocks, queue)?
         } else {
             self.move_and_queue_from::<MOVES_ALL, false>(most, &mut blocks, queue)?
@@ -175,16 +175,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
         exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[SiteId; LANES]) -> u64,
     ) -> Result<Advance> {
-        let n = self.site_of.len();
-        let sites = self.kernel.sites_mut();
-        let origins = self.transaction.origins_mut().of_all_mut(n)?;
+        let n = self.mesh.site_of.len();
+        let sites = self.mesh.kernel.sites_mut();
+        let origins = self.mesh.transaction.origins_mut().of_all_mut(n)?;
         let mut movers = Movers { sites, queue, most, n_moved: 0 };
         let (fixed, last_fixed) = self.regions.fixed()[..n].as_chunks::<LANES>();
-        let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
+        let (sites_of, last_sites_of) = self.mesh.site_of.as_chunks::<LANES>();
         let mut ended = None;
         'blocks: for (block, positions) in origins.chunks_mut(BLOCK).enumerate() {
             let first = block * BLOCK;
-            blocks.copy(first, positions, &self.site_of[first..], movers.sites);
+            blocks.copy(first, positions, &self.mesh.site_of[first..], movers.sites);
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
             let (fixed, at) = (&fixed[first / LANES..], &sites_of[first / LANES..]);
             for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(at).enumerate() {
@@ -217,15 +217,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Some((end, room)) = ended else {
             if !MOVES_ALL {
                 // Those that are queued have been left where they are, and their goals where origins are to be.
-                movers.queue.iter().for_each(|&v| origins[v] = movers.sites[self.site_of[v]].point);
+                movers.queue.iter().for_each(|&v| origins[v] = movers.sites[self.mesh.site_of[v]].point);
             }
-            self.transaction.origins_mut().note_all();
+            self.mesh.transaction.origins_mut().note_all();
             return Ok(Advance::Moved(n_moved));
         };
         let not_moved = if MOVES_ALL { &[] } else { &movers.queue[..] };
         // Those that have not moved are exchanged in vain.
         for v in VertexId::range(0..end).chain(not_moved.iter().copied()) {
-            std::mem::swap(&mut movers.sites[self.site_of[v]].point, &mut origins[v]);
+            std::mem::swap(&mut movers.sites[self.mesh.site_of[v]].point, &mut origins[v]);
         }
         movers.queue.clear();
         room.map(|()| Advance::TooManyBeyond)

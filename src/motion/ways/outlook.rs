@@ -49,16 +49,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         goals: &[G::Point],
         asks_for_few: bool,
     ) -> Outlook {
-        let (n, are_all) = (self.n_present, vertices.len() == self.n_present);
-        let sites = self.kernel.sites();
-        let is_far = self.kernel.is_far();
+        let (n, are_all) = (self.mesh.n_present, vertices.len() == self.mesh.n_present);
+        let sites = self.mesh.kernel.sites();
+        let is_far = self.mesh.kernel.is_far();
         let mut ahead = vertices.clone().skip(AHEAD);
         let mut seen = Seen::<G> { common: None, n_moving: 0 };
         for (k, v) in vertices.enumerate() {
             if is_far && let Some(next) = ahead.next() {
-                prefetch(sites, self.site_of[next].index());
+                prefetch(sites, self.mesh.site_of[next].index());
             }
-            let is_known = seen.enter(k == 0, &sites[self.site_of[v]], &goals[v]);
+            let is_known = seen.enter(k == 0, &sites[self.mesh.site_of[v]], &goals[v]);
             let is_alike = seen.common.is_some();
             if is_known && !is_alike && !(asks_for_few && constants::<G>().are_few(seen.n_moving, n)) {
                 return Outlook::Unknown;

@@ -74,10 +74,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let (left, slowdown) = (queue.len(), self.slowdown(1.0));
-        let mut budget = Budget::new::<G>(self.n_present, left, exact, self.evaluations(), report, slowdown);
+        let mut budget =
+            Budget::new::<G>(self.mesh.n_present, left, exact, self.mesh.evaluations(), report, slowdown);
         self.place_all(queue, goals, report, |t, v, goal, report| {
             let placed = t.relocate(v, goal, Shortcut::Flips, report)?;
-            Ok(if budget.is_exceeded::<G>(t.evaluations(), report) { Placed::NeedBuild } else { placed })
+            Ok(if budget.is_exceeded::<G>(t.mesh.evaluations(), report) { Placed::NeedBuild } else { placed })
         })
     }
 
@@ -110,26 +111,26 @@ impl<G: Dimension> MovingTriangulation<G> {
         mut relocate: impl FnMut(&mut Self, VertexId, &G::Point, &mut CommitReport) -> Result<Placed>,
     ) -> Result<()> {
         let (n_there, n) = (goals.n_movers() - queue.len(), goals.n_movers() as f64);
-        let is_far = self.kernel.is_far();
-        self.transaction.origins_mut().make_room(self.site_of.len(), queue.len())?;
+        let is_far = self.mesh.kernel.is_far();
+        self.mesh.transaction.origins_mut().make_room(self.mesh.site_of.len(), queue.len())?;
         for (k, &v) in queue.iter().enumerate() {
-            if !self.kernel.has_cells() {
+            if !self.mesh.kernel.has_cells() {
                 // Nothing to walk in: what is left is placed at once.
                 return self.rebuild_moving(&queue[k..], goals, report);
             }
             let is_call_due = k.is_multiple_of(constants::<G>().relocations_per_call);
-            if is_call_due && !self.monitor((n_there + k) as f64 / n) {
+            if is_call_due && !self.mesh.monitor((n_there + k) as f64 / n) {
                 return Err(Error::Cancelled);
             }
             if is_far {
                 self.prefetch_queued(&queue[k + 1..], goals);
             }
-            let (old, goal) = (self.kernel.site(self.site_of[v]).point, goals.of(v));
+            let (old, goal) = (self.mesh.kernel.site(self.mesh.site_of[v]).point, goals.of(v));
             if goal == old {
                 continue;
             }
             report.moved += 1;
-            self.transaction.origins_mut().note(v, old);
+            self.mesh.transaction.origins_mut().note(v, old);
             if relocate(self, v, &goal, report)? == Placed::NeedBuild {
                 return self.rebuild_moving(&queue[k + 1..], goals, report);
             }
@@ -142,11 +143,11 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn prefetch_queued(&self, next: &[VertexId], goals: Goals<'_, G>) {
         for step in 0..4 {
             if let Some(&v) = next.get(2 * (4 - step) - 1) {
-                self.kernel.prefetch_star(self.site_of[v], step);
+                self.mesh.kernel.prefetch_star(self.mesh.site_of[v], step);
             }
         }
         if let Some(&v) = next.get(9) {
-            prefetch(&self.site_of, v.index());
+            prefetch(&self.mesh.site_of, v.index());
             goals.prefetch(v);
         }
     }
@@ -159,17 +160,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         shortcut: Shortcut,
         report: &mut CommitReport,
     ) -> Result<Placed> {
-        let s = self.site_of[vertex];
-        if self.is_shared(s) {
+        let s = self.mesh.site_of[vertex];
+        if self.mesh.is_shared(s) {
             return self.relocate_from_shared(vertex, s, q, report);
         }
-        match self.kernel.relocate_site(s, q, vertex, shortcut)? {
+        match self.mesh.kernel.relocate_site(s, q, vertex, shortcut)? {
             Relocation::InPlace => report.unchanged += 1,
             Relocation::Flipped(flips) => report.flips += flips,
             Relocation::Placed => report.placements += 1,
             Relocation::Coincident(t) => {
                 report.placements += 1;
-                self.hide(vertex, t)?;
+                self.mesh.hide(vertex, t)?;
             }
             Relocation::Spans => return Ok(Placed::NeedBuild),
         }
@@ -186,12 +187,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Placed> {
         report.placements += 1;
         // A live site must be in the triangulation while another is renamed, so the vertex's own is made after that.
-        self.leave(vertex)?;
-        let own = self.kernel.add_site(*q, vertex)?;
-        self.site_of[vertex] = own;
-        match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
+        self.mesh.leave(vertex)?;
+        let own = self.mesh.kernel.add_site(*q, vertex)?;
+        self.mesh.site_of[vertex] = own;
+        match self.mesh.kernel.insert_site(own, self.mesh.kernel.site(s).cell)? {
             Insertion::New => {}
-            Insertion::Coincident(t) => self.hide(vertex, t)?,
+            Insertion::Coincident(t) => self.mesh.hide(vertex, t)?,
             Insertion::Spans => return Ok(Placed::NeedBuild),
         }
         Ok(Placed::InCells)
@@ -200,7 +201,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Puts vertices in the order in which to relocate them: that of their goals along a Hilbert curve if many go far
     /// away and the caches do not hold all; that of storage otherwise, and where there is no memory for the other.
     pub(in crate::motion) fn order_for_placement(&self, queue: &mut [VertexId], goals: Goals<'_, G>) {
-        let is_worth = self.kernel.is_far() && self.goals_are_away(queue, goals);
+        let is_worth = self.mesh.kernel.is_far() && self.goals_are_away(queue, goals);
         if !is_worth || order_by_goal(queue, goals).is_err() {
             self.order_by_site(queue);
         }
@@ -208,18 +209,18 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Whether there are more than a few of these vertices, and many of them go far away, which shows in a sample.
     fn goals_are_away(&self, queue: &[VertexId], goals: Goals<'_, G>) -> bool {
-        if !self.kernel.has_cells() || queue.len() < SAMPLE {
+        if !self.mesh.kernel.has_cells() || queue.len() < SAMPLE {
             return false;
         }
-        let is_away = |&&v: &&VertexId| self.kernel.is_away(self.site_of[v], &goals.of(v));
+        let is_away = |&&v: &&VertexId| self.mesh.kernel.is_away(self.mesh.site_of[v], &goals.of(v));
         let sample = queue.iter().step_by((queue.len() / SAMPLE).max(1));
         sample.clone().filter(is_away).count() * AWAY_SHARE >= sample.len()
     }
 
     /// Puts vertices in storage order, so that each starts near the one before.
     pub(in crate::motion) fn order_by_site(&self, queue: &mut [VertexId]) {
-        let (site_of, kernel) = (&self.site_of, &self.kernel);
-        if self.hidden.count() > 0 {
+        let (site_of, kernel) = (&self.mesh.site_of, &self.mesh.kernel);
+        if self.mesh.hidden.count() > 0 {
             queue.sort_unstable_by_key(|&v| site_of[v]);
             return;
         }
@@ -260,7 +261,7 @@ mod tests {
         points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = rng.unit()));
         let options = Options { algorithm: Algorithm::PlacementFlips, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
-        assert!(t.kernel.is_far());
+        assert!(t.mesh.kernel.is_far());
         for (v, p) in VertexId::range(0..n).zip(&points).step_by(29) {
             let mut goal = *p;
             (0..G::D).for_each(|axis| goal[axis] += reach * (rng.unit() - p[axis]));
@@ -268,7 +269,7 @@ mod tests {
         }
         let mut staging = std::mem::take(&mut t.staging);
         let (queue, goals) = t.queue_for_placement(&mut staging.moves(n)).expect("room");
-        let goals: Vec<_> = queue.iter().map(|&v| (t.site_of[v], goals.of(v))).collect();
+        let goals: Vec<_> = queue.iter().map(|&v| (t.mesh.site_of[v], goals.of(v))).collect();
         t.staging = staging;
         let between = |w: &[(SiteId, G::Point)]| squared_distance(&w[0].1, &w[1].1).sqrt();
         let mean = goals.windows(2).map(between).sum::<f64>() / goals.len() as f64;

@@ -8,12 +8,10 @@
 
 use std::cell::Cell;
 
-use crate::delaunay::{Delaunay, Dimension, Merge, Site};
-use crate::error::{Error, Result};
+use crate::delaunay::{Delaunay, Dimension, Site};
+use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
-use crate::machine::memory;
 use crate::motion::constants::constants;
-use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::CommitReport;
 use crate::motion::state::checking::differ;
 use crate::motion::state::goals::{Goals, Movers, Moves};
@@ -38,9 +36,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             goal
         };
         let announce = |site: &Site<G>| goals.prefetch(site.id);
-        let mut next = self.kernel.successor(self.hidden.count(), place, announce)?;
+        let mut next = self.mesh.kernel.successor(self.mesh.hidden.count(), place, announce)?;
         report.moved += moved.get();
-        let spread = self.spread_hidden(&mut next).map(|spread| {
+        let spread = self.mesh.spread_hidden(&mut next).map(|spread| {
             for &(v, s) in &spread {
                 report.moved += u64::from(move_to(&mut next, s, goals.of(v)));
             }
@@ -55,10 +53,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         goals: Goals<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
-        let spread = self.spread_hidden(&mut next).map(|spread| {
+        let mut next = self.mesh.kernel.successor(self.mesh.hidden.count(), |site| site.point, |_| {})?;
+        let spread = self.mesh.spread_hidden(&mut next).map(|spread| {
             for &v in vertices {
-                let s = self.own_site(&spread, v);
+                let s = self.mesh.own_site(&spread, v);
                 report.moved += u64::from(move_to(&mut next, s, goals.of(v)));
             }
         });
@@ -67,9 +65,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Triangulates all sites where they are, those that are in no cell included, in a call on one vertex.
     pub(in crate::motion) fn rebuild_as_is(&mut self, report: &mut CommitReport) -> Result<()> {
-        self.kernel.pace_mut().skip_start();
-        let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
-        let spread = self.spread_hidden(&mut next).map(drop);
+        self.mesh.kernel.pace_mut().skip_start();
+        let mut next = self.mesh.kernel.successor(self.mesh.hidden.count(), |site| site.point, |_| {})?;
+        let spread = self.mesh.spread_hidden(&mut next).map(drop);
         self.build_and_adopt(next, spread, report)
     }
 
@@ -80,35 +78,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         q: &G::Point,
         report: &mut CommitReport,
     ) -> Result<()> {
-        self.kernel.pace_mut().skip_start();
-        let mut next = self.kernel.successor(self.hidden.count(), |site| site.point, |_| {})?;
-        let spread = self.spread_hidden(&mut next).map(|spread| {
-            next.set_point(self.own_site(&spread, vertex), *q);
+        self.mesh.kernel.pace_mut().skip_start();
+        let mut next = self.mesh.kernel.successor(self.mesh.hidden.count(), |site| site.point, |_| {})?;
+        let spread = self.mesh.spread_hidden(&mut next).map(|spread| {
+            next.set_point(self.mesh.own_site(&spread, vertex), *q);
         });
         self.build_and_adopt(next, spread, report)
-    }
-
-    /// Gives every hidden vertex a site of its own in a new kernel, at the place where it is. Returns vertices and
-    /// sites, by vertex.
-    pub(in crate::motion) fn spread_hidden(&self, next: &mut Delaunay<G>) -> Result<Vec<(VertexId, SiteId)>> {
-        let mut spread = Vec::new();
-        if self.hidden.count() == 0 {
-            return Ok(spread);
-        }
-        memory::reserve_exact(&mut spread, self.hidden.count())?;
-        for (v, &s) in VertexId::range(0..self.site_of.len()).zip(&self.site_of) {
-            if s != SiteId::NONE && self.kernel.site(s).id != v {
-                spread.push((v, next.add_site(self.kernel.site(s).point, v)?));
-            }
-        }
-        Ok(spread)
-    }
-
-    /// The site that a vertex has for itself in a new kernel where the hidden ones have been
-    /// [spread](Self::spread_hidden).
-    pub(in crate::motion) fn own_site(&self, spread: &[(VertexId, SiteId)], vertex: VertexId) -> SiteId {
-        let at = spread.binary_search_by_key(&vertex, |&(hidden, _)| hidden);
-        at.map_or(self.site_of[vertex], |k| spread[k].1)
     }
 
     /// Triangulates the sites of a new kernel, which takes the place of the present one.
@@ -124,12 +99,12 @@ impl<G: Dimension> MovingTriangulation<G> {
                 report.rebuilds += 1;
                 self.adopt(next, hidden, stride);
                 if !keeps_sites {
-                    self.find_sites();
+                    self.mesh.find_sites();
                 }
                 Ok(())
             }
             Err(error) => {
-                next.give_scratch_to(&mut self.kernel);
+                next.give_scratch_to(&mut self.mesh.kernel);
                 Err(error)
             }
         }
@@ -138,72 +113,29 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates the sites of a new kernel. Returns the hidden vertices, the mean stride of sorted sites, and
     /// whether the sites have their indices from before.
     fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64, bool)> {
-        let (mut stride, mut keeps_sites) = (self.sorted_stride, next.keeps_sites());
+        let (mut stride, mut keeps_sites) = (self.mesh.sorted_stride, next.keeps_sites());
         if next.mean_stride() > constants::<G>().max_stride_ratio * stride || !next.has_even_parts() {
             next.sort_sites()?;
             (stride, keeps_sites) = (next.mean_stride(), false);
         }
         next.restore_parts();
-        let pace = self.kernel.pace_mut();
+        let pace = self.mesh.kernel.pace_mut();
         let merges = next.rebuild(&mut |fraction| pace.ask(fraction))?;
-        let hidden = self.hide_merged(next, &merges)?;
-        if self.takes_changes {
-            self.note_visibilities_of(next, &hidden)?;
-        }
-        keeps_sites &= self.hidden.count() + hidden.count() == 0 && self.edits.are_none();
+        let hidden = self.mesh.hide_merged(next, &merges, self.options.coincidence)?;
+        self.mesh.note_visibilities_of(next, &hidden)?;
+        keeps_sites &= self.mesh.hidden.count() + hidden.count() == 0 && self.edits.are_none();
         Ok((hidden, stride, keeps_sites))
-    }
-
-    /// The trees of hidden vertices, unless the options reject them.
-    pub(in crate::motion) fn hide_merged(&self, kernel: &Delaunay<G>, merges: &[Merge]) -> Result<Hidden> {
-        let hidden = Hidden::of_merges(merges, self.site_of.len(), |s| kernel.site(s).id)?;
-        if self.options.coincidence == CoincidencePolicy::Reject
-            && let Some((vertex, other)) = hidden.first_pair()
-        {
-            return Err(Error::Coincident { vertex, other });
-        }
-        Ok(hidden)
-    }
-
-    /// Notes the vertices that a new kernel hides and the present one does not, or the other way round. Insertions that
-    /// are staged, but not a part of this change, are in neither.
-    fn note_visibilities_of(&mut self, next: &Delaunay<G>, hidden: &Hidden) -> Result<()> {
-        if self.hidden.count() + hidden.count() == 0 {
-            return Ok(());
-        }
-        for s in next.live_sites() {
-            let representative = next.site(s).id;
-            if self.is_present(representative) && self.is_hidden(representative) {
-                self.note_visibility(representative, true)?;
-            }
-            let mut noted = Ok(());
-            hidden.for_all_behind(representative, |v| {
-                if noted.is_ok() && (!self.is_present(v) || !self.is_hidden(v)) {
-                    noted = self.note_visibility(v, false);
-                }
-            });
-            noted?;
-        }
-        Ok(())
     }
 
     /// Puts a new kernel, which is complete, in the place of the present one; unless its sites have the indices from
     /// before, [`find_sites`](Self::find_sites) must follow. Cannot fail.
     pub(in crate::motion) fn adopt(&mut self, mut next: Delaunay<G>, hidden: Hidden, stride: f64) {
-        *next.pace_mut() = std::mem::take(self.kernel.pace_mut());
-        self.kernel = next;
-        self.hidden = hidden;
-        self.sorted_stride = stride;
+        *next.pace_mut() = std::mem::take(self.mesh.kernel.pace_mut());
+        self.mesh.kernel = next;
+        self.mesh.hidden = hidden;
+        self.mesh.sorted_stride = stride;
         self.regions.invalidate();
-        self.transaction.adopt();
-    }
-
-    /// Finds the site of each vertex.
-    pub(in crate::motion) fn find_sites(&mut self) {
-        let Self { kernel, hidden, site_of, .. } = self;
-        for s in kernel.live_sites() {
-            hidden.for_all_at(kernel.site(s).id, |v| site_of[v] = s);
-        }
+        self.mesh.transaction.adopt();
     }
 }
 
@@ -236,11 +168,11 @@ mod tests {
         };
         let options = Options { algorithm: Algorithm::Rebuilding, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(&points(), options).expect("room");
-        let first = t.kernel.mean_stride();
+        let first = t.mesh.kernel.mean_stride();
         let commit = |_| {
             t.move_all(&points()).expect("good places");
             t.commit_timestamp().expect("room");
-            t.kernel.mean_stride() / first
+            t.mesh.kernel.mean_stride() / first
         };
         (0..4).map(commit).collect()
     }

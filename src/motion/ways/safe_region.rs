@@ -32,7 +32,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        if !self.kernel.has_cells() {
+        if !self.mesh.kernel.has_cells() {
             return self.rebuild(moves, report);
         }
         let goals = moves.checked()?;

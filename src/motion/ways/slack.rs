@@ -38,7 +38,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let can = self.kernel.has_cells() && moves.are_of_all() && self.hidden.count() == 0;
+        let can = self.mesh.kernel.has_cells() && moves.are_of_all() && self.mesh.hidden.count() == 0;
         let attempt =
             if can { self.commit_by_slack(moves, report)? } else { Attempt::GivenUp(Start::AtOrigins) };
         match attempt {
@@ -56,7 +56,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Slack) {
             let goals = moves.checked()?;
-            self.sort_cells(constants::<G>().replaced_to_sort_first)?;
+            self.mesh.sort_cells(constants::<G>().replaced_to_sort_first)?;
             self.prepare_regions(Filter::Slack, goals.positions(), report)?;
         }
         let mut repair = memory::take_made(&mut self.repair)?;
@@ -72,10 +72,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<Attempt> {
         let Motion { moved, greatest, fits } = self.move_all_on_record(moves)?;
-        let most = (self.kernel.complex().n_finite() as f64 * constants::<G>().max_share_expired) as usize;
-        let (origins, (failures, _)) = (self.transaction.origins().positions(), repair.begin_check());
+        let most =
+            (self.mesh.kernel.complex().n_finite() as f64 * constants::<G>().max_share_expired) as usize;
+        let (origins, (failures, _)) = (self.mesh.transaction.origins().positions(), repair.begin_check());
         let slacks = self.regions.slacks().expect("they have been prepared");
-        let expired = slacks.check_expired(&self.kernel, origins, greatest, most, failures)?;
+        let expired = slacks.check_expired(&self.mesh.kernel, origins, greatest, most, failures)?;
         if !fits {
             self.regions.invalidate();
         }
@@ -84,7 +85,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         report.moved += moved;
         report.tolerances += n;
-        self.kernel.count_certificates(3 * n as usize);
+        self.mesh.kernel.count_certificates(3 * n as usize);
         if !repair.is_unneeded() {
             self.mend_checked(repair, &[], moves.checked()?, report)?;
         }

@@ -24,7 +24,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let mut rule = self.options.switching;
-        rule.sample = rule.sample.min(self.site_of.len() as u32);
+        rule.sample = rule.sample.min(self.mesh.site_of.len() as u32);
         let group = u64::from(rule.period.max(1));
         if self.switching.begin_commit(group) && self.sampled_share(&rule, moves)? >= rule.share_for::<G>() {
             self.switching.switch();
@@ -44,12 +44,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
     ) -> Result<f64> {
         let (movers, goals) = (moves.movers(), moves.checked()?);
-        if self.site_of.is_empty() || !self.kernel.has_cells() {
+        if self.mesh.site_of.is_empty() || !self.mesh.kernel.has_cells() {
             return Ok(0.0);
         }
         let mut within = 0;
         for _ in 0..rule.sample {
-            let k = self.switching.draw(rule.seed, self.site_of.len());
+            let k = self.switching.draw(rule.seed, self.mesh.site_of.len());
             let mover = match movers {
                 Movers::All => Some(VertexId::at(k)),
                 Movers::Listed(vertices) => vertices.get(k).copied(),
@@ -58,8 +58,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                 within += 1;
                 continue;
             };
-            let s = self.site_of[v];
-            let displacement = squared_distance(&self.kernel.site(s).point, &goals.of(v));
+            let s = self.mesh.site_of[v];
+            let displacement = squared_distance(&self.mesh.kernel.site(s).point, &goals.of(v));
             within += u32::from(displacement < displacement_limit(self.tolerance_of_site(s)));
         }
         Ok(f64::from(within) / f64::from(rule.sample.max(1)))

@@ -46,14 +46,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        if !self.kernel.has_cells() {
+        if !self.mesh.kernel.has_cells() {
             return self.rebuild(moves, report);
         }
         if self.regions.kept_for() != Some(Filter::Tolerance) {
             let goals = moves.checked()?;
             self.prepare_regions(Filter::Tolerance, goals.positions(), report)?;
         }
-        let queue = if moves.are_of_all() && self.hidden.count() == 0 {
+        let queue = if moves.are_of_all() && self.mesh.hidden.count() == 0 {
             self.accept_all(moves, report)?
         } else {
             let mut queue = self.queue_of(moves)?;
@@ -70,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             unreachable!("there is room for all in the queue");
         };
         report.moved += moved;
-        report.within_tolerance += (self.site_of.len() - beyond.len()) as u64;
+        report.within_tolerance += (self.mesh.site_of.len() - beyond.len()) as u64;
         Ok(beyond)
     }
 }

@@ -57,7 +57,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let can_watch = self.kernel.has_cells() && moves.are_of_all() && self.hidden.count() == 0;
+        let can_watch = self.mesh.kernel.has_cells() && moves.are_of_all() && self.mesh.hidden.count() == 0;
         let most = constants::<G>().max_share_beyond_alone;
         let attempt = if can_watch {
             self.commit_by_watching(most, moves, report)?
@@ -80,17 +80,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Watch) {
             let goals = moves.checked()?;
-            self.sort_cells(constants::<G>().replaced_to_sort_first)?;
+            self.mesh.sort_cells(constants::<G>().replaced_to_sort_first)?;
             self.prepare_regions(Filter::Watch, goals.positions(), report)?;
         }
-        let most = (self.n_present as f64 * max_share_beyond) as usize;
+        let most = (self.mesh.n_present as f64 * max_share_beyond) as usize;
         let mut beyond = std::mem::take(&mut self.queue);
         let Advance::Moved(moved) = self.move_and_queue::<true>(most, moves, &mut beyond)? else {
             self.queue = beyond;
             return Ok(Attempt::GivenUp(Start::AtOrigins));
         };
         report.moved += moved;
-        report.within_tolerance += (self.n_present - beyond.len()) as u64;
+        report.within_tolerance += (self.mesh.n_present - beyond.len()) as u64;
         if beyond.len() + self.regions.n_watched() > 0 {
             let mut repair = memory::take_made(&mut self.repair)?;
             let done = self.check_and_mend(&mut repair, &beyond, moves.checked()?, report);
@@ -116,9 +116,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         report.unchanged += beyond.len() as u64;
         if let Some(watching) = self.regions.watching() {
-            let sites = beyond.iter().map(|&v| self.site_of[v]);
-            let origins = self.transaction.origins().positions();
-            report.tolerances += watching.recompute(&mut self.kernel, origins, repair.touched(), sites);
+            let sites = beyond.iter().map(|&v| self.mesh.site_of[v]);
+            let origins = self.mesh.transaction.origins().positions();
+            report.tolerances += watching.recompute(&mut self.mesh.kernel, origins, repair.touched(), sites);
         }
         Ok(())
     }
@@ -127,14 +127,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn check_moved(&mut self, repair: &mut Repair, beyond: &[VertexId]) -> Result<()> {
         let (failures, touched) = repair.begin_check();
         for &v in beyond {
-            let s = self.site_of[v];
-            let point = self.kernel.site(s).point;
-            self.kernel.cover(&point, &point);
-            self.kernel.gather_star(s)?;
-            memory::collect(touched, self.kernel.gathered_star().iter().map(|&(c, _)| c))?;
+            let s = self.mesh.site_of[v];
+            let point = self.mesh.kernel.site(s).point;
+            self.mesh.kernel.cover(&point, &point);
+            self.mesh.kernel.gather_star(s)?;
+            memory::collect(touched, self.mesh.kernel.gathered_star().iter().map(|&(c, _)| c))?;
         }
-        self.kernel.tidy_changes(touched);
-        let (kernel, before) = (&self.kernel, self.transaction.origins().positions());
+        self.mesh.kernel.tidy_changes(touched);
+        let (kernel, before) = (&self.mesh.kernel, self.mesh.transaction.origins().positions());
         let mut waiting = Waiting::default();
         let mut checked = Ok(());
         if let Some(watching) = self.regions.watching() {
@@ -146,8 +146,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         checked?;
         kernel.check_waiting(&mut waiting, before, failures)?;
-        self.kernel.check_cells(touched, before, failures)?;
-        self.kernel.count_certificates(3 * self.regions.n_watched());
+        self.mesh.kernel.check_cells(touched, before, failures)?;
+        self.mesh.kernel.count_certificates(3 * self.regions.n_watched());
         Ok(())
     }
 
@@ -164,7 +164,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             for &v in beyond {
                 t.regions.note_relocated(v)?;
             }
-            t.kernel.record_all(repair.touched())?;
+            t.mesh.kernel.record_all(repair.touched())?;
             let mended = t.mend_moved(repair, goals, report)?;
             let queue = repair.queue();
             match mended {

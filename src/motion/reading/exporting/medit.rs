@@ -19,7 +19,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n = self.vertex_count();
         chunks.text(format_args!("MeshVersionFormatted 2\nDimension {}\nVertices\n{n}\n", G::D))?;
         for v in self.present() {
-            let point = &self.kernel.site(self.site_of[v]).point;
+            let point = &self.mesh.kernel.site(self.mesh.site_of[v]).point;
             (0..G::D).try_for_each(|axis| chunks.text(format_args!("{:?} ", point[axis])))?;
             chunks.text(format_args!("{v}\n"))?;
         }

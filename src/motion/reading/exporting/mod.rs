@@ -16,7 +16,7 @@ pub use vtu::Field;
 impl<G: Dimension> MovingTriangulation<G> {
     /// The vertices that are present, ascending.
     fn present(&self) -> impl Iterator<Item = VertexId> + '_ {
-        VertexId::range(0..self.id_count()).filter(|&v| self.is_present(v))
+        VertexId::range(0..self.id_count()).filter(|&v| self.mesh.is_present(v))
     }
 
     /// For each id the number of present vertices with lower ones; nothing if that is the id itself.

@@ -119,7 +119,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let size = |chunks: &mut Chunks<_>, bytes: usize| chunks.write((bytes as u64).to_le_bytes());
         size(&mut chunks, 24 * n)?;
         for v in self.present() {
-            chunks.point::<G>(&self.kernel.site(self.site_of[v]).point)?;
+            chunks.point::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)?;
             (G::D..3).try_for_each(|_| chunks.write(0_f64.to_le_bytes()))?;
         }
         size(&mut chunks, 8 * G::Corners::N * n_cells)?;

@@ -51,15 +51,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (k, &vertex) in vertices.iter().enumerate() {
             for step in 0..STEPS {
                 if let Some(&next) = vertices.get(k + VERTICES_PER_STEP * (STEPS - step)) {
-                    self.kernel.prefetch_star(self.site_of[next], step);
+                    self.mesh.kernel.prefetch_star(self.mesh.site_of[next], step);
                 }
             }
-            let s = self.site_of[vertex];
-            if self.kernel.site(s).id != vertex {
+            let s = self.mesh.site_of[vertex];
+            if self.mesh.kernel.site(s).id != vertex {
                 continue;
             }
             star.clear();
-            self.kernel.list_star(s, &mut star, |slot| prefetch(index_of, slot.index()))?;
+            self.mesh.kernel.list_star(s, &mut star, |slot| prefetch(index_of, slot.index()))?;
             memory::reserve(&mut list, star.as_slice().len())?;
             list.extend(cells_at(&star, index_of));
         }

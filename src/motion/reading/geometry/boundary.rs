@@ -75,7 +75,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Number of facets of the convex hull.
     pub fn hull_facet_count(&self) -> usize {
-        self.kernel.complex().n_ghosts()
+        self.mesh.kernel.complex().n_ghosts()
     }
 
     #[inline(always)]

@@ -57,12 +57,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         progress: &mut Progress,
     ) -> Result<()> {
         let (mut ids, mut places) = (Vec::new(), Vec::new());
-        memory::collect(&mut ids, self.kernel.live_sites().map(|s| self.kernel.site(s).id))?;
+        memory::collect(&mut ids, self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id))?;
         if ids.is_empty() {
             return Ok(());
         }
         ids.sort_unstable();
-        memory::collect(&mut places, ids.iter().map(|&v| self.kernel.site(self.site_of[v]).point))?;
+        memory::collect(&mut places, ids.iter().map(|&v| self.mesh.kernel.site(self.mesh.site_of[v]).point))?;
         let options = Options { threads: self.options.threads, ..Options::default() };
         let spanning = MovingTriangulation::<G>::new(&spanning::<G>(places)?, options)?;
         spanning.volumes_of_first(ids.len(), clip, progress, |v, volume| {

@@ -142,11 +142,11 @@ fn stars<G: Dimension>(cells: &Cells<G>, n_ids: usize) -> Result<Rows<CellId>> {
 impl<G: Dimension> MovingTriangulation<G> {
     /// Number of edges.
     pub fn edge_count(&self) -> usize {
-        let (cells, hull) = (self.cell_count(), self.kernel.complex().n_ghosts());
+        let (cells, hull) = (self.cell_count(), self.mesh.kernel.complex().n_ghosts());
         if cells == 0 {
             return 0;
         }
-        let places = self.n_present - self.hidden.count();
+        let places = self.mesh.n_present - self.mesh.hidden.count();
         // Vertices - edges + facets (- cells) = 1, where in space 2 facets = 4 cells + hull facets.
         if G::D == 2 { places + cells - 1 } else { places + cells + hull / 2 - 1 }
     }
@@ -204,7 +204,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn mirror_indices(&self) -> Result<impl ExactSizeIterator<Item = [u8; 4]> + '_> {
         let cells = self.cell_arrays()?;
         let indices = CellId::range(0..cells.corners().len());
-        Ok(indices.map(move |index| cells.mirrors(&self.kernel, index)))
+        Ok(indices.map(move |index| cells.mirrors(&self.mesh.kernel, index)))
     }
 
     /// The corner of the neighbour across the facet opposite `corner` of `cell` that is opposite the same facet; `None`
@@ -217,7 +217,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if cell.index() >= cells.corners().len() || corner > G::D {
             return Ok(None);
         }
-        let mirror = cells.mirrors(&self.kernel, cell)[corner];
+        let mirror = cells.mirrors(&self.mesh.kernel, cell)[corner];
         Ok((mirror != NO_CORNER).then_some(usize::from(mirror)))
     }
 }

@@ -72,21 +72,21 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve_exact(&mut result, n_values)?;
         result.resize(n_values, 0.0);
         for q in positions {
-            let place = self.kernel.locate(q, near);
+            let place = self.mesh.kernel.locate(q, near);
             near = self.slot_at(place);
             weights.clear();
             match place {
                 Place::Site(s) => memory::push(&mut weights, (s, 1.0))?,
                 Place::Cell(c) if method == Interpolation::NaturalNeighbour => {
-                    natural.list(&self.kernel, c, q, &mut weights)?;
+                    natural.list(&self.mesh.kernel, c, q, &mut weights)?;
                 }
-                Place::Cell(c) => list_linear(&self.kernel, c, q, &mut weights)?,
+                Place::Cell(c) => list_linear(&self.mesh.kernel, c, q, &mut weights)?,
                 Place::Outside(_) | Place::NoCells => {
                     found(None);
                     continue;
                 }
             }
-            let values_of = |s: SiteId| &values[self.kernel.site(s).id.index() * n_values..][..n_values];
+            let values_of = |s: SiteId| &values[self.mesh.kernel.site(s).id.index() * n_values..][..n_values];
             let (first, others) = weights.split_first().expect("a vertex");
             let base = values_of(first.0);
             result.copy_from_slice(base);

@@ -16,7 +16,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         later: impl Fn(usize) -> Option<Slot> + 't,
         measure: impl Fn(&[&'t G::Point]) -> T + 't,
     ) -> impl ExactSizeIterator<Item = T> + 't {
-        let kernel = &self.kernel;
+        let kernel = &self.mesh.kernel;
         slots.enumerate().map(move |(index, slot)| {
             if let Some(next) = later(index + AHEAD) {
                 prefetch(kernel.complex().cells(), next.index());

@@ -52,15 +52,15 @@ impl MovingTriangulation<Plane> {
     pub fn ordered_star(&self, vertex: VertexId) -> Result<OrderedStar<'_>> {
         let s: SiteId = self.present_site("vertex", 0, vertex)?;
         let cells = self.cell_arrays()?;
-        let vertex = self.kernel.site(s).id;
+        let vertex = self.mesh.kernel.site(s).id;
         let (corners, neighbours) = (cells.corners(), cells.neighbours());
         let mut star = OrderedStar { corners, neighbours, vertex, first: NO_CELL, next: NO_CELL };
         if corners.is_empty() {
             return Ok(star);
         }
-        let around = self.kernel.site(s).cell;
-        let behind = self.kernel.complex().cell(around).neighbour(Plane::D).cell();
-        let is_ghost = self.kernel.complex().cell(around).is_ghost();
+        let around = self.mesh.kernel.site(s).cell;
+        let behind = self.mesh.kernel.complex().cell(around).neighbour(Plane::D).cell();
+        let is_ghost = self.mesh.kernel.complex().cell(around).is_ghost();
         let start = cells.index_of()[if is_ghost { behind } else { around }];
         let (mut lowest, mut cell) = (start, start);
         star.first = loop {

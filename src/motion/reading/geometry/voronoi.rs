@@ -97,7 +97,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
                 let most = LARGEST_RADIUS * clip.size;
                 let mut slots = cells.slots().iter();
                 centres.extend(t.circumspheres()?.map(|(centre, squared)| {
-                    let places = t.kernel.places(*slots.next().expect("a slot for each cell"));
+                    let places = t.mesh.kernel.places(*slots.next().expect("a slot for each cell"));
                     sides.push(clip.sides::<G>(&centre, squared, &places[..=G::D]));
                     if squared <= most * most { centre } else { infinite::<G>() }
                 }));
@@ -268,13 +268,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         let clip = clip.map(checked::<G>).transpose()?;
         let mut volumes = Vec::new();
         memory::reserve_exact(&mut volumes, self.id_count())?;
-        volumes.extend(self.site_of.iter().map(|&s| if s == SiteId::NONE { f64::NAN } else { 0.0 }));
+        volumes.extend(self.mesh.site_of.iter().map(|&s| if s == SiteId::NONE { f64::NAN } else { 0.0 }));
         let progress = &mut Progress::new(monitor, self.expected_work(clip.is_some()));
         match clip {
             None if self.cell_count() == 0 => {
-                self.kernel
+                self.mesh
+                    .kernel
                     .live_sites()
-                    .for_each(|s| volumes[self.kernel.site(s).id.index()] = f64::INFINITY);
+                    .for_each(|s| volumes[self.mesh.kernel.site(s).id.index()] = f64::INFINITY);
             }
             None => self.whole_volumes(&mut volumes, progress)?,
             Some(clip) if self.cell_count() == 0 => self.flat_volumes(&clip, &mut volumes, progress)?,
@@ -285,7 +286,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The place of a vertex, in the plane at height 0.
     pub(super) fn place_in_space(&self, v: VertexId) -> Vector {
-        in_space::<G>(&self.kernel.site(self.site_of[v]).point)
+        in_space::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)
     }
 
     /// The number of cells around edges that are visited, at most.
@@ -297,7 +298,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn whole_volumes(&self, volumes: &mut [f64], progress: &mut Progress) -> Result<()> {
         let mut voronoi = Voronoi::new(self, None)?;
         // In the order of storage, as their sums have none.
-        let vertices = self.kernel.live_sites().map(|s| self.kernel.site(s).id);
+        let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
         self.for_edges(vertices, |edge, first| {
             voronoi.ring.go_around(voronoi.cells, edge, first)?;
             let pyramid =
@@ -312,7 +313,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut voronoi = Voronoi::new(self, Some(clip))?;
         let mut is_cut = Vec::new();
         memory::lengthen(&mut is_cut, self.id_count(), false)?;
-        let vertices = self.kernel.live_sites().map(|s| self.kernel.site(s).id);
+        let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
         let neighbours = self.for_edges(vertices, |edge, first| {
             if edge.into_iter().all(|v| is_cut[v.index()]) {
                 return progress.advance(1);

@@ -138,11 +138,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         drop(representatives);
         let cells = Cells::of_rows(corners, neighbours, kernel.complex().n_slots())?;
         let mut t = MovingTriangulation::of_parts(kernel, site_of, hidden, n_present, options);
-        t.sorted_stride = t.kernel.mean_stride();
-        t.reject_coincidence()?;
-        t.views.show(cells)?;
+        t.mesh.sorted_stride = t.mesh.kernel.mean_stride();
+        t.mesh.reject_coincidence(t.options.coincidence)?;
+        t.mesh.views.show(cells)?;
         t.statistics = header.statistics;
-        t.statistics.coincident = t.hidden.count() as u64;
+        t.statistics.coincident = t.mesh.hidden.count() as u64;
         t.stage_saved(header, &mut reader, &moved, &coming)?;
         Ok(t)
     }
@@ -161,7 +161,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.edits.reserve_insertions(insertions.len())?;
         let mut last = None;
         for (index, (&vertex, position)) in insertions.iter().zip(coming).enumerate() {
-            let is_free = self.site_of.get(vertex.index()) == Some(&SiteId::NONE);
+            let is_free = self.mesh.site_of.get(vertex.index()) == Some(&SiteId::NONE);
             if !is_free || last.is_some_and(|last| vertex <= last) {
                 return Err(Damage::Insertion { vertex }.into());
             }

@@ -67,13 +67,13 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Motion> {
         let slacks = self.regions.slacks().expect("they have been prepared");
         let mut record = Record { longest: slacks.longest_way(), n: 0, sum: 0.0, greatest: 0.0 };
-        let sites = self.kernel.sites_mut();
+        let sites = self.mesh.kernel.sites_mut();
         let is_far = size_of_val(sites) > CACHE_BYTES;
         let mut blocks = Blocks::of(moves);
-        let origins = self.transaction.origins_mut().of_all_mut(self.site_of.len())?;
+        let origins = self.mesh.transaction.origins_mut().of_all_mut(self.mesh.site_of.len())?;
         for (first, positions) in (0..).step_by(BLOCK).zip(origins.chunks_mut(BLOCK)) {
-            blocks.copy(first, positions, &self.site_of[first..], sites);
-            let sites_of = &self.site_of[first..];
+            blocks.copy(first, positions, &self.mesh.site_of[first..], sites);
+            let sites_of = &self.mesh.site_of[first..];
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
             let (at, last_at) = sites_of[..LANES * places.len() + last_places.len()].as_chunks::<LANES>();
             for (k, (places, at)) in places.iter_mut().zip(at).enumerate() {
@@ -89,9 +89,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                 std::mem::swap(point, p);
             }
         }
-        self.transaction.origins_mut().note_all();
+        self.mesh.transaction.origins_mut().note_all();
         let Record { n: moved, sum, greatest, .. } = record;
-        let fits = slacks.end_motion(&mut self.kernel, sum / moved.max(1) as f64, greatest);
+        let fits = slacks.end_motion(&mut self.mesh.kernel, sum / moved.max(1) as f64, greatest);
         moves.end_check(blocks.are_good)?;
         Ok(Motion { moved, greatest, fits })
     }

@@ -18,14 +18,14 @@ fn points<G: Dimension>(n: usize, rng: &mut Rng) -> Vec<G::Point> {
 }
 
 fn positions<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
-    t.site_of.iter().map(|&s| t.kernel.site(s).point).collect()
+    t.mesh.site_of.iter().map(|&s| t.mesh.kernel.site(s).point).collect()
 }
 
 /// A triangulation with tolerances, and goals of all its vertices: some of them where they are, some with one
 /// coordinate that stays, some far away. Returns these places and which are beyond tolerance.
 fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
-    t.regions.prepare(Filter::Tolerance, &mut t.kernel, n, &[]).expect("room");
+    t.regions.prepare(Filter::Tolerance, &mut t.mesh.kernel, n, &[]).expect("room");
     let mut places = positions(&t);
     let far = points::<G>(n, rng);
     for (p, far) in places.iter_mut().zip(far) {
@@ -38,7 +38,7 @@ fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<
     }
     let fixed = t.regions.fixed();
     let beyond = VertexId::range(0..n).filter(|&v| !fixed[v].holds(&places[v])).collect();
-    t.begin().expect("room");
+    t.mesh.begin().expect("room");
     (t, places, beyond)
 }
 
@@ -48,8 +48,8 @@ fn moves_of<G: Dimension>(are_lent: bool, places: &[G::Point]) -> Moves<'_, G> {
 }
 
 fn origins<G: Dimension>(t: &MovingTriangulation<G>) -> &[G::Point] {
-    assert!(t.transaction.origins().are_of_all());
-    t.transaction.origins().positions()
+    assert!(t.mesh.transaction.origins().are_of_all());
+    t.mesh.transaction.origins().positions()
 }
 
 fn agree<G: Dimension>() {
@@ -73,7 +73,7 @@ fn agree<G: Dimension>() {
             ] {
                 assert_eq!(moved.expect("room"), Advance::TooManyBeyond, "{n} vertices");
             }
-            assert!(queue.is_empty() && !t.transaction.origins().are_of_all());
+            assert!(queue.is_empty() && !t.mesh.transaction.origins().are_of_all());
             assert_eq!(positions(&t), before, "{n} vertices");
         }
 
@@ -101,7 +101,7 @@ fn agree<G: Dimension>() {
                 assert_eq!(t.move_everything(moves).expect("good places"), n_moved);
             } else {
                 let other_positions = vec![G::Point::default(); n];
-                let computed = t.regions.prepare(Filter::Slack, &mut t.kernel, n, &other_positions);
+                let computed = t.regions.prepare(Filter::Slack, &mut t.mesh.kernel, n, &other_positions);
                 computed.expect("room");
                 assert_eq!(t.move_all_on_record(moves).expect("good places").moved, n_moved);
             }
@@ -131,7 +131,7 @@ fn threads_share_the_moves() {
         let (first, second) =
             (points::<Space>(2_000, &mut Rng::new(1)), points::<Space>(2_000, &mut Rng::new(2)));
         let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
-        t.begin().expect("room");
+        t.mesh.begin().expect("room");
         assert_eq!(t.move_everything(&mut Moves::lent(&second)).expect("good places"), 2_000);
         assert_eq!([&positions(&t)[..], origins(&t)], [&second[..], &first[..]]);
     }

@@ -36,6 +36,7 @@ use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::constants::constants;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Movers, Moves};
+use crate::motion::state::mesh::Mesh;
 use crate::motion::state::places::At;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
@@ -51,7 +52,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        if !self.kernel.has_cells() {
+        if !self.mesh.kernel.has_cells() {
             return self.rebuild(moves, report);
         }
         self.regions.invalidate();
@@ -71,7 +72,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.begin_moves(repair)?;
         match (start, moves.movers()) {
             (Start::AtGoals { n_moved }, _) => self.note_all_moved(repair, n_moved),
-            (Start::AtOrigins, Movers::All) if self.hidden.count() == 0 => {
+            (Start::AtOrigins, Movers::All) if self.mesh.hidden.count() == 0 => {
                 let n_moved = self.move_everything(moves)?;
                 self.note_all_moved(repair, n_moved);
             }
@@ -92,7 +93,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if mended == Mending::TooMuch {
             return self.rebuild_moving(&repair.places.queue, goals, report);
         }
-        self.transaction.want_order();
+        self.mesh.transaction.want_order();
         self.place_within_budget(&repair.places.queue, goals, repair.exact, report)
     }
 
@@ -125,8 +126,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
         let per_placement = self.slowdown(constants.repaired_alone) * constants.rebuilt_per_placement as f64;
-        let most = (self.n_present as f64 / per_placement) as usize;
-        if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.n_present) {
+        let most = (self.mesh.n_present as f64 / per_placement) as usize;
+        if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.mesh.n_present) {
             self.take_all_back(repair)?;
             return Ok(Mending::Mended);
         }
@@ -140,13 +141,13 @@ impl<G: Dimension> MovingTriangulation<G> {
                 Prospect::TooMuch => return Ok(Mending::TooMuch),
             }
         }
-        if !self.monitor(0.5) {
+        if !self.mesh.monitor(0.5) {
             return Err(Error::Cancelled);
         }
         // A rebuild's exact evaluations, too.
         let exact_of_rebuild = (constants.exact_per_swept * repair.exact as f64) as u64;
         let most_spent = self.spent()
-            + constants.certified_per_vertex * self.n_present as u64
+            + constants.certified_per_vertex * self.mesh.n_present as u64
             + CERTIFICATES_PER_EXACT * exact_of_rebuild;
         // All facets of a star that is taken back are listed.
         let n_failing = repair.failures.facets.len();
@@ -157,7 +158,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let mut is_triangulation = repair.failures.is_triangulation();
         for round in 0..constants.max_rounds {
-            if !self.monitor(0.5) {
+            if !self.mesh.monitor(0.5) {
                 return Err(Error::Cancelled);
             }
             repair.suspects.clear();
@@ -173,9 +174,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             memory::reserve(&mut repair.suspects, repair.failures.facets.len())?;
             repair.suspects.extend_from_slice(&repair.failures.facets);
             let left = most_spent.saturating_sub(self.spent());
-            let flips = self.kernel.flip_all(&mut repair.suspects, &mut repair.stuck, left)?;
+            let flips = self.mesh.kernel.flip_all(&mut repair.suspects, &mut repair.stuck, left)?;
             let Some(flips) = flips else {
-                self.kernel.undo_flips();
+                self.mesh.kernel.undo_flips();
                 return Ok(Mending::TooMuch);
             };
             if repair.stuck.is_empty() {
@@ -183,7 +184,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Ok(Mending::Mended);
             }
             let listed = self.list_stuck(repair);
-            self.kernel.undo_flips();
+            self.mesh.kernel.undo_flips();
             listed?;
             if repair.sites.is_empty() {
                 return Ok(Mending::TooMuch);
@@ -196,12 +197,12 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// What has been evaluated so far, in certificates.
     fn spent(&self) -> u64 {
-        self.kernel.certificates() + CERTIFICATES_PER_EXACT * exact_calls()
+        self.mesh.kernel.certificates() + CERTIFICATES_PER_EXACT * exact_calls()
     }
 
     /// Whether so few facets fail that vertices may be taken back, and placed, besides.
     fn is_worth_placing(&self, n_failing: usize) -> bool {
-        let n_cells = self.kernel.complex().n_finite() as f64;
+        let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         n_failing as f64 <= constants::<G>().max_failing * n_cells
     }
 
@@ -215,8 +216,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         // Where it can be done it takes less on lattices, of which small ones have the larger share of flat cells.
-        let most = 2 * self.kernel.n_certificates();
-        let before = self.kernel.certificates();
+        let most = 2 * self.mesh.kernel.n_certificates();
+        let before = self.mesh.kernel.certificates();
         for _ in 0..constants::<G>().max_untanglings {
             let n_back = repair.places.queue.len();
             if self.untangle_once(repair, most, most_back)? {
@@ -224,7 +225,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             // With those back from the start, other cells are exchanged.
             let is_hopeless = repair.places.queue.len() == n_back;
-            if is_hopeless || self.kernel.certificates() - before > most / 2 {
+            if is_hopeless || self.mesh.kernel.certificates() - before > most / 2 {
                 break;
             }
             self.check_taken_back(repair)?;
@@ -235,7 +236,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Makes the cells a triangulation by flips, as they are now, if that can be done in at most `most` certificates
     /// and with at most `most_back` vertices taken back.
     fn untangle_once(&mut self, repair: &mut Repair, most: u64, most_back: usize) -> Result<bool> {
-        let Self { kernel, transaction, .. } = self;
+        let Mesh { kernel, transaction, .. } = &mut self.mesh;
         let origins = transaction.origins();
         let Repair { failures, suspects, places, .. } = repair;
         let first = places.queue.len();
@@ -250,7 +251,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let checked = self.check_untangled(repair);
         if checked != Ok(true) {
-            self.kernel.undo_flips();
+            self.mesh.kernel.undo_flips();
             repair.suspects.clear();
         }
         checked
@@ -260,16 +261,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn check_untangled(&mut self, repair: &mut Repair) -> Result<bool> {
         let Repair { failures, suspects, .. } = repair;
         memory::reserve(suspects, failures.facets.len())?;
-        self.kernel.list_ghosts(&mut failures.ghosts)?;
-        let winds_once = self.kernel.winds_once(&failures.ghosts);
+        self.mesh.kernel.list_ghosts(&mut failures.ghosts)?;
+        let winds_once = self.mesh.kernel.winds_once(&failures.ghosts);
         failures.ghosts.clear();
         Ok(winds_once)
     }
 
     pub(super) fn check_ridges(&self, repair: &mut Repair) -> Result<()> {
-        let (at, origins) = (&repair.places.at, self.transaction.origins());
+        let (at, origins) = (&repair.places.at, self.mesh.transaction.origins());
         let before = |id: VertexId| matches!(at[id], At::New | At::Listed).then(|| origins.of(id));
-        self.kernel.check_ridges(&mut repair.failures, before)
+        self.mesh.kernel.check_ridges(&mut repair.failures, before)
     }
 
     /// Whether a convex hull winds once.
@@ -279,21 +280,21 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(true);
         }
         if failures.ghosts.is_empty() {
-            self.kernel.list_ghosts(&mut failures.ghosts)?;
+            self.mesh.kernel.list_ghosts(&mut failures.ghosts)?;
         }
-        Ok(self.kernel.winds_once(&failures.ghosts))
+        Ok(self.mesh.kernel.winds_once(&failures.ghosts))
     }
 
     /// A repair begins.
     fn begin_moves(&mut self, repair: &mut Repair) -> Result<()> {
-        repair.places.begin(self.site_of.len())?;
+        repair.places.begin(self.mesh.site_of.len())?;
         (repair.exact, repair.share_failing, repair.was_foreseen) = (0, 0.0, false);
         Ok(())
     }
 
     /// Notes that all vertices have been moved, this number of them to another place.
     fn note_all_moved(&mut self, repair: &mut Repair, n_moved: u64) {
-        repair.places.at.resize(self.site_of.len(), At::New);
+        repair.places.at.resize(self.mesh.site_of.len(), At::New);
         repair.places.n_new = n_moved as usize;
     }
 
@@ -301,21 +302,21 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_queued(&mut self, repair: &mut Repair, moves: &mut Moves<'_, G>) -> Result<()> {
         let goals = moves.checked()?;
         let movers = self.queue_of(moves)?;
-        let (places, origins) = (&mut repair.places, self.transaction.origins_mut());
-        places.at.resize(self.site_of.len(), At::Rest);
+        let (places, origins) = (&mut repair.places, self.mesh.transaction.origins_mut());
+        places.at.resize(self.mesh.site_of.len(), At::Rest);
         // At shared places there are the hidden vertices, and no more representatives than these.
-        memory::reserve(&mut places.queue, movers.len().min(2 * self.hidden.count()))?;
-        origins.make_room(self.site_of.len(), movers.len())?;
+        memory::reserve(&mut places.queue, movers.len().min(2 * self.mesh.hidden.count()))?;
+        origins.make_room(self.mesh.site_of.len(), movers.len())?;
         // Sites are asked for in advance, as they are in another order than the vertices.
-        let site_of = &self.site_of[..];
-        let (mut lower, mut upper) = (self.kernel.lower(), self.kernel.upper());
-        let sites = self.kernel.sites_mut();
+        let site_of = &self.mesh.site_of[..];
+        let (mut lower, mut upper) = (self.mesh.kernel.lower(), self.mesh.kernel.upper());
+        let sites = self.mesh.kernel.sites_mut();
         for (k, &v) in movers.iter().enumerate() {
             if let Some(&next) = movers.get(k + AHEAD) {
                 prefetch(sites, site_of[next].index());
             }
             let s = site_of[v];
-            if self.hidden.is_followed(sites[s].id) {
+            if self.mesh.hidden.is_followed(sites[s].id) {
                 places.at[v] = At::Old;
                 places.queue.push(v);
                 continue;
@@ -333,7 +334,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 places.n_new += 1;
             }
         }
-        self.kernel.cover(&lower, &upper);
+        self.mesh.kernel.cover(&lower, &upper);
         self.queue = movers;
         Ok(())
     }

@@ -63,13 +63,13 @@ impl Findings {
 impl<G: Dimension> MovingTriangulation<G> {
     /// Sweeps all cells, of which `most` may fail, unless a sample shows what to do.
     pub(super) fn sweep(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
-        let has_rest = 4 * repair.places.n_new <= 3 * self.n_present;
-        let origins = self.transaction.origins();
+        let has_rest = 4 * repair.places.n_new <= 3 * self.mesh.n_present;
+        let origins = self.mesh.transaction.origins();
         let before = (has_rest && origins.are_of_all()).then_some(origins.positions());
-        let n_cells = self.kernel.complex().n_finite() as f64;
+        let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         repair.was_foreseen = true;
         let start = exact_calls();
-        if let Some(slots) = self.kernel.sample(&mut repair.failures, before)? {
+        if let Some(slots) = self.mesh.kernel.sample(&mut repair.failures, before)? {
             // A sample may err: it decides where it is far from the limit.
             let weight = slots as f64 / constants::<G>().sample_margin;
             let found = Findings::of(&repair.failures, exact_calls() - start, weight);
@@ -91,9 +91,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         let start = exact_calls();
         let most = repair.limit.map_or(most, |limit| most.min((limit * n_cells) as usize));
-        let origins = self.transaction.origins();
+        let origins = self.mesh.transaction.origins();
         let before = (has_rest && origins.are_of_all()).then_some(origins.positions());
-        let is_done = self.kernel.sweep(&mut repair.failures, most, before)?;
+        let is_done = self.mesh.kernel.sweep(&mut repair.failures, most, before)?;
         let found = Findings::of(&repair.failures, exact_calls() - start, 1.0);
         let prospect = self.prospect(found, repair);
         if is_done || prospect == Prospect::Placeable {
@@ -108,8 +108,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// What to do about these findings.
     fn prospect(&mut self, found: Findings, repair: &Repair) -> Prospect {
         let constants = constants::<G>();
-        let (n, n_moved) = (self.n_present as f64, repair.places.n_new as f64);
-        let n_cells = self.kernel.complex().n_finite() as f64;
+        let (n, n_moved) = (self.mesh.n_present as f64, repair.places.n_new as f64);
+        let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
             return Prospect::TooMuch;
         }
@@ -124,14 +124,15 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Prospect::Mendable;
         }
         let joint = if found.have_ties::<G>(n_cells) { Joint::Uncertain } else { Joint::Failing };
-        let is_large = self.kernel.mean_cluster(&repair.failures.facets, joint) > constants.cells_of_large;
+        let is_large =
+            self.mesh.kernel.mean_cluster(&repair.failures.facets, joint) > constants.cells_of_large;
         if is_large { Prospect::TooMuch } else { Prospect::Mendable }
     }
 
     /// Whether mending takes less than a rebuild, where these cells are inverted still once leaping vertices are back.
     fn is_worth_untangling(&self, found: Findings) -> bool {
         let constants = constants::<G>();
-        let n_cells = self.kernel.complex().n_finite() as f64;
+        let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         let failing = found.failing + constants.failing_for_inverted * found.inverted;
         let most = constants.max_failing_with_inverted / self.slowdown(constants.repaired_alone);
         found.have_ties::<G>(n_cells) || failing <= most * n_cells
@@ -150,8 +151,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// triangulation on one thread: where caches do not hold all, and where several threads rebuild.
     pub(in crate::motion) fn slowdown(&self, alone: f64) -> f64 {
         let constants = constants::<G>();
-        let doublings = (self.kernel.bytes_read() as f64 / constants.near_bytes as f64).log2().max(0.0);
-        let n_threads = self.kernel.build_threads(self.n_present) as f64;
+        let doublings = (self.mesh.kernel.bytes_read() as f64 / constants.near_bytes as f64).log2().max(0.0);
+        let n_threads = self.mesh.kernel.build_threads(self.mesh.n_present) as f64;
         let shortened = |alone: f64| alone + (1.0 - alone) / n_threads;
         (1.0 + constants.slower_per_doubling * doublings) * shortened(alone)
             / shortened(constants.built_alone)

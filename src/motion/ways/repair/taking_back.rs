@@ -19,7 +19,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Takes the vertices of inverted cells back that have gone farther than the cell reaches: they have left their
     /// stars, and would have to be placed after much untangling. Too much if more than `most` are back.
     pub(super) fn take_leapers_back(&mut self, repair: &mut Repair, most: usize) -> Result<Prospect> {
-        let is_far = self.kernel.is_far();
+        let is_far = self.mesh.kernel.is_far();
         for k in 0..repair.failures.cells.len() {
             if is_far {
                 self.prefetch_old_places(&repair.failures.cells, k);
@@ -33,7 +33,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         if !repair.places.queue.is_empty() {
             let cells = &mut repair.failures.cells;
-            cells.retain(|&c| !self.kernel.is_positive(c));
+            cells.retain(|&c| !self.mesh.kernel.is_positive(c));
             cells.sort_unstable();
             cells.dedup();
         }
@@ -42,28 +42,28 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The corner of a cell that has gone farthest, if that is farther than the cell reaches.
     pub(super) fn leaper(&self, repair: &Repair, c: Slot) -> Option<SiteId> {
-        let corners = self.kernel.complex().cell(c).corners;
+        let corners = self.mesh.kernel.complex().cell(c).corners;
         let s = self.farthest(repair, corners.as_ref())?;
-        let site = self.kernel.site(s);
-        let old = self.transaction.origins().of(site.id);
+        let site = self.mesh.kernel.site(s);
+        let old = self.mesh.transaction.origins().of(site.id);
         let gone = squared_distance(&site.point, old);
         let mut others = corners.as_ref().iter().filter(|&&other| other != s);
-        others.all(|&other| squared_distance(self.kernel.place(other), old) < gone).then_some(s)
+        others.all(|&other| squared_distance(self.mesh.kernel.place(other), old) < gone).then_some(s)
     }
 
     /// Asks for where the corners of the listed cells after the `k`-th one are, and have been.
     #[inline(always)]
     fn prefetch_old_places(&self, cells: &[Slot], k: usize) {
-        let complex = self.kernel.complex();
+        let complex = self.mesh.kernel.complex();
         if let Some(&c) = cells.get(k + 3 * STEP) {
             complex.prefetch(c);
         }
         if let Some(&c) = cells.get(k + 2 * STEP) {
-            self.kernel.prefetch_corners(c);
+            self.mesh.kernel.prefetch_corners(c);
         }
         if let Some(&c) = cells.get(k + STEP) {
             for &s in complex.cell(c).corners.as_ref() {
-                prefetch(self.transaction.origins().positions(), self.kernel.site(s).id.index());
+                prefetch(self.mesh.transaction.origins().positions(), self.mesh.kernel.site(s).id.index());
             }
         }
     }
@@ -73,10 +73,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.check_taken_back(repair)?;
         loop {
             while let Some(c) = repair.failures.cells.pop() {
-                if self.kernel.is_positive(c) {
+                if self.mesh.kernel.is_positive(c) {
                     continue;
                 }
-                let corners = self.kernel.complex().cell(c).corners;
+                let corners = self.mesh.kernel.complex().cell(c).corners;
                 let s = self.farthest(repair, corners.as_ref()).expect("old places have positive cells");
                 repair.failures.cells.push(c);
                 self.take_back(repair, s)?;
@@ -89,10 +89,10 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Ok(Prospect::Mendable);
             }
             while let Some(ridge) = repair.failures.ridges.pop() {
-                if self.kernel.is_convex(ridge) {
+                if self.mesh.kernel.is_convex(ridge) {
                     continue;
                 }
-                let complex = self.kernel.complex();
+                let complex = self.mesh.kernel.complex();
                 let across = complex.cell(ridge.cell()).neighbour(ridge.index());
                 let behind = complex.cell(ridge.cell()).neighbour(G::D).cell();
                 // The last corner of a ghost cell is the ghost vertex. The cell behind decides ties.
@@ -118,20 +118,20 @@ impl<G: Dimension> MovingTriangulation<G> {
         memory::reserve(&mut repair.sites, repair.stuck.len())?;
         for k in 0..repair.stuck.len() {
             let facet = repair.stuck[k];
-            let complex = self.kernel.complex();
+            let complex = self.mesh.kernel.complex();
             debug_assert!(!complex.is_free(facet.cell()), "what is stuck is of a cell that is there");
             let across = complex.cell(facet.cell()).neighbour(facet.index());
             let mut corners = [INFINITE; 5];
             corners[..G::Corners::N].copy_from_slice(complex.cell(facet.cell()).corners.as_ref());
             corners[4] = complex.apex(across);
             let is_listed =
-                |&s: &SiteId| s != INFINITE && repair.places.at[self.kernel.site(s).id] == At::Listed;
+                |&s: &SiteId| s != INFINITE && repair.places.at[self.mesh.kernel.site(s).id] == At::Listed;
             if corners.iter().any(is_listed) {
                 continue;
             }
             if let Some(s) = self.farthest(repair, &corners) {
                 repair.sites.push(s);
-                repair.places.at[self.kernel.site(s).id] = At::Listed;
+                repair.places.at[self.mesh.kernel.site(s).id] = At::Listed;
             }
         }
         Ok(())
@@ -150,10 +150,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Repair { places, .. } = repair;
         memory::reserve(&mut places.queue, places.n_new)?;
         let first = places.queue.len();
-        let origins = self.transaction.origins();
-        places.list_new(&self.kernel, origins, &self.site_of)?;
+        let origins = self.mesh.transaction.origins();
+        places.list_new(&self.mesh.kernel, origins, &self.mesh.site_of)?;
         for &v in &places.queue[first..] {
-            self.kernel.set_point(self.site_of[v], *origins.of(v));
+            self.mesh.kernel.set_point(self.mesh.site_of[v], *origins.of(v));
             places.at[v] = At::Old;
         }
         places.n_new = 0;
@@ -162,22 +162,22 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Takes a vertex back to its old place, and looks at its star.
     pub(super) fn take_back(&mut self, repair: &mut Repair, s: SiteId) -> Result<()> {
-        repair.places.take_back(&mut self.kernel, self.transaction.origins(), s)?;
-        self.kernel.check_star(s, &mut repair.failures)
+        repair.places.take_back(&mut self.mesh.kernel, self.mesh.transaction.origins(), s)?;
+        self.mesh.kernel.check_star(s, &mut repair.failures)
     }
 
     /// Looks at the stars of the vertices that were taken back while cells were exchanged, once that has been undone.
     pub(super) fn check_taken_back(&mut self, repair: &mut Repair) -> Result<()> {
         let Repair { places, failures, .. } = repair;
         for k in std::mem::take(&mut places.unchecked) {
-            self.kernel.check_star(self.site_of[places.queue[k]], failures)?;
+            self.mesh.kernel.check_star(self.mesh.site_of[places.queue[k]], failures)?;
         }
         Ok(())
     }
 
     /// Of these sites, the one that has moved farthest and is at its new place.
     pub(super) fn farthest(&self, repair: &Repair, sites: &[SiteId]) -> Option<SiteId> {
-        repair.places.farthest(&self.kernel, self.transaction.origins(), sites)
+        repair.places.farthest(&self.mesh.kernel, self.mesh.transaction.origins(), sites)
     }
 }
 

@@ -1,9 +1,5 @@
 //! The triangulation: the place where its parts meet.
 
-mod coincidence;
-mod foreseen;
-mod undoing;
-
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::{Error, Result, StagedEdit};
 use crate::ids::{SiteId, VertexId};
@@ -18,13 +14,11 @@ use crate::motion::report::{CommitReport, Evaluations};
 use crate::motion::state::changes::Taken;
 use crate::motion::state::checking::{are_good, first_bad};
 use crate::motion::state::edits::Edits;
+use crate::motion::state::foreseen::Foreseen;
 use crate::motion::state::hidden::Hidden;
+use crate::motion::state::mesh::Mesh;
 use crate::motion::state::repair::Repair;
 use crate::motion::state::staging::Staging;
-use crate::motion::state::transaction::Transaction;
-use crate::motion::state::views::Views;
-use crate::motion::triangulation::foreseen::Foreseen;
-use crate::predicates::exact_calls;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
@@ -32,11 +26,7 @@ pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
 /// A Delaunay triangulation whose vertices move.
 #[derive(Debug)]
 pub struct MovingTriangulation<G: Dimension> {
-    pub(in crate::motion) kernel: Delaunay<G>,
-    /// Site of each id; [`SiteId::NONE`] once removed.
-    pub(in crate::motion) site_of: Vec<SiteId>,
-    pub(in crate::motion) hidden: Hidden,
-    pub(in crate::motion) n_present: usize,
+    pub(in crate::motion) mesh: Mesh<G>,
     pub(in crate::motion) staging: Staging<G>,
     /// Memory for the vertices that a commit places.
     pub(in crate::motion) queue: Vec<VertexId>,
@@ -51,14 +41,9 @@ pub struct MovingTriangulation<G: Dimension> {
     pub(in crate::motion) statistics: CommitReport,
     /// Moves and insertions since the kernel's static filter was made as sharp as possible.
     pub(in crate::motion) n_moved: u64,
-    /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
-    pub(in crate::motion) sorted_stride: f64,
-    pub(in crate::motion) transaction: Transaction<G>,
-    pub(in crate::motion) views: Views<G>,
     pub(in crate::motion) foreseen: Foreseen,
-    /// The changes taken last, and whether any ever were.
+    /// The changes taken last.
     pub(in crate::motion) taken: Option<Box<Taken<G::Vertices>>>,
-    pub(in crate::motion) takes_changes: bool,
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -93,11 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Self {
         kernel.pace_mut().set_monitor(options.monitor.take());
         MovingTriangulation {
-            sorted_stride: 0.0,
-            kernel,
-            site_of,
-            hidden,
-            n_present,
+            mesh: Mesh::of_parts(kernel, site_of, hidden, n_present),
             staging: Staging::default(),
             queue: Vec::new(),
             edits: Edits::default(),
@@ -108,11 +89,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             options,
             statistics: CommitReport::default(),
             n_moved: 0,
-            transaction: Transaction::default(),
-            views: Views::default(),
             foreseen: Foreseen::default(),
             taken: None,
-            takes_changes: false,
         }
     }
 
@@ -138,7 +116,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         index: usize,
         vertex: VertexId,
     ) -> Result<SiteId> {
-        match self.site_of.get(vertex.index()) {
+        match self.mesh.site_of.get(vertex.index()) {
             Some(&s) if s != SiteId::NONE => Ok(s),
             _ => Err(self.absent(argument, index, vertex)),
         }
@@ -147,7 +125,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Why a vertex is not there.
     #[cold]
     fn absent(&self, argument: &'static str, index: usize, vertex: VertexId) -> Error {
-        let ids = self.site_of.len();
+        let ids = self.mesh.site_of.len();
         if vertex.index() >= ids {
             Error::NoSuchVertex { argument, index, vertex, ids }
         } else if self.edits.is_coming(vertex) {
@@ -168,33 +146,49 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !are_good::<G>(positions) {
             return Err(first_bad::<G>(positions));
         }
-        self.n_present = positions.len();
-        self.kernel.add_sites(positions)?;
-        memory::reserve_exact(&mut self.site_of, positions.len())?;
-        self.site_of.resize(positions.len(), SiteId::NONE);
-        self.sorted_stride = self.kernel.mean_stride();
-        let mut pace = std::mem::take(self.kernel.pace_mut());
-        let merges = self.kernel.rebuild(&mut |fraction| pace.ask(fraction));
-        *self.kernel.pace_mut() = pace;
+        self.mesh.n_present = positions.len();
+        self.mesh.kernel.add_sites(positions)?;
+        memory::reserve_exact(&mut self.mesh.site_of, positions.len())?;
+        self.mesh.site_of.resize(positions.len(), SiteId::NONE);
+        self.mesh.sorted_stride = self.mesh.kernel.mean_stride();
+        let mut pace = std::mem::take(self.mesh.kernel.pace_mut());
+        let merges = self.mesh.kernel.rebuild(&mut |fraction| pace.ask(fraction));
+        *self.mesh.kernel.pace_mut() = pace;
         let merges = merges?;
-        self.hidden = self.hide_merged(&self.kernel, &merges)?;
-        self.statistics.coincident = self.hidden.count() as u64;
-        self.find_sites();
+        self.mesh.hidden = self.mesh.hide_merged(&self.mesh.kernel, &merges, self.options.coincidence)?;
+        self.statistics.coincident = self.mesh.hidden.count() as u64;
+        self.mesh.find_sites();
         Ok(())
     }
 
-    /// What has been evaluated so far.
-    pub(in crate::motion) fn evaluations(&self) -> Evaluations {
-        Evaluations {
-            certificates: self.kernel.certificates(),
-            exact: exact_calls(),
-            link_sites: self.kernel.link_sites(),
+    /// Makes a change, all of it or nothing.
+    pub(in crate::motion) fn transact<T>(
+        &mut self,
+        change: impl FnOnce(&mut Self) -> Result<T>,
+    ) -> Result<T> {
+        self.mesh.begin()?;
+        let done = change(self).and_then(|done| self.mesh.views.prepare(&self.mesh.kernel).map(|()| done));
+        match done {
+            Ok(done) => {
+                self.mesh.publish();
+                Ok(done)
+            }
+            Err(error) => {
+                self.undo();
+                Err(error)
+            }
         }
+    }
+
+    /// Puts all back as it was when a change began. Needs no memory.
+    pub(in crate::motion) fn undo(&mut self) {
+        self.mesh.undo();
+        self.regions.invalidate();
     }
 
     /// Enters what was evaluated since then.
     pub(in crate::motion) fn enter_evaluations(&self, report: &mut CommitReport, before: Evaluations) {
-        let now = self.evaluations();
+        let now = self.mesh.evaluations();
         report.certificates = now.certificates - before.certificates;
         report.exact_calls = now.exact - before.exact;
     }
@@ -214,11 +208,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.tolerances += report.tolerances;
         sum.certificates += report.certificates;
         sum.exact_calls += report.exact_calls;
-        sum.coincident = self.hidden.count() as u64;
+        sum.coincident = self.mesh.hidden.count() as u64;
         self.n_moved += report.moved + report.inserted;
-        if self.n_moved > constants::<G>().moves_per_fit * self.n_present as u64 {
+        if self.n_moved > constants::<G>().moves_per_fit * self.mesh.n_present as u64 {
             self.n_moved = 0;
-            self.regions.tighten_filter(&mut self.kernel);
+            self.regions.tighten_filter(&mut self.mesh.kernel);
         }
     }
 }

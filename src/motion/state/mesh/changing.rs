@@ -9,38 +9,19 @@
 //!
 //! What is kept for undoing: the rows of cells and the sites that were removed, added or renamed
 //! ([`Delaunay::begin`](crate::delaunay::Delaunay::begin)), the site of each vertex that came to or left a place, and
-//! with whom, and where the vertices were that have moved ([`origins`](super::origins)). A
-//! [rebuilding](super::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
+//! with whom, and where the vertices were that have moved ([`origins`](crate::motion::state::origins)). A
+//! [rebuilding](crate::motion::ways::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
 //!
-//! Memory is reserved before a change, so [`undo`](MovingTriangulation::undo) needs none, and cannot fail.
+//! Memory is reserved before a change, so [`undo`](Mesh::undo) needs none, and cannot fail.
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::constants::constants;
+use crate::motion::state::mesh::Mesh;
 use crate::motion::state::transaction::{Counts, Event, VertexBefore};
-use crate::motion::triangulation::MovingTriangulation;
 
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Makes a change, all of it or nothing.
-    pub(in crate::motion) fn transact<T>(
-        &mut self,
-        change: impl FnOnce(&mut Self) -> Result<T>,
-    ) -> Result<T> {
-        self.begin()?;
-        let done = change(self).and_then(|done| self.views.prepare(&self.kernel).map(|()| done));
-        match done {
-            Ok(done) => {
-                self.publish();
-                Ok(done)
-            }
-            Err(error) => {
-                self.undo();
-                Err(error)
-            }
-        }
-    }
-
+impl<G: Dimension> Mesh<G> {
     /// Begins a change.
     pub(in crate::motion) fn begin(&mut self) -> Result<()> {
         self.kernel.begin()?;
@@ -89,6 +70,5 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.views.visibilities().truncate(before.visibilities);
         self.kernel.undo();
         self.transaction.origins().put_back(&mut self.kernel, &self.site_of);
-        self.regions.invalidate();
     }
 }

@@ -15,7 +15,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::delaunay::Dimension;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::prefetch::CACHE_BYTES;
-use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::state::mesh::Mesh;
 
 /// How many vertices with consecutive ids are a block.
 const BLOCK: u32 = 64;
@@ -31,6 +31,15 @@ const AHEAD: [usize; 4] = [4, 3, 2, 1];
 pub(in crate::motion) struct Foreseen([AtomicU32; BLOCKS]);
 
 impl Foreseen {
+    /// Asks for what the stars of the vertices after this one will read, where that is not in a cache anyway and is
+    /// going to be needed.
+    #[inline(always)]
+    pub(in crate::motion) fn prefetch_next_stars<G: Dimension>(&self, mesh: &Mesh<G>, vertex: VertexId) {
+        if mesh.kernel.has_cells() && mesh.kernel.bytes_read() > CACHE_BYTES && self.note(vertex) {
+            prefetch_stars_after(mesh, vertex);
+        }
+    }
+
     /// Notes that a vertex is asked for; whether one of its block was, not long before.
     #[inline(always)]
     fn note(&self, vertex: VertexId) -> bool {
@@ -44,24 +53,13 @@ impl Foreseen {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Asks for what the stars of the vertices after this one will read, where that is not in a cache anyway and is
-    /// going to be needed.
-    #[inline(always)]
-    pub(in crate::motion) fn prefetch_next_stars(&self, vertex: VertexId) {
-        if self.kernel.has_cells() && self.kernel.bytes_read() > CACHE_BYTES && self.foreseen.note(vertex) {
-            self.prefetch_stars_after(vertex);
-        }
-    }
-
-    #[inline(never)]
-    fn prefetch_stars_after(&self, vertex: VertexId) {
-        for (step, ahead) in AHEAD.into_iter().enumerate() {
-            if let Some(&next) = self.site_of.get(vertex.index() + ahead)
-                && next != SiteId::NONE
-            {
-                self.kernel.prefetch_star(next, step);
-            }
+#[inline(never)]
+fn prefetch_stars_after<G: Dimension>(mesh: &Mesh<G>, vertex: VertexId) {
+    for (step, ahead) in AHEAD.into_iter().enumerate() {
+        if let Some(&next) = mesh.site_of.get(vertex.index() + ahead)
+            && next != SiteId::NONE
+        {
+            mesh.kernel.prefetch_star(next, step);
         }
     }
 }
@@ -72,6 +70,7 @@ mod tests {
     use crate::delaunay::{Level, Plane, Space};
     use crate::ids::CellId;
     use crate::motion::options::Options;
+    use crate::motion::triangulation::MovingTriangulation;
     use crate::random::Rng;
 
     /// Of vertices that are visited in the order of their ids all but the first of each block are noticed to be so,
@@ -103,7 +102,7 @@ mod tests {
         for v in (0..n).step_by(70).chain(n - 3..n) {
             t.remove_vertex(VertexId::at(v)).expect("it is there");
         }
-        assert!(t.kernel.bytes_read() > CACHE_BYTES);
+        assert!(t.mesh.kernel.bytes_read() > CACHE_BYTES);
         let mut expected = vec![Vec::new(); n];
         for (index, corners) in t.cells().expect("room").corners.iter().enumerate() {
             corners.as_ref().iter().for_each(|v| expected[v.index()].push(CellId::at(index)));

@@ -1,0 +1,131 @@
+//! The vertices, the kernel that triangulates them, and what undoes a change of both.
+//!
+//! Vertices that share a place share a site; which of them is seen is in [`coincidence`]. A change is begun, and then
+//! published or undone ([`changing`]).
+
+mod changing;
+mod coincidence;
+
+use crate::delaunay::{Delaunay, Dimension, Merge};
+use crate::error::{Error, Result};
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+use crate::motion::options::CoincidencePolicy;
+use crate::motion::report::Evaluations;
+use crate::motion::state::hidden::Hidden;
+use crate::motion::state::transaction::Transaction;
+use crate::motion::state::views::Views;
+use crate::predicates::exact_calls;
+
+/// The vertices at their last timestamp, and their cells; or midway in a change.
+#[derive(Debug)]
+pub(in crate::motion) struct Mesh<G: Dimension> {
+    pub(in crate::motion) kernel: Delaunay<G>,
+    /// Site of each id; [`SiteId::NONE`] once removed.
+    pub(in crate::motion) site_of: Vec<SiteId>,
+    pub(in crate::motion) hidden: Hidden,
+    pub(in crate::motion) n_present: usize,
+    /// Mean distance of sites from the next ones in freshly sorted storage: the measure of lost locality.
+    pub(in crate::motion) sorted_stride: f64,
+    pub(in crate::motion) transaction: Transaction<G>,
+    pub(in crate::motion) views: Views<G>,
+    /// Whether the program takes changes.
+    pub(in crate::motion) takes_changes: bool,
+}
+
+impl<G: Dimension> Mesh<G> {
+    /// A mesh of which nothing is known but the kernel, the site of each id, and which of the `n_present` vertices are
+    /// hidden.
+    #[inline(always)]
+    pub(in crate::motion) fn of_parts(
+        kernel: Delaunay<G>,
+        site_of: Vec<SiteId>,
+        hidden: Hidden,
+        n_present: usize,
+    ) -> Self {
+        Mesh {
+            kernel,
+            site_of,
+            hidden,
+            n_present,
+            sorted_stride: 0.0,
+            transaction: Transaction::default(),
+            views: Views::default(),
+            takes_changes: false,
+        }
+    }
+
+    /// A copy. Arrays of cells, if there are some, are brought up to date for it.
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        Ok(Mesh {
+            kernel: self.kernel.copied()?,
+            site_of: memory::copy_of(&self.site_of)?,
+            hidden: self.hidden.copied()?,
+            n_present: self.n_present,
+            sorted_stride: self.sorted_stride,
+            transaction: Transaction::default(),
+            views: self.views.copied(&self.kernel)?,
+            takes_changes: self.takes_changes,
+        })
+    }
+
+    /// Whether there is a vertex of this id.
+    pub(in crate::motion) fn is_present(&self, vertex: VertexId) -> bool {
+        self.site_of.get(vertex.index()).is_some_and(|&s| s != SiteId::NONE)
+    }
+
+    /// Finds the site of each vertex.
+    pub(in crate::motion) fn find_sites(&mut self) {
+        let Self { kernel, hidden, site_of, .. } = self;
+        for s in kernel.live_sites() {
+            hidden.for_all_at(kernel.site(s).id, |v| site_of[v] = s);
+        }
+    }
+
+    /// The trees of the vertices that a kernel hides, unless the policy rejects them.
+    pub(in crate::motion) fn hide_merged(
+        &self,
+        kernel: &Delaunay<G>,
+        merges: &[Merge],
+        policy: CoincidencePolicy,
+    ) -> Result<Hidden> {
+        let hidden = Hidden::of_merges(merges, self.site_of.len(), |s| kernel.site(s).id)?;
+        match hidden.first_pair() {
+            Some((vertex, other)) if policy == CoincidencePolicy::Reject => {
+                Err(Error::Coincident { vertex, other })
+            }
+            _ => Ok(hidden),
+        }
+    }
+
+    /// Puts the cells in the order of the sites, and the arrays follow. Sorted cells stay as they are until `replaced`
+    /// times as many as there are have been replaced.
+    pub(in crate::motion) fn sort_cells(&mut self, replaced: f64) -> Result<()> {
+        if let Some(index) = self.kernel.sort_cells(replaced)? {
+            self.views.renumber_slots(&index);
+        }
+        Ok(())
+    }
+
+    /// What has been evaluated so far.
+    pub(in crate::motion) fn evaluations(&self) -> Evaluations {
+        Evaluations {
+            certificates: self.kernel.certificates(),
+            exact: exact_calls(),
+            link_sites: self.kernel.link_sites(),
+        }
+    }
+
+    /// Tells the monitor how far the work is; whether to go on.
+    pub(in crate::motion) fn monitor(&mut self, fraction: f64) -> bool {
+        self.kernel.pace_mut().ask(fraction)
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        self.kernel.memory_bytes()
+            + memory::bytes_of(&self.site_of)
+            + self.hidden.memory_bytes()
+            + self.transaction.memory_bytes()
+            + self.views.memory_bytes()
+    }
+}
