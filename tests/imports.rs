@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// The layers of src, from the top: each uses only those after it.
 const LAYERS: [&str; 11] = [
-    "lib", "capi", "motion", "delaunay", "complex", "predicates", "machine", "simd", "error", "damage", "ids",
+    "lib", "capi", "motion", "delaunay", "complex", "predicates", "machine", "simd", "damage", "error", "ids",
 ];
 
 /// The floors of motion, from the top.

@@ -87,7 +87,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // Without cells nothing is looked at but this, and by rebuilding not even that.
         let algorithm = self.options.algorithm;
         let may_rest = !self.mesh.kernel.has_cells() && algorithm != Algorithm::Rebuilding;
-        if !may_rest || self.outlook(moves, false) != Outlook::AtRest {
+        if !may_rest || self.mesh.outlook(moves, false) != Outlook::AtRest {
             self.commit_by(algorithm, moves, report)?;
         }
         self.mesh.reject_coincidence(self.options.coincidence)

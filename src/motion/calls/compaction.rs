@@ -22,7 +22,7 @@ use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones
-    /// alone. Returns the new id of each old one, [`NO_VERTEX`](super::NO_VERTEX) for vertices that have been removed.
+    /// alone. Returns the new id of each old one, [`NO_VERTEX`](crate::motion::NO_VERTEX) for vertices that have been removed.
     ///
     /// All else stays: positions, cells with their indices in [`cells`](Self::cells), what is staged, the timestamp.
     /// [`changed_cells`](Self::changed_cells) and [`take_changes`](Self::take_changes) go on as they would have, with

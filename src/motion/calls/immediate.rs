@@ -186,7 +186,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.mesh.kernel.has_cells() {
             return self.rebuild_with(vertex, q, report);
         }
-        match self.relocate(vertex, q, Shortcut::Flips, report)? {
+        match self.mesh.relocate(vertex, q, Shortcut::Flips, report)? {
             Placed::InCells => Ok(()),
             Placed::NeedBuild => self.rebuild_as_is(report),
         }

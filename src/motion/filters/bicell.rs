@@ -2,7 +2,7 @@
 
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Delaunay, Dimension};
-use crate::ids::{SiteId, VertexId};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::prefetch::CACHE_BYTES;
 use crate::predicates::{Delimiter, Tolerances};
 
@@ -105,4 +105,24 @@ pub(in crate::motion) fn for_bicells<G: Dimension>(
         }
     }
     n
+}
+
+/// The tolerance of the vertex of a site that no two share: the least of the bi-cells around it; 0 without the memory to
+/// look.
+pub(in crate::motion) fn tolerance_of_site<G: Dimension>(kernel: &mut Delaunay<G>, s: SiteId) -> f64 {
+    if kernel.gather_star(s).is_err() {
+        return 0.0;
+    }
+    let star = kernel.gathered_star().iter();
+    star.fold(f64::INFINITY, |tolerance, &(c, _)| tolerance_around(kernel, c, tolerance))
+}
+
+/// The least of a tolerance and those of a cell's bi-cells.
+pub(in crate::motion) fn tolerance_around<G: Dimension>(
+    kernel: &Delaunay<G>,
+    cell: Slot,
+    tolerance: f64,
+) -> f64 {
+    let bicells = (0..G::Corners::N).map(|i| BiCell::of(kernel, Facet::new(cell, i)));
+    bicells.fold(tolerance, |least, bicell| least.min(bicell.tolerance(least)))
 }

@@ -3,7 +3,7 @@
 //! | room | keeps |
 //! |---|---|
 //! | [`tolerance`](super::tolerance) | a tolerance for each vertex |
-//! | [`safe_region`](super::safe_region) | a delimiter for each bi-cell, and tolerances |
+//! | [`safe_regions`](super::safe_regions) | a delimiter for each bi-cell, and tolerances |
 //! | [`watching`](super::watching) | tolerances, and the bi-cells that would make them too small |
 //! | [`slack`](super::slack) | a tolerance for each bi-cell |
 //!
@@ -19,7 +19,7 @@
 //! their sides, or moved within their regions. Where most bi-cells are concerned all are computed, which
 //! also makes good for tolerances that have only been lowered for long.
 //!
-//! [`with_regions`]: super::MovingTriangulation::with_regions
+//! [`with_regions`]: crate::motion::MovingTriangulation::with_regions
 
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;

@@ -1,8 +1,22 @@
-//! When placing vertices has cost so much that to build all cells again would cost less.
+//! What repairing and placing cost beside a rebuild, and when so much that to build all cells again would cost less.
 
 use crate::delaunay::Dimension;
 use crate::motion::constants::constants;
 use crate::motion::report::{CommitReport, Evaluations};
+use crate::motion::state::mesh::Mesh;
+
+impl<G: Dimension> Mesh<G> {
+    /// By what factor a task, of which one thread does this share alone, grows beside rebuilding, compared with a small
+    /// triangulation on one thread: where caches do not hold all, and where several threads rebuild.
+    pub(in crate::motion) fn slowdown(&self, alone: f64) -> f64 {
+        let constants = constants::<G>();
+        let doublings = (self.kernel.bytes_read() as f64 / constants.near_bytes as f64).log2().max(0.0);
+        let n_threads = self.kernel.build_threads(self.n_present) as f64;
+        let shortened = |alone: f64| alone + (1.0 - alone) / n_threads;
+        (1.0 + constants.slower_per_doubling * doublings) * shortened(alone)
+            / shortened(constants.built_alone)
+    }
+}
 
 /// The time that placing vertices may take.
 #[derive(Clone, Copy, Debug)]

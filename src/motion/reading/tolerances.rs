@@ -1,11 +1,11 @@
 //! Tolerances, annulus widths and delimiters, for programs that ask (report, sections 2.2 to 2.4).
 
-use crate::complex::{Corners, Facet};
+use crate::complex::Corners;
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::{CellId, SiteId, Slot, VertexId};
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
-use crate::motion::filters::bicell::BiCell;
+use crate::motion::filters::bicell::{BiCell, tolerance_around};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::Delimiter;
 
@@ -22,23 +22,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(0.0);
         }
         let mut tolerance = f64::INFINITY;
-        self.mesh.kernel.for_star(s, |c, _| tolerance = self.tolerance_around(c, tolerance))?;
+        self.mesh.kernel.for_star(s, |c, _| tolerance = tolerance_around(&self.mesh.kernel, c, tolerance))?;
         Ok(tolerance)
-    }
-
-    /// The [`tolerance`](Self::tolerance) of the vertex of a site that no two share; 0 without the memory to look.
-    pub(in crate::motion) fn tolerance_of_site(&mut self, s: SiteId) -> f64 {
-        if self.mesh.kernel.gather_star(s).is_err() {
-            return 0.0;
-        }
-        let star = self.mesh.kernel.gathered_star().iter();
-        star.fold(f64::INFINITY, |tolerance, &(c, _)| self.tolerance_around(c, tolerance))
-    }
-
-    /// The least of a tolerance and those of a cell's bi-cells.
-    fn tolerance_around(&self, cell: Slot, tolerance: f64) -> f64 {
-        let bicells = (0..G::Corners::N).map(|i| BiCell::of(&self.mesh.kernel, Facet::new(cell, i)));
-        bicells.fold(tolerance, |least, bicell| least.min(bicell.tolerance(least)))
     }
 
     /// Annulus width of the bi-cell beyond each facet of each finite cell, as a certified lower bound, in the order of

@@ -254,7 +254,7 @@ fn find<C: Corners<VertexId>>(by_corners: &[(C, u32)], corners: &C) -> Option<u3
 }
 
 /// What has changed since the program last took the changes. Indices are those of
-/// [`cells`](super::MovingTriangulation::cells), at that time or now; vertices are in ascending order.
+/// [`cells`](crate::motion::MovingTriangulation::cells), at that time or now; vertices are in ascending order.
 #[derive(Clone, Copy, Debug)]
 pub struct Changes<'t, C> {
     /// Cells that exist now and did not: their indices.
@@ -262,7 +262,7 @@ pub struct Changes<'t, C> {
     /// Cells that existed and do not now: the index that each had.
     pub removed: &'t [CellId],
     /// The corners of the removed cells, in the order in which each listed them when the program last took the changes.
-    /// A vertex that was removed before a [compaction](super::MovingTriangulation::compact) has no id any more: it is
+    /// A vertex that was removed before a [compaction](crate::motion::MovingTriangulation::compact) has no id any more: it is
     /// [`NO_VERTEX`].
     pub removed_corners: &'t [C],
     /// Cells that existed and have another index now: the index that each had.

@@ -3,7 +3,7 @@
 //! One type for a commit of positions that the caller lends, of all staged vertices, and of some: [`Moves`]. The array
 //! is the caller's or the staging's, it is by vertex id, and nothing writes to it. Positions that are lent may be bad:
 //! [`Goals`], from which they are read, are had by a check alone. The loops that move all vertices check on the way
-//! ([`moving`](super::moving)), and note that they have.
+//! ([`moving`](crate::motion::ways::moving)), and note that they have.
 //!
 //! Where the vertices were that have gone there is in [`origins`](super::origins).
 

@@ -21,7 +21,7 @@ use crate::motion::state::visibility::Visibilities;
 pub struct CellsView<'t, G: Dimension> {
     /// Vertex ids of each cell, positively oriented.
     pub corners: &'t [G::Vertices],
-    /// Index of the neighbour opposite each corner, [`NO_CELL`](super::NO_CELL) on the hull.
+    /// Index of the neighbour opposite each corner, [`NO_CELL`](crate::motion::NO_CELL) on the hull.
     pub neighbours: &'t [G::Neighbours],
 }
 

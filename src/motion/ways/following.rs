@@ -12,7 +12,7 @@ use crate::motion::ways::placement::Placed;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The pre-computations for a filter, unless what the last commit has kept is valid. `other_positions` are those
-    /// of a [`Store`](super::Store).
+    /// of a [`Store`](crate::motion::filters::store::Store).
     pub(in crate::motion) fn prepare_regions(
         &mut self,
         filter: Filter,
@@ -74,7 +74,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         goals: Goals<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        self.order_by_site(&mut queue);
+        self.mesh.order_by_site(&mut queue);
         self.with_regions(report, |t, report| {
             t.place_all(&queue, goals, report, |t, v, goal, report| t.relocate_noted(v, goal, report))
         })?;
@@ -91,7 +91,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Placed> {
         // A failure after the relocation would have to take it back.
         self.regions.make_room_to_note()?;
-        let placed = self.relocate(vertex, q, Shortcut::Flips, report)?;
+        let placed = self.mesh.relocate(vertex, q, Shortcut::Flips, report)?;
         self.regions.note_relocated(vertex)?;
         Ok(placed)
     }

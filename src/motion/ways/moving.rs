@@ -25,7 +25,7 @@ use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch};
 use crate::motion::filters::tolerance::Fixed;
 use crate::motion::state::checking::{copy_checked, differ};
 use crate::motion::state::goals::Moves;
-use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::state::mesh::Mesh;
 use crate::motion::ways::attempt::Advance;
 use crate::predicates::are_within;
 use crate::simd::{ALL, Avx2, LANES};
@@ -41,6 +41,13 @@ fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
 
 /// Vertices that are staged at a time: a few kilobytes, and whole lanes.
 const BLOCK: usize = 16 * LANES;
+
+/// Tolerances by vertex id, and those vertices that leave theirs, of which there may be `most`.
+pub(in crate::motion) struct Beyond<'b, G: Dimension> {
+    pub(in crate::motion) fixed: &'b [Fixed<G>],
+    pub(in crate::motion) most: usize,
+    pub(in crate::motion) queue: &'b mut Vec<VertexId>,
+}
 
 /// Vertices that go to their new places unless they have to wait.
 struct Movers<'m, G: Dimension> {
@@ -92,7 +99,7 @@ impl<G: Dimension> Movers<'_, G> {
     }
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Dimension> Mesh<G> {
     /// Moves the vertices that are within their tolerance, or all if `MOVES_ALL`, and queues those that are not. None
     /// moves if those to be queued are more than `most`.
     ///
@@ -102,16 +109,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// have stayed where they were.
     pub(in crate::motion) fn move_and_queue<const MOVES_ALL: bool>(
         &mut self,
-        most: usize,
         moves: &mut Moves<'_, G>,
-        queue: &mut Vec<VertexId>,
+        beyond: &mut Beyond<'_, G>,
     ) -> Result<Advance> {
-        queue.clear();
+        beyond.queue.clear();
         let mut blocks = Blocks::of(moves);
-        let moved = if size_of_val(self.mesh.kernel.sites()) > CACHE_BYTES {
-            self.move_and_queue_from::<MOVES_ALL, true>(most, &mut blocks, queue)?
+        let moved = if size_of_val(self.kernel.sites()) > CACHE_BYTES {
+            self.move_and_queue_from::<MOVES_ALL, true>(&mut blocks, beyond)?
         } else {
-            self.move_and_queue_from::<MOVES_ALL, false>(most, &mut blocks, queue)?
+            self.move_and_queue_from::<MOVES_ALL, false>(&mut blocks, beyond)?
         };
         if moved != Advance::TooManyBeyond {
             moves.end_check(blocks.are_good)?;
@@ -122,21 +128,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Does what [`move_and_queue`](Self::move_and_queue) does, and asks for sites in advance if `IS_FAR`.
     fn move_and_queue_from<const MOVES_ALL: bool, const IS_FAR: bool>(
         &mut self,
-        most: usize,
         blocks: &mut Blocks<'_, G>,
-        queue: &mut Vec<VertexId>,
+        beyond: &mut Beyond<'_, G>,
     ) -> Result<Advance> {
         if let Some(avx2) = Avx2::new() {
             return avx2.run_with(
                 self,
-                (most, queue),
                 blocks,
+                beyond,
                 #[inline(always)]
-                |t, (most, queue), blocks| {
+                |t, blocks, beyond| {
                     t.move_and_queue_by::<MOVES_ALL, IS_FAR>(
-                        most,
                         blocks,
-                        queue,
+                        beyond,
                         #[inline(always)]
                         |fixed, places| {
                             let tolerances = fixed.each_ref().map(Fixed::tolerance);
@@ -155,9 +159,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             );
         }
         self.move_and_queue_by::<MOVES_ALL, IS_FAR>(
-            most,
             blocks,
-            queue,
+            beyond,
             |fixed, places| bits_of(fixed, places),
             |movers, places, sites_of| {
                 places.iter_mut().zip(sites_of).map(|(p, &s)| movers.exchange(p, s)).sum()
@@ -169,22 +172,21 @@ impl<G: Dimension> MovingTriangulation<G> {
     #[inline(always)]
     fn move_and_queue_by<const MOVES_ALL: bool, const IS_FAR: bool>(
         &mut self,
-        most: usize,
         blocks: &mut Blocks<'_, G>,
-        queue: &mut Vec<VertexId>,
+        beyond: &mut Beyond<'_, G>,
         hold: impl Fn(&[Fixed<G>; LANES], &[G::Point; LANES]) -> u32,
         exchange: impl Fn(&mut Movers<'_, G>, &mut [G::Point; LANES], &[SiteId; LANES]) -> u64,
     ) -> Result<Advance> {
-        let n = self.mesh.site_of.len();
-        let sites = self.mesh.kernel.sites_mut();
-        let origins = self.mesh.transaction.origins_mut().of_all_mut(n)?;
-        let mut movers = Movers { sites, queue, most, n_moved: 0 };
-        let (fixed, last_fixed) = self.regions.fixed()[..n].as_chunks::<LANES>();
-        let (sites_of, last_sites_of) = self.mesh.site_of.as_chunks::<LANES>();
+        let n = self.site_of.len();
+        let sites = self.kernel.sites_mut();
+        let origins = self.transaction.origins_mut().of_all_mut(n)?;
+        let (fixed, last_fixed) = beyond.fixed[..n].as_chunks::<LANES>();
+        let mut movers = Movers { sites, queue: beyond.queue, most: beyond.most, n_moved: 0 };
+        let (sites_of, last_sites_of) = self.site_of.as_chunks::<LANES>();
         let mut ended = None;
         'blocks: for (block, positions) in origins.chunks_mut(BLOCK).enumerate() {
             let first = block * BLOCK;
-            blocks.copy(first, positions, &self.mesh.site_of[first..], movers.sites);
+            blocks.copy(first, positions, &self.site_of[first..], movers.sites);
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
             let (fixed, at) = (&fixed[first / LANES..], &sites_of[first / LANES..]);
             for (k, ((places, fixed), at)) in places.iter_mut().zip(fixed).zip(at).enumerate() {
@@ -217,15 +219,15 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Some((end, room)) = ended else {
             if !MOVES_ALL {
                 // Those that are queued have been left where they are, and their goals where origins are to be.
-                movers.queue.iter().for_each(|&v| origins[v] = movers.sites[self.mesh.site_of[v]].point);
+                movers.queue.iter().for_each(|&v| origins[v] = movers.sites[self.site_of[v]].point);
             }
-            self.mesh.transaction.origins_mut().note_all();
+            self.transaction.origins_mut().note_all();
             return Ok(Advance::Moved(n_moved));
         };
         let not_moved = if MOVES_ALL { &[] } else { &movers.queue[..] };
         // Those that have not moved are exchanged in vain.
         for v in VertexId::range(0..end).chain(not_moved.iter().copied()) {
-            std::mem::swap(&mut movers.sites[self.mesh.site_of[v]].point, &mut origins[v]);
+            std::mem::swap(&mut movers.sites[self.site_of[v]].point, &mut origins[v]);
         }
         movers.queue.clear();
         room.map(|()| Advance::TooManyBeyond)

@@ -7,7 +7,7 @@ use crate::ids::VertexId;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::constants::constants;
 use crate::motion::state::goals::{Movers, Moves};
-use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::state::mesh::Mesh;
 use crate::predicates::Array;
 
 /// What vertices are going to do.
@@ -30,7 +30,7 @@ struct Seen<G: Dimension> {
     n_moving: usize,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Dimension> Mesh<G> {
     /// What the vertices are going to do, none of which has moved yet. Whether few move is found out only if that is
     /// asked for: it may take a look at all.
     pub(in crate::motion) fn outlook(&self, moves: &Moves<'_, G>, asks_for_few: bool) -> Outlook {
@@ -49,16 +49,16 @@ impl<G: Dimension> MovingTriangulation<G> {
         goals: &[G::Point],
         asks_for_few: bool,
     ) -> Outlook {
-        let (n, are_all) = (self.mesh.n_present, vertices.len() == self.mesh.n_present);
-        let sites = self.mesh.kernel.sites();
-        let is_far = self.mesh.kernel.is_far();
+        let (n, are_all) = (self.n_present, vertices.len() == self.n_present);
+        let sites = self.kernel.sites();
+        let is_far = self.kernel.is_far();
         let mut ahead = vertices.clone().skip(AHEAD);
         let mut seen = Seen::<G> { common: None, n_moving: 0 };
         for (k, v) in vertices.enumerate() {
             if is_far && let Some(next) = ahead.next() {
-                prefetch(sites, self.mesh.site_of[next].index());
+                prefetch(sites, self.site_of[next].index());
             }
-            let is_known = seen.enter(k == 0, &sites[self.mesh.site_of[v]], &goals[v]);
+            let is_known = seen.enter(k == 0, &sites[self.site_of[v]], &goals[v]);
             let is_alike = seen.common.is_some();
             if is_known && !is_alike && !(asks_for_few && constants::<G>().are_few(seen.n_moving, n)) {
                 return Outlook::Unknown;

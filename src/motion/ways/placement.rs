@@ -19,6 +19,7 @@ use crate::motion::constants::constants;
 use crate::motion::plan::budget::Budget;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Movers, Moves};
+use crate::motion::state::mesh::Mesh;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// Vertices looked at to find out whether many go far away.
@@ -46,7 +47,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let (queue, goals) = self.queue_for_placement(moves)?;
-        self.place_all(&queue, goals, report, |t, v, goal, report| t.relocate(v, goal, shortcut, report))?;
+        self.place_all(&queue, goals, report, |t, v, goal, report| {
+            t.mesh.relocate(v, goal, shortcut, report)
+        })?;
         self.queue = queue;
         Ok(())
     }
@@ -73,11 +76,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         exact: u64,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let (left, slowdown) = (queue.len(), self.slowdown(1.0));
+        let (left, slowdown) = (queue.len(), self.mesh.slowdown(1.0));
         let mut budget =
             Budget::new::<G>(self.mesh.n_present, left, exact, self.mesh.evaluations(), report, slowdown);
         self.place_all(queue, goals, report, |t, v, goal, report| {
-            let placed = t.relocate(v, goal, Shortcut::Flips, report)?;
+            let placed = t.mesh.relocate(v, goal, Shortcut::Flips, report)?;
             Ok(if budget.is_exceeded::<G>(t.mesh.evaluations(), report) { Placed::NeedBuild } else { placed })
         })
     }
@@ -86,7 +89,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let goals = moves.checked()?;
         let mut queue = self.queue_of(moves)?;
         self.regions.invalidate();
-        self.order_for_placement(&mut queue, goals);
+        self.mesh.order_for_placement(&mut queue, goals);
         Ok((queue, goals))
     }
 
@@ -123,7 +126,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Err(Error::Cancelled);
             }
             if is_far {
-                self.prefetch_queued(&queue[k + 1..], goals);
+                self.mesh.prefetch_queued(&queue[k + 1..], goals);
             }
             let (old, goal) = (self.mesh.kernel.site(self.mesh.site_of[v]).point, goals.of(v));
             if goal == old {
@@ -137,17 +140,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         Ok(())
     }
+}
 
+impl<G: Dimension> Mesh<G> {
     /// Asks for what the next relocations will read: vertices that move are far from each other where they are few.
     #[inline(always)]
     fn prefetch_queued(&self, next: &[VertexId], goals: Goals<'_, G>) {
         for step in 0..4 {
             if let Some(&v) = next.get(2 * (4 - step) - 1) {
-                self.mesh.kernel.prefetch_star(self.mesh.site_of[v], step);
+                self.kernel.prefetch_star(self.site_of[v], step);
             }
         }
         if let Some(&v) = next.get(9) {
-            prefetch(&self.mesh.site_of, v.index());
+            prefetch(&self.site_of, v.index());
             goals.prefetch(v);
         }
     }
@@ -160,17 +165,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         shortcut: Shortcut,
         report: &mut CommitReport,
     ) -> Result<Placed> {
-        let s = self.mesh.site_of[vertex];
-        if self.mesh.is_shared(s) {
+        let s = self.site_of[vertex];
+        if self.is_shared(s) {
             return self.relocate_from_shared(vertex, s, q, report);
         }
-        match self.mesh.kernel.relocate_site(s, q, vertex, shortcut)? {
+        match self.kernel.relocate_site(s, q, vertex, shortcut)? {
             Relocation::InPlace => report.unchanged += 1,
             Relocation::Flipped(flips) => report.flips += flips,
             Relocation::Placed => report.placements += 1,
             Relocation::Coincident(t) => {
                 report.placements += 1;
-                self.mesh.hide(vertex, t)?;
+                self.hide(vertex, t)?;
             }
             Relocation::Spans => return Ok(Placed::NeedBuild),
         }
@@ -187,12 +192,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Placed> {
         report.placements += 1;
         // A live site must be in the triangulation while another is renamed, so the vertex's own is made after that.
-        self.mesh.leave(vertex)?;
-        let own = self.mesh.kernel.add_site(*q, vertex)?;
-        self.mesh.site_of[vertex] = own;
-        match self.mesh.kernel.insert_site(own, self.mesh.kernel.site(s).cell)? {
+        self.leave(vertex)?;
+        let own = self.kernel.add_site(*q, vertex)?;
+        self.site_of[vertex] = own;
+        match self.kernel.insert_site(own, self.kernel.site(s).cell)? {
             Insertion::New => {}
-            Insertion::Coincident(t) => self.mesh.hide(vertex, t)?,
+            Insertion::Coincident(t) => self.hide(vertex, t)?,
             Insertion::Spans => return Ok(Placed::NeedBuild),
         }
         Ok(Placed::InCells)
@@ -201,7 +206,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Puts vertices in the order in which to relocate them: that of their goals along a Hilbert curve if many go far
     /// away and the caches do not hold all; that of storage otherwise, and where there is no memory for the other.
     pub(in crate::motion) fn order_for_placement(&self, queue: &mut [VertexId], goals: Goals<'_, G>) {
-        let is_worth = self.mesh.kernel.is_far() && self.goals_are_away(queue, goals);
+        let is_worth = self.kernel.is_far() && self.goals_are_away(queue, goals);
         if !is_worth || order_by_goal(queue, goals).is_err() {
             self.order_by_site(queue);
         }
@@ -209,18 +214,18 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Whether there are more than a few of these vertices, and many of them go far away, which shows in a sample.
     fn goals_are_away(&self, queue: &[VertexId], goals: Goals<'_, G>) -> bool {
-        if !self.mesh.kernel.has_cells() || queue.len() < SAMPLE {
+        if !self.kernel.has_cells() || queue.len() < SAMPLE {
             return false;
         }
-        let is_away = |&&v: &&VertexId| self.mesh.kernel.is_away(self.mesh.site_of[v], &goals.of(v));
+        let is_away = |&&v: &&VertexId| self.kernel.is_away(self.site_of[v], &goals.of(v));
         let sample = queue.iter().step_by((queue.len() / SAMPLE).max(1));
         sample.clone().filter(is_away).count() * AWAY_SHARE >= sample.len()
     }
 
     /// Puts vertices in storage order, so that each starts near the one before.
     pub(in crate::motion) fn order_by_site(&self, queue: &mut [VertexId]) {
-        let (site_of, kernel) = (&self.mesh.site_of, &self.mesh.kernel);
-        if self.mesh.hidden.count() > 0 {
+        let (site_of, kernel) = (&self.site_of, &self.kernel);
+        if self.hidden.count() > 0 {
             queue.sort_unstable_by_key(|&v| site_of[v]);
             return;
         }

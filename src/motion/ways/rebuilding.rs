@@ -128,7 +128,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Puts a new kernel, which is complete, in the place of the present one; unless its sites have the indices from
-    /// before, [`find_sites`](Self::find_sites) must follow. Cannot fail.
+    /// before, [`find_sites`](crate::motion::state::mesh::Mesh::find_sites) must follow. Cannot fail.
     pub(in crate::motion) fn adopt(&mut self, mut next: Delaunay<G>, hidden: Hidden, stride: f64) {
         *next.pace_mut() = std::mem::take(self.mesh.kernel.pace_mut());
         self.mesh.kernel = next;

@@ -11,7 +11,7 @@
 //!     compute and store c_B and r_B
 //! ```
 //!
-//! As in the [tolerance algorithm](crate::motion::tolerance) vertices are placed at the moving positions, and none is
+//! As in the [tolerance algorithm](crate::motion::ways::tolerance) vertices are placed at the moving positions, and none is
 //! queued twice. With tolerances, the safe region is tested only where the tolerance test fails.
 //!
 //! Cost: a test is a squared distance for each bi-cell of the star; a queued vertex costs as in the tolerance

@@ -9,10 +9,10 @@
 //!
 //! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star recomputed, in
 //! space 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
-//! ([`Slacks`](super::slacks::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers
+//! ([`Slacks`](crate::motion::filters::slack::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers
 //! each.
 //!
-//! What a timestamp proves is what it proves in [watching](super::super::watching): read "held" for a bi-cell that
+//! What a timestamp proves is what it proves in [watching](super::watching): read "held" for a bi-cell that
 //! has slack left, "watched" for one that has none.
 //!
 //! Cost: 2 ns a cell, and about 80 ns for a bi-cell whose slack is used up; these are in proportion to the
@@ -71,11 +71,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
-        let Motion { moved, greatest, fits } = self.move_all_on_record(moves)?;
+        let slacks = self.regions.slacks().expect("they have been prepared");
+        let Motion { moved, greatest, fits } = self.mesh.move_all_on_record(moves, slacks)?;
         let most =
             (self.mesh.kernel.complex().n_finite() as f64 * constants::<G>().max_share_expired) as usize;
         let (origins, (failures, _)) = (self.mesh.transaction.origins().positions(), repair.begin_check());
-        let slacks = self.regions.slacks().expect("they have been prepared");
         let expired = slacks.check_expired(&self.mesh.kernel, origins, greatest, most, failures)?;
         if !fits {
             self.regions.invalidate();

@@ -10,6 +10,7 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
+use crate::motion::filters::bicell::tolerance_of_site;
 use crate::motion::options::SwitchingRule;
 use crate::motion::plan::switching::Switching;
 use crate::motion::report::CommitReport;
@@ -60,7 +61,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             };
             let s = self.mesh.site_of[v];
             let displacement = squared_distance(&self.mesh.kernel.site(s).point, &goals.of(v));
-            within += u32::from(displacement < displacement_limit(self.tolerance_of_site(s)));
+            within +=
+                u32::from(displacement < displacement_limit(tolerance_of_site(&mut self.mesh.kernel, s)));
         }
         Ok(f64::from(within) / f64::from(rule.sample.max(1)))
     }

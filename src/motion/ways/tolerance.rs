@@ -38,6 +38,7 @@ use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::Advance;
+use crate::motion::ways::moving::Beyond;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Algorithm 1.
@@ -65,12 +66,13 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Moves all vertices that stay within tolerance; returns the others.
     fn accept_all(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<Vec<VertexId>> {
-        let mut beyond = std::mem::take(&mut self.queue);
-        let Advance::Moved(moved) = self.move_and_queue::<false>(usize::MAX, moves, &mut beyond)? else {
+        let mut queue = std::mem::take(&mut self.queue);
+        let mut beyond = Beyond { fixed: self.regions.fixed(), most: usize::MAX, queue: &mut queue };
+        let Advance::Moved(moved) = self.mesh.move_and_queue::<false>(moves, &mut beyond)? else {
             unreachable!("there is room for all in the queue");
         };
         report.moved += moved;
-        report.within_tolerance += (self.mesh.site_of.len() - beyond.len()) as u64;
-        Ok(beyond)
+        report.within_tolerance += (self.mesh.site_of.len() - queue.len()) as u64;
+        Ok(queue)
     }
 }

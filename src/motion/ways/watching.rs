@@ -13,7 +13,7 @@
 //! In the tolerance algorithm a bi-cell of hardly any tolerance sends its D + 2 vertices to the queue at each
 //! timestamp, and each of them has a whole star of bi-cells that are far from failing. Here such a bi-cell costs one
 //! test, and the vertices have the tolerance of the others. Which are watched follows from how fast the vertices move
-//! ([`Watching`](super::Watching)).
+//! ([`Watching`](crate::motion::filters::watching::Watching)).
 //!
 //! # What a timestamp proves
 //!
@@ -49,6 +49,7 @@ use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::{Advance, Attempt, Mending, Start};
+use crate::motion::ways::moving::Beyond;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
@@ -84,20 +85,21 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.prepare_regions(Filter::Watch, goals.positions(), report)?;
         }
         let most = (self.mesh.n_present as f64 * max_share_beyond) as usize;
-        let mut beyond = std::mem::take(&mut self.queue);
-        let Advance::Moved(moved) = self.move_and_queue::<true>(most, moves, &mut beyond)? else {
-            self.queue = beyond;
+        let mut queue = std::mem::take(&mut self.queue);
+        let mut beyond = Beyond { fixed: self.regions.fixed(), most, queue: &mut queue };
+        let Advance::Moved(moved) = self.mesh.move_and_queue::<true>(moves, &mut beyond)? else {
+            self.queue = queue;
             return Ok(Attempt::GivenUp(Start::AtOrigins));
         };
         report.moved += moved;
-        report.within_tolerance += (self.mesh.n_present - beyond.len()) as u64;
-        if beyond.len() + self.regions.n_watched() > 0 {
+        report.within_tolerance += (self.mesh.n_present - queue.len()) as u64;
+        if queue.len() + self.regions.n_watched() > 0 {
             let mut repair = memory::take_made(&mut self.repair)?;
-            let done = self.check_and_mend(&mut repair, &beyond, moves.checked()?, report);
+            let done = self.check_and_mend(&mut repair, &queue, moves.checked()?, report);
             self.repair = Some(repair);
             done?;
         }
-        self.queue = beyond;
+        self.queue = queue;
         Ok(Attempt::Committed)
     }
 

@@ -1,4 +1,4 @@
-//! Geometry that programs compute from the cells: read from the arrays of [`cells`](super::MovingTriangulation::cells)
+//! Geometry that programs compute from the cells: read from the arrays of [`cells`](crate::motion::MovingTriangulation::cells)
 //! and the positions, without any change to the triangulation.
 //!
 //! | file | what |
@@ -25,6 +25,7 @@ mod cut_facets;
 mod flat_cells;
 mod incidence;
 mod interpolation;
+mod linear;
 mod measures;
 mod natural;
 mod rings;

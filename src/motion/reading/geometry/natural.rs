@@ -21,7 +21,7 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus};
-use crate::motion::reading::geometry::interpolation::{Weights, barycentric, list_linear};
+use crate::motion::reading::geometry::linear::{Weights, barycentric, list_linear};
 use crate::predicates::Measures;
 
 /// A ridge of a facet around the place, with the circumcentre of the cell that would join both.

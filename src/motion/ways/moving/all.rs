@@ -6,25 +6,25 @@ use crate::ids::SiteId;
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch_at};
 use crate::machine::threads;
 use crate::motion::state::goals::Moves;
-use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::state::mesh::Mesh;
 use crate::motion::ways::moving::{BLOCK, copy_good, exchange, sites_at};
 use crate::simd::{Avx2, LANES, Lanes};
 
 /// Moves of this number of vertices take a few times as long as a thread takes to wake up.
 const MOVED_AT_LEAST: usize = 1 << 14;
 
-impl<G: Dimension> MovingTriangulation<G> {
+impl<G: Dimension> Mesh<G> {
     /// Moves all vertices, on several threads where that pays; returns how many goals differ from the places before. The
     /// origins of all are known afterwards, also after the error that one of the goals is bad.
     pub(in crate::motion) fn move_everything(&mut self, moves: &mut Moves<'_, G>) -> Result<u64> {
-        let n_threads = self.mesh.kernel.threads().for_work(self.mesh.site_of.len(), MOVED_AT_LEAST, 256);
-        let origins = self.mesh.transaction.origins_mut().of_all_mut(self.mesh.site_of.len())?;
-        let sites = self.mesh.kernel.sites_mut();
+        let n_threads = self.kernel.threads().for_work(self.site_of.len(), MOVED_AT_LEAST, 256);
+        let origins = self.transaction.origins_mut().of_all_mut(self.site_of.len())?;
+        let sites = self.kernel.sites_mut();
         let sites = SharedSites { start: sites.as_mut_ptr(), n: sites.len() };
         // SAFETY: every vertex has a site of its own, and these are borrowed for as long as this takes.
-        let moved = unsafe { sites.move_all(origins, moves.unchecked(), &self.mesh.site_of, n_threads) };
-        self.mesh.transaction.origins_mut().note_all();
-        self.mesh.kernel.cover(&moved.lower, &moved.upper);
+        let moved = unsafe { sites.move_all(origins, moves.unchecked(), &self.site_of, n_threads) };
+        self.transaction.origins_mut().note_all();
+        self.kernel.cover(&moved.lower, &moved.upper);
         moves.end_check(moved.are_good)?;
         Ok(moved.n)
     }

@@ -6,7 +6,7 @@ use crate::ids::SiteId;
 use crate::machine::prefetch::{AHEAD, CACHE_BYTES, prefetch};
 use crate::motion::filters::slack::Slacks;
 use crate::motion::state::goals::Moves;
-use crate::motion::triangulation::MovingTriangulation;
+use crate::motion::state::mesh::Mesh;
 use crate::motion::ways::moving::{BLOCK, Blocks, sites_at};
 use crate::predicates::{distance_above, distances_above};
 use crate::simd::{Avx2, LANES};
@@ -21,12 +21,16 @@ pub(in crate::motion) struct Motion {
     pub(in crate::motion) fits: bool,
 }
 
-impl<G: Dimension> MovingTriangulation<G> {
-    /// Moves all vertices, and adds to the ways of their sites. Slacks must be kept. The origins of all are known
+impl<G: Dimension> Mesh<G> {
+    /// Moves all vertices, and adds to the ways of their sites. The origins of all are known
     /// afterwards, also after the error that one of the goals is bad.
-    pub(in crate::motion) fn move_all_on_record(&mut self, moves: &mut Moves<'_, G>) -> Result<Motion> {
+    pub(in crate::motion) fn move_all_on_record(
+        &mut self,
+        moves: &mut Moves<'_, G>,
+        slacks: &mut Slacks<G>,
+    ) -> Result<Motion> {
         let Some(avx2) = Avx2::new() else {
-            return self.move_all_on_record_by(moves, |sites, places, sites_of| {
+            return self.move_all_on_record_by(moves, slacks, |sites, places, sites_of| {
                 std::array::from_fn(|k| {
                     let (point, p) = (&mut sites[sites_of[k]].point, &mut places[k]);
                     let distance = distance_above(point, p);
@@ -36,13 +40,14 @@ impl<G: Dimension> MovingTriangulation<G> {
             });
         };
         avx2.run_with(
-            avx2,
             self,
             moves,
+            slacks,
             #[inline(always)]
-            |avx2, t, moves| {
+            |t, moves, slacks| {
                 t.move_all_on_record_by(
                     moves,
+                    slacks,
                     #[inline(always)]
                     |sites, places, sites_of| {
                         // SAFETY: every vertex has a site of its own, and the sites are borrowed.
@@ -63,17 +68,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_all_on_record_by(
         &mut self,
         moves: &mut Moves<'_, G>,
+        slacks: &mut Slacks<G>,
         mut exchange: impl FnMut(&mut [Site<G>], &mut [G::Point; LANES], &[SiteId; LANES]) -> [f64; LANES],
     ) -> Result<Motion> {
-        let slacks = self.regions.slacks().expect("they have been prepared");
         let mut record = Record { longest: slacks.longest_way(), n: 0, sum: 0.0, greatest: 0.0 };
-        let sites = self.mesh.kernel.sites_mut();
+        let sites = self.kernel.sites_mut();
         let is_far = size_of_val(sites) > CACHE_BYTES;
         let mut blocks = Blocks::of(moves);
-        let origins = self.mesh.transaction.origins_mut().of_all_mut(self.mesh.site_of.len())?;
+        let origins = self.transaction.origins_mut().of_all_mut(self.site_of.len())?;
         for (first, positions) in (0..).step_by(BLOCK).zip(origins.chunks_mut(BLOCK)) {
-            blocks.copy(first, positions, &self.mesh.site_of[first..], sites);
-            let sites_of = &self.mesh.site_of[first..];
+            blocks.copy(first, positions, &self.site_of[first..], sites);
+            let sites_of = &self.site_of[first..];
             let (places, last_places) = positions.as_chunks_mut::<LANES>();
             let (at, last_at) = sites_of[..LANES * places.len() + last_places.len()].as_chunks::<LANES>();
             for (k, (places, at)) in places.iter_mut().zip(at).enumerate() {
@@ -89,9 +94,9 @@ impl<G: Dimension> MovingTriangulation<G> {
                 std::mem::swap(point, p);
             }
         }
-        self.mesh.transaction.origins_mut().note_all();
+        self.transaction.origins_mut().note_all();
         let Record { n: moved, sum, greatest, .. } = record;
-        let fits = slacks.end_motion(&mut self.mesh.kernel, sum / moved.max(1) as f64, greatest);
+        let fits = slacks.end_motion(&mut self.kernel, sum / moved.max(1) as f64, greatest);
         moves.end_check(blocks.are_good)?;
         Ok(Motion { moved, greatest, fits })
     }

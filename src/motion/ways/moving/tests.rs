@@ -8,6 +8,7 @@ use crate::motion::algorithms::Algorithm;
 use crate::motion::options::Options;
 use crate::motion::region_kind::Filter;
 use crate::motion::state::goals::Movers;
+use crate::motion::triangulation::MovingTriangulation;
 use crate::random::Rng;
 
 /// Small whole numbers, and the same ones again.
@@ -52,6 +53,16 @@ fn origins<G: Dimension>(t: &MovingTriangulation<G>) -> &[G::Point] {
     t.mesh.transaction.origins().positions()
 }
 
+fn move_and_queue<G: Dimension, const MOVES_ALL: bool>(
+    t: &mut MovingTriangulation<G>,
+    most: usize,
+    moves: &mut Moves<'_, G>,
+    queue: &mut Vec<VertexId>,
+) -> Result<Advance> {
+    let mut beyond = Beyond { fixed: t.regions.fixed(), most, queue };
+    t.mesh.move_and_queue::<MOVES_ALL>(moves, &mut beyond)
+}
+
 fn agree<G: Dimension>() {
     let rng = &mut Rng::new(5);
     let (mut n_beyond, mut n_moved) = (0, 0);
@@ -68,8 +79,8 @@ fn agree<G: Dimension>() {
         if !beyond.is_empty() {
             let most = beyond.len() - 1;
             for moved in [
-                t.move_and_queue::<false>(most, &mut moves, &mut queue),
-                t.move_and_queue::<true>(most, &mut moves, &mut queue),
+                move_and_queue::<G, false>(&mut t, most, &mut moves, &mut queue),
+                move_and_queue::<G, true>(&mut t, most, &mut moves, &mut queue),
             ] {
                 assert_eq!(moved.expect("room"), Advance::TooManyBeyond, "{n} vertices");
             }
@@ -77,7 +88,7 @@ fn agree<G: Dimension>() {
             assert_eq!(positions(&t), before, "{n} vertices");
         }
 
-        let moved = t.move_and_queue::<false>(beyond.len(), &mut moves, &mut queue);
+        let moved = move_and_queue::<G, false>(&mut t, beyond.len(), &mut moves, &mut queue);
         assert_eq!(moved.expect("room"), Advance::Moved(n_of(false) as u64));
         assert_eq!(queue, beyond, "{n} vertices");
         assert_eq!(origins(&t), before, "{n} vertices");
@@ -94,16 +105,17 @@ fn agree<G: Dimension>() {
             let before = positions(&t);
             let n_moved = (0..n).filter(|&v| before[v] != places[v]).count() as u64;
             if moved_by == 0 {
-                let moved = t.move_and_queue::<true>(n, moves, &mut queue);
+                let moved = move_and_queue::<G, true>(&mut t, n, moves, &mut queue);
                 assert_eq!(moved.expect("room"), Advance::Moved(n_moved));
                 assert_eq!(queue, beyond, "{n} vertices");
             } else if moved_by == 1 {
-                assert_eq!(t.move_everything(moves).expect("good places"), n_moved);
+                assert_eq!(t.mesh.move_everything(moves).expect("good places"), n_moved);
             } else {
                 let other_positions = vec![G::Point::default(); n];
                 let computed = t.regions.prepare(Filter::Slack, &mut t.mesh.kernel, n, &other_positions);
                 computed.expect("room");
-                assert_eq!(t.move_all_on_record(moves).expect("good places").moved, n_moved);
+                let slacks = t.regions.slacks().expect("they are computed");
+                assert_eq!(t.mesh.move_all_on_record(moves, slacks).expect("good places").moved, n_moved);
             }
             assert_eq!([&positions(&t)[..], origins(&t)], [&places[..], &before[..]], "{n} vertices");
             t.undo();
@@ -132,7 +144,7 @@ fn threads_share_the_moves() {
             (points::<Space>(2_000, &mut Rng::new(1)), points::<Space>(2_000, &mut Rng::new(2)));
         let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
         t.mesh.begin().expect("room");
-        assert_eq!(t.move_everything(&mut Moves::lent(&second)).expect("good places"), 2_000);
+        assert_eq!(t.mesh.move_everything(&mut Moves::lent(&second)).expect("good places"), 2_000);
         assert_eq!([&positions(&t)[..], origins(&t)], [&second[..], &first[..]]);
     }
 }

@@ -73,7 +73,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         match (start, moves.movers()) {
             (Start::AtGoals { n_moved }, _) => self.note_all_moved(repair, n_moved),
             (Start::AtOrigins, Movers::All) if self.mesh.hidden.count() == 0 => {
-                let n_moved = self.move_everything(moves)?;
+                let n_moved = self.mesh.move_everything(moves)?;
                 self.note_all_moved(repair, n_moved);
             }
             (Start::AtOrigins, _) => self.move_queued(repair, moves)?,
@@ -125,7 +125,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
         let constants = constants::<G>();
-        let per_placement = self.slowdown(constants.repaired_alone) * constants.rebuilt_per_placement as f64;
+        let per_placement =
+            self.mesh.slowdown(constants.repaired_alone) * constants.rebuilt_per_placement as f64;
         let most = (self.mesh.n_present as f64 / per_placement) as usize;
         if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.mesh.n_present) {
             self.take_all_back(repair)?;
@@ -341,6 +342,6 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Orders the vertices that are to be placed.
     fn settle(&mut self, repair: &mut Repair, goals: Goals<'_, G>) {
-        self.order_for_placement(&mut repair.places.queue, goals);
+        self.mesh.order_for_placement(&mut repair.places.queue, goals);
     }
 }

@@ -113,7 +113,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
             return Prospect::TooMuch;
         }
-        let are_few = self.slowdown(1.0) * n_moved * constants.costs.placed < n * constants.costs.rebuilt;
+        let are_few =
+            self.mesh.slowdown(1.0) * n_moved * constants.costs.placed < n * constants.costs.rebuilt;
         if are_few && found.all_failing() > constants.failures_per_moved * n_moved {
             return Prospect::Placeable;
         }
@@ -134,7 +135,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let constants = constants::<G>();
         let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         let failing = found.failing + constants.failing_for_inverted * found.inverted;
-        let most = constants.max_failing_with_inverted / self.slowdown(constants.repaired_alone);
+        let most = constants.max_failing_with_inverted / self.mesh.slowdown(constants.repaired_alone);
         found.have_ties::<G>(n_cells) || failing <= most * n_cells
     }
 
@@ -145,17 +146,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         let is_worth = self.is_worth_untangling(Findings { failing: n_failing as f64, inverted, exact });
         repair.was_foreseen = !is_worth;
         is_worth
-    }
-
-    /// By what factor a task, of which one thread does this share alone, grows beside rebuilding, compared with a small
-    /// triangulation on one thread: where caches do not hold all, and where several threads rebuild.
-    pub(in crate::motion) fn slowdown(&self, alone: f64) -> f64 {
-        let constants = constants::<G>();
-        let doublings = (self.mesh.kernel.bytes_read() as f64 / constants.near_bytes as f64).log2().max(0.0);
-        let n_threads = self.mesh.kernel.build_threads(self.mesh.n_present) as f64;
-        let shortened = |alone: f64| alone + (1.0 - alone) / n_threads;
-        (1.0 + constants.slower_per_doubling * doublings) * shortened(alone)
-            / shortened(constants.built_alone)
     }
 }
 
@@ -234,7 +224,7 @@ mod tests {
         let rng = &mut Rng::new(1);
         let slowdowns = |n, threads, rng: &mut Rng| {
             let (t, _) = random::<Plane>(n, threads, rng);
-            [0.0, 0.3, 1.0].map(|alone| t.slowdown(alone))
+            [0.0, 0.3, 1.0].map(|alone| t.mesh.slowdown(alone))
         };
         let few = slowdowns(2_000, 1, rng);
         assert_eq!(few, [1.0; 3]);
