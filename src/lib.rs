@@ -47,8 +47,8 @@ pub mod internals {
 
     /// What decides between two ways, and how to try other values.
     pub mod constants {
-        pub use crate::motion::constants::trial::put_in_force;
-        pub use crate::motion::constants::{Constants, Costs, Reading, TABLE, Table};
+
+        pub use crate::motion::constants::{Constants, Costs, TABLE, Table};
     }
 
     pub mod predicates {

@@ -3,7 +3,7 @@
 use crate::common::Rng;
 use crate::inputs::{Size, lattice, turned};
 use crate::recording::{beside, points};
-use crate::trials::Trial;
+use crate::trials::{Trial, in_force};
 use deldrift::internals::constants::{Constants, Costs};
 use deldrift::motion::{Algorithm, CommitReport, MovingTriangulation, Options};
 use deldrift::{Dimension, VertexId};
@@ -25,7 +25,8 @@ type Timed = (f64, CommitReport);
 impl<G: Dimension> Swing<G> {
     fn new(algorithm: Algorithm, here: &[G::Point], there: &[G::Point]) -> Self {
         let options = Options { algorithm, threads: 1, ..Options::default() };
-        let t = MovingTriangulation::new(here, options).expect("points in range");
+        let mut t = MovingTriangulation::new(here, options).expect("points in range");
+        t.set_constants(in_force());
         Swing { t, places: [there.to_vec(), here.to_vec()], n_commits: 0 }
     }
 

@@ -11,7 +11,6 @@ pub struct Size {
     /// Vertices of a motion in the plane and in space, ...
     n: [usize; 2],
     /// ... where it is the memory that counts, ...
-    n_large: [usize; 2],
     /// ... and when costs are measured.
     pub n_for_costs: usize,
     /// Timestamps are a thousandth of so many.
@@ -24,13 +23,11 @@ impl Size {
     pub const FULL: Size = Size {
         n: [1_000, 700],
         n_for_costs: 5_000,
-        n_large: [30_000, 8_000],
         permille: 1_000,
         rounds: 7,
         factors: &[0.25, 0.5, 2.0, 4.0],
     };
-    pub const SMALL: Size =
-        Size { n: [60; 2], n_for_costs: 60, n_large: [200, 100], permille: 30, rounds: 1, factors: &[0.25] };
+    pub const SMALL: Size = Size { n: [60; 2], n_for_costs: 60, permille: 30, rounds: 1, factors: &[0.25] };
 
     fn commits(&self, commits: usize) -> usize {
         (commits * self.permille / 1_000).max(2)
@@ -64,7 +61,6 @@ pub fn of<G: Dimension>(size: &Size) -> Vec<Input> {
     inputs.edit();
     inputs.structured();
     inputs.switch();
-    inputs.large();
     inputs.inputs
 }
 
@@ -119,8 +115,6 @@ impl<G: Dimension> Inputs<'_, G> {
             self.add(format!("watching {step}"), watching);
             self.add(format!("slack {step}"), slack);
         }
-        let whole = walk::<G>(self.n, (0..self.commits(8)).map(|_| 0.01));
-        self.add("monitored", whole.by(Algorithm::PlacementFlips).monitored());
         for step in if G::D == 2 { [1e-4, 1e-3, 1e-2] } else { [1e-5, 1e-4, 1e-3] } {
             let mut rounds = walk::<G>(self.n, (0..n_commits).map(|_| step));
             for frame in &mut rounds.frames {
@@ -222,25 +216,6 @@ impl<G: Dimension> Inputs<'_, G> {
         }
         let steps = (0..n_commits).map(|k| 0.03 * 0.9_f64.powi(k as i32));
         self.add("switching slowing down", walk::<G>(self.n, steps).by(Algorithm::RebuildingTolerance));
-    }
-
-    /// Where it is memory that counts.
-    fn large(&mut self) {
-        let n = self.size.n_large[G::D - 2];
-        for step in [0.3, 1.0, 3.0, 10.0] {
-            let walk = walk::<G>(n, (0..self.commits(8)).map(|_| step)).by(Algorithm::Rebuilding);
-            self.add(format!("leap {step}"), walk);
-        }
-        for step in [1e-4, 1e-3, 1e-2, 0.05, 0.1, 0.3] {
-            let walk = walk::<G>(n, (0..self.commits(10)).map(|_| step)).read();
-            self.add(format!("read {step}"), walk);
-        }
-        // Cells are mixed by the first steps, and mended by slack or by repairs in the others.
-        for step in [1e-3, 1e-2] {
-            let mixing = (0..self.commits(60)).map(|_| 0.05);
-            let walk = walk::<G>(n, mixing.chain((0..self.commits(150)).map(|_| step)));
-            self.add(format!("mixed {step}"), walk);
-        }
     }
 }
 

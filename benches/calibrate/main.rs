@@ -76,10 +76,8 @@ fn main() {
     let (plane, space) = (costs::measure::<Plane>(&arguments.size), costs::measure::<Space>(&arguments.size));
     let inputs = inputs::of::<Plane>(&arguments.size);
     csv += &measure(&arguments, &constants::of_dimension(2, &plane), &inputs);
-    csv += &measure(&arguments, &constants::of_reading(), &inputs);
     let inputs = inputs::of::<Space>(&arguments.size);
     csv += &measure(&arguments, &constants::of_dimension(3, &space), &inputs);
-    csv += &measure(&arguments, &constants::of_reading(), &inputs);
     Trial::as_is().put_in_force();
     if let Some(path) = &arguments.csv {
         std::fs::write(path, csv).expect("a file to write to");

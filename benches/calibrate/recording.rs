@@ -1,6 +1,7 @@
 //! Motions on record, and their replay.
 
 use crate::common::{Rng, in_ball, in_cube};
+use crate::trials::in_force;
 use deldrift::motion::{Algorithm, CommitReport, MovingTriangulation, Options, SwitchingRule};
 use deldrift::{Dimension, VertexId};
 use std::time::Instant;
@@ -22,10 +23,6 @@ pub struct Recording<G: Dimension> {
     pub start: Vec<G::Point>,
     pub frames: Vec<Frame<G>>,
     pub algorithm: Algorithm,
-    /// Whether the program reads cells and changes at each timestamp.
-    pub is_read: bool,
-    /// Whether there is a monitor.
-    pub is_monitored: bool,
 }
 
 /// One timestamp of a replay.
@@ -37,46 +34,26 @@ pub struct Step {
 
 impl<G: Dimension> Recording<G> {
     pub fn new(start: Vec<G::Point>, frames: Vec<Frame<G>>) -> Self {
-        Recording { start, frames, algorithm: Algorithm::Auto, is_read: false, is_monitored: false }
+        Recording { start, frames, algorithm: Algorithm::Auto }
     }
 
     pub fn by(self, algorithm: Algorithm) -> Self {
         Recording { algorithm, ..self }
     }
 
-    pub fn read(self) -> Self {
-        Recording { is_read: true, ..self }
-    }
-
-    pub fn monitored(self) -> Self {
-        Recording { is_monitored: true, ..self }
-    }
-
     /// Does what is on record, by one thread.
     pub fn replay(&self, switching: SwitchingRule) -> Vec<Step> {
-        let options = Options {
-            algorithm: self.algorithm,
-            threads: 1,
-            switching,
-            monitor: if self.is_monitored { Some(Box::new(|_| true)) } else { None },
-            ..Options::default()
-        };
+        let options = Options { algorithm: self.algorithm, threads: 1, switching, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(&self.start, options).expect("points in range");
-        if self.is_read {
-            t.take_changes().expect("room");
-        }
-        self.frames.iter().map(|frame| self.step(&mut t, frame)).collect()
+        t.set_constants(in_force());
+        self.frames.iter().map(|frame| step(&mut t, frame)).collect()
     }
+}
 
-    fn step(&self, t: &mut MovingTriangulation<G>, frame: &Frame<G>) -> Step {
-        let start = Instant::now();
-        let counts = advance(t, frame);
-        if self.is_read {
-            std::hint::black_box(t.take_changes().expect("room"));
-            std::hint::black_box(t.cells().expect("room"));
-        }
-        Step { seconds: start.elapsed().as_secs_f64(), counts }
-    }
+fn step<G: Dimension>(t: &mut MovingTriangulation<G>, frame: &Frame<G>) -> Step {
+    let start = Instant::now();
+    let counts = advance(t, frame);
+    Step { seconds: start.elapsed().as_secs_f64(), counts }
 }
 
 /// Makes the next timestamp.

@@ -1,11 +1,21 @@
 //! Replays with other values of a constant, and what comes of them.
 
-use crate::constants::{Constant, Timing};
+use crate::constants::Constant;
 use crate::inputs::Input;
 use crate::recording::Step;
-use deldrift::internals::constants::{TABLE, Table, put_in_force};
+use deldrift::internals::constants::{TABLE, Table};
 use deldrift::motion::{CommitReport, SwitchingRule};
+use std::cell::Cell;
 use std::fmt;
+
+thread_local! {
+    static IN_FORCE: Cell<&'static Table> = const { Cell::new(&TABLE) };
+}
+
+/// The constants by which triangulations are to decide that are made now.
+pub fn in_force() -> &'static Table {
+    IN_FORCE.get()
+}
 
 /// Values of all constants.
 #[derive(Clone, Copy)]
@@ -20,10 +30,10 @@ impl Trial {
         Trial { table: TABLE, rule: SwitchingRule::default() }
     }
 
-    /// From now on these decide.
+    /// From now on triangulations are made that decide by these.
     pub fn put_in_force(&self) {
         // There are a few thousand of them, of less than a kilobyte.
-        put_in_force(Box::leak(Box::new(self.table)));
+        IN_FORCE.set(Box::leak(Box::new(self.table)));
     }
 
     /// Replays a motion with these.
@@ -52,9 +62,9 @@ struct Compared<'i> {
     noise: f64,
 }
 
-/// Compares trials with the first of them; `None` if all count the same, and `timing` says that this is all.
-fn compare<'i>(input: &'i Input, trials: &[Trial], rounds: usize, timing: Timing) -> Option<Compared<'i>> {
-    let differ = |trial: &&Trial| timing == Timing::Always || counts(&trial.replay(input)) != input.counts;
+/// Compares trials with the first of them; `None` if all count the same.
+fn compare<'i>(input: &'i Input, trials: &[Trial], rounds: usize) -> Option<Compared<'i>> {
+    let differ = |trial: &&Trial| counts(&trial.replay(input)) != input.counts;
     let others: Vec<Option<&Trial>> = trials[1..].iter().map(|trial| Some(trial).filter(differ)).collect();
     if others.iter().all(Option::is_none) {
         return None;
@@ -104,8 +114,7 @@ impl<'i> Measured<'i> {
         let mut trials = vec![Trial::as_is()];
         trials.extend(values.iter().map(trial));
         let inputs_of_it = inputs.iter().filter(|input| constant.is_measured_on(&input.name));
-        let compared =
-            inputs_of_it.filter_map(|input| compare(input, &trials, rounds, constant.timing)).collect();
+        let compared = inputs_of_it.filter_map(|input| compare(input, &trials, rounds)).collect();
         Measured { constant, dimension: inputs[0].dimension, values, compared }
     }
 

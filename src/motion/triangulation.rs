@@ -5,7 +5,7 @@ use crate::error::{Error, Result, StagedEdit};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
-use crate::motion::constants::constants;
+use crate::motion::constants::Table;
 use crate::motion::filters::regions::Regions;
 use crate::motion::options::Options;
 use crate::motion::plan::auto::Auto;
@@ -22,6 +22,10 @@ use crate::motion::state::staging::Staging;
 
 /// Greatest number of vertex ids.
 pub const MAX_VERTICES: usize = u32::MAX as usize - 1;
+
+/// The static filter's box only grows as vertices move. After this number of moves per vertex it is fitted again, which
+/// takes as long as a small part of one commit.
+const MOVES_PER_FIT: u64 = 64;
 
 /// A Delaunay triangulation whose vertices move.
 #[derive(Debug)]
@@ -92,6 +96,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             foreseen: Foreseen::default(),
             taken: None,
         }
+    }
+
+    /// From now on decides by other constants, for measurements.
+    pub fn set_constants(&mut self, table: &'static Table) {
+        self.mesh.constants = table.of::<G>();
     }
 
     /// The site of a vertex that must be present and not about to be removed.
@@ -210,7 +219,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         sum.exact_calls += report.exact_calls;
         sum.coincident = self.mesh.hidden.count() as u64;
         self.n_moved += report.moved + report.inserted;
-        if self.n_moved > constants::<G>().moves_per_fit * self.mesh.n_present as u64 {
+        if self.n_moved > MOVES_PER_FIT * self.mesh.n_present as u64 {
             self.n_moved = 0;
             self.regions.tighten_filter(&mut self.mesh.kernel);
         }

@@ -9,7 +9,6 @@ use crate::delaunay::{Delaunay, Dimension, Insertion};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::constants::constants;
 use crate::motion::report::CommitReport;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::goals::{Goals, Movers, Moves};
@@ -101,7 +100,8 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(Edited::WithoutMoves);
         }
         let n_edits = self.edits.insertions().len().max(self.edits.removals().len());
-        if self.mesh.kernel.has_cells() && constants::<G>().rebuilt_per_edit * n_edits <= self.mesh.n_present
+        if self.mesh.kernel.has_cells()
+            && self.mesh.constants.rebuilt_per_edit * n_edits <= self.mesh.n_present
         {
             if self.edit_cells(report)? == SingleEdits::Made {
                 return Ok(Edited::WithoutMoves);

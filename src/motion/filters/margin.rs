@@ -2,7 +2,9 @@
 //! looked at for that.
 
 use crate::delaunay::{Delaunay, Dimension};
-use crate::motion::constants::constants;
+
+/// How far the static filter reaches beyond the vertices, as a share of their least extent: no tolerance is greater.
+const MARGIN: f64 = 1.0 / 16.0;
 
 /// A distance from fixed positions that the static filter covers. No tolerance is greater.
 #[derive(Clone, Copy, Debug, Default)]
@@ -13,7 +15,7 @@ impl Margin {
     pub(in crate::motion) fn around_all<G: Dimension>(kernel: &mut Delaunay<G>) -> Margin {
         let (lower, upper) = kernel.tighten_filter();
         let extents = (0..G::D).map(|axis| upper[axis] - lower[axis]);
-        let margin = extents.fold(f64::INFINITY, f64::min) * constants::<G>().margin;
+        let margin = extents.fold(f64::INFINITY, f64::min) * MARGIN;
         kernel.cover_around(&lower, &upper, margin);
         Margin(margin)
     }

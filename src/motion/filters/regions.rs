@@ -25,13 +25,15 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::constants::constants;
 use crate::motion::filters::safe_regions::{Admission, SafeRegions};
 use crate::motion::filters::slack::Slacks;
-use crate::motion::filters::store::Store;
+use crate::motion::filters::store::{Steps, Store};
 use crate::motion::filters::tolerance::{Fixed, Tolerances};
 use crate::motion::filters::watching::Watching;
 use crate::motion::region_kind::Filter;
+
+/// With more than this share of the cells changed, all bi-cells are computed again.
+const MAX_SHARE_FOLLOWED: f64 = 1.0 / 3.0;
 
 /// Regions that are valid.
 #[derive(Debug)]
@@ -125,19 +127,19 @@ impl<G: Dimension> Regions<G> {
         self.kept.as_deref().map(Kept::filter)
     }
 
-    /// The report's pre-computations, for a filter; returns the number of bi-cells computed. `other_positions` as for a
+    /// The report's pre-computations, for a filter; returns the number of bi-cells computed. `steps` as for a
     /// [`Store`].
     pub(in crate::motion) fn prepare(
         &mut self,
         filter: Filter,
         kernel: &mut Delaunay<G>,
         n_ids: usize,
-        other_positions: &[G::Point],
+        steps: Steps<'_, G>,
     ) -> Result<u64> {
         self.invalidate();
         let spare = self.spare.take().filter(|spare| spare.filter() == filter);
         let mut kept = spare.map_or_else(|| memory::boxed(Kept::empty(filter)), Ok)?;
-        let n = kept.store_mut().prepare(kernel, n_ids, other_positions)?;
+        let n = kept.store_mut().prepare(kernel, n_ids, steps)?;
         self.kept = Some(kept);
         Ok(n)
     }
@@ -241,16 +243,16 @@ impl<G: Dimension> Regions<G> {
         relocated: Vec<VertexId>,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        other_positions: &[G::Point],
+        steps: Steps<'_, G>,
     ) -> Result<u64> {
         let store = kept.store_mut();
         store.forget_cells(&changed);
         kernel.tidy_changes(&mut changed);
-        let most = constants::<G>().max_share_followed * kernel.complex().n_finite() as f64;
+        let most = MAX_SHARE_FOLLOWED * kernel.complex().n_finite() as f64;
         let n = if changed.len() as f64 > most {
-            store.prepare(kernel, site_of.len(), other_positions)
+            store.prepare(kernel, site_of.len(), steps)
         } else {
-            store.follow(kernel, site_of, other_positions, &changed, &relocated)
+            store.follow(kernel, site_of, steps, &changed, &relocated)
         }?;
         (self.changed, self.relocated) = (changed, relocated);
         self.kept = Some(kept);

@@ -4,17 +4,28 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 
-/// Regions of one kind. `other_positions` are those of the vertices, by id, at the timestamp before or the next one:
-/// they tell how far vertices go in a timestamp.
+/// How far vertices go in a timestamp.
+#[derive(Debug)]
+pub(in crate::motion) struct Steps<'s, G: Dimension> {
+    /// Positions of the vertices, by id, at the timestamp before or the next one; none if that does not matter.
+    pub(in crate::motion) other_positions: &'s [G::Point],
+    /// The constant of this name.
+    pub(in crate::motion) watched_share: f64,
+}
+
+impl<G: Dimension> Clone for Steps<'_, G> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<G: Dimension> Copy for Steps<'_, G> {}
+
+/// Regions of one kind.
 pub(in crate::motion) trait Store<G: Dimension> {
     /// The report's pre-computations: every vertex is fixed where it is, and every bi-cell is computed. Returns the
     /// number of bi-cells.
-    fn prepare(
-        &mut self,
-        kernel: &mut Delaunay<G>,
-        n_ids: usize,
-        other_positions: &[G::Point],
-    ) -> Result<u64>;
+    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, steps: Steps<'_, G>) -> Result<u64>;
 
     /// Computes the bi-cells of all facets of these cells, each listed once; returns their number. Among the cells are
     /// the stars of the vertices that have been relocated. `site_of` has the site of each vertex, by id.
@@ -22,7 +33,7 @@ pub(in crate::motion) trait Store<G: Dimension> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        other_positions: &[G::Point],
+        steps: Steps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64>;

@@ -1,9 +1,33 @@
 //! Which certificates a commit checks, and what the last ones tell about that.
 
-use crate::delaunay::Dimension;
-use crate::motion::constants::constants;
+use crate::motion::constants::Constants;
 use crate::motion::report::{CommitReport, Evaluations};
 use crate::motion::state::repair::Repair;
+
+/// While vertices are watched, one that is placed counts as so many more beyond: the bi-cells around two places are
+/// computed again, which no cache holds.
+const BEYOND_PER_PLACED: f64 = 3.0;
+
+/// Watching is tried when less than one bi-cell per this number of vertices uses up its slack.
+const VERTICES_PER_USED_UP: u64 = 60;
+
+/// The longest wait for another try of a cheaper way, in shortest waits.
+const LONGEST_WAIT: u32 = 16;
+
+/// The wait ends early when changes are that many times rarer than when the cheaper way was given up.
+const RARER_CHANGES: f64 = 3.0;
+
+/// Vertices that move one at a time, at once or few in a commit, are counted in rounds of as many as there are.
+/// Tolerances are kept for them after a round of which this share changed no cell, and while this share is within.
+const MIN_SHARE_OF_ROUND: f64 = 0.85;
+
+/// Most commits rebuilt without trying to repair. After each repair that was too expensive they are twice as many as
+/// after the last one, and one more.
+const MAX_REBUILDS: u32 = 15;
+
+/// After a repair that was too expensive, commits with more than this share of its failures are rebuilt. How many such
+/// commits follows as for [`MAX_REBUILDS`].
+const SHARE_TOO_MANY: f64 = 0.5;
 
 /// Which certificates a commit checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -95,23 +119,24 @@ impl Auto {
 
     /// Weighs what watching this number of bi-cells has cost, for `n` vertices, against the more expensive way, and
     /// what is watched against what is recomputed. Whether all tolerances are to be computed again.
-    pub(in crate::motion) fn weigh_watching<G: Dimension>(
+    pub(in crate::motion) fn weigh_watching(
         &mut self,
+        constants: &Constants,
         n_watched: usize,
         n: usize,
         report: &CommitReport,
     ) -> bool {
-        let costs = &constants::<G>().costs;
+        let costs = &constants.costs;
         let vertices = n as f64;
         let watched = n_watched as f64 * costs.watched;
         let beyond = (vertices - report.within_tolerance as f64) * costs.beyond;
-        let followed = report.placements as f64 * constants::<G>().beyond_per_placed * costs.beyond;
+        let followed = report.placements as f64 * BEYOND_PER_PLACED * costs.beyond;
         self.imbalance += watched - beyond;
         // Slack would have to follow the same placements.
         let (sweep, slack) = (vertices * costs.sweep, costs.slack.map(|slack| vertices * slack + followed));
         let others = slack.unwrap_or(sweep).min(sweep);
-        self.weigh::<G>(n, report, watched + beyond + followed - others, others < sweep);
-        if self.imbalance.abs() <= constants::<G>().max_imbalance * costs.computed * vertices {
+        self.weigh(constants, n, report, watched + beyond + followed - others, others < sweep);
+        if self.imbalance.abs() <= constants.max_imbalance * costs.computed * vertices {
             return false;
         }
         self.imbalance = 0.0;
@@ -120,39 +145,43 @@ impl Auto {
     }
 
     /// Weighs what slack has cost, for `n` vertices, against a sweep.
-    pub(in crate::motion) fn weigh_slack<G: Dimension>(&mut self, n: usize, report: &CommitReport) {
-        let costs = &constants::<G>().costs;
+    pub(in crate::motion) fn weigh_slack(&mut self, constants: &Constants, n: usize, report: &CommitReport) {
+        let costs = &constants.costs;
         if report.moved == 0 {
             // At rest slack neither spares nor costs much.
             return;
         }
         // Few that move are placed without a sweep.
-        let sweep = if constants::<G>().are_few(report.moved as usize, n) { 0.0 } else { costs.sweep };
+        let sweep = if constants.are_few(report.moved as usize, n) { 0.0 } else { costs.sweep };
         let spared = sweep - costs.slack.unwrap_or_default();
-        self.weigh::<G>(n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared, false);
-        let vertices_per_used_up = constants::<G>().vertices_per_used_up_to_watch;
-        if self.wait == 0 && report.tolerances * vertices_per_used_up < n as u64 {
+        self.weigh(constants, n, report, report.tolerances as f64 * costs.used_up - n as f64 * spared, false);
+        if self.wait == 0 && report.tolerances * VERTICES_PER_USED_UP < n as u64 {
             self.scope = Scope::Watched;
         }
     }
 
     /// Enters by how much a commit has cost more than the more expensive way, which is taken when the sum is too large:
     /// slack, if that would have cost less than a sweep.
-    fn weigh<G: Dimension>(&mut self, n: usize, report: &CommitReport, excess: f64, is_slack_less: bool) {
-        let constants = constants::<G>();
-        self.follow_changes::<G>(report);
+    fn weigh(
+        &mut self,
+        constants: &Constants,
+        n: usize,
+        report: &CommitReport,
+        excess: f64,
+        is_slack_less: bool,
+    ) {
+        self.follow_changes(constants, report);
         self.excess = (self.excess + excess).max(0.0);
         self.wait = self.wait.saturating_sub(1);
         if self.excess > constants.max_excess * constants.costs.computed * n as f64 {
-            self.give_up::<G>(n, is_slack_less && report.rebuilds == 0);
+            self.give_up(constants, n, is_slack_less && report.rebuilds == 0);
         } else {
             self.next_wait = self.next_wait.saturating_sub(1);
         }
     }
 
     /// From now on the more expensive way is taken: slack, if that may come next and few cells change, or a sweep.
-    pub(in crate::motion) fn give_up<G: Dimension>(&mut self, n: usize, may_be_slack: bool) {
-        let constants = constants::<G>();
+    pub(in crate::motion) fn give_up(&mut self, constants: &Constants, n: usize, may_be_slack: bool) {
         let may_be_slack = may_be_slack && constants.costs.slack.is_some();
         self.scope = if may_be_slack && self.changes * constants.vertices_per_change <= n as f64 {
             Scope::Slack
@@ -161,8 +190,8 @@ impl Auto {
         };
         self.changes_at_stop = self.changes;
         (self.excess, self.imbalance, self.is_due) = (0.0, 0.0, false);
-        let longer = constants.wait_growth * self.next_wait + constants.min_wait_commits;
-        self.next_wait = longer.min(constants.max_wait_commits);
+        let longer = 2 * self.next_wait + constants.min_wait_commits;
+        self.next_wait = longer.min(LONGEST_WAIT * constants.min_wait_commits);
         self.wait = self.next_wait;
     }
 
@@ -204,11 +233,7 @@ impl Auto {
     }
 
     /// Counts relocations in a round of `round`; what has become of the round if it ends with them.
-    pub(in crate::motion) fn count_relocations<G: Dimension>(
-        &mut self,
-        round: u64,
-        done: &CommitReport,
-    ) -> Option<Round> {
+    pub(in crate::motion) fn count_relocations(&mut self, round: u64, done: &CommitReport) -> Option<Round> {
         self.enter_within();
         self.relocated += done.moved;
         self.within += done.within_tolerance;
@@ -216,7 +241,7 @@ impl Auto {
         if self.relocated < round {
             return None;
         }
-        let least = constants::<G>().min_share_of_round * self.relocated as f64;
+        let least = MIN_SHARE_OF_ROUND * self.relocated as f64;
         let are_most = |some: u64| some as f64 >= least;
         let ended =
             Round { are_most_within: are_most(self.within), are_most_unchanged: are_most(self.unchanged) };
@@ -231,9 +256,9 @@ impl Auto {
         has_waited
     }
 
-    fn follow_changes<G: Dimension>(&mut self, report: &CommitReport) {
+    fn follow_changes(&mut self, constants: &Constants, report: &CommitReport) {
         let mended = (report.flips + report.placements) as f64;
-        self.changes += constants::<G>().weight_of_last * (mended - self.changes);
+        self.changes += constants.weight_of_last * (mended - self.changes);
     }
 
     /// Notes what a commit that rebuilt without trying to repair has evaluated.
@@ -243,14 +268,15 @@ impl Auto {
 
     /// Whether a repair of `n` vertices has cost more than rebuilding would have. Placements count by their number, or
     /// together with flips by what they have evaluated, whichever is more.
-    fn is_too_expensive<G: Dimension>(
+    fn is_too_expensive(
         &self,
+        constants: &Constants,
         n: usize,
         (n_swept, slowdown): (u64, f64),
         report: &CommitReport,
         [before, after]: [Evaluations; 2],
     ) -> bool {
-        let (costs, done) = (&constants::<G>().costs, after.since(before));
+        let (costs, done) = (&constants.costs, after.since(before));
         let certified = done.certificates.saturating_sub(n_swept) as f64 * costs.certified;
         let counted = costs.of(report.placements, done).max(certified);
         let spent = n as f64 * costs.sweep + slowdown * counted;
@@ -261,35 +287,35 @@ impl Auto {
 
     /// Draws conclusions from a repair, for `n` vertices, of which the sweep has checked so many certificates, and
     /// which takes so many times as long as counts tell.
-    pub(in crate::motion) fn learn<G: Dimension>(
+    pub(in crate::motion) fn learn(
         &mut self,
+        constants: &Constants,
         n: usize,
         swept: (u64, f64),
         report: &CommitReport,
         repair: &Repair,
         evaluations: [Evaluations; 2],
     ) {
-        let constants = constants::<G>();
         if report.moved == 0 {
             // Vertices at rest tell nothing about how they will move.
             return;
         }
-        self.follow_changes::<G>(report);
+        self.follow_changes(constants, report);
         let [before, after] = evaluations;
         if report.rebuilds > 0 && repair.was_foreseen() {
             // All but the sweep's.
             self.exact_of_rebuild = Some(after.since(before).exact.saturating_sub(repair.exact_of_sweep()));
         }
-        if report.rebuilds > 0 || self.is_too_expensive::<G>(n, swept, report, evaluations) {
+        if report.rebuilds > 0 || self.is_too_expensive(constants, n, swept, report, evaluations) {
             self.rebuilds = self.last_rebuilds;
-            let more = constants.rebuilds_growth * self.last_rebuilds + 1;
-            self.last_rebuilds = more.min(constants.max_rebuilds);
+            let more = 2 * self.last_rebuilds + 1;
+            self.last_rebuilds = more.min(MAX_REBUILDS);
             if repair.was_foreseen() {
                 self.refusals = self.refusals.saturating_sub(1);
             } else if repair.share_failing() > 0.0 && (report.rebuilds == 0 || !repair.is_dented()) {
-                self.too_many_failing = constants.share_too_many * repair.share_failing();
-                let more = constants.rebuilds_growth * self.last_refusals + 1;
-                self.last_refusals = more.min(constants.max_rebuilds);
+                self.too_many_failing = SHARE_TOO_MANY * repair.share_failing();
+                let more = 2 * self.last_refusals + 1;
+                self.last_refusals = more.min(MAX_REBUILDS);
                 self.refusals = self.last_refusals;
             }
             return;
@@ -301,7 +327,7 @@ impl Auto {
         }
         self.wait = self.wait.saturating_sub(1);
         // Also before the wait is over if changes have become much rarer.
-        let may_try = self.wait == 0 || constants.rarer_changes * self.changes < self.changes_at_stop;
+        let may_try = self.wait == 0 || RARER_CHANGES * self.changes < self.changes_at_stop;
         // Few that move and change cells take less time without tolerances.
         let are_placed = constants.are_few(report.moved as usize, n) && report.flips + report.placements > 0;
         if may_try && !are_placed && self.changes * constants.vertices_per_change <= n as f64 {

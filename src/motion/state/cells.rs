@@ -20,11 +20,13 @@ use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::constants::reading;
 use crate::motion::state::changes::{Taken, Tracker, renumber};
 use crate::motion::state::marks::{Bits, Marks};
 use crate::motion::state::matching::Matcher;
 use crate::motion::state::ordering::Ordering;
+
+/// When more than this share of the slots has changed, all are compared.
+const MAX_SHARE_LISTED: f64 = 0.5;
 
 /// Neighbour of a cell across a facet of the convex hull.
 pub const NO_CELL: CellId = CellId::NONE;
@@ -34,7 +36,7 @@ pub const NO_CORNER: u8 = u8::MAX;
 
 /// Whether `n_changed` changed slots are too many of `n_slots` to be compared one by one.
 pub(in crate::motion) fn are_most(n_changed: usize, n_slots: usize) -> bool {
-    n_changed as f64 > reading().max_share_listed * n_slots as f64
+    n_changed as f64 > MAX_SHARE_LISTED * n_slots as f64
 }
 
 /// Memory for this number of changes is always kept.

@@ -4,7 +4,9 @@
 use crate::error::Result;
 use crate::ids::Id;
 use crate::machine::memory;
-use crate::motion::constants::reading;
+
+/// Scanning the bits of this number of numbers takes as long as sorting one.
+const SCANNED_PER_SORTED: usize = 256;
 
 /// Bits by number; those beyond the end are 0.
 #[derive(Debug, Default)]
@@ -109,7 +111,7 @@ impl<I: Id> Marks<I> {
 
     /// Puts a list of all the numbers in ascending order.
     fn put_in_order(&self, list: &mut Vec<I>) {
-        if reading().scanned_per_sorted * list.len() < 64 * self.bits.0.len() {
+        if SCANNED_PER_SORTED * list.len() < 64 * self.bits.0.len() {
             list.sort_unstable();
         } else {
             list.clear();

@@ -8,7 +8,16 @@ use crate::error::Result;
 use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::motion::constants::reading;
+
+/// From this number on, lost cells are listed by their lowest corner.
+const MIN_CELLS_LISTED: usize = 1 << 12;
+
+/// Lost cells are not listed by their lowest corner if ids are more than this many times as many.
+const MAX_IDS_PER_CELL: usize = 8;
+
+/// Lost cells are not listed by their lowest corner if more than this number have the same one: a search goes through
+/// all of these.
+const MAX_CELLS_PER_CORNER: u32 = 256;
 
 /// Cache lines that are asked for in advance of the cells of a lowest corner.
 const LINES: usize = 4;
@@ -77,11 +86,9 @@ impl<C: Corners<VertexId>> Matcher<C> {
         self.entries.clear();
         memory::reserve(&mut self.entries, lost.len())?;
         self.ends.clear();
-        if lost.len() >= reading().min_cells_listed {
+        if lost.len() >= MIN_CELLS_LISTED {
             let n_ids = ahead(corners, lost).map(|(_, row)| lowest(row)).fold(0, usize::max) + 1;
-            if n_ids <= reading().max_ids_per_cell * lost.len()
-                && self.list_by_lowest(corners, lost, n_ids)?
-            {
+            if n_ids <= MAX_IDS_PER_CELL * lost.len() && self.list_by_lowest(corners, lost, n_ids)? {
                 return Ok(());
             }
             self.ends.clear();
@@ -111,7 +118,7 @@ impl<C: Corners<VertexId>> Matcher<C> {
         for (_, row) in ahead(corners, lost) {
             ends[lowest(row) + 1] += 1;
         }
-        if ends.iter().any(|&n| n > reading().max_cells_per_corner) {
+        if ends.iter().any(|&n| n > MAX_CELLS_PER_CORNER) {
             return Ok(false);
         }
         for v in 0..n_ids {

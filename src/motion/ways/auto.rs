@@ -37,15 +37,26 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::algorithms::Algorithm;
-use crate::motion::constants::{Constants, constants};
 use crate::motion::options::SwitchingRule;
 use crate::motion::plan::auto::{Round, Scope};
+use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::region_kind::Filter;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
+use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::{Attempt, Start};
 use crate::motion::ways::outlook::Outlook;
+
+/// Vertices sampled before all tolerances are computed.
+const SAMPLED_VERTICES: u32 = 64;
+
+/// Tolerances are computed only if this share of the sampled vertices is within its own.
+const MIN_SHARE_WITHIN: f64 = 0.8;
+
+/// While tolerances are kept, rounds are shorter by this factor: where they are of no use, every move is the more
+/// expensive for them.
+const SHORTER_ROUNDS: f64 = 8.0;
 
 impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn commit_by_auto(
@@ -53,7 +64,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let is_of_few = constants::<G>().are_few(moves.count(), self.mesh.n_present);
+        let is_of_few = self.mesh.constants.are_few(moves.count(), self.mesh.n_present);
         self.auto.note_few(is_of_few);
         if !self.mesh.kernel.has_cells() {
             return self.rebuild(moves, report);
@@ -90,13 +101,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         memory::made(&mut self.repair)?.set_limit(self.auto.limit());
         let repaired = self.commit_by_repair(start, moves, report);
-        let (evaluations, slowdown) =
-            ([before, self.mesh.evaluations()], self.mesh.slowdown(constants::<G>().repaired_alone));
+        let (evaluations, slowdown) = ([before, self.mesh.evaluations()], self.mesh.slowdown(REPAIRED_ALONE));
         let repair = memory::made(&mut self.repair)?;
         repair.set_limit(None);
         repaired?;
         let swept = (self.mesh.kernel.n_certificates(), slowdown);
-        self.auto.learn::<G>(self.mesh.n_present, swept, report, repair, evaluations);
+        self.auto.learn(self.mesh.constants, self.mesh.n_present, swept, report, repair, evaluations);
         Ok(())
     }
 
@@ -160,30 +170,34 @@ impl<G: Dimension> MovingTriangulation<G> {
         if self.auto.scope() == Scope::Watched {
             let is_kept = self.regions.kept_for() == Some(Filter::Watch);
             if (is_kept || self.auto.take_due() || self.is_sample_within(moves)?)
-                && self.commit_by_watching(constants::<G>().max_share_beyond, moves, report)?
-                    == Attempt::Committed
+                && self.commit_by_watching(moves, report)? == Attempt::Committed
             {
-                if self.auto.weigh_watching::<G>(self.regions.n_watched(), self.mesh.n_present, report) {
+                if self.auto.weigh_watching(
+                    self.mesh.constants,
+                    self.regions.n_watched(),
+                    self.mesh.n_present,
+                    report,
+                ) {
                     self.regions.invalidate();
                 }
                 return Ok(Attempt::Committed);
             }
-            self.auto.give_up::<G>(self.mesh.n_present, true);
+            self.auto.give_up(self.mesh.constants, self.mesh.n_present, true);
         }
         if self.auto.scope() == Scope::Slack {
             let was_kept = self.regions.kept_for() == Some(Filter::Slack);
             ended = self.commit_by_slack(moves, report)?;
             if ended == Attempt::Committed {
                 if was_kept {
-                    self.auto.weigh_slack::<G>(self.mesh.n_present, report);
+                    self.auto.weigh_slack(self.mesh.constants, self.mesh.n_present, report);
                 }
-                if self.mesh.kernel.is_disordered(constants::<G>().replaced_to_sort_first) {
+                if self.mesh.kernel.is_disordered(REPLACED_TO_SORT_FIRST) {
                     // So that the next commit sorts the cells.
                     self.regions.invalidate();
                 }
                 return Ok(ended);
             }
-            self.auto.give_up::<G>(self.mesh.n_present, false);
+            self.auto.give_up(self.mesh.constants, self.mesh.n_present, false);
         }
         Ok(ended)
     }
@@ -197,17 +211,15 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Whether all but a few of a sample of the vertices stay within tolerance.
     fn is_sample_within(&mut self, moves: &mut Moves<'_, G>) -> Result<bool> {
-        let &Constants { sampled_vertices: sample, min_share_within, .. } = constants::<G>();
-        let rule = SwitchingRule { sample, ..SwitchingRule::default() };
-        Ok(self.sampled_share(&rule, moves)? >= min_share_within)
+        let rule = SwitchingRule { sample: SAMPLED_VERTICES, ..SwitchingRule::default() };
+        Ok(self.sampled_share(&rule, moves)? >= MIN_SHARE_WITHIN)
     }
 
     /// Relocations in a round.
     fn round(&self, is_kept: bool) -> u64 {
-        let constants = constants::<G>();
         let all = self.mesh.n_present as f64;
-        let round = if is_kept { all / constants.shorter_rounds } else { all };
-        round.max(f64::from(constants.sampled_vertices)) as u64
+        let round = if is_kept { all / SHORTER_ROUNDS } else { all };
+        round.max(f64::from(SAMPLED_VERTICES)) as u64
     }
 
     /// Whether the next relocation within tolerance is surely not the last one of its round.
@@ -233,7 +245,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub(in crate::motion) fn follow_relocations(&mut self, done: &CommitReport) {
         let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
         let round = self.round(is_kept);
-        if let Some(ended) = self.auto.count_relocations::<G>(round, done) {
+        if let Some(ended) = self.auto.count_relocations(round, done) {
             self.follow_round(is_kept, ended);
         }
         if self.regions.kept_for() == Some(Filter::Tolerance) {
@@ -246,7 +258,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if is_kept {
             if !ended.are_most_within {
                 self.regions.invalidate();
-                self.auto.give_up::<G>(self.mesh.n_present, false);
+                self.auto.give_up(self.mesh.constants, self.mesh.n_present, false);
             }
         } else if self.auto.has_waited() && ended.are_most_unchanged {
             // Without the memory for them all goes on as it did.
@@ -257,8 +269,8 @@ impl<G: Dimension> MovingTriangulation<G> {
 
 #[cfg(test)]
 mod tests {
+    use super::REPLACED_TO_SORT_FIRST;
     use crate::delaunay::{Level, Space};
-    use crate::motion::constants::constants;
     use crate::motion::options::Options;
     use crate::motion::region_kind::Filter;
     use crate::motion::triangulation::MovingTriangulation;
@@ -281,7 +293,7 @@ mod tests {
         // More cells than a processor's own cache holds.
         let (n, side) = (6_000, 18.0);
         let (mut now, mut t) = random(n, side, rng);
-        let first = constants::<Space>().replaced_to_sort_first;
+        let first = REPLACED_TO_SORT_FIRST;
         for (step, n_commits, is_slack) in [(0.06, 60, false), (1e-4, 20, true), (1e-4, 3, true)] {
             let mut n_sorted = 0;
             for _ in 0..n_commits {

@@ -4,6 +4,7 @@ use crate::delaunay::{Dimension, Shortcut};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::filters::safe_regions::Admission;
+use crate::motion::filters::store::Steps;
 use crate::motion::region_kind::Filter;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Goals;
@@ -12,7 +13,7 @@ use crate::motion::ways::placement::Placed;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The pre-computations for a filter, unless what the last commit has kept is valid. `other_positions` are those
-    /// of a [`Store`](crate::motion::filters::store::Store).
+    /// of [`Steps`].
     pub(in crate::motion) fn prepare_regions(
         &mut self,
         filter: Filter,
@@ -20,8 +21,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         if self.regions.kept_for() != Some(filter) {
+            let steps = Steps { other_positions, watched_share: self.mesh.constants.watched_share };
             let (kernel, n_ids) = (&mut self.mesh.kernel, self.mesh.site_of.len());
-            report.tolerances += self.regions.prepare(filter, kernel, n_ids, other_positions)?;
+            report.tolerances += self.regions.prepare(filter, kernel, n_ids, steps)?;
         }
         Ok(())
     }
@@ -113,7 +115,8 @@ impl<G: Dimension> MovingTriangulation<G> {
                 relocated.retain(|&v| !self.mesh.is_shared(self.mesh.site_of[v]));
                 let (kernel, site_of) = (&mut self.mesh.kernel, &self.mesh.site_of);
                 let other_positions = self.mesh.transaction.origins().positions();
-                let n = self.regions.follow(kept, changed, relocated, kernel, site_of, other_positions);
+                let steps = Steps { other_positions, watched_share: self.mesh.constants.watched_share };
+                let n = self.regions.follow(kept, changed, relocated, kernel, site_of, steps);
                 // Without the memory for it none are kept, and the next commit says so.
                 report.tolerances += n.unwrap_or_default();
             }

@@ -5,7 +5,6 @@
 use crate::delaunay::{Dimension, Site};
 use crate::ids::VertexId;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::motion::constants::constants;
 use crate::motion::state::goals::{Movers, Moves};
 use crate::motion::state::mesh::Mesh;
 use crate::predicates::Array;
@@ -60,14 +59,14 @@ impl<G: Dimension> Mesh<G> {
             }
             let is_known = seen.enter(k == 0, &sites[self.site_of[v]], &goals[v]);
             let is_alike = seen.common.is_some();
-            if is_known && !is_alike && !(asks_for_few && constants::<G>().are_few(seen.n_moving, n)) {
+            if is_known && !is_alike && !(asks_for_few && self.constants.are_few(seen.n_moving, n)) {
                 return Outlook::Unknown;
             }
         }
         match seen {
             Seen { n_moving: 0, .. } => Outlook::AtRest,
             Seen { common: Some(_), .. } if are_all => Outlook::Together,
-            Seen { n_moving, .. } if constants::<G>().are_few(n_moving, n) => Outlook::FewMove,
+            Seen { n_moving, .. } if self.constants.are_few(n_moving, n) => Outlook::FewMove,
             _ => Outlook::Unknown,
         }
     }

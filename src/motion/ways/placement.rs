@@ -15,12 +15,14 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
-use crate::motion::constants::constants;
 use crate::motion::plan::budget::Budget;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Movers, Moves};
 use crate::motion::state::mesh::Mesh;
 use crate::motion::triangulation::MovingTriangulation;
+
+/// Relocations between two calls of the monitor.
+const RELOCATIONS_PER_CALL: usize = 256;
 
 /// Vertices looked at to find out whether many go far away.
 const SAMPLE: usize = 64;
@@ -77,11 +79,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let (left, slowdown) = (queue.len(), self.mesh.slowdown(1.0));
-        let mut budget =
-            Budget::new::<G>(self.mesh.n_present, left, exact, self.mesh.evaluations(), report, slowdown);
+        let mut budget = Budget::new(
+            self.mesh.constants,
+            self.mesh.n_present,
+            left,
+            exact,
+            self.mesh.evaluations(),
+            report,
+            slowdown,
+        );
         self.place_all(queue, goals, report, |t, v, goal, report| {
             let placed = t.mesh.relocate(v, goal, Shortcut::Flips, report)?;
-            Ok(if budget.is_exceeded::<G>(t.mesh.evaluations(), report) { Placed::NeedBuild } else { placed })
+            Ok(if budget.is_exceeded(t.mesh.evaluations(), report) { Placed::NeedBuild } else { placed })
         })
     }
 
@@ -121,7 +130,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 // Nothing to walk in: what is left is placed at once.
                 return self.rebuild_moving(&queue[k..], goals, report);
             }
-            let is_call_due = k.is_multiple_of(constants::<G>().relocations_per_call);
+            let is_call_due = k.is_multiple_of(RELOCATIONS_PER_CALL);
             if is_call_due && !self.mesh.monitor((n_there + k) as f64 / n) {
                 return Err(Error::Cancelled);
             }

@@ -11,12 +11,15 @@ use std::cell::Cell;
 use crate::delaunay::{Delaunay, Dimension, Site};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
-use crate::motion::constants::constants;
 use crate::motion::report::CommitReport;
 use crate::motion::state::checking::differ;
 use crate::motion::state::goals::{Goals, Movers, Moves};
 use crate::motion::state::hidden::Hidden;
 use crate::motion::triangulation::MovingTriangulation;
+
+/// Sites are sorted when the mean distance of those next to each other has become so much greater: with less, they are
+/// sorted without need; with more the walks take longer than to sort.
+const MAX_STRIDE_RATIO: f64 = 1.7;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates all vertices at their goals, where none has moved yet.
@@ -114,7 +117,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// whether the sites have their indices from before.
     fn build(&mut self, next: &mut Delaunay<G>) -> Result<(Hidden, f64, bool)> {
         let (mut stride, mut keeps_sites) = (self.mesh.sorted_stride, next.keeps_sites());
-        if next.mean_stride() > constants::<G>().max_stride_ratio * stride || !next.has_even_parts() {
+        if next.mean_stride() > MAX_STRIDE_RATIO * stride || !next.has_even_parts() {
             next.sort_sites()?;
             (stride, keeps_sites) = (next.mean_stride(), false);
         }

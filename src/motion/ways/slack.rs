@@ -21,15 +21,18 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
-use crate::motion::constants::constants;
 use crate::motion::filters::slack::Expired;
 use crate::motion::region_kind::Filter;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
+use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::{Attempt, Start};
 use crate::motion::ways::moving::Motion;
+
+/// With more than this share of the cells past their deadlines, a sweep of everything is cheaper.
+const MAX_SHARE_EXPIRED: f64 = 1.0 / 3.0;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by slack where that is possible, else by repair.
@@ -56,7 +59,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Slack) {
             let goals = moves.checked()?;
-            self.mesh.sort_cells(constants::<G>().replaced_to_sort_first)?;
+            self.mesh.sort_cells(REPLACED_TO_SORT_FIRST)?;
             self.prepare_regions(Filter::Slack, goals.positions(), report)?;
         }
         let mut repair = memory::take_made(&mut self.repair)?;
@@ -73,8 +76,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     ) -> Result<Attempt> {
         let slacks = self.regions.slacks().expect("they have been prepared");
         let Motion { moved, greatest, fits } = self.mesh.move_all_on_record(moves, slacks)?;
-        let most =
-            (self.mesh.kernel.complex().n_finite() as f64 * constants::<G>().max_share_expired) as usize;
+        let most = (self.mesh.kernel.complex().n_finite() as f64 * MAX_SHARE_EXPIRED) as usize;
         let (origins, (failures, _)) = (self.mesh.transaction.origins().positions(), repair.begin_check());
         let expired = slacks.check_expired(&self.mesh.kernel, origins, greatest, most, failures)?;
         if !fits {

@@ -42,14 +42,18 @@ use crate::delaunay::{Dimension, Waiting};
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::constants::constants;
+use crate::motion::filters::store::Steps;
 use crate::motion::region_kind::Filter;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Moves};
+use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::{Advance, Attempt, Mending, Start};
 use crate::motion::ways::moving::Beyond;
+
+/// Watching pays only while less than this share of the vertices is beyond its tolerance.
+const MAX_SHARE_BEYOND: f64 = 0.125;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Commits by watching where that is possible, else by repair.
@@ -59,9 +63,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let can_watch = self.mesh.kernel.has_cells() && moves.are_of_all() && self.mesh.hidden.count() == 0;
-        let most = constants::<G>().max_share_beyond_alone;
         let attempt = if can_watch {
-            self.commit_by_watching(most, moves, report)?
+            self.commit_by_watching(moves, report)?
         } else {
             Attempt::GivenUp(Start::AtOrigins)
         };
@@ -75,16 +78,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// their tolerance. No two vertices may share a site.
     pub(in crate::motion) fn commit_by_watching(
         &mut self,
-        max_share_beyond: f64,
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
         if self.regions.kept_for() != Some(Filter::Watch) {
             let goals = moves.checked()?;
-            self.mesh.sort_cells(constants::<G>().replaced_to_sort_first)?;
+            self.mesh.sort_cells(REPLACED_TO_SORT_FIRST)?;
             self.prepare_regions(Filter::Watch, goals.positions(), report)?;
         }
-        let most = (self.mesh.n_present as f64 * max_share_beyond) as usize;
+        let most = (self.mesh.n_present as f64 * MAX_SHARE_BEYOND) as usize;
         let mut queue = std::mem::take(&mut self.queue);
         let mut beyond = Beyond { fixed: self.regions.fixed(), most, queue: &mut queue };
         let Advance::Moved(moved) = self.mesh.move_and_queue::<true>(moves, &mut beyond)? else {
@@ -119,8 +121,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         report.unchanged += beyond.len() as u64;
         if let Some(watching) = self.regions.watching() {
             let sites = beyond.iter().map(|&v| self.mesh.site_of[v]);
-            let origins = self.mesh.transaction.origins().positions();
-            report.tolerances += watching.recompute(&mut self.mesh.kernel, origins, repair.touched(), sites);
+            let other_positions = self.mesh.transaction.origins().positions();
+            let steps = Steps { other_positions, watched_share: self.mesh.constants.watched_share };
+            report.tolerances += watching.recompute(&mut self.mesh.kernel, steps, repair.touched(), sites);
         }
         Ok(())
     }

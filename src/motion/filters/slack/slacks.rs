@@ -28,7 +28,7 @@ use crate::motion::filters::bicell::{BiCell, for_bicells};
 use crate::motion::filters::margin::Margin;
 use crate::motion::filters::slack::entries::{BLOCK, deadline, entry, least, list_expired_of, slack};
 use crate::motion::filters::slack::pass::{Check, Pass};
-use crate::motion::filters::store::Store;
+use crate::motion::filters::store::{Steps, Store};
 use crate::predicates::distance_above;
 
 /// A number for each corner of a cell.
@@ -144,11 +144,11 @@ impl<G: Dimension> Slacks<G> {
         n
     }
 
-    fn choose_unit(&mut self, kernel: &Delaunay<G>, other_positions: &[G::Point]) {
+    fn choose_unit(&mut self, kernel: &Delaunay<G>, steps: Steps<'_, G>) {
         let mean_of_up_to = |most: f64| {
             let (mut sum, mut n) = (0.0, 0.0);
             for site in kernel.sites()[1..].iter().filter(|site| site.is_live()) {
-                let there = other_positions.get(site.id.index());
+                let there = steps.other_positions.get(site.id.index());
                 let way = there.map_or(0.0, |p| distance_above(&site.point, p));
                 if way <= most {
                     sum += way;
@@ -408,14 +408,14 @@ impl<G: Dimension> Slacks<G> {
 }
 
 impl<G: Dimension> Store<G> for Slacks<G> {
-    fn prepare(&mut self, kernel: &mut Delaunay<G>, _: usize, other_positions: &[G::Point]) -> Result<u64> {
+    fn prepare(&mut self, kernel: &mut Delaunay<G>, _: usize, steps: Steps<'_, G>) -> Result<u64> {
         self.travelled.clear();
         self.entries.clear();
         self.is_open.clear();
         self.margin = Margin::around_all(kernel);
         self.room = self.margin.distance();
         self.grow(kernel)?;
-        self.choose_unit(kernel, other_positions);
+        self.choose_unit(kernel, steps);
         Ok(self.compute_all(kernel))
     }
 
@@ -423,7 +423,7 @@ impl<G: Dimension> Store<G> for Slacks<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        _: &[G::Point],
+        _: Steps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64> {

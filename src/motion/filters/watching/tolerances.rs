@@ -4,8 +4,7 @@ use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::motion::constants::constants;
-use crate::motion::filters::store::Store;
+use crate::motion::filters::store::{Steps, Store};
 use crate::motion::filters::tolerance::{Fixed, Tolerances};
 use crate::motion::filters::watching::watched::Watched;
 use crate::predicates::squared_distance;
@@ -50,14 +49,14 @@ impl<G: Dimension> Watching<G> {
     pub(in crate::motion) fn recompute(
         &mut self,
         kernel: &mut Delaunay<G>,
-        other_positions: &[G::Point],
+        steps: Steps<'_, G>,
         cells: &[Slot],
         relocated: impl Iterator<Item = SiteId>,
     ) -> u64 {
         let Watching { tolerances, watched } = self;
         relocated.for_each(|s| tolerances.fix(kernel, s));
         tolerances.measure_around(kernel, cells, |fixed, facets, vertices, tolerance| {
-            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions, f64::INFINITY))
+            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, steps, f64::INFINITY))
         })
     }
 }
@@ -71,51 +70,41 @@ fn is_soon_beyond<G: Dimension>(
     fixed: &[Fixed<G>],
     vertices: &[VertexId],
     tolerance: f64,
-    other_positions: &[G::Point],
+    steps: Steps<'_, G>,
     longest: f64,
 ) -> bool {
     let square = squared_distance(fixed[vertices[1]].point(), fixed[vertices[2]].point());
     let t = tolerance * tolerance;
-    let is_small_for = |step: f64| t * t <= constants::<G>().watched_share * step * square;
+    let is_small_for = |step: f64| t * t <= steps.watched_share * step * square;
     // Nearly all bi-cells are large enough for the longest step of all. (Where that is infinite, the product may be no
     // number, which says nothing.)
-    (is_small_for(longest) || longest.is_infinite())
-        && is_small_for(longest_step(fixed, vertices, other_positions))
+    (is_small_for(longest) || longest.is_infinite()) && is_small_for(longest_step(fixed, vertices, steps))
 }
 
 /// The longest way of a vertex of a bi-cell in the last timestamp, squared. Out of the loop, which hardly ever asks.
 #[inline(never)]
-fn longest_step<G: Dimension>(
-    fixed: &[Fixed<G>],
-    vertices: &[VertexId],
-    other_positions: &[G::Point],
-) -> f64 {
+fn longest_step<G: Dimension>(fixed: &[Fixed<G>], vertices: &[VertexId], steps: Steps<'_, G>) -> f64 {
     let here = |v: VertexId| fixed[v].point();
     let from_one = |&v: &VertexId| squared_distance(here(vertices[1]), here(v));
     let greatest = vertices.iter().map(from_one).fold(0.0, f64::max);
     // A step longer than the bi-cell is a leap, which tells nothing about the next step.
     let step = |&v: &VertexId| {
-        let there = other_positions.get(v.index());
+        let there = steps.other_positions.get(v.index());
         there.map(|p| squared_distance(here(v), p)).filter(|&step| step <= greatest).unwrap_or(0.0)
     };
     vertices.iter().map(step).fold(0.0, f64::max)
 }
 
 impl<G: Dimension> Store<G> for Watching<G> {
-    fn prepare(
-        &mut self,
-        kernel: &mut Delaunay<G>,
-        n_ids: usize,
-        other_positions: &[G::Point],
-    ) -> Result<u64> {
+    fn prepare(&mut self, kernel: &mut Delaunay<G>, n_ids: usize, steps: Steps<'_, G>) -> Result<u64> {
         let Watching { tolerances, watched } = self;
         watched.clear();
         tolerances.fix_all(kernel, n_ids)?;
         watched.grow(kernel.complex().n_slots())?;
-        let steps = tolerances.fixed().iter().zip(other_positions);
-        let longest = steps.map(|(fixed, p)| squared_distance(fixed.point(), p)).fold(0.0, f64::max);
+        let pairs = tolerances.fixed().iter().zip(steps.other_positions);
+        let longest = pairs.map(|(fixed, p)| squared_distance(fixed.point(), p)).fold(0.0, f64::max);
         Ok(tolerances.measure_all(kernel, |fixed, facets, vertices, tolerance| {
-            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, other_positions, longest))
+            watched.set(facets, is_soon_beyond(fixed, vertices, tolerance, steps, longest))
         }))
     }
 
@@ -123,13 +112,13 @@ impl<G: Dimension> Store<G> for Watching<G> {
         &mut self,
         kernel: &mut Delaunay<G>,
         site_of: &[SiteId],
-        other_positions: &[G::Point],
+        steps: Steps<'_, G>,
         cells: &[Slot],
         relocated: &[VertexId],
     ) -> Result<u64> {
         self.tolerances.grow(site_of.len())?;
         self.watched.grow(kernel.complex().n_slots())?;
-        Ok(self.recompute(kernel, other_positions, cells, relocated.iter().map(|&v| site_of[v])))
+        Ok(self.recompute(kernel, steps, cells, relocated.iter().map(|&v| site_of[v])))
     }
 
     fn forget_cells(&mut self, cells: &[Slot]) {

@@ -17,9 +17,11 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::motion::constants::constants;
 use crate::motion::state::mesh::Mesh;
 use crate::motion::state::transaction::{Counts, Event, VertexBefore};
+
+/// After a repair, cells are sorted again if this many times as many as there are have been replaced.
+const REPLACED_TO_SORT: f64 = 2.0;
 
 impl<G: Dimension> Mesh<G> {
     /// Begins a change.
@@ -50,7 +52,7 @@ impl<G: Dimension> Mesh<G> {
         self.transaction.end();
         if self.transaction.wants_order() {
             // For speed alone: without the memory for it the cells stay as they are.
-            let _ = self.sort_cells(constants::<G>().replaced_to_sort);
+            let _ = self.sort_cells(REPLACED_TO_SORT);
         }
     }
 

@@ -10,12 +10,17 @@ use crate::delaunay::{Delaunay, Dimension, Merge};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
+use crate::motion::constants::{Constants, TABLE};
 use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::Evaluations;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::transaction::Transaction;
 use crate::motion::state::views::Views;
 use crate::predicates::exact_calls;
+
+/// Before the tolerances of all bi-cells are computed, cells are sorted again if this many times as many as there are
+/// have been replaced: the computation takes several times as long as sorting, and less where cells are sorted.
+pub(in crate::motion) const REPLACED_TO_SORT_FIRST: f64 = 0.5;
 
 /// The vertices at their last timestamp, and their cells; or midway in a change.
 #[derive(Debug)]
@@ -29,6 +34,8 @@ pub(in crate::motion) struct Mesh<G: Dimension> {
     pub(in crate::motion) sorted_stride: f64,
     pub(in crate::motion) transaction: Transaction<G>,
     pub(in crate::motion) views: Views<G>,
+    /// By what is decided between two ways to the same cells.
+    pub(in crate::motion) constants: &'static Constants,
     /// Whether the program takes changes.
     pub(in crate::motion) takes_changes: bool,
 }
@@ -51,6 +58,7 @@ impl<G: Dimension> Mesh<G> {
             sorted_stride: 0.0,
             transaction: Transaction::default(),
             views: Views::default(),
+            constants: TABLE.of::<G>(),
             takes_changes: false,
         }
     }
@@ -65,6 +73,7 @@ impl<G: Dimension> Mesh<G> {
             sorted_stride: self.sorted_stride,
             transaction: Transaction::default(),
             views: self.views.copied(&self.kernel)?,
+            constants: self.constants,
             takes_changes: self.takes_changes,
         })
     }

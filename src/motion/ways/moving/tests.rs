@@ -5,6 +5,7 @@ use crate::delaunay::{Level, Plane, Space};
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::motion::algorithms::Algorithm;
+use crate::motion::filters::store::Steps;
 use crate::motion::options::Options;
 use crate::motion::region_kind::Filter;
 use crate::motion::state::goals::Movers;
@@ -22,11 +23,15 @@ fn positions<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<G::Point> {
     t.mesh.site_of.iter().map(|&s| t.mesh.kernel.site(s).point).collect()
 }
 
+fn steps<G: Dimension>(other_positions: &[G::Point]) -> Steps<'_, G> {
+    Steps { other_positions, watched_share: 1.0 }
+}
+
 /// A triangulation with tolerances, and goals of all its vertices: some of them where they are, some with one
 /// coordinate that stays, some far away. Returns these places and which are beyond tolerance.
 fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
-    t.regions.prepare(Filter::Tolerance, &mut t.mesh.kernel, n, &[]).expect("room");
+    t.regions.prepare(Filter::Tolerance, &mut t.mesh.kernel, n, steps(&[])).expect("room");
     let mut places = positions(&t);
     let far = points::<G>(n, rng);
     for (p, far) in places.iter_mut().zip(far) {
@@ -112,7 +117,8 @@ fn agree<G: Dimension>() {
                 assert_eq!(t.mesh.move_everything(moves).expect("good places"), n_moved);
             } else {
                 let other_positions = vec![G::Point::default(); n];
-                let computed = t.regions.prepare(Filter::Slack, &mut t.mesh.kernel, n, &other_positions);
+                let computed =
+                    t.regions.prepare(Filter::Slack, &mut t.mesh.kernel, n, steps(&other_positions));
                 computed.expect("room");
                 let slacks = t.regions.slacks().expect("they are computed");
                 assert_eq!(t.mesh.move_all_on_record(moves, slacks).expect("good places").moved, n_moved);

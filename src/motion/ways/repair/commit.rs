@@ -33,7 +33,7 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
-use crate::motion::constants::constants;
+use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Movers, Moves};
 use crate::motion::state::mesh::Mesh;
@@ -42,6 +42,12 @@ use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::{Mending, Prospect, Start};
 use crate::predicates::exact_calls;
+
+/// Times that flips may be stuck before the triangulation is rebuilt.
+const MAX_ROUNDS: usize = 8;
+
+/// Times that cells are untangled, each time with more vertices taken back before.
+const MAX_UNTANGLINGS: usize = 4;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Brings the vertices to their goals by a sweep and repair of what failed. Those that are there already may be
@@ -124,9 +130,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     fn mend_failures(&mut self, repair: &mut Repair, report: &mut CommitReport) -> Result<Mending> {
-        let constants = constants::<G>();
-        let per_placement =
-            self.mesh.slowdown(constants.repaired_alone) * constants.rebuilt_per_placement as f64;
+        let constants = self.mesh.constants;
+        let per_placement = self.mesh.slowdown(REPAIRED_ALONE) * constants.rebuilt_per_placement as f64;
         let most = (self.mesh.n_present as f64 / per_placement) as usize;
         if repair.failures.is_sweep_due && constants.are_few(repair.places.n_new, self.mesh.n_present) {
             self.take_all_back(repair)?;
@@ -158,7 +163,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(Mending::TooMuch);
         }
         let mut is_triangulation = repair.failures.is_triangulation();
-        for round in 0..constants.max_rounds {
+        for round in 0..MAX_ROUNDS {
             if !self.mesh.monitor(0.5) {
                 return Err(Error::Cancelled);
             }
@@ -204,7 +209,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Whether so few facets fail that vertices may be taken back, and placed, besides.
     fn is_worth_placing(&self, n_failing: usize) -> bool {
         let n_cells = self.mesh.kernel.complex().n_finite() as f64;
-        n_failing as f64 <= constants::<G>().max_failing * n_cells
+        n_failing as f64 <= self.mesh.constants.max_failing * n_cells
     }
 
     /// Makes the cells a triangulation by flips, if that can be done with at most this number of vertices taken back;
@@ -219,7 +224,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // Where it can be done it takes less on lattices, of which small ones have the larger share of flat cells.
         let most = 2 * self.mesh.kernel.n_certificates();
         let before = self.mesh.kernel.certificates();
-        for _ in 0..constants::<G>().max_untanglings {
+        for _ in 0..MAX_UNTANGLINGS {
             let n_back = repair.places.queue.len();
             if self.untangle_once(repair, most, most_back)? {
                 return Ok(true);

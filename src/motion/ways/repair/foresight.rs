@@ -23,11 +23,18 @@
 
 use crate::delaunay::{Dimension, Failures, Joint};
 use crate::error::Result;
-use crate::motion::constants::constants;
+use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::Prospect;
 use crate::predicates::exact_calls;
+
+/// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random points need
+/// none, those of a sheared lattice about one.)
+const EXACT_OF_TIES: f64 = 0.1;
+
+/// How many times the limit a sample has to find to be believed: about the error of a small one.
+const SAMPLE_MARGIN: f64 = 1.25;
 
 /// What a sweep finds, or is going to find.
 #[derive(Clone, Copy, Debug)]
@@ -55,8 +62,8 @@ impl Findings {
     }
 
     /// Whether many of the vertices of this number of cells are cospherical, or in a plane.
-    fn have_ties<G: Dimension>(self, n_cells: f64) -> bool {
-        self.exact > constants::<G>().exact_of_ties * n_cells
+    fn have_ties(self, n_cells: f64) -> bool {
+        self.exact > EXACT_OF_TIES * n_cells
     }
 }
 
@@ -71,7 +78,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let start = exact_calls();
         if let Some(slots) = self.mesh.kernel.sample(&mut repair.failures, before)? {
             // A sample may err: it decides where it is far from the limit.
-            let weight = slots as f64 / constants::<G>().sample_margin;
+            let weight = slots as f64 / SAMPLE_MARGIN;
             let found = Findings::of(&repair.failures, exact_calls() - start, weight);
             match self.prospect(found, repair) {
                 Prospect::Mendable => {
@@ -107,7 +114,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// What to do about these findings.
     fn prospect(&mut self, found: Findings, repair: &Repair) -> Prospect {
-        let constants = constants::<G>();
+        let constants = self.mesh.constants;
         let (n, n_moved) = (self.mesh.n_present as f64, repair.places.n_new as f64);
         let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         if repair.limit.is_some_and(|limit| found.all_failing() > limit * n_cells) {
@@ -124,7 +131,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         if found.failing <= constants.max_failing_of_large * n_cells {
             return Prospect::Mendable;
         }
-        let joint = if found.have_ties::<G>(n_cells) { Joint::Uncertain } else { Joint::Failing };
+        let joint = if found.have_ties(n_cells) { Joint::Uncertain } else { Joint::Failing };
         let is_large =
             self.mesh.kernel.mean_cluster(&repair.failures.facets, joint) > constants.cells_of_large;
         if is_large { Prospect::TooMuch } else { Prospect::Mendable }
@@ -132,11 +139,11 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Whether mending takes less than a rebuild, where these cells are inverted still once leaping vertices are back.
     fn is_worth_untangling(&self, found: Findings) -> bool {
-        let constants = constants::<G>();
+        let constants = self.mesh.constants;
         let n_cells = self.mesh.kernel.complex().n_finite() as f64;
         let failing = found.failing + constants.failing_for_inverted * found.inverted;
-        let most = constants.max_failing_with_inverted / self.mesh.slowdown(constants.repaired_alone);
-        found.have_ties::<G>(n_cells) || failing <= most * n_cells
+        let most = constants.max_failing_with_inverted / self.mesh.slowdown(REPAIRED_ALONE);
+        found.have_ties(n_cells) || failing <= most * n_cells
     }
 
     /// Whether mending takes less than a rebuild, where a sweep has found this number of failing facets, and leaping
