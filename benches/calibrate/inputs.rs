@@ -8,10 +8,9 @@ use deldrift::{Dimension, Plane, VertexId};
 
 /// How much is measured.
 pub struct Size {
-    /// Vertices of a motion in the plane and in space, ...
+    /// Vertices of a motion in the plane and in space.
     n: [usize; 2],
-    /// ... where it is the memory that counts, ...
-    /// ... and when costs are measured.
+    /// Vertices when costs are measured.
     pub n_for_costs: usize,
     /// Timestamps are a thousandth of so many.
     permille: usize,
