@@ -11,8 +11,8 @@ use crate::support::{repository, sources, text_of};
 const TESTED_IN_RUST: [(&str, &str); 4] = [
     ("DELDRIFT_TOO_MANY_CELLS", "src/capi/status.rs"),
     ("DELDRIFT_INVALID", "src/capi/status.rs"),
-    ("DELDRIFT_POISONED", "src/capi/fence.rs"),
-    ("DELDRIFT_INTERNAL_ERROR", "src/capi/fence.rs"),
+    ("DELDRIFT_POISONED", "src/capi/panics.rs"),
+    ("DELDRIFT_INTERNAL_ERROR", "src/capi/panics.rs"),
 ];
 
 #[test]

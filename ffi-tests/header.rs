@@ -10,9 +10,10 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 15] = [
     "status",
     "options",
+    "handle",
     "triangulation",
     "motion",
     "changes",

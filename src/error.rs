@@ -12,6 +12,11 @@ use crate::ids::{CellId, VertexId};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
+    /// There are triangulations of 2 and of 3 dimensions only.
+    InvalidDimension {
+        /// What was given.
+        given: u32,
+    },
     /// A coordinate is NaN or infinite.
     NotFinite {
         /// Parameter at fault.
@@ -162,6 +167,7 @@ pub enum StagedEdit {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Error::InvalidDimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
             Error::NotFinite { argument, index, axis, value } => {
                 write!(f, "{argument}[{index}], coordinate {axis}, is {value}, which is not finite")
             }

@@ -20,6 +20,7 @@ pub mod capi;
 mod complex;
 mod damage;
 mod delaunay;
+mod either;
 mod error;
 mod ids;
 mod machine;
@@ -32,6 +33,7 @@ mod simd;
 
 pub use damage::{Damage, LoadError};
 pub use delaunay::{Dimension, Plane, Space};
+pub use either::{AnyTriangulation, points_of};
 pub use error::{Error, Result, StagedEdit};
 pub use ids::{CellId, VertexId};
 pub use predicates::Coordinates;

@@ -1,10 +1,10 @@
 //! The change list: what a program has to know that keeps something for each cell.
 
-use super::fence;
-use super::pointers::{self, start_of};
+use super::handle::{Changing, deldrift_triangulation};
+use super::pointers::{Output, given, start_of};
 use super::status::deldrift_status;
-use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::ids::{CellId, VertexId};
+use crate::in_its_dimension;
 use crate::motion::Changes;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
@@ -91,12 +91,10 @@ pub unsafe extern "C" fn deldrift_take_changes(
     t: *mut deldrift_triangulation,
     changes: *mut deldrift_changes,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            let changes = pointers::output("changes", changes)?;
-            changes.write(in_its_dimension!(kernel, t => t.take_changes()?.into()));
-            Ok(())
-        })
-    }
+    given!(t: Changing, changes: Output);
+    t.change(|t| {
+        let changes = changes.place()?;
+        changes.write(in_its_dimension!(t => t.take_changes()?.into()));
+        Ok(())
+    })
 }

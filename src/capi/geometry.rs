@@ -3,13 +3,13 @@
 use std::mem::MaybeUninit;
 use std::slice;
 
-use super::fence;
-use super::pointers::{self, Room, copy_out};
-use super::state::pointer_for;
+use super::handle::{Reading, deldrift_triangulation};
+use super::pointers::{Array, Buffer, Output, fill_all, given};
+use super::query::dimension_of;
 use super::status::{Failure, deldrift_status};
-use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::delaunay::Dimension;
 use crate::error::Result;
+use crate::in_its_dimension;
 use crate::motion::{BoundaryFacet, MovingTriangulation};
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
@@ -34,25 +34,23 @@ pub unsafe extern "C" fn deldrift_circumcentres(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let (needed, centres) = (t.cell_count(), pointer_for(t, centres));
-                let buffers = [("centres", centres.cast()), ("squared_radii", squared_radii.cast())];
-                copy_out(Room { capacity, count }, needed, &buffers, || {
-                    let mut centres = pointers::buffer_if_any("centres", centres, needed)?.iter_mut();
-                    let mut squared =
-                        pointers::buffer_if_any("squared_radii", squared_radii, needed)?.iter_mut();
-                    for (centre, squared_radius) in t.circumspheres()? {
-                        write_next(&mut centres, centre);
-                        write_next(&mut squared, squared_radius);
-                    }
-                    Ok(())
-                })
+    given!(t: Reading, squared_radii[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let centres = centres.cast();
+            given!(centres[capacity]: Buffer);
+            let needed = t.cell_count();
+            fill_all(count, needed, capacity, [centres.offer(), squared_radii.offer()], || {
+                let mut centres = centres.places_if_any(needed)?.iter_mut();
+                let mut squared = squared_radii.places_if_any(needed)?.iter_mut();
+                for (centre, squared_radius) in t.circumspheres()? {
+                    write_next(&mut centres, centre);
+                    write_next(&mut squared, squared_radius);
+                }
+                Ok(())
             })
         })
-    }
+    })
 }
 
 /// The areas (2D) or volumes (3D) of all cells, in the order of deldrift_cells.
@@ -75,17 +73,8 @@ pub unsafe extern "C" fn deldrift_volumes(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let needed = t.cell_count();
-                copy_out(Room { capacity, count }, needed, &[("volumes", volumes.cast())], || {
-                    pointers::fill_from("volumes", volumes, t.volumes()?)
-                })
-            })
-        })
-    }
+    given!(t: Reading, volumes[capacity]: Buffer, count: Output);
+    t.read(|t| in_its_dimension!(t => volumes.fill(count, t.cell_count(), || Ok(t.volumes()?))))
 }
 
 /// Which cells have a circumradius of at most a given one, as for an alpha shape: 1 for those whose squared
@@ -112,17 +101,13 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let entries = t.mask_by_circumradius(squared_radius)?.map(u8::from);
-                copy_out(Room { capacity, count }, entries.len(), &[("mask", mask)], || {
-                    pointers::fill_from("mask", mask, entries)
-                })
-            })
+    given!(t: Reading, mask[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let entries = t.mask_by_circumradius(squared_radius)?.map(u8::from);
+            mask.fill(count, entries.len(), || Ok(entries))
         })
-    }
+    })
 }
 
 /// The boundary of some of the cells: the facets between a cell in a mask and one that is not in it, or the outside.
@@ -154,19 +139,18 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                t.check_mask(mask_count)?;
-                let mask = pointers::array("mask", mask, mask_count)?;
-                let mut needed = 0;
-                t.mask_boundary(mask, |_| needed += 1)?;
-                let columns = Columns { facets, cells, corners };
-                columns.copy_out(t, Room { capacity, count }, needed, |found| t.mask_boundary(mask, found))
-            })
+    given!(t: Reading, mask[mask_count]: Array, cells[capacity]: Buffer, corners[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            given!(facets[capacity.saturating_mul(dimension_of(t))]: Buffer);
+            t.check_mask(mask_count)?;
+            let mask = mask.get()?;
+            let mut needed = 0;
+            t.mask_boundary(mask, |_| needed += 1)?;
+            let columns = Columns { facets, cells, corners, capacity };
+            columns.fill(t, count, needed, |found| t.mask_boundary(mask, found))
         })
-    }
+    })
 }
 
 /// The facets of the convex hull, as deldrift_mask_boundary gives them if all cells are in the mask.
@@ -186,16 +170,14 @@ pub unsafe extern "C" fn deldrift_hull_facets(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let columns = Columns { facets, cells, corners };
-                let needed = t.hull_facet_count();
-                columns.copy_out(t, Room { capacity, count }, needed, |found| t.hull_facets(found))
-            })
+    given!(t: Reading, cells[capacity]: Buffer, corners[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            given!(facets[capacity.saturating_mul(dimension_of(t))]: Buffer);
+            let columns = Columns { facets, cells, corners, capacity };
+            columns.fill(t, count, t.hull_facet_count(), |found| t.hull_facets(found))
         })
-    }
+    })
 }
 
 /// Writes an entry of a buffer, if there is one.
@@ -206,42 +188,38 @@ fn write_next<T>(places: &mut slice::IterMut<'_, MaybeUninit<T>>, value: T) {
     }
 }
 
-/// The buffers for facets.
-struct Columns {
-    facets: *mut u32,
-    cells: *mut u32,
-    corners: *mut u8,
+/// The buffers for facets: their vertices, their cells, and the corners opposite them.
+struct Columns<'a> {
+    facets: Buffer<'a, u32>,
+    cells: Buffer<'a, u32>,
+    corners: Buffer<'a, u8>,
+    /// For so many facets there is room.
+    capacity: usize,
 }
 
-impl Columns {
-    /// Copies `needed` facets of `t`, which `list` lists, if the buffers are large enough, and tells the count.
-    ///
-    /// # Safety
-    /// The header's conditions on pointers.
-    unsafe fn copy_out<G: Dimension>(
+impl Columns<'_> {
+    /// Writes the `needed` facets that `list` lists, if the buffers are large enough, and tells their number.
+    fn fill<G: Dimension>(
         self,
         _t: &MovingTriangulation<G>,
-        room: Room,
+        count: Output<'_, usize>,
         needed: usize,
         list: impl FnOnce(&mut dyn FnMut(BoundaryFacet<G::Vertices>)) -> Result<()>,
     ) -> Result<(), Failure> {
-        let Columns { facets, cells, corners } = self;
-        let buffers = [("facets", facets.cast()), ("cells", cells.cast()), ("corners", corners)];
-        // SAFETY: the caller's promise.
-        unsafe {
-            copy_out(room, needed, &buffers, || {
-                let mut vertices = pointers::buffer_if_any("facets", facets, needed * G::D)?.iter_mut();
-                let mut cells = pointers::buffer_if_any("cells", cells, needed)?.iter_mut();
-                let mut corners = pointers::buffer_if_any("corners", corners, needed)?.iter_mut();
-                list(&mut |facet| {
-                    for v in facet.vertices() {
-                        write_next(&mut vertices, v.get());
-                    }
-                    write_next(&mut cells, facet.cell.get());
-                    write_next(&mut corners, facet.corner as u8);
-                })?;
-                Ok(())
-            })
-        }
+        let Columns { facets, cells, corners, capacity } = self;
+        let offers = [facets.offer(), cells.offer(), corners.offer()];
+        fill_all(count, needed, capacity, offers, || {
+            let mut vertices = facets.places_if_any(needed * G::D)?.iter_mut();
+            let mut cells = cells.places_if_any(needed)?.iter_mut();
+            let mut corners = corners.places_if_any(needed)?.iter_mut();
+            list(&mut |facet| {
+                for v in facet.vertices() {
+                    write_next(&mut vertices, v.get());
+                }
+                write_next(&mut cells, facet.cell.get());
+                write_next(&mut corners, facet.corner as u8);
+            })?;
+            Ok(())
+        })
     }
 }

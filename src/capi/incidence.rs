@@ -1,13 +1,14 @@
 //! What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
 
-use super::fence;
-use super::pointers::{self, Room, copy_out};
-use super::query::DELDRIFT_NONE;
-use super::status::{Failure, Wrong, deldrift_status};
-use super::triangulation::{Kernel, deldrift_triangulation, dimension_of, in_its_dimension};
+use super::handle::{Reading, deldrift_triangulation, tell};
+use super::pointers::{Buffer, Output, fill_all, fit, given, write_all};
+use super::query::{DELDRIFT_NONE, check_facet, dimension_of};
+use super::status::{Failure, deldrift_status};
 use crate::delaunay::Dimension;
+use crate::either::AnyTriangulation;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
+use crate::in_its_dimension;
 use crate::motion::{MovingTriangulation, Rows};
 
 /// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
@@ -29,17 +30,9 @@ pub unsafe extern "C" fn deldrift_edges(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                copy_out(Room { capacity, count }, t.edge_count(), &[("edges", edges.cast())], || {
-                    let rows = t.edges()?;
-                    pointers::fill("edges", edges, VertexId::numbers_of(rows.as_flattened()))
-                })
-            })
-        })
-    }
+    let edges = edges.cast::<[VertexId; 2]>();
+    given!(t: Reading, edges[capacity]: Buffer, count: Output);
+    t.read(|t| in_its_dimension!(t => edges.fill(count, t.edge_count(), || Ok(t.edges()?))))
 }
 
 /// The neighbours of all vertices: for each id the vertices with which it shares an edge, ascending, one list after
@@ -67,16 +60,13 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let lists = Lists { offsets, offset_count, argument: "neighbours", entries: neighbours };
-                let needed = 2 * t.edge_count();
-                lists.copy_out(t, Room { capacity, count }, needed, || t.vertex_neighbours(), VertexId::numbers_of)
-            })
+    given!(t: Reading, offsets[offset_count]: Buffer, neighbours[capacity]: Buffer, count: Output);
+    let lists = Lists { offsets, offset_count, entries: neighbours, capacity };
+    t.read(|t| {
+        in_its_dimension!(t => {
+            lists.fill(t, count, 2 * t.edge_count(), || t.vertex_neighbours(), VertexId::numbers_of)
         })
-    }
+    })
 }
 
 /// The cells of all vertices: for each id the indices of the cells that have it as a corner, ascending, one list
@@ -104,16 +94,14 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let lists = Lists { offsets, offset_count, argument: "cells", entries: cells };
-                let needed = t.cell_count() * (dimension_of(t) + 1);
-                lists.copy_out(t, Room { capacity, count }, needed, || t.vertex_cells(), CellId::numbers_of)
-            })
+    given!(t: Reading, offsets[offset_count]: Buffer, cells[capacity]: Buffer, count: Output);
+    let lists = Lists { offsets, offset_count, entries: cells, capacity };
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let needed = t.cell_count() * (dimension_of(t) + 1);
+            lists.fill(t, count, needed, || t.vertex_cells(), CellId::numbers_of)
         })
-    }
+    })
 }
 
 /// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
@@ -135,21 +123,20 @@ pub unsafe extern "C" fn deldrift_mirror_indices(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let (needed, n_corners) = (t.cell_count(), dimension_of(t) + 1);
-                copy_out(Room { capacity, count }, needed, &[("mirrors", mirrors)], || {
-                    let places = pointers::buffer("mirrors", mirrors, needed * n_corners)?;
-                    for (row, indices) in places.chunks_exact_mut(n_corners).zip(t.mirror_indices()?) {
-                        row.iter_mut().zip(indices).for_each(|(place, mirror)| _ = place.write(mirror));
-                    }
-                    Ok(())
-                })
+    given!(t: Reading, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let (needed, n_corners) = (t.cell_count(), dimension_of(t) + 1);
+            given!(mirrors[capacity.saturating_mul(n_corners)]: Buffer);
+            fill_all(count, needed, capacity, [mirrors.offer()], || {
+                let places = mirrors.places(needed * n_corners)?;
+                for (row, indices) in places.chunks_exact_mut(n_corners).zip(t.mirror_indices()?) {
+                    write_all(row, indices);
+                }
+                Ok(())
             })
         })
-    }
+    })
 }
 
 /// The mirror index of one facet, to *mirror: the corner of the neighbour beyond that is opposite the same facet;
@@ -168,19 +155,12 @@ pub unsafe extern "C" fn deldrift_mirror_index(
     corner: u32,
     mirror: *mut u32,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::tell(t, "mirror", mirror, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let (cells, corners) = (t.cell_count(), dimension_of(t) + 1);
-                if cell as usize >= cells || corner as usize >= corners {
-                    return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
-                }
-                let index = t.mirror_index(CellId::new(cell), corner as usize)?;
-                Ok(index.map_or(DELDRIFT_NONE, |index| index as u32))
-            })
-        })
-    }
+    given!(t: Reading, mirror: Output);
+    tell!(t, mirror => {
+        check_facet(t, cell, corner)?;
+        let index = t.mirror_index(CellId::new(cell), corner as usize)?;
+        index.map_or(DELDRIFT_NONE, |index| index as u32)
+    })
 }
 
 /// The star of a vertex of the plane in the order in which one goes around it: the indices of the cells that have it
@@ -205,68 +185,46 @@ pub unsafe extern "C" fn deldrift_ordered_star(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            let Kernel::Plane(t) = kernel else { return Err(Failure::NotOfThePlane) };
-            let star = t.ordered_star(VertexId::new(vertex))?;
-            let needed = star.clone().count();
-            copy_out(Room { capacity, count }, needed, &[("cells", cells.cast())], || {
-                let places = pointers::buffer("cells", cells, needed)?;
-                places.iter_mut().zip(star).for_each(|(place, cell)| _ = place.write(cell.get()));
-                Ok(())
-            })
-        })
-    }
+    given!(t: Reading, cells[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let star = t.ordered_star(VertexId::new(vertex))?;
+        cells.fill(count, star.clone().count(), || Ok(star.map(CellId::get)))
+    })
 }
 
 /// The buffers for lists by vertex.
-struct Lists {
-    offsets: *mut u32,
+struct Lists<'a> {
+    offsets: Buffer<'a, u32>,
     offset_count: usize,
-    argument: &'static str,
-    entries: *mut u32,
+    entries: Buffer<'a, u32>,
+    capacity: usize,
 }
 
-impl Lists {
-    /// Copies the lists of `t` with `needed` entries, if the buffers are large enough, and tells that number.
-    ///
-    /// # Safety
-    /// The header's conditions on pointers.
-    unsafe fn copy_out<G: Dimension, T>(
+impl Lists<'_> {
+    /// Writes the lists of `t` with `needed` entries, if the buffers are large enough, and tells that number.
+    fn fill<G: Dimension, T>(
         self,
         t: &MovingTriangulation<G>,
-        room: Room,
+        count: Output<'_, usize>,
         needed: usize,
         make: impl FnOnce() -> Result<Rows<T>>,
         numbers_of: impl FnOnce(&[T]) -> &[u32],
     ) -> Result<(), Failure> {
-        let Lists { offsets, offset_count, argument, entries } = self;
+        let Lists { offsets, offset_count, entries, capacity } = self;
         let wanted = t.id_count() + 1;
-        // SAFETY: the caller's promise.
-        unsafe {
-            let count = pointers::output("count", room.count)?;
-            if !offsets.is_null() && offset_count != wanted {
-                let (argument, given, coming) = ("offset_count", offset_count, t.staged_edits().0);
-                return Err(Error::WrongCount { argument, given, wanted, coming }.into());
-            }
-            if entries.is_null() && room.capacity > 0 {
-                return Err(Wrong::Null.in_argument(argument));
-            }
-            if !entries.is_null() && room.capacity < needed {
-                count.write(needed);
-                let capacity = room.capacity;
-                return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed });
-            }
-            if !offsets.is_null() || !entries.is_null() {
-                let offsets = pointers::buffer_if_any("offsets", offsets, wanted)?;
-                let places = pointers::buffer_if_any(argument, entries, needed)?;
-                let rows = make()?;
-                offsets.iter_mut().zip(&rows.offsets).for_each(|(place, &offset)| _ = place.write(offset));
-                places.iter_mut().zip(numbers_of(&rows.entries)).for_each(|(place, &id)| _ = place.write(id));
-            }
-            count.write(needed);
-            Ok(())
+        if !offsets.is_null() && offset_count != wanted {
+            let (argument, given, coming) = ("offset_count", offset_count, t.staged_edits().0);
+            return Err(Error::WrongCount { argument, given, wanted, coming }.into());
         }
+        let fitting = fit(count, needed, capacity, &[entries.offer()])?;
+        if !offsets.is_null() || !entries.is_null() {
+            let (offsets, entries) = (offsets.places_if_any(wanted)?, entries.places_if_any(needed)?);
+            let rows = make()?;
+            write_all(offsets, rows.offsets.iter().copied());
+            write_all(entries, numbers_of(&rows.entries).iter().copied());
+        }
+        fitting.tell();
+        Ok(())
     }
 }

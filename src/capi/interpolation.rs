@@ -1,12 +1,11 @@
 //! Values between vertices.
 
-use super::fence;
-use super::motion::points_for;
-use super::pointers;
+use super::handle::{Reading, deldrift_triangulation};
+use super::pointers::{Array, Buffer, Input, Points, given, write_all};
 use super::query::{deldrift_location, hint_at};
 use super::status::{Failure, Wrong, deldrift_status};
-use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::error::Error;
+use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Interpolation, VertexValues};
 
@@ -59,35 +58,37 @@ pub unsafe extern "C" fn deldrift_interpolate(
     outside: *const f64,
     results: *mut f64,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let method = method_of(method)?;
-                let wanted = t.id_count();
-                if value_count != wanted {
-                    let (argument, given, coming) = ("value_count", value_count, t.staged_edits().0);
-                    return Err(Error::WrongCount { argument, given, wanted, coming }.into());
+    let (hint, n_known, n_results) =
+        (hint.cast(), value_count.saturating_mul(n_values), count.saturating_mul(n_values));
+    given!(t: Reading, values[n_known]: Array, positions[count]: Points, hint: Input);
+    given!(outside[n_values]: Array, results[n_results]: Buffer);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let method = method_of(method)?;
+            let wanted = t.id_count();
+            if value_count != wanted {
+                let (argument, given, coming) = ("value_count", value_count, t.staged_edits().0);
+                return Err(Error::WrongCount { argument, given, wanted, coming }.into());
+            }
+            check_product("values", value_count, n_values)?;
+            let values = values.get()?;
+            let positions = positions.of(t)?;
+            check_product("results", count, n_values)?;
+            let hint = hint_at(hint)?;
+            let outside = (!outside.is_null()).then(|| outside.get()).transpose()?;
+            let places = results.places(n_results)?;
+            let mut made = Vec::new();
+            memory::reserve_exact(&mut made, n_results)?;
+            t.interpolate(method, VertexValues { values, n_values }, positions, hint, |row| {
+                match row.or(outside) {
+                    Some(row) => made.extend_from_slice(row),
+                    None => made.extend(std::iter::repeat_n(f64::NAN, n_values)),
                 }
-                let values = pointers::array("values", values, numbers("values", value_count, n_values)?)?;
-                let positions = points_for(t, "positions", positions, count)?;
-                let n_results = numbers("results", count, n_values)?;
-                let hint = hint_at(hint)?;
-                let has_outside = !outside.is_null();
-                let outside = has_outside.then(|| pointers::array("outside", outside, n_values)).transpose()?;
-                pointers::buffer("results", results, n_results)?;
-                let mut made = Vec::new();
-                memory::reserve_exact(&mut made, n_results)?;
-                t.interpolate(method, VertexValues { values, n_values }, positions, hint, |row| {
-                    match row.or(outside) {
-                        Some(row) => made.extend_from_slice(row),
-                        None => made.extend(std::iter::repeat_n(f64::NAN, n_values)),
-                    }
-                })?;
-                pointers::fill("results", results, &made)
-            })
+            })?;
+            write_all(places, made);
+            Ok(())
         })
-    }
+    })
 }
 
 /// The method of a number.
@@ -106,8 +107,8 @@ fn method_of(code: InterpolationCode) -> Result<Interpolation, Failure> {
     })
 }
 
-/// The length of `count` rows of `n_values` numbers.
-fn numbers(argument: &'static str, count: usize, n_values: usize) -> Result<usize, Failure> {
+/// `count` rows of `n_values` numbers must have a length.
+fn check_product(argument: &'static str, count: usize, n_values: usize) -> Result<(), Failure> {
     let size = n_values.saturating_mul(size_of::<f64>());
-    count.checked_mul(n_values).ok_or(Wrong::TooLarge { count, size }.in_argument(argument))
+    count.checked_mul(n_values).map(|_| ()).ok_or(Wrong::TooLarge { count, size }.in_argument(argument))
 }

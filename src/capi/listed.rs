@@ -2,12 +2,11 @@
 
 use std::mem::MaybeUninit;
 
-use super::fence;
-use super::pointers::{self, Room, copy_out};
-use super::state::pointer_for;
-use super::status::{Failure, Wrong, deldrift_status};
-use super::triangulation::{deldrift_triangulation, in_its_dimension};
+use super::handle::{Reading, deldrift_triangulation};
+use super::pointers::{Array, Buffer, Offer, Output, given};
+use super::status::{Failure, deldrift_status};
 use crate::ids::{CellId, VertexId};
+use crate::in_its_dimension;
 
 /// The cells around some vertices: the indices of those of which at least one of the vertices is a corner, ascending,
 /// each once.
@@ -36,16 +35,12 @@ pub unsafe extern "C" fn deldrift_cells_around(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            let vertices = VertexId::of_numbers(pointers::array("vertices", vertices, vertex_count)?);
-            let found = in_its_dimension!(kernel, t => t.cells_around(vertices))?;
-            copy_out(Room { capacity, count }, found.len(), &[("cells", cells.cast())], || {
-                pointers::fill("cells", cells, CellId::numbers_of(&found))
-            })
-        })
-    }
+    given!(t: Reading, vertices[vertex_count]: Array, cells[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let vertices = VertexId::of_numbers(vertices.get()?);
+        let found = in_its_dimension!(t => t.cells_around(vertices))?;
+        cells.fill(count, found.len(), || Ok(found.iter().map(|cell| cell.get())))
+    })
 }
 
 /// Computes circumcentres and squared circumradii of some cells again, in arrays that deldrift_circumcentres has
@@ -76,24 +71,22 @@ pub unsafe extern "C" fn deldrift_update_circumcentres(
     squared_radii: *mut f64,
     capacity: usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let (n, centres) = (t.cell_count(), pointer_for(t, centres));
-                let arrays = [("centres", centres.cast()), ("squared_radii", squared_radii.cast())];
-                check_arrays(&arrays, capacity, n)?;
-                let cells = CellId::of_numbers(pointers::array("cells", cells, cell_count)?);
-                let centres = pointers::buffer_if_any("centres", centres, n)?;
-                let squared_radii = pointers::buffer_if_any("squared_radii", squared_radii, n)?;
-                for (&cell, (centre, squared_radius)) in cells.iter().zip(t.circumspheres_of(cells)?) {
-                    write_if_any(centres, cell, centre);
-                    write_if_any(squared_radii, cell, squared_radius);
-                }
-                Ok(())
-            })
+    given!(t: Reading, cells[cell_count]: Array, squared_radii[capacity]: Buffer);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let centres = centres.cast();
+            given!(centres[capacity]: Buffer);
+            let n = t.cell_count();
+            check_arrays([centres.offer(), squared_radii.offer()], capacity, n)?;
+            let cells = CellId::of_numbers(cells.get()?);
+            let (centres, squared_radii) = (centres.places_if_any(n)?, squared_radii.places_if_any(n)?);
+            for (&cell, (centre, squared_radius)) in cells.iter().zip(t.circumspheres_of(cells)?) {
+                write_if_any(centres, cell, centre);
+                write_if_any(squared_radii, cell, squared_radius);
+            }
+            Ok(())
         })
-    }
+    })
 }
 
 /// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: for each
@@ -115,21 +108,19 @@ pub unsafe extern "C" fn deldrift_update_volumes(
     volumes: *mut f64,
     capacity: usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let n = t.cell_count();
-                check_arrays(&[("volumes", volumes.cast())], capacity, n)?;
-                let cells = CellId::of_numbers(pointers::array("cells", cells, cell_count)?);
-                let volumes = pointers::buffer("volumes", volumes, n)?;
-                for (&cell, volume) in cells.iter().zip(t.volumes_of(cells)?) {
-                    volumes[cell].write(volume);
-                }
-                Ok(())
-            })
+    given!(t: Reading, cells[cell_count]: Array, volumes[capacity]: Buffer);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let n = t.cell_count();
+            check_arrays([volumes.offer()], capacity, n)?;
+            let cells = CellId::of_numbers(cells.get()?);
+            let volumes = volumes.places(n)?;
+            for (&cell, volume) in cells.iter().zip(t.volumes_of(cells)?) {
+                volumes[cell].write(volume);
+            }
+            Ok(())
         })
-    }
+    })
 }
 
 /// Decides for some cells again whether their circumradius is at most a given one, in a mask that
@@ -156,27 +147,25 @@ pub unsafe extern "C" fn deldrift_update_mask_by_circumradius(
     mask: *mut u8,
     capacity: usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let n = t.cell_count();
-                check_arrays(&[("mask", mask)], capacity, n)?;
-                let cells = CellId::of_numbers(pointers::array("cells", cells, cell_count)?);
-                let mask = pointers::buffer("mask", mask, n)?;
-                for (&cell, is_in) in cells.iter().zip(t.mask_by_circumradius_of(cells, squared_radius)?) {
-                    mask[cell].write(u8::from(is_in));
-                }
-                Ok(())
-            })
+    given!(t: Reading, cells[cell_count]: Array, mask[capacity]: Buffer);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let n = t.cell_count();
+            check_arrays([mask.offer()], capacity, n)?;
+            let cells = CellId::of_numbers(cells.get()?);
+            let mask = mask.places(n)?;
+            for (&cell, is_in) in cells.iter().zip(t.mask_by_circumradius_of(cells, squared_radius)?) {
+                mask[cell].write(u8::from(is_in));
+            }
+            Ok(())
         })
-    }
+    })
 }
 
 /// There must be an array at least, and room in it for an entry of each of `n` cells.
-fn check_arrays(arrays: &[(&'static str, *mut u8)], capacity: usize, n: usize) -> Result<(), Failure> {
-    if n > 0 && arrays.iter().all(|(_, array)| array.is_null()) {
-        return Err(Wrong::Null.in_argument(arrays[0].0));
+fn check_arrays<const N: usize>(arrays: [Offer; N], capacity: usize, n: usize) -> Result<(), Failure> {
+    if n > 0 && !arrays.iter().any(|array| array.is_there) {
+        return Err(arrays[0].missing());
     }
     if capacity < n {
         return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed: n });

@@ -1,13 +1,29 @@
 //! The C boundary: everything that `include/deldrift.h` declares, and nothing else.
 //!
-//! Each function here does three things and no geometry: it checks its arguments, calls the one
+//! Each function here does three things and no geometry: it takes its arguments and checks them, calls the one
 //! method of [`MovingTriangulation`](crate::motion::MovingTriangulation) that does the work, and
 //! converts the result. Types, functions and enumerators carry their C names, so that a search finds
 //! both sides, and their documentation is that of the header, which cbindgen copies from here.
 //!
-//! # Fence
+//! # Floors
 //!
-//! No panic and no message on a terminal leaves the library. Every entry runs inside `fence`:
+//! Each file uses only those below it.
+//!
+//! | files | what |
+//! |---|---|
+//! | `triangulation`, `motion`, `state`, `query`, ... | the functions, by subject |
+//! | `handle` | the object that C knows as a triangulation, and how calls read and change what is in it |
+//! | `options` | the structure of options, and the callbacks |
+//! | `guard` | what every function runs in |
+//! | `pointers` | pointers taken at their word, as types that are used safely |
+//! | `status` | status codes, and why a call fails |
+//! | `message`, `files` | the message of the last failure; files by the system's own calls |
+//!
+//! At its head a function makes safe values of its pointers, with `given!`; its body is safe code.
+//!
+//! # Guard
+//!
+//! No panic and no message on a terminal leaves the library. Every entry runs inside the guard:
 //! a failure becomes a [`deldrift_status`] and a message kept for the calling thread, and so does a
 //! panic, which is by definition an internal error. A panic in a call that was changing a
 //! triangulation leaves it in an unknown state, so it is *poisoned*: all it accepts from then on is
@@ -36,12 +52,14 @@
 #![allow(non_camel_case_types)]
 
 mod changes;
-mod fence;
 mod files;
 mod geometry;
+mod guard;
+mod handle;
 mod incidence;
 mod interpolation;
 mod listed;
+mod message;
 mod motion;
 mod options;
 #[cfg(test)]
@@ -57,6 +75,7 @@ mod voronoi;
 
 pub use changes::*;
 pub use geometry::*;
+pub use handle::deldrift_triangulation;
 pub use incidence::*;
 pub use interpolation::*;
 pub use listed::*;

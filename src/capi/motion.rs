@@ -2,14 +2,13 @@
 
 use std::slice;
 
-use super::fence;
-use super::pointers;
-use super::status::{Failure, Wrong, deldrift_status};
-use super::triangulation::{deldrift_triangulation, in_its_dimension, points};
-use crate::delaunay::Dimension;
+use super::handle::{Changing, deldrift_triangulation};
+use super::pointers::{Array, Buffer, Output, Point, Points, fit, given, write_all};
+use super::status::deldrift_status;
 use crate::error::Error;
 use crate::ids::VertexId;
-use crate::motion::{CommitReport, MovingTriangulation};
+use crate::in_its_dimension;
+use crate::motion::CommitReport;
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
 ///
@@ -88,16 +87,14 @@ pub unsafe extern "C" fn deldrift_move_vertex(
     vertex: u32,
     position: *const f64,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let position = point_for(t, "position", position)?;
-                t.move_vertices(&[VertexId::new(vertex)], slice::from_ref(position)).map_err(of_one)?;
-            });
-            Ok(())
-        })
-    }
+    given!(t: Changing, position: Point);
+    t.change(|t| {
+        in_its_dimension!(t => {
+            let position = position.of(t)?;
+            t.move_vertices(&[VertexId::new(vertex)], slice::from_ref(position)).map_err(of_one)?;
+        });
+        Ok(())
+    })
 }
 
 /// Stages the moves of count vertices for the next timestamp: all of them, or none if it fails.
@@ -122,24 +119,21 @@ pub unsafe extern "C" fn deldrift_move_vertices(
     positions: *const f64,
     count: usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            if count == 0 {
-                return Ok(());
+    given!(t: Changing, vertices[count]: Array, positions[count]: Points);
+    t.change(|t| {
+        if count == 0 {
+            return Ok(());
+        }
+        in_its_dimension!(t => {
+            let positions = positions.of(t)?;
+            if vertices.is_null() {
+                t.move_first(positions)?;
+            } else {
+                t.move_vertices(VertexId::of_numbers(vertices.get()?), positions)?;
             }
-            in_its_dimension!(kernel, t => {
-                let positions = points_for(t, "positions", positions, count)?;
-                if vertices.is_null() {
-                    t.move_first(positions)?;
-                } else {
-                    let vertices = VertexId::of_numbers(pointers::array("vertices", vertices, count)?);
-                    t.move_vertices(vertices, positions)?;
-                }
-            });
-            Ok(())
-        })
-    }
+        });
+        Ok(())
+    })
 }
 
 /// Stages the insertion of count vertices: all of them, or none if it fails. They are present from the
@@ -167,17 +161,12 @@ pub unsafe extern "C" fn deldrift_stage_insertions(
     count: usize,
     first_vertex: *mut u32,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            let first_vertex = pointers::output("first_vertex", first_vertex)?;
-            first_vertex.write(in_its_dimension!(kernel, t => {
-                let positions = points_for(t, "positions", positions, count)?;
-                t.stage_insertions(positions)?.get()
-            }));
-            Ok(())
-        })
-    }
+    given!(t: Changing, positions[count]: Points, first_vertex: Output);
+    t.change(|t| {
+        let first_vertex = first_vertex.place()?;
+        first_vertex.write(in_its_dimension!(t => t.stage_insertions(positions.of(t)?))?.get());
+        Ok(())
+    })
 }
 
 /// Stages the removal of count vertices: all of them, or none if it fails. The next commit removes them,
@@ -203,14 +192,12 @@ pub unsafe extern "C" fn deldrift_stage_removals(
     vertices: *const u32,
     count: usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            let vertices = VertexId::of_numbers(pointers::array("vertices", vertices, count)?);
-            in_its_dimension!(kernel, t => t.stage_removals(vertices))?;
-            Ok(())
-        })
-    }
+    given!(t: Changing, vertices[count]: Array);
+    t.change(|t| {
+        let vertices = VertexId::of_numbers(vertices.get()?);
+        in_its_dimension!(t => t.stage_removals(vertices))?;
+        Ok(())
+    })
 }
 
 /// Forgets all staged moves, insertions and removals.
@@ -220,13 +207,11 @@ pub unsafe extern "C" fn deldrift_stage_removals(
 /// Errors: DELDRIFT_NULL_ARGUMENT. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_discard_moves(t: *mut deldrift_triangulation) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            in_its_dimension!(kernel, t => t.discard_moves());
-            Ok(())
-        })
-    }
+    given!(t: Changing);
+    t.change(|t| {
+        in_its_dimension!(t => t.discard_moves());
+        Ok(())
+    })
 }
 
 /// Makes the staged positions the next timestamp. The cells become those of the Delaunay triangulation
@@ -248,17 +233,15 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
     t: *mut deldrift_triangulation,
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            let report = if report.is_null() { None } else { Some(pointers::output("report", report)?) };
-            let done = in_its_dimension!(kernel, t => t.commit_timestamp())?;
-            if let Some(report) = report {
-                report.write(done.into());
-            }
-            Ok(())
-        })
-    }
+    given!(t: Changing, report: Output);
+    t.change(|t| {
+        let report = report.if_any()?;
+        let done = in_its_dimension!(t => t.commit_timestamp())?;
+        if let Some(report) = report {
+            report.write(done.into());
+        }
+        Ok(())
+    })
 }
 
 /// Moves all vertices and makes that the next timestamp: deldrift_move_vertices for all ids and
@@ -282,20 +265,15 @@ pub unsafe extern "C" fn deldrift_commit_positions(
     count: usize,
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            let report = if report.is_null() { None } else { Some(pointers::output("report", report)?) };
-            let done = in_its_dimension!(kernel, t => {
-                let positions = points_for(t, "positions", positions, count)?;
-                t.commit_positions(positions)?
-            });
-            if let Some(report) = report {
-                report.write(done.into());
-            }
-            Ok(())
-        })
-    }
+    given!(t: Changing, positions[count]: Points, report: Output);
+    t.change(|t| {
+        let report = report.if_any()?;
+        let done = in_its_dimension!(t => t.commit_positions(positions.of(t)?))?;
+        if let Some(report) = report {
+            report.write(done.into());
+        }
+        Ok(())
+    })
 }
 
 /// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
@@ -317,38 +295,18 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
     vertex: u32,
     position: *const f64,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers; the short way cannot panic.
-    unsafe {
-        let id = VertexId::new(vertex);
-        let is_done = fence::change_shortly(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                point_for(t, "position", position).is_ok_and(|p| t.relocate_within_tolerance(id, p))
-            })
-        });
-        if is_done { deldrift_status::DELDRIFT_OK } else { relocate_in_fence(t, id, position) }
-    }
+    given!(t: Changing, position: Point);
+    let vertex = VertexId::new(vertex);
+    let is_done = t.change_shortly(|t| {
+        in_its_dimension!(t => position.of(t).is_ok_and(|position| t.relocate_within_tolerance(vertex, position)))
+    });
+    if is_done { deldrift_status::DELDRIFT_OK } else { relocate_in_guard(t, vertex, position) }
 }
 
 /// The long way of [`deldrift_relocate_vertex`], kept out of the short one's registers.
-///
-/// # Safety
-/// The header's conditions on pointers.
 #[inline(never)]
-unsafe fn relocate_in_fence(
-    t: *mut deldrift_triangulation,
-    id: VertexId,
-    position: *const f64,
-) -> deldrift_status {
-    // SAFETY: the caller's promise.
-    unsafe {
-        fence::change(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let position = point_for(t, "position", position)?;
-                t.relocate_vertex(id, position)?;
-            });
-            Ok(())
-        })
-    }
+fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> deldrift_status {
+    t.change(|t| in_its_dimension!(t => Ok(t.relocate_vertex(vertex, position.of(t)?)?)))
 }
 
 /// Inserts a vertex at once. Ends all views.
@@ -368,17 +326,12 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
     position: *const f64,
     out_vertex: *mut u32,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            let out_vertex = pointers::output("out_vertex", out_vertex)?;
-            out_vertex.write(in_its_dimension!(kernel, t => {
-                let position = point_for(t, "position", position)?;
-                t.insert_vertex(position)?.get()
-            }));
-            Ok(())
-        })
-    }
+    given!(t: Changing, position: Point, out_vertex: Output);
+    t.change(|t| {
+        let out_vertex = out_vertex.place()?;
+        out_vertex.write(in_its_dimension!(t => t.insert_vertex(position.of(t)?))?.get());
+        Ok(())
+    })
 }
 
 /// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
@@ -396,13 +349,8 @@ pub unsafe extern "C" fn deldrift_remove_vertex(
     t: *mut deldrift_triangulation,
     vertex: u32,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            in_its_dimension!(kernel, t => t.remove_vertex(VertexId::new(vertex)))?;
-            Ok(())
-        })
-    }
+    given!(t: Changing);
+    t.change(|t| Ok(in_its_dimension!(t => t.remove_vertex(VertexId::new(vertex)))?))
 }
 
 /// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
@@ -430,56 +378,18 @@ pub unsafe extern "C" fn deldrift_compact(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::change(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let count = pointers::output("count", count)?;
-                let needed = t.id_count();
-                if map.is_null() && capacity > 0 {
-                    return Err(Wrong::Null.in_argument("map"));
-                }
-                if !map.is_null() && capacity < needed {
-                    count.write(needed);
-                    return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed });
-                }
-                // Looked at before anything changes.
-                let places = if map.is_null() { &mut [] } else { pointers::buffer("map", map, needed)? };
-                for (place, id) in places.iter_mut().zip(t.compact()?) {
-                    place.write(id.get());
-                }
-                count.write(needed);
-            });
-            Ok(())
-        })
-    }
-}
-
-/// `count` points in the dimension of `t`.
-///
-/// # Safety
-/// As for [`points`].
-pub(super) unsafe fn points_for<'a, G: Dimension>(
-    _t: &MovingTriangulation<G>,
-    argument: &'static str,
-    positions: *const f64,
-    count: usize,
-) -> Result<&'a [G::Point], Failure> {
-    // SAFETY: the caller's promise.
-    unsafe { points::<G>(argument, positions, count) }
-}
-
-/// One point in the dimension of `t`.
-///
-/// # Safety
-/// As for [`points`].
-pub(super) unsafe fn point_for<'a, G: Dimension>(
-    _t: &MovingTriangulation<G>,
-    argument: &'static str,
-    position: *const f64,
-) -> Result<&'a G::Point, Failure> {
-    // SAFETY: the caller's promise.
-    unsafe { pointers::reference(argument, position.cast::<G::Point>()) }
+    given!(t: Changing, map[capacity]: Buffer, count: Output);
+    t.change(|t| {
+        in_its_dimension!(t => {
+            let needed = t.id_count();
+            let fitting = fit(count, needed, capacity, &[map.offer()])?;
+            // Looked at before anything changes.
+            let places = map.places_if_any(needed)?;
+            write_all(places, t.compact()?.into_iter().map(VertexId::get));
+            fitting.tell();
+        });
+        Ok(())
+    })
 }
 
 /// An error about arrays of one, told in the names of the single arguments.

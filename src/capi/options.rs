@@ -4,8 +4,9 @@ use std::ffi::c_void;
 use std::mem::{MaybeUninit, offset_of};
 use std::ptr;
 
+use super::guard;
+use super::pointers::{Array, Input};
 use super::status::Failure;
-use super::{fence, pointers};
 use crate::error::Error;
 use crate::machine::memory;
 use crate::machine::tally;
@@ -130,36 +131,7 @@ impl deldrift_options {
         size_of::<deldrift_options>(),
     ];
 
-    /// Reads the part that the caller knows and checks the part that only the caller knows.
-    ///
-    /// # Safety
-    /// `options` is NULL, misaligned, or points to as many bytes as its first field says.
-    pub(super) unsafe fn read(options: *const deldrift_options) -> Result<deldrift_options, Failure> {
-        if options.is_null() {
-            return Ok(Self::DEFAULT);
-        }
-        // SAFETY: the size comes first, with the alignment of the whole.
-        let size = *unsafe { pointers::reference("options", options.cast::<usize>()) }?;
-        let misfit = |wanted| Failure::Option { field: "options.struct_size", value: size as u64, wanted };
-        if size > GREATEST_SIZE || (size < Self::DEFAULT.struct_size && !Self::ENDS.contains(&size)) {
-            return Err(misfit("sizeof(deldrift_options)"));
-        }
-        // SAFETY: the caller vouches for that many bytes.
-        let given = unsafe { pointers::array("options", options.cast::<u8>(), size) }?;
-        let (known, beyond) = given.split_at(size.min(Self::DEFAULT.struct_size));
-        if beyond.iter().any(|&byte| byte != 0) {
-            return Err(misfit("no more than this version's sizeof, or all zero beyond it"));
-        }
-        let mut read = MaybeUninit::new(Self::DEFAULT);
-        // SAFETY: `known` is no longer than the structure and ends behind a field, so that what is
-        // assembled has whole fields from either side; numbers and nullable pointers allow any bits.
-        unsafe {
-            ptr::copy_nonoverlapping(known.as_ptr(), read.as_mut_ptr().cast::<u8>(), known.len());
-            Ok(read.assume_init())
-        }
-    }
-
-    /// The same in the library's own terms.
+    /// These options in the library's own terms.
     pub(super) fn convert(self) -> Result<Options, Failure> {
         let coincidence = match self.coincidence {
             0 => CoincidencePolicy::Merge,
@@ -198,10 +170,57 @@ impl deldrift_options {
         })
     }
 
-    /// The callbacks.
+    /// The callbacks that the options name.
     pub(super) fn callbacks(&self) -> Callbacks {
         Callbacks { cancel: self.cancel, progress: self.progress, user_data: self.user_data }
     }
+}
+
+/// Options as a call is given them: as much of the structure as the program's header knows.
+#[derive(Clone, Copy)]
+pub(super) struct GivenOptions<'a> {
+    size: Input<'a, usize>,
+    bytes: *const u8,
+}
+
+impl<'a> GivenOptions<'a> {
+    /// # Safety
+    /// `options` is NULL, misaligned, or points to as many bytes as its first field says.
+    pub(super) unsafe fn new(argument: &'static str, options: *const deldrift_options) -> Self {
+        // SAFETY: the caller's promise: the size comes first, with the alignment of the whole.
+        GivenOptions { size: unsafe { Input::new(argument, options.cast()) }, bytes: options.cast() }
+    }
+
+    /// The bytes of the structure, if there is one and its size may be right.
+    fn bytes(&self) -> Result<Option<&'a [u8]>, Failure> {
+        let Some(&size) = self.size.if_any()? else { return Ok(None) };
+        let least = deldrift_options::DEFAULT.struct_size;
+        if size > GREATEST_SIZE || (size < least && !deldrift_options::ENDS.contains(&size)) {
+            return Err(misfit(size, "sizeof(deldrift_options)"));
+        }
+        // SAFETY: so many bytes were promised to `new`.
+        unsafe { Array::new("options", self.bytes, size) }.get().map(Some)
+    }
+
+    /// Reads the part that the library knows, and checks that beyond it there is nothing but zeros.
+    pub(super) fn read(self) -> Result<deldrift_options, Failure> {
+        let mut read = MaybeUninit::new(deldrift_options::DEFAULT);
+        let Some(given) = self.bytes()? else { return Ok(deldrift_options::DEFAULT) };
+        let (known, beyond) = given.split_at(given.len().min(deldrift_options::DEFAULT.struct_size));
+        if beyond.iter().any(|&byte| byte != 0) {
+            return Err(misfit(given.len(), "no more than this version's sizeof, or all zero beyond it"));
+        }
+        // SAFETY: `known` is no longer than the structure and ends behind a field, so that what is
+        // assembled has whole fields from either side; numbers and nullable pointers allow any bits.
+        unsafe {
+            ptr::copy_nonoverlapping(known.as_ptr(), read.as_mut_ptr().cast::<u8>(), known.len());
+            Ok(read.assume_init())
+        }
+    }
+}
+
+fn misfit(size: usize, wanted: &'static str) -> Failure {
+    Failure::Option { field: "options.struct_size", value: size as u64, wanted }
 }
 
 /// The callbacks of one triangulation.
@@ -233,7 +252,7 @@ impl Callbacks {
     /// Reports progress and asks whether to go on. What the callbacks do with other triangulations is no part of the
     /// call that they are called from.
     pub(super) fn go_on(&self, fraction: f64) -> bool {
-        tally::uncounted(|| fence::call_back(|| self.ask(fraction)))
+        tally::uncounted(|| guard::call_back(|| self.ask(fraction)))
     }
 
     fn ask(&self, fraction: f64) -> bool {
@@ -285,7 +304,7 @@ mod tests {
         for size in 0..=deldrift_options::DEFAULT.struct_size {
             let options = deldrift_options { struct_size: size, ..deldrift_options::DEFAULT };
             // SAFETY: `size` bytes are there.
-            let read = unsafe { deldrift_options::read(&options) };
+            let read = unsafe { GivenOptions::new("options", &options) }.read();
             assert_eq!(read.is_ok(), deldrift_options::ENDS.contains(&size), "{size}");
         }
     }

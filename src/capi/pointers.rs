@@ -1,93 +1,346 @@
-//! Pointers from C, checked as far as they can be and turned into references.
+//! Pointers from C, taken at their word: what a call is given, as values of these types, which are used safely.
 //!
-//! Each of these trusts that a pointer which is neither NULL nor misaligned points to `T`, or to as many
-//! of them as it is told, for as long as the call lasts; outputs may be uninitialised.
+//! A value is made of a pointer, by [`given!`](given) at the head of a function, with the promise that the pointer is
+//! NULL, or misaligned, or points to as much as the header says, for as long as the call lasts. What can be checked is
+//! checked when the value is used.
 
+use std::ffi::{CStr, c_char};
+use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 use std::{ptr, slice};
 
 use super::status::{Failure, Wrong};
+use crate::delaunay::Dimension;
+use crate::motion::MovingTriangulation;
 
-/// A value that must be there.
-pub(super) unsafe fn reference<'a, T>(argument: &'static str, pointer: *const T) -> Result<&'a T, Failure> {
-    check(argument, pointer)?;
-    // SAFETY: neither NULL nor misaligned, and the caller vouches for the rest.
-    Ok(unsafe { &*pointer })
+/// Takes pointers that a C function has been given at their word, each under its own name: `given!(x: Input)` makes an
+/// [`Input`] of the pointer `x`, `given!(x[n]: Array)` an [`Array`] of `x` and the count `n`.
+///
+/// There is no `unsafe` block in it: it compiles only in functions that are unsafe to call, and their caller's promise, the
+/// header's conditions on pointers, is the one that is needed here.
+macro_rules! given {
+    ($($name:ident $([$count:expr])? : $kind:ident),+ $(,)?) => { $(
+        #[allow(unsafe_op_in_unsafe_fn)]
+        let $name = $kind::new(stringify!($name), $name $(, $count)?);
+    )+ };
+}
+pub(super) use given;
+
+/// A value that is read.
+#[derive(Clone, Copy)]
+pub(super) struct Input<'a, T> {
+    argument: &'static str,
+    pointer: *const T,
+    lives: PhantomData<&'a T>,
 }
 
-/// A place to write a result to.
-pub(super) unsafe fn output<'a, T>(
+impl<'a, T> Input<'a, T> {
+    /// # Safety
+    /// `pointer` is NULL, misaligned, or to a `T`.
+    #[inline(always)]
+    pub(super) unsafe fn new(argument: &'static str, pointer: *const T) -> Self {
+        Input { argument, pointer, lives: PhantomData }
+    }
+
+    /// The value, which must be there.
+    #[inline(always)]
+    pub(super) fn get(self) -> Result<&'a T, Failure> {
+        check(self.argument, self.pointer)?;
+        // SAFETY: neither NULL nor misaligned; the rest was promised to `new`.
+        Ok(unsafe { &*self.pointer })
+    }
+
+    /// The value, unless it is NULL.
+    #[inline(always)]
+    pub(super) fn if_any(self) -> Result<Option<&'a T>, Failure> {
+        (!self.pointer.is_null()).then(|| self.get()).transpose()
+    }
+}
+
+/// A place for a result, which may be uninitialised.
+pub(super) struct Output<'a, T> {
     argument: &'static str,
     pointer: *mut T,
-) -> Result<&'a mut MaybeUninit<T>, Failure> {
-    check(argument, pointer)?;
-    // SAFETY: as in `reference`; uninitialised memory is what the type allows.
-    Ok(unsafe { &mut *pointer.cast() })
+    lives: PhantomData<&'a mut T>,
 }
 
-/// An array of `count`; NULL if that is 0.
-pub(super) unsafe fn array<'a, T>(
+impl<'a, T> Output<'a, T> {
+    /// # Safety
+    /// `pointer` is NULL, misaligned, or to a place for a `T` that nothing else uses.
+    #[inline(always)]
+    pub(super) unsafe fn new(argument: &'static str, pointer: *mut T) -> Self {
+        Output { argument, pointer, lives: PhantomData }
+    }
+
+    /// The place, which must be there.
+    #[inline(always)]
+    pub(super) fn place(self) -> Result<&'a mut MaybeUninit<T>, Failure> {
+        check(self.argument, self.pointer)?;
+        // SAFETY: neither NULL nor misaligned; the rest was promised to `new`, and the type allows what is uninitialised.
+        Ok(unsafe { &mut *self.pointer.cast() })
+    }
+
+    /// The place, unless it is NULL.
+    #[inline(always)]
+    pub(super) fn if_any(self) -> Result<Option<&'a mut MaybeUninit<T>>, Failure> {
+        (!self.pointer.is_null()).then(|| self.place()).transpose()
+    }
+}
+
+/// Values that are read, as many as their count.
+#[derive(Clone, Copy)]
+pub(super) struct Array<'a, T> {
     argument: &'static str,
     pointer: *const T,
     count: usize,
-) -> Result<&'a [T], Failure> {
-    if count == 0 {
-        return Ok(&[]);
+    lives: PhantomData<&'a [T]>,
+}
+
+impl<'a, T> Array<'a, T> {
+    /// # Safety
+    /// `pointer` is NULL, misaligned, or to `count` values.
+    #[inline(always)]
+    pub(super) unsafe fn new(argument: &'static str, pointer: *const T, count: usize) -> Self {
+        Array { argument, pointer, count, lives: PhantomData }
     }
-    check(argument, pointer)?;
-    check_size::<T>(argument, count)?;
-    // SAFETY: neither NULL, misaligned nor larger than an object may be; the caller vouches for the rest.
-    Ok(unsafe { slice::from_raw_parts(pointer, count) })
-}
 
-/// A buffer to write `count` entries to.
-pub(super) unsafe fn buffer<'a, T>(
-    argument: &'static str,
-    pointer: *mut T,
-    count: usize,
-) -> Result<&'a mut [MaybeUninit<T>], Failure> {
-    if count == 0 {
-        return Ok(&mut []);
+    pub(super) fn is_null(&self) -> bool {
+        self.pointer.is_null()
     }
-    check(argument, pointer)?;
-    check_size::<T>(argument, count)?;
-    // SAFETY: as in `array`; uninitialised memory is what the type allows.
-    Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), count) })
+
+    /// The values, which must be there unless their count is 0.
+    #[inline(always)]
+    pub(super) fn get(self) -> Result<&'a [T], Failure> {
+        if self.count == 0 {
+            return Ok(&[]);
+        }
+        check(self.argument, self.pointer)?;
+        check_size::<T>(self.argument, self.count)?;
+        // SAFETY: neither NULL, misaligned nor larger than an object may be; the rest was promised to `new`.
+        Ok(unsafe { slice::from_raw_parts(self.pointer, self.count) })
+    }
 }
 
-/// As [`buffer`], but no entries if the pointer is NULL.
-pub(super) unsafe fn buffer_if_any<'a, T>(
+/// A string that ends in a NUL.
+#[derive(Clone, Copy)]
+pub(super) struct Text<'a>(Input<'a, c_char>);
+
+impl<'a> Text<'a> {
+    /// # Safety
+    /// `pointer` is NULL, or to characters of which one is a NUL.
+    pub(super) unsafe fn new(argument: &'static str, pointer: *const c_char) -> Self {
+        // SAFETY: the caller's promise.
+        Text(unsafe { Input::new(argument, pointer) })
+    }
+
+    /// The string, which must be there.
+    pub(super) fn get(self) -> Result<&'a CStr, Failure> {
+        let first = self.0.get()?;
+        // SAFETY: there is a NUL at its end, as was promised to `new`.
+        Ok(unsafe { CStr::from_ptr(first) })
+    }
+}
+
+/// A point that is read: as many numbers as the triangulation of the call has dimensions.
+#[derive(Clone, Copy)]
+pub(super) struct Point<'a>(Input<'a, f64>);
+
+impl<'a> Point<'a> {
+    /// # Safety
+    /// `pointer` is NULL, misaligned, or to a point in the dimension of the triangulation of the call.
+    #[inline(always)]
+    pub(super) unsafe fn new(argument: &'static str, pointer: *const f64) -> Self {
+        // SAFETY: the caller's promise: a point begins with a number.
+        Point(unsafe { Input::new(argument, pointer) })
+    }
+
+    pub(super) fn is_null(&self) -> bool {
+        self.0.pointer.is_null()
+    }
+
+    /// The point, which must be there; `t` is the triangulation of the call.
+    #[inline(always)]
+    pub(super) fn of<G: Dimension>(self, _t: &MovingTriangulation<G>) -> Result<&'a G::Point, Failure> {
+        let Point(Input { argument, pointer, .. }) = self;
+        // SAFETY: promised to `new`: so many numbers are a point.
+        unsafe { Input::new(argument, pointer.cast()) }.get()
+    }
+}
+
+/// Points that are read, as many as their count: an array of numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Points<'a>(Array<'a, f64>);
+
+impl<'a> Points<'a> {
+    /// # Safety
+    /// `pointer` is NULL, misaligned, or to `count` points in the dimension of the triangulation of the call.
+    #[inline(always)]
+    pub(super) unsafe fn new(argument: &'static str, pointer: *const f64, count: usize) -> Self {
+        // SAFETY: the caller's promise: a point begins with a number.
+        Points(unsafe { Array::new(argument, pointer, count) })
+    }
+
+    /// The points, which must be there unless their count is 0; `t` is the triangulation of the call.
+    #[inline(always)]
+    pub(super) fn of<G: Dimension>(self, _t: &MovingTriangulation<G>) -> Result<&'a [G::Point], Failure> {
+        let Points(Array { argument, pointer, count, .. }) = self;
+        // SAFETY: promised to `new`: so many numbers are as many points.
+        unsafe { Array::new(argument, pointer.cast(), count) }.get()
+    }
+}
+
+/// A buffer of the caller's, which may be uninitialised.
+pub(super) struct Buffer<'a, T> {
     argument: &'static str,
     pointer: *mut T,
-    count: usize,
-) -> Result<&'a mut [MaybeUninit<T>], Failure> {
-    // SAFETY: the caller's promise.
-    unsafe { buffer(argument, pointer, if pointer.is_null() { 0 } else { count }) }
+    capacity: usize,
+    lives: PhantomData<&'a mut [T]>,
 }
 
-/// Writes `values` to a buffer that has room for them.
-pub(super) unsafe fn fill<T: Copy>(
-    argument: &'static str,
-    pointer: *mut T,
-    values: &[T],
-) -> Result<(), Failure> {
-    // SAFETY: the caller vouches for the room.
-    unsafe { fill_from(argument, pointer, values.iter().copied()) }
+impl<'a, T> Buffer<'a, T> {
+    /// # Safety
+    /// `pointer` is NULL, misaligned, or has room for `capacity` entries, which nothing else uses.
+    #[inline(always)]
+    pub(super) unsafe fn new(argument: &'static str, pointer: *mut T, capacity: usize) -> Self {
+        Buffer { argument, pointer, capacity, lives: PhantomData }
+    }
+
+    pub(super) fn is_null(&self) -> bool {
+        self.pointer.is_null()
+    }
+
+    /// Its name, and whether it is there.
+    pub(super) fn offer(&self) -> Offer {
+        Offer { argument: self.argument, is_there: !self.pointer.is_null() }
+    }
+
+    /// Its first `n` entries, which must be there.
+    #[inline(always)]
+    pub(super) fn places(self, n: usize) -> Result<&'a mut [MaybeUninit<T>], Failure> {
+        let Buffer { argument, pointer, capacity, .. } = self;
+        if n == 0 {
+            return Ok(&mut []);
+        }
+        check(argument, pointer)?;
+        check_size::<T>(argument, n)?;
+        if capacity < n {
+            return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed: n });
+        }
+        // SAFETY: neither NULL, misaligned nor larger than an object may be; the rest was promised to `new`, and the type
+        // allows what is uninitialised.
+        Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), n) })
+    }
+
+    /// Its first `n` entries; none if it is NULL.
+    #[inline(always)]
+    pub(super) fn places_if_any(self, n: usize) -> Result<&'a mut [MaybeUninit<T>], Failure> {
+        let n = if self.is_null() { 0 } else { n };
+        self.places(n)
+    }
+
+    /// Fills the buffer with `needed` values, if it is there and has the room, and tells their number. No value is made
+    /// before the buffer is in order.
+    #[inline(always)]
+    pub(super) fn fill<I: IntoIterator<Item = T>>(
+        self,
+        count: Output<'_, usize>,
+        needed: usize,
+        make: impl FnOnce() -> Result<I, Failure>,
+    ) -> Result<(), Failure> {
+        self.fill_by(count, needed, |places| {
+            write_all(places, make()?);
+            Ok(())
+        })
+    }
+
+    /// Has the `needed` entries of the buffer written, if it is there and has the room, and tells their number.
+    #[inline(always)]
+    pub(super) fn fill_by(
+        self,
+        count: Output<'_, usize>,
+        needed: usize,
+        write: impl FnOnce(&mut [MaybeUninit<T>]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let (capacity, offer) = (self.capacity, self.offer());
+        fill_all(count, needed, capacity, [offer], || write(self.places(needed)?))
+    }
 }
 
-/// As [`fill`], of values that are made one by one.
+/// Writes values to as many places.
 #[inline(always)]
-pub(super) unsafe fn fill_from<T>(
-    argument: &'static str,
-    pointer: *mut T,
-    values: impl ExactSizeIterator<Item = T>,
-) -> Result<(), Failure> {
-    // SAFETY: the caller vouches for the room.
-    let places = unsafe { buffer(argument, pointer, values.len()) }?;
+pub(super) fn write_all<T>(places: &mut [MaybeUninit<T>], values: impl IntoIterator<Item = T>) {
     for (place, value) in places.iter_mut().zip(values) {
         place.write(value);
     }
+}
+
+/// A buffer as far as its room is concerned: its name, and whether it is there.
+#[derive(Clone, Copy)]
+pub(super) struct Offer {
+    argument: &'static str,
+    pub(super) is_there: bool,
+}
+
+impl Offer {
+    /// The failure of a call that needs it, where it is not there.
+    pub(super) fn missing(&self) -> Failure {
+        Wrong::Null.in_argument(self.argument)
+    }
+}
+
+/// Has buffers of the same capacity filled with `needed` entries each, if there are any and they have the room, and tells
+/// the number.
+#[inline(always)]
+pub(super) fn fill_all<const N: usize>(
+    count: Output<'_, usize>,
+    needed: usize,
+    capacity: usize,
+    buffers: [Offer; N],
+    fill: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let fitting = fit(count, needed, capacity, &buffers)?;
+    if fitting.are_any {
+        fill()?;
+    }
+    fitting.tell();
     Ok(())
+}
+
+/// Buffers that have room for what is needed, or are not there.
+pub(super) struct Fitting<'a> {
+    count: &'a mut MaybeUninit<usize>,
+    needed: usize,
+    are_any: bool,
+}
+
+impl Fitting<'_> {
+    /// Tells how many entries are needed; what was to be done for them has been done.
+    #[inline(always)]
+    pub(super) fn tell(self) {
+        self.count.write(self.needed);
+    }
+}
+
+/// Compares what is needed with the capacity of the caller's buffers. If that is too small, the number that is needed is
+/// told at once, so that the caller can provide greater ones. Without a buffer the capacity must be 0: then the number
+/// alone is asked for.
+#[inline(always)]
+pub(super) fn fit<'a>(
+    count: Output<'a, usize>,
+    needed: usize,
+    capacity: usize,
+    buffers: &[Offer],
+) -> Result<Fitting<'a>, Failure> {
+    let count = count.place()?;
+    let are_any = buffers.iter().any(|buffer| buffer.is_there);
+    if !are_any && capacity > 0 {
+        return Err(buffers[0].missing());
+    }
+    if are_any && capacity < needed {
+        count.write(needed);
+        return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed });
+    }
+    Ok(Fitting { count, needed, are_any })
 }
 
 /// Where a list begins, NULL if it is empty: an empty slice of Rust begins at an address that means
@@ -96,47 +349,20 @@ pub(super) fn start_of<T>(list: &[T]) -> *const T {
     if list.is_empty() { ptr::null() } else { list.as_ptr() }
 }
 
-/// What the caller has provided for a copy.
-pub(super) struct Room {
-    pub(super) capacity: usize,
-    pub(super) count: *mut usize,
-}
-
-/// Copies `needed` entries to the buffers that are not NULL, if they are large enough, and tells the count.
-///
-/// # Safety
-/// `room.count` is NULL, misaligned or a place for a count.
-pub(super) unsafe fn copy_out(
-    room: Room,
-    needed: usize,
-    buffers: &[(&'static str, *mut u8)],
-    copy: impl FnOnce() -> Result<(), Failure>,
-) -> Result<(), Failure> {
-    // SAFETY: the caller's promise.
-    let count = unsafe { output("count", room.count) }?;
-    if buffers.iter().all(|(_, buffer)| buffer.is_null()) {
-        if room.capacity > 0 {
-            return Err(Wrong::Null.in_argument(buffers[0].0));
-        }
-    } else if room.capacity < needed {
-        count.write(needed);
-        return Err(Failure::BufferTooSmall { argument: "capacity", capacity: room.capacity, needed });
-    } else {
-        copy()?;
-    }
-    count.write(needed);
-    Ok(())
-}
-
+#[inline(always)]
 fn check<T>(argument: &'static str, pointer: *const T) -> Result<(), Failure> {
-    if pointer.is_null() {
-        return Err(Wrong::Null.in_argument(argument));
-    }
-    if !pointer.is_aligned() {
-        let (address, alignment) = (pointer.addr(), align_of::<T>());
-        return Err(Wrong::Misaligned { address, alignment }.in_argument(argument));
-    }
-    Ok(())
+    if !pointer.is_null() && pointer.is_aligned() { Ok(()) } else { Err(wrong(argument, pointer)) }
+}
+
+#[cold]
+#[inline(never)]
+fn wrong<T>(argument: &'static str, pointer: *const T) -> Failure {
+    let wrong = if pointer.is_null() {
+        Wrong::Null
+    } else {
+        Wrong::Misaligned { address: pointer.addr(), alignment: align_of::<T>() }
+    };
+    wrong.in_argument(argument)
 }
 
 fn check_size<T>(argument: &'static str, count: usize) -> Result<(), Failure> {

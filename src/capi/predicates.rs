@@ -1,10 +1,10 @@
 //! Exact signs for points of the caller's own. They need no triangulation.
 
-use super::fence;
-use super::pointers;
-use super::status::{Failure, deldrift_status};
+use super::guard;
+use super::pointers::{Input, Output, given};
+use super::status::deldrift_status;
 use crate::delaunay::{Plane, Space};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::motion::check_position;
 use crate::predicates::{StaticFilter, orient2d, orient3d};
 
@@ -27,19 +27,25 @@ pub unsafe extern "C" fn deldrift_orientation(
     points: *const f64,
     sign: *mut i32,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers; as many numbers as the dimension says.
-    unsafe {
-        fence::enter(|| {
-            let sign = pointers::output("sign", sign)?;
-            let determinant = match dimension {
-                2 => orientation_in_plane(pointers::reference("points", points.cast())?)?,
-                3 => orientation_in_space(pointers::reference("points", points.cast())?)?,
-                given => return Err(Failure::Dimension { given }),
-            };
-            sign.write(i32::from(determinant > 0.0) - i32::from(determinant < 0.0));
-            Ok(())
-        })
-    }
+    given!(sign: Output);
+    guard::enter(|| {
+        let sign = sign.place()?;
+        let determinant = match dimension {
+            2 => {
+                let points = points.cast();
+                given!(points: Input);
+                orientation_in_plane(points.get()?)?
+            }
+            3 => {
+                let points = points.cast();
+                given!(points: Input);
+                orientation_in_space(points.get()?)?
+            }
+            given => return Err(Error::InvalidDimension { given }.into()),
+        };
+        sign.write(i32::from(determinant > 0.0) - i32::from(determinant < 0.0));
+        Ok(())
+    })
 }
 
 fn orientation_in_plane(points: &[[f64; 2]; 3]) -> Result<f64> {

@@ -1,13 +1,11 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
-use super::fence;
-use super::motion::{point_for, points_for};
-use super::pointers::{self, Room, copy_out, start_of};
-use super::state::pointer_for;
+use super::handle::{Reading, deldrift_triangulation, tell};
+use super::pointers::{Buffer, Input, Output, Point, Points, fill_all, given, start_of, write_all};
 use super::status::{Failure, deldrift_status};
-use super::triangulation::{deldrift_triangulation, dimension_of, in_its_dimension, tell};
 use crate::delaunay::{Dimension, IndexSet};
 use crate::ids::{CellId, VertexId};
+use crate::in_its_dimension;
 use crate::motion::{CellsView, Level, Location, MovingTriangulation, NO_CELL, cells_at};
 
 /// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
@@ -83,17 +81,10 @@ impl From<Location> for deldrift_location {
 
 const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
 
-/// The location that a program gives to begin a search at, if it gives one that has a meaning.
-///
-/// # Safety
-/// As for [`pointers::reference`], but NULL is none.
-pub(super) unsafe fn hint_at(given: *const deldrift_location) -> Result<Option<Location>, Failure> {
-    if given.is_null() {
-        return Ok(None);
-    }
-    // SAFETY: the caller's promise. Its kind may be any number.
-    let &[kind, index] = unsafe { pointers::reference("hint", given.cast::<[u32; 2]>()) }?;
-    Ok(hint(kind, index))
+/// The location that a program gives to begin a search at, if it gives one that has a meaning. Its kind may be any
+/// number.
+pub(super) fn hint_at(given: Input<'_, [u32; 2]>) -> Result<Option<Location>, Failure> {
+    Ok(given.if_any()?.and_then(|&[kind, index]| hint(kind, index)))
 }
 
 /// A location, if its kind has a meaning.
@@ -126,8 +117,8 @@ pub unsafe extern "C" fn deldrift_cells(
     t: *const deldrift_triangulation,
     view: *mut deldrift_cells_view,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, view, t => view_of_cells(t)?) }
+    given!(t: Reading, view: Output);
+    tell!(t, view => view_of_cells(t)?)
 }
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
@@ -148,27 +139,22 @@ pub unsafe extern "C" fn deldrift_copy_cells(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let cells = t.cells()?;
-                let buffers = [("vertices", vertices.cast()), ("neighbours", neighbours.cast())];
-                copy_out(Room { capacity, count }, cells.corners.len(), &buffers, || {
-                    let needed = cells.corners.len();
-                    // Looked at before anything is written.
-                    pointers::buffer_if_any("neighbours", neighbours, needed)?;
-                    if !vertices.is_null() {
-                        pointers::fill("vertices", vertices.cast(), cells.corners)?;
-                    }
-                    if !neighbours.is_null() {
-                        pointers::fill("neighbours", neighbours.cast(), cells.neighbours)?;
-                    }
-                    Ok(())
-                })
+    given!(t: Reading, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let (vertices, neighbours) = (vertices.cast(), neighbours.cast());
+            given!(vertices[capacity]: Buffer, neighbours[capacity]: Buffer);
+            let cells = t.cells()?;
+            let needed = cells.corners.len();
+            fill_all(count, needed, capacity, [vertices.offer(), neighbours.offer()], || {
+                // Both are looked at before anything is written.
+                let (vertices, neighbours) = (vertices.places_if_any(needed)?, neighbours.places_if_any(needed)?);
+                write_all(vertices, cells.corners.iter().copied());
+                write_all(neighbours, cells.neighbours.iter().copied());
+                Ok(())
             })
         })
-    }
+    })
 }
 
 /// The star of a vertex: the indices of the cells that have it as a corner, in no particular order; for
@@ -191,21 +177,12 @@ pub unsafe extern "C" fn deldrift_star(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            let mut slots = IndexSet::new();
-            let (index_of, needed) =
-                in_its_dimension!(kernel, t => t.list_star(VertexId::new(vertex), &mut slots))?;
-            copy_out(Room { capacity, count }, needed, &[("cells", cells.cast())], || {
-                let places = pointers::buffer("cells", cells, needed)?;
-                for (place, cell) in places.iter_mut().zip(cells_at(&slots, index_of)) {
-                    place.write(cell.get());
-                }
-                Ok(())
-            })
-        })
-    }
+    given!(t: Reading, cells[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let mut slots = IndexSet::new();
+        let (index_of, needed) = in_its_dimension!(t => t.list_star(VertexId::new(vertex), &mut slots))?;
+        cells.fill(count, needed, || Ok(cells_at(&slots, index_of).map(CellId::get)))
+    })
 }
 
 /// The tolerance of a vertex, to *out: while every vertex stays closer to its current position than its
@@ -225,8 +202,8 @@ pub unsafe extern "C" fn deldrift_tolerance(
     vertex: u32,
     out: *mut f64,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, out, t => t.tolerance(VertexId::new(vertex))?) }
+    given!(t: Reading, out: Output);
+    tell!(t, out => t.tolerance(VertexId::new(vertex))?)
 }
 
 /// The annulus widths of all bi-cells: entry i of the row of a cell, in the order of deldrift_cells, is
@@ -252,17 +229,13 @@ pub unsafe extern "C" fn deldrift_annulus_widths(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let needed = t.cell_count() * (dimension_of(t) + 1);
-                copy_out(Room { capacity, count }, needed, &[("widths", widths.cast())], || {
-                    pointers::fill("widths", widths, &t.annulus_widths()?)
-                })
-            })
+    given!(t: Reading, widths[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let needed = t.cell_count() * (dimension_of(t) + 1);
+            widths.fill(count, needed, || Ok(t.annulus_widths()?))
         })
-    }
+    })
 }
 
 /// The standard delimiter of a bi-cell: the circle or sphere in the middle of its annulus, see
@@ -287,26 +260,21 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
     radius: *mut f64,
     tolerance: *mut f64,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let centre = pointers::output("centre", pointer_for(t, centre))?;
-                let radius = pointers::output("radius", radius)?;
-                let tolerance = pointers::output("tolerance", tolerance)?;
-                let (cells, corners) = (t.cell_count(), dimension_of(t) + 1);
-                if cell as usize >= cells || corner as usize >= corners {
-                    return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
-                }
-                let delimiter =
-                    t.standard_delimiter(CellId::new(cell), corner)?.ok_or(Failure::HullFacet { cell, corner })?;
-                centre.write(delimiter.centre);
-                radius.write(delimiter.radius);
-                tolerance.write(delimiter.tolerance);
-            });
-            Ok(())
-        })
-    }
+    given!(t: Reading, radius: Output, tolerance: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let centre = centre.cast();
+            given!(centre: Output);
+            let (centre, radius, tolerance) = (centre.place()?, radius.place()?, tolerance.place()?);
+            check_facet(t, cell, corner)?;
+            let delimiter =
+                t.standard_delimiter(CellId::new(cell), corner)?.ok_or(Failure::HullFacet { cell, corner })?;
+            centre.write(delimiter.centre);
+            radius.write(delimiter.radius);
+            tolerance.write(delimiter.tolerance);
+        });
+        Ok(())
+    })
 }
 
 /// Where a point lies, exactly, to *location.
@@ -325,8 +293,8 @@ pub unsafe extern "C" fn deldrift_locate(
     position: *const f64,
     location: *mut deldrift_location,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, location, t => t.locate(point_for(t, "position", position)?)?.into()) }
+    given!(t: Reading, position: Point, location: Output);
+    tell!(t, location => t.locate(position.of(t)?)?.into())
 }
 
 /// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
@@ -349,23 +317,22 @@ pub unsafe extern "C" fn deldrift_locate_points(
     hint: *const deldrift_location,
     locations: *mut deldrift_location,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                if count == 0 {
-                    return Ok(());
-                }
-                let positions = points_for(t, "positions", positions, count)?;
-                let hint = hint_at(hint)?;
-                let mut locations = pointers::buffer("locations", locations, count)?.iter_mut();
-                t.locate_points(positions, hint, |location| {
-                    locations.next().expect("as many as positions").write(location.into());
-                })?;
-                Ok(())
-            })
+    let hint = hint.cast();
+    given!(t: Reading, positions[count]: Points, hint: Input, locations[count]: Buffer);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            if count == 0 {
+                return Ok(());
+            }
+            let positions = positions.of(t)?;
+            let hint = hint_at(hint)?;
+            let mut places = locations.places(count)?.iter_mut();
+            t.locate_points(positions, hint, |location| {
+                places.next().expect("as many as positions").write(location.into());
+            })?;
+            Ok(())
         })
-    }
+    })
 }
 
 /// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
@@ -384,12 +351,8 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
     position: *const f64,
     vertex: *mut u32,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        tell!(t, vertex, t => {
-            t.nearest_vertex(point_for(t, "position", position)?)?.map_or(DELDRIFT_NONE, VertexId::get)
-        })
-    }
+    given!(t: Reading, position: Point, vertex: Output);
+    tell!(t, vertex => t.nearest_vertex(position.of(t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
 }
 
 /// The lowest id among the vertices at the place of this one, to *representative: the one that is a
@@ -405,8 +368,8 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
     vertex: u32,
     representative: *mut u32,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, representative, t => t.coincident_representative(VertexId::new(vertex))?.get()) }
+    given!(t: Reading, representative: Output);
+    tell!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
 }
 
 /// The cells of now that did not exist before the latest commit, to *view, as indices into
@@ -421,13 +384,11 @@ pub unsafe extern "C" fn deldrift_changed_cells(
     t: *const deldrift_triangulation,
     view: *mut deldrift_indices_view,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        tell!(t, view, t => {
-            let changed = CellId::numbers_of(t.changed_cells()?);
-            deldrift_indices_view { count: changed.len(), indices: start_of(changed) }
-        })
-    }
+    given!(t: Reading, view: Output);
+    tell!(t, view => {
+        let changed = CellId::numbers_of(t.changed_cells()?);
+        deldrift_indices_view { count: changed.len(), indices: start_of(changed) }
+    })
 }
 
 /// Checks the triangulation exactly, in time proportional to its size.
@@ -441,18 +402,16 @@ pub unsafe extern "C" fn deldrift_changed_cells(
 /// deldrift_last_error then gives the first violation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_validate(t: *const deldrift_triangulation, level: u32) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            let level = match level {
-                1 => Level::Structure,
-                2 => Level::Embedding,
-                3 => Level::Delaunay,
-                given => return Err(Failure::Level { given }),
-            };
-            in_its_dimension!(kernel, t => t.validate(level)).map_err(Failure::Invalid)
-        })
-    }
+    given!(t: Reading);
+    t.read(|t| {
+        let level = match level {
+            1 => Level::Structure,
+            2 => Level::Embedding,
+            3 => Level::Delaunay,
+            given => return Err(Failure::Level { given }),
+        };
+        in_its_dimension!(t => t.validate(level)).map_err(Failure::Invalid)
+    })
 }
 
 fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_cells_view, Failure> {
@@ -464,4 +423,22 @@ fn view_of_cells<G: Dimension>(t: &MovingTriangulation<G>) -> Result<deldrift_ce
         vertices: start_of(corners).cast(),
         neighbours: start_of(neighbours).cast(),
     })
+}
+
+/// There must be a facet opposite this corner of this cell.
+pub(super) fn check_facet<G: Dimension>(
+    t: &MovingTriangulation<G>,
+    cell: u32,
+    corner: u32,
+) -> Result<(), Failure> {
+    let (cells, corners) = (t.cell_count(), dimension_of(t) + 1);
+    if cell as usize >= cells || corner as usize >= corners {
+        return Err(Failure::NoSuchFacet { cell, corner, cells, corners });
+    }
+    Ok(())
+}
+
+/// The number of coordinates of a point of `t`.
+pub(super) fn dimension_of<G: Dimension>(_t: &MovingTriangulation<G>) -> usize {
+    G::D
 }

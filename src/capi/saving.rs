@@ -1,17 +1,19 @@
 //! A triangulation as bytes, in memory or in a file, and a second one like it.
 
-use std::ffi::{CStr, c_char, c_void};
+use std::ffi::{c_char, c_void};
 use std::mem::MaybeUninit;
 
-use super::fence;
 use super::files::{NewFile, OldFile};
-use super::options::deldrift_options;
-use super::pointers::{self, Room, copy_out};
+use super::guard;
+use super::handle::{Reading, deldrift_triangulation, hand_out};
+use super::options::{GivenOptions, deldrift_options};
+use super::pointers::{Array, Buffer, Output, Text, given, write_all};
 use super::status::{Failure, deldrift_status};
-use super::triangulation::{Kernel, deldrift_triangulation, hand_out, in_its_dimension};
 use crate::damage::LoadError;
+use crate::either::AnyTriangulation;
+use crate::in_its_dimension;
 use crate::machine::memory;
-use crate::motion::{Field, MovingTriangulation, Saved};
+use crate::motion::{Field, Saved};
 
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
@@ -33,22 +35,11 @@ pub unsafe extern "C" fn deldrift_clone(
     t: *const deldrift_triangulation,
     out: *mut *mut deldrift_triangulation,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::enter(|| {
-            let handle = pointers::reference("t", t)?;
-            handle.check_ready()?;
-            let out = pointers::output("out", out)?;
-            let callbacks = handle.callbacks();
-            let monitor = callbacks.monitor()?;
-            // No call below this one on the stack is changing it, and none of another thread by contract.
-            let kernel = match &*handle.kernel() {
-                Kernel::Plane(t) => Kernel::Plane(t.try_clone(monitor)?),
-                Kernel::Space(t) => Kernel::Space(t.try_clone(monitor)?),
-            };
-            hand_out(out, kernel, callbacks)
-        })
-    }
+    given!(t: Reading, out: Output);
+    t.read_with_callbacks(|t, callbacks| {
+        let out = out.place()?;
+        hand_out(out, t.try_clone(callbacks.monitor()?)?, callbacks)
+    })
 }
 
 /// Saves the triangulation: writes bytes from which deldrift_load makes one like it, on this machine or any other.
@@ -73,29 +64,25 @@ pub unsafe extern "C" fn deldrift_save(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let (buffer, needed) = (buffer.cast::<u8>(), t.saved_size());
-                copy_out(Room { capacity, count }, needed, &[("buffer", buffer)], || {
-                    let mut rest = pointers::buffer("buffer", buffer, needed)?;
-                    t.save(|bytes| {
-                        rest = fill_front(std::mem::take(&mut rest), bytes);
-                        Ok(())
-                    })
+    let buffer = buffer.cast();
+    given!(t: Reading, buffer[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            buffer.fill_by(count, t.saved_size(), |places| {
+                let mut rest = places;
+                t.save(|bytes| {
+                    rest = fill_front(std::mem::take(&mut rest), bytes);
+                    Ok(())
                 })
             })
         })
-    }
+    })
 }
 
 /// Writes bytes to the beginning of a buffer, which has room for them; returns the rest of it.
 fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [MaybeUninit<u8>] {
     let (front, rest) = buffer.split_at_mut(bytes.len());
-    for (place, &byte) in front.iter_mut().zip(bytes) {
-        place.write(byte);
-    }
+    write_all(front, bytes.iter().copied());
     rest
 }
 
@@ -127,14 +114,12 @@ pub unsafe extern "C" fn deldrift_load(
     options: *const deldrift_options,
     out: *mut *mut deldrift_triangulation,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::enter(|| {
-            let out = pointers::output("out", out)?;
-            let data = pointers::array("data", data.cast::<u8>(), size)?;
-            load("data", data, deldrift_options::read(options)?, out)
-        })
-    }
+    let data = data.cast();
+    given!(data[size]: Array, options: GivenOptions, out: Output);
+    guard::enter(|| {
+        let out = out.place()?;
+        load("data", data.get()?, options.read()?, out)
+    })
 }
 
 /// Makes a triangulation of the bytes of an argument.
@@ -145,26 +130,13 @@ fn load(
     out: &mut MaybeUninit<*mut deldrift_triangulation>,
 ) -> Result<(), Failure> {
     let failed = |error| match error {
-        LoadError::Call(error) => Failure::Kernel(error),
+        LoadError::Call(error) => Failure::Call(error),
         LoadError::Data(damage) => Failure::Data { argument, damage },
     };
     let callbacks = options.callbacks();
     let options = options.convert()?;
     let saved = Saved::of(data).map_err(|damage| Failure::Data { argument, damage })?;
-    let kernel = if saved.dimension() == 2 {
-        Kernel::Plane(MovingTriangulation::load(&saved, options).map_err(failed)?)
-    } else {
-        Kernel::Space(MovingTriangulation::load(&saved, options).map_err(failed)?)
-    };
-    hand_out(out, kernel, callbacks)
-}
-
-/// A path from C.
-unsafe fn path_of<'a>(path: *const c_char) -> Result<&'a CStr, Failure> {
-    // SAFETY: the caller's promise.
-    unsafe { pointers::reference("path", path) }?;
-    // SAFETY: it is not NULL, and the caller vouches for the NUL at its end.
-    Ok(unsafe { CStr::from_ptr(path) })
+    hand_out(out, AnyTriangulation::load(&saved, options).map_err(failed)?, callbacks)
 }
 
 /// The bytes of a file that begins like that of a triangulation, and is as long as it says there; not if either is
@@ -201,14 +173,12 @@ pub unsafe extern "C" fn deldrift_save_file(
     t: *const deldrift_triangulation,
     path: *const c_char,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            let mut file = NewFile::create(path_of(path)?)?;
-            in_its_dimension!(kernel, t => t.save(|bytes| file.put(bytes)))?;
-            Ok(file.finish()?)
-        })
-    }
+    given!(t: Reading, path: Text);
+    t.read(|t| {
+        let mut file = NewFile::create(path.get()?)?;
+        in_its_dimension!(t => t.save(|bytes| file.put(bytes)))?;
+        Ok(file.finish()?)
+    })
 }
 
 /// Makes a triangulation of a file that deldrift_save_file has written, to *out, as deldrift_load does.
@@ -228,15 +198,13 @@ pub unsafe extern "C" fn deldrift_load_file(
     options: *const deldrift_options,
     out: *mut *mut deldrift_triangulation,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::enter(|| {
-            let out = pointers::output("out", out)?;
-            let options = deldrift_options::read(options)?;
-            let data = bytes_of(&OldFile::open(path_of(path)?)?)?;
-            load("path", &data, options, out)
-        })
-    }
+    given!(path: Text, options: GivenOptions, out: Output);
+    guard::enter(|| {
+        let out = out.place()?;
+        let options = options.read()?;
+        let data = bytes_of(&OldFile::open(path.get()?)?)?;
+        load("path", &data, options, out)
+    })
 }
 
 /// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
@@ -256,31 +224,29 @@ pub struct deldrift_field {
 /// Fields from C, each for `n` vertices or cells.
 ///
 /// # Safety
-/// As for [`deldrift_write_vtu`].
+/// Names are NULL or end in a NUL, and values are as many as the components of a field say, for each of `n`.
 unsafe fn fields_of<'a>(
     argument: &'static str,
-    fields: *const deldrift_field,
-    count: usize,
+    fields: Array<'a, deldrift_field>,
     n: usize,
 ) -> Result<Vec<Field<'a>>, Failure> {
     let mut read = Vec::new();
-    // SAFETY: the caller's promise.
-    let fields = unsafe { pointers::array(argument, fields, count) }?;
+    let fields = fields.get()?;
     memory::reserve_exact(&mut read, fields.len())?;
     for (index, field) in fields.iter().enumerate() {
         let bad = |part, wanted| Failure::Field { argument, index, part, wanted };
         if field.name.is_null() {
             return Err(bad("name", "not NULL"));
         }
-        // SAFETY: the caller vouches for the NUL at its end.
-        let name = unsafe { CStr::from_ptr(field.name) }.to_str().map_err(|_| bad("name", "UTF-8"))?;
+        let n_values = n.saturating_mul(field.components);
+        // SAFETY: the caller's promise.
+        let (name, values) =
+            unsafe { (Text::new("name", field.name), Array::new(argument, field.values, n_values)) };
+        let name = name.get()?.to_str().map_err(|_| bad("name", "UTF-8"))?;
         if field.components == 0 {
             return Err(bad("components", "at least 1"));
         }
-        let n_values = n.saturating_mul(field.components);
-        // SAFETY: the caller's promise.
-        let values = unsafe { pointers::array(argument, field.values, n_values) };
-        let values = values.map_err(|failure| match failure {
+        let values = values.get().map_err(|failure| match failure {
             Failure::Pointer { argument, wrong } => Failure::ValuesOfField { argument, index, wrong },
             other => other,
         })?;
@@ -314,19 +280,23 @@ pub unsafe extern "C" fn deldrift_write_vtu(
     cell_fields: *const deldrift_field,
     cell_field_count: usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let path = path_of(path)?;
-                let vertices = fields_of("vertex_fields", vertex_fields, vertex_field_count, t.id_count())?;
-                let cells = fields_of("cell_fields", cell_fields, cell_field_count, t.cell_count())?;
-                let mut file = NewFile::create(path)?;
-                t.write_vtu(&vertices, &cells, |bytes| file.put(bytes))?;
-                Ok(file.finish()?)
-            })
+    given!(t: Reading, path: Text);
+    given!(vertex_fields[vertex_field_count]: Array, cell_fields[cell_field_count]: Array);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let path = path.get()?;
+            // SAFETY: the header's conditions on fields.
+            let (vertices, cells) = unsafe {
+                (
+                    fields_of("vertex_fields", vertex_fields, t.id_count())?,
+                    fields_of("cell_fields", cell_fields, t.cell_count())?,
+                )
+            };
+            let mut file = NewFile::create(path)?;
+            t.write_vtu(&vertices, &cells, |bytes| file.put(bytes))?;
+            Ok(file.finish()?)
         })
-    }
+    })
 }
 
 /// Writes a file for Mmg, FreeFem, Gmsh and others: MEDIT's text format (.mesh).
@@ -345,12 +315,10 @@ pub unsafe extern "C" fn deldrift_write_medit(
     t: *const deldrift_triangulation,
     path: *const c_char,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            let mut file = NewFile::create(path_of(path)?)?;
-            in_its_dimension!(kernel, t => t.write_medit(|bytes| file.put(bytes)))?;
-            Ok(file.finish()?)
-        })
-    }
+    given!(t: Reading, path: Text);
+    t.read(|t| {
+        let mut file = NewFile::create(path.get()?)?;
+        in_its_dimension!(t => t.write_medit(|bytes| file.put(bytes)))?;
+        Ok(file.finish()?)
+    })
 }

@@ -1,12 +1,12 @@
 //! What a triangulation holds: counts, sums, and the positions of vertices.
 
-use super::fence;
+use super::handle::{Reading, deldrift_triangulation, tell};
 use super::motion::deldrift_commit_report;
-use super::pointers::{self, Room, copy_out};
+use super::pointers::{Buffer, Output, given};
 use super::status::deldrift_status;
-use super::triangulation::{deldrift_triangulation, in_its_dimension, tell};
 use crate::delaunay::Dimension;
 use crate::ids::VertexId;
+use crate::in_its_dimension;
 use crate::motion::MovingTriangulation;
 
 /// How many vertices are present, hidden ones included and removed ones not, to *count.
@@ -19,8 +19,8 @@ pub unsafe extern "C" fn deldrift_vertex_count(
     t: *const deldrift_triangulation,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.vertex_count()) }
+    given!(t: Reading, count: Output);
+    tell!(t, count => t.vertex_count())
 }
 
 /// How many ids have been given, or left by the latest deldrift_compact and given since, to *count: valid
@@ -34,8 +34,8 @@ pub unsafe extern "C" fn deldrift_id_count(
     t: *const deldrift_triangulation,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.id_count()) }
+    given!(t: Reading, count: Output);
+    tell!(t, count => t.id_count())
 }
 
 /// How many cells there are, to *count.
@@ -48,8 +48,8 @@ pub unsafe extern "C" fn deldrift_cell_count(
     t: *const deldrift_triangulation,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.cell_count()) }
+    given!(t: Reading, count: Output);
+    tell!(t, count => t.cell_count())
 }
 
 /// How many moves are staged for the next timestamp, to *count.
@@ -62,8 +62,8 @@ pub unsafe extern "C" fn deldrift_staged_count(
     t: *const deldrift_triangulation,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, count, t => t.staged_count()) }
+    given!(t: Reading, count: Output);
+    tell!(t, count => t.staged_count())
 }
 
 /// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
@@ -79,8 +79,8 @@ pub unsafe extern "C" fn deldrift_memory_bytes(
     t: *const deldrift_triangulation,
     bytes: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, bytes, t => size_of::<deldrift_triangulation>() + t.memory_bytes()) }
+    given!(t: Reading, bytes: Output);
+    tell!(t, bytes => size_of::<deldrift_triangulation>() + t.memory_bytes())
 }
 
 /// The number of the current timestamp, to *timestamp: 0 at creation, one more at each commit.
@@ -93,8 +93,8 @@ pub unsafe extern "C" fn deldrift_timestamp(
     t: *const deldrift_triangulation,
     timestamp: *mut u64,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, timestamp, t => t.timestamp()) }
+    given!(t: Reading, timestamp: Output);
+    tell!(t, timestamp => t.timestamp())
 }
 
 /// The sums of what all commits and immediate calls so far have done, to *report, whose timestamp and
@@ -108,8 +108,8 @@ pub unsafe extern "C" fn deldrift_statistics(
     t: *const deldrift_triangulation,
     report: *mut deldrift_commit_report,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, report, t => t.statistics().into()) }
+    given!(t: Reading, report: Output);
+    tell!(t, report => t.statistics().into())
 }
 
 /// Whether a vertex of this id is present, to *present: false if it has been removed, or never was, or only its
@@ -124,8 +124,8 @@ pub unsafe extern "C" fn deldrift_is_present(
     vertex: u32,
     present: *mut bool,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe { tell!(t, present, t => t.is_present(VertexId::new(vertex))) }
+    given!(t: Reading, present: Output);
+    tell!(t, present => t.is_present(VertexId::new(vertex)))
 }
 
 /// The position of a vertex, 2 or 3 numbers, to position: that of the current timestamp, not a staged one.
@@ -140,16 +140,16 @@ pub unsafe extern "C" fn deldrift_position(
     vertex: u32,
     position: *mut f64,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let place = pointers::output("position", pointer_for(t, position))?;
-                place.write(t.position(VertexId::new(vertex))?);
-            });
-            Ok(())
-        })
-    }
+    given!(t: Reading);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let position = position.cast();
+            given!(position: Output);
+            let place = position.place()?;
+            place.write(t.position(VertexId::new(vertex))?);
+        });
+        Ok(())
+    })
 }
 
 /// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp, of
@@ -169,26 +169,15 @@ pub unsafe extern "C" fn deldrift_copy_positions(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read(t, |kernel| {
-            in_its_dimension!(kernel, t => {
-                let (positions, needed) = (pointer_for(t, positions), t.id_count());
-                copy_out(Room { capacity, count }, needed, &[("positions", positions.cast())], || {
-                    let places = pointers::buffer("positions", positions, needed)?;
-                    for (vertex, place) in VertexId::range(0..needed).zip(places) {
-                        place.write(position_or_nan(t, vertex));
-                    }
-                    Ok(())
-                })
-            })
+    given!(t: Reading, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let positions = positions.cast();
+            given!(positions[capacity]: Buffer);
+            let n = t.id_count();
+            positions.fill(count, n, || Ok(VertexId::range(0..n).map(|vertex| position_or_nan(t, vertex))))
         })
-    }
-}
-
-/// A pointer to numbers as one to points of the dimension of `t`.
-pub(super) fn pointer_for<G: Dimension>(_t: &MovingTriangulation<G>, positions: *mut f64) -> *mut G::Point {
-    positions.cast()
+    })
 }
 
 /// The position of a vertex, or where it will be inserted, NaN if it has been removed.

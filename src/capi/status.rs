@@ -3,8 +3,8 @@
 use std::ffi::{CStr, c_char};
 use std::fmt;
 
-use super::fence;
 use super::files::FileError;
+use super::message;
 use crate::damage::Damage;
 use crate::error::Error;
 use crate::motion::Violation;
@@ -205,7 +205,6 @@ impl fmt::Display for Wrong {
 pub(super) enum Failure {
     Pointer { argument: &'static str, wrong: Wrong },
     ValuesOfField { argument: &'static str, index: usize, wrong: Wrong },
-    Dimension { given: u32 },
     NotOfThePlane,
     Option { field: &'static str, value: u64, wanted: &'static str },
     Share { field: &'static str, value: f64 },
@@ -219,12 +218,12 @@ pub(super) enum Failure {
     File(FileError),
     Busy,
     Poisoned,
-    Kernel(Error),
+    Call(Error),
 }
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        Failure::Kernel(error)
+        Failure::Call(error)
     }
 }
 
@@ -241,7 +240,7 @@ impl Failure {
     pub(super) fn status(&self) -> deldrift_status {
         match self {
             Failure::Pointer { wrong, .. } | Failure::ValuesOfField { wrong, .. } => wrong.status(),
-            Failure::Dimension { .. } | Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
+            Failure::NotOfThePlane => DELDRIFT_INVALID_DIMENSION,
             Failure::Option { .. } | Failure::Share { .. } => DELDRIFT_INVALID_OPTIONS,
             Failure::Field { .. } => DELDRIFT_INVALID_FIELD,
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
@@ -253,7 +252,8 @@ impl Failure {
             Failure::File(_) => DELDRIFT_IO_ERROR,
             Failure::Busy => DELDRIFT_BUSY,
             Failure::Poisoned => DELDRIFT_POISONED,
-            Failure::Kernel(error) => match error {
+            Failure::Call(error) => match error {
+                Error::InvalidDimension { .. } => DELDRIFT_INVALID_DIMENSION,
                 Error::NotFinite { .. } => DELDRIFT_NOT_FINITE,
                 Error::OutOfRange { .. } => DELDRIFT_OUT_OF_RANGE,
                 Error::NoSuchVertex { .. } => DELDRIFT_NO_SUCH_VERTEX,
@@ -282,7 +282,6 @@ impl fmt::Display for Failure {
             Failure::ValuesOfField { argument, index, wrong } => {
                 write!(f, "values of {argument}[{index}] {wrong}")
             }
-            Failure::Dimension { given } => write!(f, "dimension is {given}, but must be 2 or 3"),
             Failure::NotOfThePlane => write!(f, "the dimension of t is 3, but must be 2"),
             Failure::Option { field, value, wanted } => write!(f, "{field} is {value}, but must be {wanted}"),
             Failure::Share { field, value } => {
@@ -307,7 +306,7 @@ impl fmt::Display for Failure {
             Failure::File(error) => write!(f, "{error}"),
             Failure::Busy => write!(f, "t is in use by a call that is changing it"),
             Failure::Poisoned => write!(f, "t is unusable since a call on it ended in an internal error"),
-            Failure::Kernel(error) => write!(f, "{error}"),
+            Failure::Call(error) => write!(f, "{error}"),
         }
     }
 }
@@ -331,7 +330,7 @@ pub extern "C" fn deldrift_status_string(status: StatusCode) -> *const c_char {
 /// Cost: constant.
 #[unsafe(no_mangle)]
 pub extern "C" fn deldrift_last_error() -> *const c_char {
-    fence::last_message()
+    message::last()
 }
 
 /// The version of the library that is running, as "major.minor.patch". The string is static. The

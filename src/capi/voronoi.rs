@@ -1,10 +1,10 @@
 //! Voronoi cells and facets, clipped by a box.
 
-use super::fence;
-use super::pointers::{self, Room, copy_out};
+use super::handle::{Reading, deldrift_triangulation};
+use super::pointers::{Buffer, Output, Point, given};
 use super::status::{Failure, deldrift_status};
-use super::triangulation::{deldrift_triangulation, in_its_dimension};
 use crate::delaunay::Dimension;
+use crate::in_its_dimension;
 use crate::motion::MovingTriangulation;
 
 /// The areas (2D) or volumes (3D) of the Voronoi cells of all ids, within a box.
@@ -47,18 +47,13 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read_watched(t, |kernel, monitor| {
-            in_its_dimension!(kernel, t => {
-                let clip = clip_for(t, low, high)?;
-                copy_out(Room { capacity, count }, t.id_count(), &[("volumes", volumes.cast())], || {
-                    pointers::buffer("volumes", volumes, t.id_count())?;
-                    pointers::fill("volumes", volumes, &t.voronoi_volumes_monitored(clip, monitor)?)
-                })
-            })
+    given!(t: Reading, low: Point, high: Point, volumes[capacity]: Buffer, count: Output);
+    t.read_watched(|t, monitor| {
+        in_its_dimension!(t => {
+            let clip = clip_for(t, low, high)?;
+            volumes.fill(count, t.id_count(), || Ok(t.voronoi_volumes_monitored(clip, monitor)?))
         })
-    }
+    })
 }
 
 /// The lengths (2D) or areas (3D) of the Voronoi facets of all edges, in the order of deldrift_edges, within a box.
@@ -97,35 +92,25 @@ pub unsafe extern "C" fn deldrift_voronoi_facets(
     capacity: usize,
     count: *mut usize,
 ) -> deldrift_status {
-    // SAFETY: the header's conditions on pointers.
-    unsafe {
-        fence::read_watched(t, |kernel, monitor| {
-            in_its_dimension!(kernel, t => {
-                let clip = clip_for(t, low, high)?;
-                copy_out(Room { capacity, count }, t.edge_count(), &[("measures", measures.cast())], || {
-                    pointers::buffer("measures", measures, t.edge_count())?;
-                    pointers::fill("measures", measures, &t.voronoi_facets_monitored(clip, monitor)?)
-                })
-            })
+    given!(t: Reading, low: Point, high: Point, measures[capacity]: Buffer, count: Output);
+    t.read_watched(|t, monitor| {
+        in_its_dimension!(t => {
+            let clip = clip_for(t, low, high)?;
+            measures.fill(count, t.edge_count(), || Ok(t.voronoi_facets_monitored(clip, monitor)?))
         })
-    }
+    })
 }
 
 /// The corners of a box that is a good one, in the dimension of `t`; none if both are NULL.
-///
-/// # Safety
-/// The header's conditions on pointers.
-unsafe fn clip_for<'a, G: Dimension>(
+fn clip_for<'a, G: Dimension>(
     t: &MovingTriangulation<G>,
-    low: *const f64,
-    high: *const f64,
+    low: Point<'a>,
+    high: Point<'a>,
 ) -> Result<Option<[&'a G::Point; 2]>, Failure> {
     if low.is_null() && high.is_null() {
         return Ok(None);
     }
-    // SAFETY: the caller's promise.
-    let clip =
-        unsafe { [pointers::reference("low", low.cast())?, pointers::reference("high", high.cast())?] };
+    let clip = [low.of(t)?, high.of(t)?];
     t.check_clip(clip)?;
     Ok(Some(clip))
 }

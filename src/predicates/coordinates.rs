@@ -33,6 +33,8 @@ pub trait Array: Sized {
     fn flattened(points: &[Self]) -> &[f64];
     /// The coordinates of points, one after the other, to write.
     fn flattened_mut(points: &mut [Self]) -> &mut [f64];
+    /// The points of which the coordinates are given one after the other, and the coordinates left over.
+    fn of_flattened(coordinates: &[f64]) -> (&[Self], &[f64]);
     /// Each coordinate of several points, in lanes.
     fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]>;
     /// The vector to this point from another, if no coordinate of it is rounded; of points that are not finite none is
@@ -47,6 +49,10 @@ impl<const D: usize> Array for [f64; D] {
 
     fn flattened_mut(points: &mut [Self]) -> &mut [f64] {
         points.as_flattened_mut()
+    }
+
+    fn of_flattened(coordinates: &[f64]) -> (&[Self], &[f64]) {
+        coordinates.as_chunks()
     }
 
     #[inline(always)]

@@ -123,7 +123,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The short way of [`relocate_vertex`](Self::relocate_vertex): moves a vertex that certainly stays within the
     /// tolerance kept of it if nothing follows from that but a few counts. Otherwise it does nothing and says
-    /// `false`; the long way finds out what is to be done, or is wrong. It cannot panic, so C needs no fence around it.
+    /// `false`; the long way finds out what is to be done, or is wrong. It cannot panic, so C needs no guard around it.
     ///
     /// No other vertex can be at the new place. All are within their tolerances, so the cells still are a triangulation
     /// when this one has moved, and positive; if two of its vertices were at one place, cells of theirs would overlap.

@@ -1,0 +1,266 @@
+//! The object that C knows as a triangulation, and how calls get at what is in it.
+
+use std::cell::UnsafeCell;
+use std::marker::PhantomData;
+use std::mem::{self, MaybeUninit};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::Relaxed};
+
+use super::guard;
+use super::options::Callbacks;
+use super::pointers::{Input, Output};
+use super::status::{Failure, deldrift_status};
+use crate::either::AnyTriangulation;
+use crate::error::Error;
+use crate::machine::{environment, memory};
+
+/// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.
+pub struct deldrift_triangulation {
+    content: UnsafeCell<AnyTriangulation>,
+    // What the triangulation calls, for those that are made from it.
+    callbacks: Callbacks,
+    // Written only by calls that change the triangulation, which exclude all others by contract. They are
+    // atomic so that a caller who breaks the contract reads a flag and not garbage; nothing is ordered.
+    is_changing: AtomicBool,
+    is_poisoned: AtomicBool,
+    // How many calls that only read it may be calling its callbacks.
+    n_watched: AtomicU32,
+}
+
+impl deldrift_triangulation {
+    #[inline(always)]
+    fn new(content: AnyTriangulation, callbacks: Callbacks) -> Self {
+        Self {
+            content: UnsafeCell::new(content),
+            callbacks,
+            is_changing: AtomicBool::new(false),
+            is_poisoned: AtomicBool::new(false),
+            n_watched: AtomicU32::new(0),
+        }
+    }
+
+    /// One that is to be built: in memory of its own, and made there.
+    #[inline(always)]
+    pub(super) fn unbuilt(
+        content: impl FnOnce() -> AnyTriangulation,
+        callbacks: Callbacks,
+    ) -> Result<Box<Self>, Error> {
+        memory::boxed_by(
+            #[inline(always)]
+            || Self::new(content(), callbacks),
+        )
+    }
+
+    /// What is in it, as long as nobody else knows it.
+    pub(super) fn content_mut(&mut self) -> &mut AnyTriangulation {
+        self.content.get_mut()
+    }
+
+    fn check_idle(&self) -> Result<(), Failure> {
+        if self.is_changing.load(Relaxed) { Err(Failure::Busy) } else { Ok(()) }
+    }
+
+    fn check_ready(&self) -> Result<(), Failure> {
+        self.check_idle()?;
+        if self.is_poisoned.load(Relaxed) { Err(Failure::Poisoned) } else { Ok(()) }
+    }
+
+    /// Whether no call below this one on the stack uses it.
+    fn check_unused(&self) -> Result<(), Failure> {
+        self.check_idle()?;
+        if self.n_watched.load(Relaxed) > 0 { Err(Failure::Busy) } else { Ok(()) }
+    }
+
+    /// Keeps callbacks that are called while it is read from changing it.
+    fn watch(&self) -> Watched<'_> {
+        self.n_watched.fetch_add(1, Relaxed);
+        Watched(self)
+    }
+
+    /// Claims the triangulation for a call that changes it.
+    #[inline(always)]
+    fn claim(&self) -> Result<Claim<'_>, Failure> {
+        self.check_ready()?;
+        self.check_unused()?;
+        self.is_changing.store(true, Relaxed);
+        Ok(Claim(self))
+    }
+}
+
+/// The right to change a triangulation. Dropped without release, by a panic, it leaves it poisoned.
+struct Claim<'t>(&'t deldrift_triangulation);
+
+impl Claim<'_> {
+    /// The change has come to its end, with or without success.
+    fn release(self) {
+        self.0.is_changing.store(false, Relaxed);
+        mem::forget(self);
+    }
+}
+
+impl Drop for Claim<'_> {
+    fn drop(&mut self) {
+        self.0.is_poisoned.store(true, Relaxed);
+        self.0.is_changing.store(false, Relaxed);
+    }
+}
+
+/// A call that reads a triangulation and calls its callbacks.
+struct Watched<'t>(&'t deldrift_triangulation);
+
+impl Drop for Watched<'_> {
+    fn drop(&mut self) {
+        self.0.n_watched.fetch_sub(1, Relaxed);
+    }
+}
+
+/// A triangulation that a call reads.
+pub(super) struct Reading<'a>(Input<'a, deldrift_triangulation>);
+
+impl<'a> Reading<'a> {
+    /// # Safety
+    /// `t` is NULL, misaligned, or the triangulation of a successful creation, and no other thread changes it.
+    #[inline(always)]
+    pub(super) unsafe fn new(argument: &'static str, t: *const deldrift_triangulation) -> Self {
+        // SAFETY: the caller's promise.
+        Reading(unsafe { Input::new(argument, t) })
+    }
+
+    /// What is in it, and its callbacks, unless a call below this one on the stack is changing it.
+    #[inline(always)]
+    fn ready(self) -> Result<(&'a AnyTriangulation, &'a deldrift_triangulation), Failure> {
+        let handle = self.0.get()?;
+        handle.check_ready()?;
+        // SAFETY: it is ready, so no call below this one on the stack is changing it, and none of another thread, as was
+        // promised to `new`.
+        Ok((unsafe { &*handle.content.get() }, handle))
+    }
+
+    /// Runs the body of an entry that looks at a triangulation.
+    #[inline(always)]
+    pub(super) fn read(self, body: impl FnOnce(&AnyTriangulation) -> Result<(), Failure>) -> deldrift_status {
+        guard::enter(|| body(self.ready()?.0))
+    }
+
+    /// Runs the body of an entry that makes something of a triangulation that calls the same callbacks.
+    pub(super) fn read_with_callbacks(
+        self,
+        body: impl FnOnce(&AnyTriangulation, Callbacks) -> Result<(), Failure>,
+    ) -> deldrift_status {
+        guard::enter(|| {
+            let (t, handle) = self.ready()?;
+            body(t, handle.callbacks)
+        })
+    }
+
+    /// Runs the body of an entry that looks at a triangulation for long, with a monitor that calls its callbacks. These
+    /// may look at it as well; calls that change it are turned away.
+    pub(super) fn read_watched(
+        self,
+        body: impl FnOnce(&AnyTriangulation, &mut dyn FnMut(f64) -> bool) -> Result<(), Failure>,
+    ) -> deldrift_status {
+        guard::enter(|| {
+            let (t, handle) = self.ready()?;
+            let _watched = handle.watch();
+            body(t, &mut |fraction| handle.callbacks.go_on(fraction))
+        })
+    }
+
+    /// Runs the body of an entry that tells one thing about a triangulation, and writes what it tells.
+    #[inline(always)]
+    pub(super) fn tell<T>(
+        self,
+        out: Output<'_, T>,
+        body: impl FnOnce(&AnyTriangulation) -> Result<T, Failure>,
+    ) -> deldrift_status {
+        self.read(|t| {
+            let out = out.place()?;
+            out.write(body(t)?);
+            Ok(())
+        })
+    }
+}
+
+/// A triangulation that a call changes.
+#[derive(Clone, Copy)]
+pub(super) struct Changing<'a> {
+    pointer: *mut deldrift_triangulation,
+    lives: PhantomData<&'a mut deldrift_triangulation>,
+}
+
+impl<'a> Changing<'a> {
+    /// # Safety
+    /// `t` is NULL, misaligned, or the triangulation of a successful creation, and no other thread uses it.
+    #[inline(always)]
+    pub(super) unsafe fn new(_argument: &'static str, t: *mut deldrift_triangulation) -> Self {
+        Changing { pointer: t, lives: PhantomData }
+    }
+
+    #[inline(always)]
+    fn handle(self) -> Result<&'a deldrift_triangulation, Failure> {
+        // SAFETY: promised to `new`.
+        unsafe { Input::new("t", self.pointer.cast_const()) }.get()
+    }
+
+    /// Runs the body of an entry that changes a triangulation, and poisons it if the body panics.
+    pub(super) fn change(
+        self,
+        body: impl FnOnce(&mut AnyTriangulation) -> Result<(), Failure>,
+    ) -> deldrift_status {
+        guard::enter(|| {
+            let handle = self.handle()?;
+            let claim = handle.claim()?;
+            // SAFETY: the claim excludes calls below this one on the stack, the promise to `new` those of other threads.
+            let outcome = body(unsafe { &mut *handle.content.get() });
+            claim.release();
+            outcome
+        })
+    }
+
+    /// Makes a change so short that the guard would cost as much: the body cannot panic, and calls nothing of the
+    /// caller's. Whether it was made; if not, nothing has happened.
+    #[inline(always)]
+    pub(super) fn change_shortly(self, body: impl FnOnce(&mut AnyTriangulation) -> bool) -> bool {
+        environment::in_default(|| {
+            self.handle().is_ok_and(|handle| {
+                let is_free = handle.check_ready().is_ok() && handle.check_unused().is_ok();
+                // SAFETY: it is free, which excludes calls below this one on the stack, and the promise to `new` excludes
+                // those of other threads.
+                is_free && body(unsafe { &mut *handle.content.get() })
+            })
+        })
+    }
+
+    /// Ends its life, and frees its memory, unless it is NULL or a call below this one on the stack uses it.
+    pub(super) fn destroy(self) {
+        if self.pointer.is_null() {
+            return;
+        }
+        // There is no one to give the status to; the message is there for who looks for it.
+        let _ = guard::enter(|| {
+            self.handle()?.check_unused()?;
+            // SAFETY: it came from a Box, and nothing uses it: no call below this one on the stack, as has been checked,
+            // and none of another thread, as was promised to `new`.
+            drop(unsafe { Box::from_raw(self.pointer) });
+            Ok(())
+        });
+    }
+}
+
+/// Gives a triangulation to the caller.
+pub(super) fn hand_out(
+    out: &mut MaybeUninit<*mut deldrift_triangulation>,
+    content: AnyTriangulation,
+    callbacks: Callbacks,
+) -> Result<(), Failure> {
+    out.write(Box::into_raw(memory::boxed(deldrift_triangulation::new(content, callbacks))?));
+    Ok(())
+}
+
+/// Evaluates an expression on a triangulation, in its dimension, and writes the result to an output: `tell!(t, out =>
+/// t.count())`.
+macro_rules! tell {
+    ($t:ident, $out:ident => $body:expr) => {
+        $t.tell($out, |$t| $crate::in_its_dimension!($t => Ok($body)))
+    };
+}
+pub(super) use tell;
