@@ -17,7 +17,7 @@ use crate::predicates::Array;
 /// let corners = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0];
 /// let t = AnyTriangulation::new(2, &corners, Options::default())?;
 /// assert_eq!(t.dimension(), 2);
-/// assert_eq!(in_its_dimension!(t => t.cell_count()), 2);
+/// assert_eq!(in_its_dimension!(&t => t.cell_count()), 2);
 /// # Ok::<(), deldrift::Error>(())
 /// ```
 #[derive(Debug)]
@@ -87,6 +87,13 @@ impl From<MovingTriangulation<Space>> for AnyTriangulation {
 }
 
 /// The points of which the coordinates are given one after the other, in the same memory.
+///
+/// ```
+/// let points = deldrift::points_of::<deldrift::Plane>(&[0.0, 1.0, 2.0, 3.0])?;
+/// assert_eq!(points, [[0.0, 1.0], [2.0, 3.0]]);
+/// assert!(deldrift::points_of::<deldrift::Space>(&[0.0; 4]).is_err());
+/// # Ok::<(), deldrift::Error>(())
+/// ```
 ///
 /// # Errors
 /// [`Error::WrongCount`] if the last point is incomplete.

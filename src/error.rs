@@ -9,6 +9,15 @@ use crate::ids::{CellId, VertexId};
 ///
 /// `argument` is the name of the parameter at fault as the C header spells it; `index` counts the
 /// entries (vertices, not coordinates) of that argument, and is 0 where it holds a single one.
+///
+/// ```
+/// use deldrift::{Error, Plane, motion::{MovingTriangulation, Options}};
+///
+/// let points = [[0.0, 0.0], [1.0, f64::NAN]];
+/// let error = MovingTriangulation::<Plane>::new(&points, Options::default()).unwrap_err();
+/// assert!(matches!(error, Error::NotFinite { index: 1, axis: 1, .. }));
+/// assert_eq!(error.to_string(), "positions[1], coordinate 1, is NaN, which is not finite");
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {

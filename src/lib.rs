@@ -12,6 +12,25 @@
 //!    Whatever the algorithm and the history, they are the cells that rebuilding gives.
 //! 4. A call that fails has no effect.
 //!
+//! In ten lines:
+//!
+//! ```
+//! use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+//!
+//! let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+//! let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+//! t.move_vertices(&[VertexId::new(3)], &[[0.9, 0.8]])?; // staged
+//! let report = t.commit_timestamp()?; // done
+//! assert_eq!((report.timestamp, report.moved), (1, 1));
+//! for row in t.cells()?.corners {
+//!     println!("a triangle of the vertices {row:?}");
+//! }
+//! # Ok::<(), deldrift::Error>(())
+//! ```
+//!
+//! Programs that know the dimension use [`MovingTriangulation`](motion::MovingTriangulation); bindings, which do not, use
+//! [`AnyTriangulation`].
+//!
 //! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `delaunay` → `complex` → `predicates` →
 //! `machine`. What is public in the last four is so for the layers above: it trusts its arguments, so none of it leaves
 //! the crate.

@@ -45,6 +45,19 @@ pub enum CoincidencePolicy {
 }
 
 /// Options of a triangulation.
+///
+/// ```
+/// use deldrift::{Error, Plane, motion::{CoincidencePolicy, MovingTriangulation, Options}};
+///
+/// let options = Options { threads: 1, coincidence: CoincidencePolicy::Reject, ..Options::default() };
+/// let twice = MovingTriangulation::<Plane>::new(&[[0.5, 0.5], [0.5, 0.5]], options);
+/// assert!(matches!(twice, Err(Error::Coincident { .. })));
+///
+/// // A monitor is told how far a call is, and ends it when it returns `false`.
+/// let options = Options { monitor: Some(Box::new(|_fraction| false)), ..Options::default() };
+/// let many: Vec<_> = (0..20_000).map(|i| [i as f64, (i * i % 1_009) as f64]).collect();
+/// assert_eq!(MovingTriangulation::<Plane>::new(&many, options).err(), Some(Error::Cancelled));
+/// ```
 #[derive(Default)]
 pub struct Options {
     /// Algorithm of [`commit_timestamp`](super::MovingTriangulation::commit_timestamp).

@@ -5,6 +5,17 @@
 ///
 /// The report counts how often a vertex joins the queue again. None ever does here, as relocations are made
 /// at the moving positions, so there is no counter for it.
+///
+/// ```
+/// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+///
+/// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+/// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+/// t.move_vertices(&[VertexId::new(3)], &[[1.01, 1.0]])?;
+/// let report = t.commit_timestamp()?;
+/// assert_eq!((report.moved, report.unchanged, report.rebuilds), (1, 1, 0));
+/// # Ok::<(), deldrift::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CommitReport {
     /// Number of the timestamp reached: 0 at creation, one more at each commit.

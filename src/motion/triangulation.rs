@@ -53,6 +53,15 @@ pub struct MovingTriangulation<G: Dimension> {
 impl<G: Dimension> MovingTriangulation<G> {
     /// Triangulates `positions`; vertex `i` is the `i`-th of them.
     ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!((t.vertex_count(), t.cell_count(), t.timestamp()), (4, 2, 0));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`], [`Error::Cancelled`], [`Error::Coincident`] if the options reject that.

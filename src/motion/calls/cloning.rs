@@ -13,6 +13,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// If there are arrays of [`cells`](Self::cells), they are brought up to date. A pass over what is kept.
     ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let mut copy = t.try_clone(None)?;
+    /// copy.remove_vertex(VertexId::new(3))?;
+    /// assert_eq!((t.vertex_count(), copy.vertex_count()), (4, 3));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn try_clone(&self, monitor: Option<Monitor>) -> Result<Self> {

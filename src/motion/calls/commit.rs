@@ -16,6 +16,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// On an error the triangulation is at the timestamp before, and the moves stay staged.
     ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// t.move_vertices(&[VertexId::new(3)], &[[0.2, 0.2]])?;
+    /// let report = t.commit_timestamp()?;
+    /// assert_eq!((report.timestamp, report.moved), (1, 1));
+    /// assert_eq!(t.cell_count(), 3); // the vertex is inside of the triangle of the others
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Cancelled`], [`Error::Coincident`] if the options reject that, [`Error::TooManyCells`],
     /// [`Error::OutOfMemory`].
@@ -54,6 +66,18 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Makes the positions given the next timestamp: as [`move_all`](Self::move_all) and
     /// [`commit_timestamp`](Self::commit_timestamp). On an error no move is staged, and insertions are staged as before.
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let mut points = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
+    /// for point in &mut points {
+    ///     point[0] += 0.5;
+    /// }
+    /// assert_eq!(t.commit_positions(&points)?.moved, 4);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::DuplicateMove`] if moves are staged; otherwise those of both.

@@ -28,6 +28,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`changed_cells`](Self::changed_cells) and [`take_changes`](Self::take_changes) go on as they would have, with
     /// vertices under their new ids.
     ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, NO_VERTEX, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// t.remove_vertex(VertexId::new(1))?;
+    /// let ids = [0, 1, 2].map(VertexId::new);
+    /// assert_eq!(t.compact()?, [ids[0], NO_VERTEX, ids[1], ids[2]]);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory): for the time of the call there are two triangulations.
     pub fn compact(&mut self) -> Result<Vec<VertexId>> {

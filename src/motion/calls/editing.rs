@@ -20,6 +20,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those
     /// of the others follow. They are present from the next commit on.
     ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let first = t.stage_insertions(&[[0.4, 0.5], [0.6, 0.5]])?;
+    /// assert_eq!((first.get(), t.staged_edits(), t.is_present(first)), (4, (2, 0), false));
+    /// t.commit_timestamp()?;
+    /// assert_eq!((t.is_present(first), t.vertex_count()), (true, 6));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::OutOfMemory`].
     pub fn stage_insertions(&mut self, positions: &[G::Point]) -> Result<VertexId> {
@@ -45,6 +57,17 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Stages the removal of vertices, all of them or, on an error, none. Moves staged for them are forgotten, and no
     /// more can be staged.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// t.stage_removals(&[VertexId::new(3)])?;
+    /// let report = t.commit_timestamp()?;
+    /// assert_eq!((report.removed, t.vertex_count(), t.cell_count()), (1, 3, 1));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`]; [`Error::StagedVertex`] if the removal is staged already, or

@@ -14,6 +14,16 @@ use crate::motion::ways::placement::Placed;
 impl<G: Dimension> MovingTriangulation<G> {
     /// Moves one vertex at once, whatever is staged for others.
     ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// t.relocate_vertex(VertexId::new(3), &[0.2, 0.2])?;
+    /// assert_eq!((t.cell_count(), t.timestamp()), (3, 0));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::NoSuchVertex`], [`Error::RemovedVertex`];
     /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
@@ -58,6 +68,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Inserts a vertex; its id is one above the highest ever given, or left by the latest [`compact`](Self::compact).
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let vertex = t.insert_vertex(&[0.3, 0.3])?;
+    /// assert_eq!(vertex.get(), 4);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::TooManyVertices`], [`Error::TooManyCells`],
@@ -105,6 +125,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Removes a vertex and its staged move, if any. Its id is not given again before a [`compact`](Self::compact).
+    ///
+    /// ```
+    /// use deldrift::{Error, Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let vertex = VertexId::new(2);
+    /// t.remove_vertex(vertex)?;
+    /// assert!(matches!(t.position(vertex), Err(Error::RemovedVertex { .. })));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].

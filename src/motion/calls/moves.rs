@@ -9,6 +9,19 @@ use crate::motion::triangulation::MovingTriangulation;
 impl<G: Dimension> MovingTriangulation<G> {
     /// Stages a move of `vertices[i]` to `positions[i]` for each `i`; all of them or, on an error, none.
     ///
+    /// ```
+    /// use deldrift::{Error, Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let vertex = VertexId::new(3);
+    /// t.move_vertices(&[vertex], &[[2.0, 2.0]])?;
+    /// assert_eq!(t.position(vertex)?, [1.0, 1.0]); // until the commit
+    /// let again = t.move_vertices(&[vertex], &[[3.0, 3.0]]);
+    /// assert!(matches!(again, Err(Error::DuplicateMove { .. })));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::WrongCount`] if the lengths differ; [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
     /// [`Error::StagedVertex`], [`Error::DuplicateMove`] if a move of the vertex is staged already, [`Error::NotFinite`],

@@ -14,6 +14,19 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// The first call after a change costs what that has changed, others constant time.
     ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let cells = t.cells()?;
+    /// for (row, neighbours) in cells.corners.iter().zip(cells.neighbours) {
+    ///     println!("{row:?} beside {neighbours:?}");
+    /// }
+    /// assert_eq!(cells.corners.len(), 2);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn cells(&self) -> Result<CellsView<'_, G>> {
@@ -49,6 +62,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// calls count alike. A program that never calls this pays nothing for it.
     ///
     /// The cost is that of what has changed.
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!(t.take_changes()?.created.len(), 2);
+    /// t.insert_vertex(&[0.3, 0.3])?;
+    /// let changes = t.take_changes()?;
+    /// assert_eq!((changes.created.len(), changes.removed.len()), (4, 2));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been taken.

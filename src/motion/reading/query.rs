@@ -45,6 +45,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Changes the algorithm of later commits.
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{Algorithm, MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let mut t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!(t.algorithm(), Algorithm::Auto);
+    /// t.set_algorithm(Algorithm::Rebuilding);
+    /// t.move_all(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.1, 1.1]])?;
+    /// assert_eq!(t.commit_timestamp()?.rebuilds, 1);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     pub fn set_algorithm(&mut self, algorithm: Algorithm) {
         if algorithm != self.options.algorithm {
             self.reset_switching();
@@ -91,6 +103,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Indices of the finite cells around the place of a vertex, in no particular order, in `out`, which is cleared
     /// first.
     ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let mut star = Vec::new();
+    /// t.star(VertexId::new(0), &mut star)?;
+    /// let cells = t.cells()?.corners;
+    /// assert!(star.iter().all(|&cell| cells[cell].contains(&VertexId::new(0))));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex),
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
@@ -121,6 +145,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Where a point lies.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{Location, MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!(t.locate(&[1.0, 0.0])?, Location::Vertex(VertexId::new(1)));
+    /// assert!(matches!(t.locate(&[0.2, 0.3])?, Location::Cell(_)));
+    /// assert!(matches!(t.locate(&[7.0, 7.0])?, Location::Outside(_)));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange),
@@ -197,6 +232,15 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The vertex nearest to a point, the lowest id among the nearest; `None` if there are no vertices. Distances
     /// are compared exactly.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!(t.nearest_vertex(&[0.8, 0.1])?, Some(VertexId::new(1)));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
@@ -293,6 +337,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Checks the triangulation: see [`Level`].
+    ///
+    /// ```
+    /// use deldrift::{Space, motion::{Level, MovingTriangulation, Options}};
+    ///
+    /// let points: Vec<_> = (0..50).map(|i| [i as f64, (i * i % 17) as f64, (i * i * i % 13) as f64]).collect();
+    /// let t = MovingTriangulation::<Space>::new(&points, Options::default())?;
+    /// assert!(t.validate(Level::Delaunay).is_ok());
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// The first violation found.

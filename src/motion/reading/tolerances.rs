@@ -14,6 +14,16 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
     /// shares its place with another, infinite while there are no cells.
     ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
+    /// let tolerance = t.tolerance(VertexId::new(3))?;
+    /// assert!(tolerance > 0.0 && tolerance < 1.0);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn tolerance(&self, vertex: VertexId) -> Result<f64> {

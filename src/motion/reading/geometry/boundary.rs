@@ -44,6 +44,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// The facets between cells of which the entry in `mask`, by index in [`cells`](Self::cells), is not 0 and cells of
     /// which it is 0 or the outside: told to `found`, ascending by cell and then by corner.
     ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let mut edges = Vec::new();
+    /// t.mask_boundary(&[1, 0], |facet| edges.push([facet.vertices()[0], facet.vertices()[1]]))?;
+    /// assert_eq!(edges.len(), 3); // around the first triangle
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::WrongCount`] unless there is an entry for each cell, [`Error::OutOfMemory`].
     pub fn mask_boundary(&self, mask: &[u8], found: impl FnMut(BoundaryFacet<G::Vertices>)) -> Result<()> {

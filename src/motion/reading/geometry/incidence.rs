@@ -171,6 +171,16 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// The vertices with which each one shares an edge, ascending; none for those that are hidden or removed.
     ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let points = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
+    /// let neighbours = t.vertex_neighbours()?;
+    /// assert_eq!(neighbours.row(VertexId::new(3)), [0, 1, 2].map(VertexId::new));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn vertex_neighbours(&self) -> Result<Rows<VertexId>> {

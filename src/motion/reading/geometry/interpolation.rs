@@ -38,6 +38,20 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// A linear function is reproduced but for rounding; at the place of a vertex, its own values are.
     ///
+    /// ```
+    /// use deldrift::{Plane, motion::{Interpolation, MovingTriangulation, Options, VertexValues}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let heights = VertexValues { values: &[0.0, 1.0, 1.0, 2.0], n_values: 1 };
+    /// let mut found = Vec::new();
+    /// t.interpolate(Interpolation::Linear, heights, &[[0.25, 0.25], [9.0, 9.0]], None, |values| {
+    ///     found.push(values.map(|values| values[0]));
+    /// })?;
+    /// assert_eq!(found, [Some(0.5), None]); // the last one is outside
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::WrongCount`] unless there are values for each id; [`Error::NotFinite`] and [`Error::OutOfRange`] for a
     /// position; [`Error::OutOfMemory`], before or after some have been told.

@@ -89,6 +89,15 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Area or volume of each cell, in the order of [`cells`](Self::cells): positive, with a relative error of at most
     /// 10⁻⁹, and of a few last bits unless the cell is nearly flat.
     ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!(t.volumes()?.sum::<f64>(), 1.0);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn volumes(&self) -> Result<impl ExactSizeIterator<Item = f64> + '_> {
@@ -105,6 +114,16 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Whether the squared circumradius of each cell is at most `squared_radius`, decided exactly; in the order of
     /// [`cells`](Self::cells).
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [9.0, 9.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
+    /// let mask: Vec<bool> = t.mask_by_circumradius(1.0)?.collect();
+    /// assert_eq!(mask.iter().filter(|&&is_small| is_small).count(), 1);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
     ///
     /// # Errors
     /// [`Error::InvalidValue`] if the bound is negative or NaN, [`Error::OutOfMemory`].

@@ -250,6 +250,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// by h times the length or area of the surface of the cell; by a few last bits in place of 10⁻⁸, unless there are
     /// cells that are nearly flat. In the box, no corner is left out and none is too many.
     ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let (low, high) = ([0.0, 0.0], [1.0, 1.0]);
+    /// let areas = t.voronoi_volumes(Some([&low, &high]))?;
+    /// assert!(areas.iter().all(|area| (area - 0.25).abs() < 1e-6));
+    /// assert!(t.voronoi_volumes(None)?.iter().all(|area| area.is_infinite())); // all are on the hull
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::OutOfRange`] and [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
     pub fn voronoi_volumes(&self, clip: Option<[&G::Point; 2]>) -> Result<Vec<f64>> {

@@ -99,6 +99,18 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// Cost: the sort of a fresh build, and a few passes over the data, whatever they hold; memory for at most 16 times
     /// as many bytes. The monitor of the options is called.
     ///
+    /// ```
+    /// use deldrift::{LoadError, Plane, motion::{MovingTriangulation, Options, Saved}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default()).map_err(LoadError::Call)?;
+    /// let bytes = t.saved().map_err(LoadError::Call)?;
+    /// let saved = Saved::of(&bytes).map_err(LoadError::Data)?;
+    /// let loaded = MovingTriangulation::<Plane>::load(&saved, Options::default())?;
+    /// assert_eq!(loaded.saved().map_err(LoadError::Call)?, bytes);
+    /// # Ok::<(), LoadError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`LoadError::Data`] if it is not one of this dimension, or the bytes are none at all;
     /// [`Error::OutOfMemory`], [`Error::TooManyVertices`], [`Error::TooManyCells`], [`Error::Cancelled`], and
