@@ -1,6 +1,6 @@
-//! An installed deldrift, found by programs of someone else's through CMake and through pkg-config, and one that is
-//! a part of their CMake project. Needs both tools, so it runs only where it is asked for
-//! (`cargo test --test ffi -- --include-ignored`).
+//! An installed deldrift, found by programs of someone else's through CMake and through pkg-config; one that is a part of
+//! their CMake project; and one that a program in Rust depends on. Needs these tools, so it runs only where it is asked
+//! for (`cargo test --test ffi -- --include-ignored`).
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -97,6 +97,51 @@ fn library_is_a_part_of_another_project() {
         programs_run(&build);
         only_the_project_is_installed(&build, &build.join("installed"));
     }
+}
+
+/// The package for cargo holds what a program needs that depends on it, and no more.
+#[test]
+#[ignore = "compiles the library again"]
+fn program_in_rust_depends_on_the_package() {
+    let folder = fresh_folder("crate");
+    let cargo = || command(env!("CARGO"));
+    let mut pack = cargo();
+    pack.args(["package", "--allow-dirty", "--offline", "--no-verify", "--target-dir"]).arg(&folder);
+    succeed(pack.current_dir(repository(".")));
+    let name = concat!("deldrift-", env!("CARGO_PKG_VERSION"));
+    let archive = folder.join(format!("package/{name}.crate"));
+    succeed(command("tar").arg("-xzf").arg(archive).arg("-C").arg(&folder));
+    the_package_is_sources_and_headers(&folder.join(name));
+    let program = folder.join("dependent");
+    fs::create_dir(&program).expect("a folder can be made");
+    fs::copy(repository("ffi-tests/consumers/dependent.rs"), program.join("main.rs"))
+        .expect("it can be copied");
+    fs::copy(folder.join(name).join("Cargo.lock"), program.join("Cargo.lock")).expect("it can be copied");
+    let manifest = format!(
+        "[package]\nname = \"dependent\"\nversion = \"0.0.0\"\nedition = \"2021\"\n\n[[bin]]\nname = \"dependent\"\n\
+         path = \"main.rs\"\n\n[dependencies]\ndeldrift = {{ path = \"../{name}\" }}\n\n[workspace]\n"
+    );
+    fs::write(program.join("Cargo.toml"), manifest).expect("a file can be written");
+    let mut run = cargo();
+    in_a_hurry(run.args(["run", "--release"]).current_dir(&program));
+    assert_eq!(succeed(&mut run), "2 triangles after 3 timestamps\n");
+}
+
+fn the_package_is_sources_and_headers(package: &Path) {
+    let files_in = |root: &Path, folder: &str| {
+        let found = succeed(command("find").arg(folder).args(["-type", "f"]).current_dir(root));
+        found.lines().map(str::to_string).collect::<BTreeSet<_>>()
+    };
+    for folder in ["src", "include"] {
+        assert_eq!(files_in(package, folder), files_in(&repository("."), folder));
+    }
+    let mut rest = files_in(package, ".");
+    rest.retain(|file| !file.starts_with("./src/") && !file.starts_with("./include/"));
+    // Cargo's own: the manifest as it was, and from which commit it is.
+    let of_cargo = ["./.cargo_vcs_info.json", "./Cargo.lock", "./Cargo.toml", "./Cargo.toml.orig"];
+    rest.retain(|file| !of_cargo.contains(&file.as_str()));
+    let wanted = ["CHANGELOG.md", "LICENSE-APACHE", "LICENSE-MIT", "README.md", "build.rs"];
+    assert_eq!(rest, wanted.map(|name| format!("./{name}")).into());
 }
 
 /// Has cargo build without a network, and without what makes the library fast.

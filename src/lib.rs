@@ -28,8 +28,8 @@
 //! # Ok::<(), deldrift::Error>(())
 //! ```
 //!
-//! Programs that know the dimension use [`MovingTriangulation`](motion::MovingTriangulation); bindings, which do not, use
-//! [`AnyTriangulation`].
+//! Programs that know the dimension use [`MovingTriangulation`](motion::MovingTriangulation); bindings, which do not,
+//! use [`AnyTriangulation`].
 //!
 //! Reading order, each layer using only those after it: [`capi`] → [`motion`] → `delaunay` → `complex` → `predicates` →
 //! `machine`. What is public in the last four is so for the layers above: it trusts its arguments, so none of it leaves

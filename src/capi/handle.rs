@@ -113,22 +113,35 @@ impl Drop for Watched<'_> {
     }
 }
 
+/// The triangulation of a pointer.
+///
+/// # Safety
+/// `t` is NULL, misaligned, or the triangulation of a successful creation.
+#[inline(always)]
+unsafe fn handle_of<'a>(t: *const deldrift_triangulation) -> Result<&'a deldrift_triangulation, Failure> {
+    // SAFETY: the caller's promise.
+    unsafe { Input::new("t", t) }.get()
+}
+
 /// A triangulation that a call reads.
-pub(super) struct Reading<'a>(Input<'a, deldrift_triangulation>);
+pub(super) struct Reading<'a> {
+    pointer: *const deldrift_triangulation,
+    lives: PhantomData<&'a deldrift_triangulation>,
+}
 
 impl<'a> Reading<'a> {
     /// # Safety
     /// `t` is NULL, misaligned, or the triangulation of a successful creation, and no other thread changes it.
     #[inline(always)]
-    pub(super) unsafe fn new(argument: &'static str, t: *const deldrift_triangulation) -> Self {
-        // SAFETY: the caller's promise.
-        Reading(unsafe { Input::new(argument, t) })
+    pub(super) unsafe fn new(_argument: &'static str, t: *const deldrift_triangulation) -> Self {
+        Reading { pointer: t, lives: PhantomData }
     }
 
     /// What is in it, and its callbacks, unless a call below this one on the stack is changing it.
     #[inline(always)]
     fn ready(self) -> Result<(&'a AnyTriangulation, &'a deldrift_triangulation), Failure> {
-        let handle = self.0.get()?;
+        // SAFETY: promised to `new`.
+        let handle = unsafe { handle_of(self.pointer) }?;
         handle.check_ready()?;
         // SAFETY: it is ready, so no call below this one on the stack is changing it, and none of another thread, as was
         // promised to `new`.
@@ -198,7 +211,7 @@ impl<'a> Changing<'a> {
     #[inline(always)]
     fn handle(self) -> Result<&'a deldrift_triangulation, Failure> {
         // SAFETY: promised to `new`.
-        unsafe { Input::new("t", self.pointer.cast_const()) }.get()
+        unsafe { handle_of(self.pointer) }
     }
 
     /// Runs the body of an entry that changes a triangulation, and poisons it if the body panics.

@@ -269,9 +269,7 @@ impl<'a, T> Buffer<'a, T> {
 /// Writes values to as many places.
 #[inline(always)]
 pub(super) fn write_all<T>(places: &mut [MaybeUninit<T>], values: impl IntoIterator<Item = T>) {
-    for (place, value) in places.iter_mut().zip(values) {
-        place.write(value);
-    }
+    places.iter_mut().zip(values).for_each(|(place, value)| _ = place.write(value));
 }
 
 /// A buffer as far as its room is concerned: its name, and whether it is there.
