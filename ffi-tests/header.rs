@@ -10,15 +10,17 @@ use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 const HEADER: &str = "include/deldrift.h";
 
 /// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 17] = [
     "status",
     "options",
     "handle",
     "triangulation",
     "motion",
+    "immediate",
     "changes",
     "state",
     "query",
+    "location",
     "geometry",
     "incidence",
     "listed",

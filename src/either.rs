@@ -1,5 +1,5 @@
-//! A triangulation of either dimension, for bindings to other languages: what they hold is one type, and which dimension it
-//! has is known when the program runs.
+//! A triangulation of either dimension, for bindings to other languages: what they hold is one type, and which
+//! dimension it has is known when the program runs.
 
 use crate::damage::LoadError;
 use crate::delaunay::{Dimension, Plane, Space};
@@ -106,8 +106,8 @@ pub fn points_of<G: Dimension>(coordinates: &[f64]) -> Result<&[G::Point]> {
     Err(Error::WrongCount { argument: "coordinates", given: coordinates.len(), wanted, coming: 0 })
 }
 
-/// Evaluates an expression on the triangulation of an [`AnyTriangulation`], or of a reference to one, in its dimension. The
-/// expression is compiled once for each, so what it calls may be generic.
+/// Evaluates an expression on the triangulation of an [`AnyTriangulation`], or of a reference to one, in its dimension.
+/// The expression is compiled once for each, so what it calls may be generic.
 ///
 /// ```
 /// use deldrift::{AnyTriangulation, Dimension, in_its_dimension, motion::{MovingTriangulation, Options}};

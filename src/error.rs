@@ -70,8 +70,8 @@ pub enum Error {
         /// What was given.
         vertex: VertexId,
     },
-    /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is, so that
-    /// it is not there after it.
+    /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is, so
+    /// that it is not there after it.
     StagedVertex {
         /// Parameter at fault.
         argument: &'static str,

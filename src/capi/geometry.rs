@@ -24,8 +24,7 @@ use crate::motion::{BoundaryFacet, MovingTriangulation};
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_circumcentres(
     t: *const deldrift_triangulation,
@@ -64,8 +63,7 @@ pub unsafe extern "C" fn deldrift_circumcentres(
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_volumes(
     t: *const deldrift_triangulation,
@@ -90,9 +88,8 @@ pub unsafe extern "C" fn deldrift_volumes(
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that
-/// is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that is
+/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     t: *const deldrift_triangulation,
@@ -125,9 +122,8 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_boundary(
     t: *const deldrift_triangulation,
@@ -153,14 +149,20 @@ pub unsafe extern "C" fn deldrift_mask_boundary(
     })
 }
 
-/// The facets of the convex hull, as deldrift_mask_boundary gives them if all cells are in the mask.
+/// The facets of the convex hull, in ascending order of cell and then of corner.
 ///
-/// facets, cells, corners, capacity, count: as there. One pass over the cells; constant time for the count alone.
+/// facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the
+/// cell is on the left of the edge from the first vertex to the second; in 3D the vertices are in counter-clockwise
+/// order as seen from the side away from the cell. cells, corners: buffers with room for capacity numbers, which
+/// receive the cell and which of its corners (0, 1, ...) is opposite the facet. One of the three that is NULL is not
+/// filled. count: receives the number of facets, which is also written when the buffers are too small. NULL for all
+/// three with capacity 0 asks for the count alone.
+///
+/// Exact. One pass over the cells; constant time for the count alone.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_hull_facets(
     t: *const deldrift_triangulation,

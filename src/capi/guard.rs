@@ -6,8 +6,8 @@
 //! and elsewhere it hands it on unchanged. The shared and the static library bring a standard library of their own,
 //! where no panics but deldrift's arise.
 //!
-//! Inside an entry the floating-point environment is the default one. The caller's is kept, put back in the end with the
-//! flags that it had, and in force while a callback runs. What a callback makes of it is the caller's, too.
+//! Inside an entry the floating-point environment is the default one. The caller's is kept, put back in the end with
+//! the flags that it had, and in force while a callback runs. What a callback makes of it is the caller's, too.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};

@@ -143,8 +143,8 @@ impl<'a> Reading<'a> {
         // SAFETY: promised to `new`.
         let handle = unsafe { handle_of(self.pointer) }?;
         handle.check_ready()?;
-        // SAFETY: it is ready, so no call below this one on the stack is changing it, and none of another thread, as was
-        // promised to `new`.
+        // SAFETY: it is ready, so no call below this one on the stack is changing it, and none of another thread, as
+        // was promised to `new`.
         Ok((unsafe { &*handle.content.get() }, handle))
     }
 
@@ -222,7 +222,8 @@ impl<'a> Changing<'a> {
         guard::enter(|| {
             let handle = self.handle()?;
             let claim = handle.claim()?;
-            // SAFETY: the claim excludes calls below this one on the stack, the promise to `new` those of other threads.
+            // SAFETY: the claim excludes calls below this one on the stack, the promise to `new` those of other
+            // threads.
             let outcome = body(unsafe { &mut *handle.content.get() });
             claim.release();
             outcome
@@ -236,8 +237,8 @@ impl<'a> Changing<'a> {
         environment::in_default(|| {
             self.handle().is_ok_and(|handle| {
                 let is_free = handle.check_ready().is_ok() && handle.check_unused().is_ok();
-                // SAFETY: it is free, which excludes calls below this one on the stack, and the promise to `new` excludes
-                // those of other threads.
+                // SAFETY: it is free, which excludes calls below this one on the stack, and the promise to `new`
+                // excludes those of other threads.
                 is_free && body(unsafe { &mut *handle.content.get() })
             })
         })
@@ -251,8 +252,8 @@ impl<'a> Changing<'a> {
         // There is no one to give the status to; the message is there for who looks for it.
         let _ = guard::enter(|| {
             self.handle()?.check_unused()?;
-            // SAFETY: it came from a Box, and nothing uses it: no call below this one on the stack, as has been checked,
-            // and none of another thread, as was promised to `new`.
+            // SAFETY: it came from a Box, and nothing uses it: no call below this one on the stack, as has been
+            // checked, and none of another thread, as was promised to `new`.
             drop(unsafe { Box::from_raw(self.pointer) });
             Ok(())
         });

@@ -19,10 +19,9 @@ use crate::motion::{MovingTriangulation, Rows};
 ///
 /// Takes some passes over the cells, and memory for the cells of each vertex while it runs.
 ///
-/// Cost: n + m.
+/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_edges(
     t: *const deldrift_triangulation,
@@ -46,11 +45,11 @@ pub unsafe extern "C" fn deldrift_edges(
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// Cost: n + m, and d log d for the d neighbours of each vertex. After a change the first call also does what the first
 /// deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_neighbours(
     t: *const deldrift_triangulation,
@@ -80,11 +79,10 @@ pub unsafe extern "C" fn deldrift_vertex_neighbours(
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m.
+/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_vertex_cells(
     t: *const deldrift_triangulation,
@@ -113,9 +111,7 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does. One pass over
-/// the cells.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mirror_indices(
     t: *const deldrift_triangulation,
@@ -144,10 +140,9 @@ pub unsafe extern "C" fn deldrift_mirror_indices(
 ///
 /// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
 ///
-/// Cost: constant.
+/// Cost: constant. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
-/// After a change the first call also does what the first deldrift_cells does; else constant time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mirror_index(
     t: *const deldrift_triangulation,
@@ -172,11 +167,11 @@ pub unsafe extern "C" fn deldrift_mirror_index(
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the cells of the star.
+/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
-/// change the first call also does what the first deldrift_cells does; else the cost is that of the star.
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_ordered_star(
     t: *const deldrift_triangulation,

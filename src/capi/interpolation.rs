@@ -1,8 +1,8 @@
 //! Values between vertices.
 
 use super::handle::{Reading, deldrift_triangulation};
+use super::location::{deldrift_location, hint_at};
 use super::pointers::{Array, Buffer, Input, Points, given, write_all};
-use super::query::{deldrift_location, hint_at};
 use super::status::{Failure, Wrong, deldrift_status};
 use crate::error::Error;
 use crate::in_its_dimension;
@@ -39,12 +39,11 @@ pub type InterpolationCode = u32;
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
-/// sphere has the position inside.
+/// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// method that this version does not have, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of
-/// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also does what the first
-/// deldrift_cells does.
+/// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_interpolate(
     t: *const deldrift_triangulation,

@@ -20,12 +20,11 @@ use crate::in_its_dimension;
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most.
+/// Cost: the cells of the stars, and k log k for the k of them; m at most. After a change the first call also does what
+/// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does; else the cost is that of the stars, and for many vertices at most that of a pass
-/// over the cells.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_cells_around(
     t: *const deldrift_triangulation,
@@ -57,11 +56,10 @@ pub unsafe extern "C" fn deldrift_cells_around(
 /// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
 /// neighbours; beyond that the pass of deldrift_circumcentres is faster.
 ///
-/// Cost: cell_count.
+/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does; else the cost is that of the cells listed.
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_circumcentres(
     t: *const deldrift_triangulation,
@@ -92,14 +90,17 @@ pub unsafe extern "C" fn deldrift_update_circumcentres(
 /// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: for each
 /// index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
 ///
-/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update and its
-/// accuracy. volumes: an array with room for capacity numbers.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
+/// volumes: an array with room for capacity numbers. capacity: at least deldrift_cell_count.
 ///
-/// Cost: cell_count.
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
+/// pays. The values are then those of deldrift_volumes, with its accuracy; last bits may be others where a cell was
+/// removed and created again.
+///
+/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does; else the cost is that of the cells listed.
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_volumes(
     t: *const deldrift_triangulation,
@@ -127,17 +128,20 @@ pub unsafe extern "C" fn deldrift_update_volumes(
 /// deldrift_mask_by_circumradius has filled for the same one: for each index in cells, the entry of this index becomes
 /// that of the cell. Other entries are not touched.
 ///
-/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update.
-/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
+/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes. capacity: at least
+/// deldrift_cell_count.
+///
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
+/// pays.
 ///
 /// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
 ///
-/// Cost: cell_count.
+/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does; else the cost is that of the cells listed.
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_update_mask_by_circumradius(
     t: *const deldrift_triangulation,

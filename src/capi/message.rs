@@ -1,5 +1,5 @@
-//! The message of the last failure, kept for each thread in a buffer of fixed size: reporting needs no memory, which may
-//! be just what has run out.
+//! The message of the last failure, kept for each thread in a buffer of fixed size: reporting needs no memory, which
+//! may be just what has run out.
 
 use std::cell::RefCell;
 use std::ffi::c_char;

@@ -47,10 +47,10 @@ pub type CoincidenceCode = u32;
 ///
 /// The callbacks are called from inside deldrift_create, deldrift_commit_timestamp and deldrift_commit_positions, and
 /// from inside deldrift_relocate_vertex, deldrift_insert_vertex and deldrift_remove_vertex where one of these takes
-/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not after
-/// deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that is
-/// being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
-/// must live as long as the triangulation.
+/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not
+/// after deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that
+/// is being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What
+/// user_data points to must live as long as the triangulation.
 ///
 /// They are also called from inside deldrift_voronoi_volumes and deldrift_voronoi_facets, by each thread that
 /// makes such a call; then they may read the triangulation, and calls that change it are turned away with

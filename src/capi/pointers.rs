@@ -16,8 +16,8 @@ use crate::motion::MovingTriangulation;
 /// Takes pointers that a C function has been given at their word, each under its own name: `given!(x: Input)` makes an
 /// [`Input`] of the pointer `x`, `given!(x[n]: Array)` an [`Array`] of `x` and the count `n`.
 ///
-/// There is no `unsafe` block in it: it compiles only in functions that are unsafe to call, and their caller's promise, the
-/// header's conditions on pointers, is the one that is needed here.
+/// There is no `unsafe` block in it: it compiles only in functions that are unsafe to call, and their caller's promise,
+/// the header's conditions on pointers, is the one that is needed here.
 macro_rules! given {
     ($($name:ident $([$count:expr])? : $kind:ident),+ $(,)?) => { $(
         #[allow(unsafe_op_in_unsafe_fn)]
@@ -76,7 +76,8 @@ impl<'a, T> Output<'a, T> {
     #[inline(always)]
     pub(super) fn place(self) -> Result<&'a mut MaybeUninit<T>, Failure> {
         check(self.argument, self.pointer)?;
-        // SAFETY: neither NULL nor misaligned; the rest was promised to `new`, and the type allows what is uninitialised.
+        // SAFETY: neither NULL nor misaligned; the rest was promised to `new`, and the type allows what is
+        // uninitialised.
         Ok(unsafe { &mut *self.pointer.cast() })
     }
 
@@ -226,8 +227,8 @@ impl<'a, T> Buffer<'a, T> {
         if capacity < n {
             return Err(Failure::BufferTooSmall { argument: "capacity", capacity, needed: n });
         }
-        // SAFETY: neither NULL, misaligned nor larger than an object may be; the rest was promised to `new`, and the type
-        // allows what is uninitialised.
+        // SAFETY: neither NULL, misaligned nor larger than an object may be; the rest was promised to `new`, and the
+        // type allows what is uninitialised.
         Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), n) })
     }
 
@@ -286,8 +287,8 @@ impl Offer {
     }
 }
 
-/// Has buffers of the same capacity filled with `needed` entries each, if there are any and they have the room, and tells
-/// the number.
+/// Has buffers of the same capacity filled with `needed` entries each, if there are any and they have the room, and
+/// tells the number.
 #[inline(always)]
 pub(super) fn fill_all<const N: usize>(
     count: Output<'_, usize>,
@@ -319,9 +320,9 @@ impl Fitting<'_> {
     }
 }
 
-/// Compares what is needed with the capacity of the caller's buffers. If that is too small, the number that is needed is
-/// told at once, so that the caller can provide greater ones. Without a buffer the capacity must be 0: then the number
-/// alone is asked for.
+/// Compares what is needed with the capacity of the caller's buffers. If that is too small, the number that is needed
+/// is told at once, so that the caller can provide greater ones. Without a buffer the capacity must be 0: then the
+/// number alone is asked for.
 #[inline(always)]
 pub(super) fn fit<'a>(
     count: Output<'a, usize>,

@@ -1,12 +1,12 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
 use super::handle::{Reading, deldrift_triangulation, tell};
-use super::pointers::{Buffer, Input, Output, Point, Points, fill_all, given, start_of, write_all};
+use super::pointers::{Buffer, Output, fill_all, given, start_of, write_all};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Dimension, IndexSet};
 use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
-use crate::motion::{CellsView, Level, Location, MovingTriangulation, NO_CELL, cells_at};
+use crate::motion::{CellsView, Level, MovingTriangulation, NO_CELL, cells_at};
 
 /// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
 /// an empty triangulation.
@@ -40,65 +40,6 @@ pub struct deldrift_indices_view {
     pub count: usize,
     /// The indices, in ascending order. NULL if there are none.
     pub indices: *const u32,
-}
-
-/// How a point lies to what the index of a deldrift_location names.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum deldrift_location_kind {
-    /// At the place of a vertex: index is its id, the lowest one if several share the place.
-    DELDRIFT_LOCATION_VERTEX = 0,
-    /// In a cell or on its boundary, at no vertex: index is that of the cell.
-    DELDRIFT_LOCATION_CELL = 1,
-    /// Outside the convex hull: index is that of a cell with a hull facet that faces the place.
-    DELDRIFT_LOCATION_OUTSIDE = 2,
-    /// There are no cells, as the vertices do not span the dimension, and no vertex is at the place: index is
-    /// DELDRIFT_NONE. At the place of a vertex the kind is DELDRIFT_LOCATION_VERTEX, with or without cells.
-    DELDRIFT_LOCATION_NO_CELLS = 3,
-}
-
-/// Where a point lies.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct deldrift_location {
-    /// What index names.
-    pub kind: deldrift_location_kind,
-    /// A vertex or a cell.
-    pub index: u32,
-}
-
-impl From<Location> for deldrift_location {
-    fn from(location: Location) -> Self {
-        let (kind, index) = match location {
-            Location::Vertex(vertex) => (deldrift_location_kind::DELDRIFT_LOCATION_VERTEX, vertex.get()),
-            Location::Cell(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_CELL, cell.get()),
-            Location::Outside(cell) => (deldrift_location_kind::DELDRIFT_LOCATION_OUTSIDE, cell.get()),
-            Location::NoCells => (deldrift_location_kind::DELDRIFT_LOCATION_NO_CELLS, DELDRIFT_NONE),
-        };
-        Self { kind, index }
-    }
-}
-
-const _: () = assert!(size_of::<deldrift_location>() == size_of::<[u32; 2]>());
-
-/// The location that a program gives to begin a search at, if it gives one that has a meaning. Its kind may be any
-/// number.
-pub(super) fn hint_at(given: Input<'_, [u32; 2]>) -> Result<Option<Location>, Failure> {
-    Ok(given.if_any()?.and_then(|&[kind, index]| hint(kind, index)))
-}
-
-/// A location, if its kind has a meaning.
-fn hint(kind: u32, index: u32) -> Option<Location> {
-    use deldrift_location_kind::*;
-    let (vertex, cell) = (VertexId::new(index), CellId::new(index));
-    [
-        (DELDRIFT_LOCATION_VERTEX, Location::Vertex(vertex)),
-        (DELDRIFT_LOCATION_CELL, Location::Cell(cell)),
-        (DELDRIFT_LOCATION_OUTSIDE, Location::Outside(cell)),
-    ]
-    .into_iter()
-    .find(|&(code, _)| code as u32 == kind)
-    .map(|(_, location)| location)
 }
 
 /// The cells, without a copy, to *view.
@@ -163,12 +104,11 @@ pub unsafe extern "C" fn deldrift_copy_cells(
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the cells of the star.
+/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does. Where there
+/// are more vertices than a cache holds, stars are read fastest in the order of the ids.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
-/// than a cache holds, stars are read fastest in the order of the ids.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
+/// DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_star(
     t: *const deldrift_triangulation,
@@ -246,11 +186,10 @@ pub unsafe extern "C" fn deldrift_annulus_widths(
 /// the certified tolerance of the bi-cell, which those of its vertices do not exceed; half the annulus
 /// width in 2D, and at most that in 3D, where other changes may come sooner.
 ///
-/// Cost: constant.
+/// Cost: constant. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
-/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also
-/// does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_NO_DELIMITER for a
+/// facet of the hull, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_standard_delimiter(
     t: *const deldrift_triangulation,
@@ -275,101 +214,6 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
         });
         Ok(())
     })
-}
-
-/// Where a point lies, exactly, to *location.
-///
-/// position: 2 or 3 numbers.
-///
-/// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
-/// sets, m at most. While there are no cells, constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_locate(
-    t: *const deldrift_triangulation,
-    position: *const f64,
-    location: *mut deldrift_location,
-) -> deldrift_status {
-    given!(t: Reading, position: Point, location: Output);
-    tell!(t, location => t.locate(position.of(t)?)?.into())
-}
-
-/// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
-/// and faster if each point is near the one before it.
-///
-/// positions: 2 or 3 numbers for each point; NULL if count is 0, as may locations be. hint: where to begin to look
-/// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
-/// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
-///
-/// Cost: count times that of deldrift_locate.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also
-/// does what the first deldrift_cells does.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_locate_points(
-    t: *const deldrift_triangulation,
-    positions: *const f64,
-    count: usize,
-    hint: *const deldrift_location,
-    locations: *mut deldrift_location,
-) -> deldrift_status {
-    let hint = hint.cast();
-    given!(t: Reading, positions[count]: Points, hint: Input, locations[count]: Buffer);
-    t.read(|t| {
-        in_its_dimension!(t => {
-            if count == 0 {
-                return Ok(());
-            }
-            let positions = positions.of(t)?;
-            let hint = hint_at(hint)?;
-            let mut places = locations.places(count)?.iter_mut();
-            t.locate_points(positions, hint, |location| {
-                places.next().expect("as many as positions").write(location.into());
-            })?;
-            Ok(())
-        })
-    })
-}
-
-/// The vertex nearest to a point, to *vertex: the lowest id among the nearest; DELDRIFT_NONE if the
-/// triangulation has no vertices.
-///
-/// position: 2 or 3 numbers.
-///
-/// Cost: that of deldrift_locate, and the stars of the vertices on the way and of all that are nearest. While there are
-/// no cells, n.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_nearest_vertex(
-    t: *const deldrift_triangulation,
-    position: *const f64,
-    vertex: *mut u32,
-) -> deldrift_status {
-    given!(t: Reading, position: Point, vertex: Output);
-    tell!(t, vertex => t.nearest_vertex(position.of(t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
-}
-
-/// The lowest id among the vertices at the place of this one, to *representative: the one that is a
-/// corner of cells. It is the vertex itself unless the vertex is hidden.
-///
-/// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_coincident_representative(
-    t: *const deldrift_triangulation,
-    vertex: u32,
-    representative: *mut u32,
-) -> deldrift_status {
-    given!(t: Reading, representative: Output);
-    tell!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
 }
 
 /// The cells of now that did not exist before the latest commit, to *view, as indices into

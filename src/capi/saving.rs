@@ -94,12 +94,12 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
 /// deldrift_take_changes lists all cells as created, and deldrift_changed_cells none before the next commit. Like one
 /// whose cells have been read, it keeps the arrays of deldrift_cells.
 ///
-/// data: size bytes, with any alignment, read during the call only. options: as for deldrift_create. They are not
+/// data: size bytes, with any alignment, read during the call only. options: they are not
 /// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are called.
 ///
-/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16 times
-/// as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused, even if
-/// the checksum is right.
+/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16
+/// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
+/// even if the checksum is right.
 ///
 /// Cost: n log n + m, whatever the data are.
 ///
@@ -259,8 +259,8 @@ unsafe fn fields_of<'a>(
 /// Writes a file for ParaView and VTK: an unstructured grid of the cells, in VTK's XML format (.vtu).
 ///
 /// Its points are the vertices that are present, hidden ones included, ascending by id; their ids are the point data
-/// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: as for
-/// deldrift_save_file.
+/// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: of a file
+/// that is made, or replaced once the new one is complete, with what deldrift_save_file says of it.
 ///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
@@ -303,7 +303,8 @@ pub unsafe extern "C" fn deldrift_write_vtu(
 ///
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
 /// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells, with the reference 1.
-/// Reading the numbers gives the same doubles. path: as for deldrift_save_file.
+/// Reading the numbers gives the same doubles. path: of a file that is made, or replaced once the new one is complete,
+/// with what deldrift_save_file says of it.
 ///
 /// Does what deldrift_cells does.
 ///

@@ -67,8 +67,8 @@ pub unsafe extern "C" fn deldrift_staged_count(
 }
 
 /// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
-/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any call
-/// on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
+/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any
+/// call on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
 /// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
 ///
 /// Cost: constant.
@@ -152,9 +152,9 @@ pub unsafe extern "C" fn deldrift_position(
     })
 }
 
-/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp, of
-/// vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can be
-/// changed and handed to deldrift_commit_positions.
+/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp,
+/// of vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can
+/// be changed and handed to deldrift_commit_positions.
 ///
 /// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
 /// written when the buffer is too small. NULL with capacity 0 asks for the count alone.

@@ -14,9 +14,9 @@ use crate::motion::{MAX_VERTICES, MovingTriangulation};
 ///
 /// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or
 /// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
-/// them until the triangulation is destroyed, or deldrift_compact gives new ids. Any set is legal, the empty one, coincident points and points
-/// on one line or plane included; where the points do not span the dimension there are no cells. Every
-/// finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
+/// them until the triangulation is destroyed, or deldrift_compact gives new ids. Any set is legal, the empty one,
+/// coincident points and points on one line or plane included; where the points do not span the dimension there are no
+/// cells. Every finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
 /// defaults; read during the call only.
 ///
 /// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on

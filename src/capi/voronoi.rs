@@ -32,12 +32,12 @@ use crate::motion::MovingTriangulation;
 /// for circumcentres and for the cells of each vertex while it runs. For vertices in one hyperplane, in a box, it takes
 /// the time and the memory of creating a triangulation of these. Calls the callbacks of the options.
 ///
-/// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create.
+/// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create. After a change the first call also
+/// does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. After a change the first call also does what
-/// the first deldrift_cells does.
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_volumes(
     t: *const deldrift_triangulation,
@@ -59,9 +59,11 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// The lengths (2D) or areas (3D) of the Voronoi facets of all edges, in the order of deldrift_edges, within a box.
 /// The Voronoi facet of an edge is what the Voronoi cells of its two vertices share.
 ///
-/// low, high: as for deldrift_voronoi_volumes. Without a box, the Voronoi facets of the edges on the convex hull are
-/// infinite. measures: a buffer with room for capacity numbers. count: receives the number of edges, which is also
-/// written when the buffer is too small. NULL for measures with capacity 0 asks for the count alone.
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
+/// call only; vertices may be outside of it. NULL for both is no box. Without a box, the Voronoi facets of the edges on
+/// the convex hull are infinite. measures: a buffer with room for capacity numbers. count: receives the number of
+/// edges, which is also written when the buffer is too small. NULL for measures with capacity 0 asks for the count
+/// alone.
 ///
 /// There is one number for each edge of the triangulation, so vertices in one hyperplane have none; each is the measure
 /// of what both cells share, whichever of the two it is seen from. It is never NaN, and infinite where a corner is
@@ -69,20 +71,20 @@ pub unsafe extern "C" fn deldrift_voronoi_volumes(
 /// id: their Voronoi facet is a point, or in space may be a segment, and has 0 but for rounding; others, which have no
 /// edge, share no more than that. A facet outside the box has 0. One that is in a face of the box counts as inside.
 ///
-/// Rounded: with h as for deldrift_voronoi_volumes, of the cells around the edge, a length is off by at most 2 h, an
-/// area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
+/// Rounded: with the h that deldrift_voronoi_volumes has, of the cells around the edge, a length is off by at most 2 h,
+/// an area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
-/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as for deldrift_voronoi_volumes. Calls
+/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
 /// the callbacks of the options.
 ///
 /// Cost: n + m.
 ///
-/// Errors: as deldrift_voronoi_volumes: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY,
-/// DELDRIFT_CANCELLED.
+/// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_voronoi_facets(
     t: *const deldrift_triangulation,

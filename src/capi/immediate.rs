@@ -1,0 +1,135 @@
+//! Changes that take effect at once, one vertex at a time; and new ids.
+
+use super::handle::{Changing, deldrift_triangulation};
+use super::pointers::{Buffer, Output, Point, fit, given, write_all};
+use super::status::deldrift_status;
+use crate::ids::VertexId;
+use crate::in_its_dimension;
+
+/// Moves one vertex at once: the triangulation is that of the new position when the call returns. The
+/// timestamp stays, and so do the moves staged for other vertices. Ends all views.
+///
+/// position: 2 or 3 numbers, read during the call only.
+///
+/// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be
+/// many. While there are no cells, that of deldrift_create.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
+/// this vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
+/// call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_relocate_vertex(
+    t: *mut deldrift_triangulation,
+    vertex: u32,
+    position: *const f64,
+) -> deldrift_status {
+    let is_done = {
+        given!(t: Changing, position: Point);
+        t.change_shortly(|t| {
+            in_its_dimension!(t => {
+                position.of(t).is_ok_and(|p| t.relocate_within_tolerance(VertexId::new(vertex), p))
+            })
+        })
+    };
+    // SAFETY: the header's conditions on pointers.
+    if is_done { deldrift_status::DELDRIFT_OK } else { unsafe { relocate_in_guard(t, vertex, position) } }
+}
+
+/// The long way of [`deldrift_relocate_vertex`], kept out of the short one's registers.
+///
+/// # Safety
+/// The header's conditions on pointers.
+#[inline(never)]
+unsafe fn relocate_in_guard(
+    t: *mut deldrift_triangulation,
+    vertex: u32,
+    position: *const f64,
+) -> deldrift_status {
+    given!(t: Changing, position: Point);
+    t.change(|t| in_its_dimension!(t => Ok(t.relocate_vertex(VertexId::new(vertex), position.of(t)?)?)))
+}
+
+/// Inserts a vertex at once. Ends all views.
+///
+/// position: 2 or 3 numbers, read during the call only. out_vertex: receives its id, which is one above
+/// the highest ever given, or left by the latest deldrift_compact.
+///
+/// Cost: that of deldrift_locate, and the cells created and removed.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
+/// call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_insert_vertex(
+    t: *mut deldrift_triangulation,
+    position: *const f64,
+    out_vertex: *mut u32,
+) -> deldrift_status {
+    given!(t: Changing, position: Point, out_vertex: Output);
+    t.change(|t| {
+        let out_vertex = out_vertex.place()?;
+        out_vertex.write(in_its_dimension!(t => t.insert_vertex(position.of(t)?))?.get());
+        Ok(())
+    })
+}
+
+/// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
+/// deldrift_compact, nor is all of its memory. Ends all views.
+///
+/// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
+/// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
+/// ten to twenty thousand of them the callbacks are called.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
+/// insertion is staged, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the
+/// same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_remove_vertex(
+    t: *mut deldrift_triangulation,
+    vertex: u32,
+) -> deldrift_status {
+    given!(t: Changing);
+    t.change(|t| Ok(in_its_dimension!(t => t.remove_vertex(VertexId::new(vertex)))?))
+}
+
+/// Frees the memory that has served removed vertices, and gives the others new ids: 0, 1, ... in the order
+/// of those that they have. Ties between cocircular or cospherical points are broken by the order of ids, so
+/// the cells stay the same, with their indices in deldrift_cells; so do positions, staged moves and the
+/// timestamp. Memory and the time of commits are those of a fresh triangulation then. Ends all views.
+///
+/// map: receives the new id of each old one, DELDRIFT_NONE for removed vertices: a buffer with room for
+/// capacity ids; NULL with capacity 0 if it is not wanted, NULL with another is DELDRIFT_NULL_ARGUMENT. Vertices whose
+/// insertion is staged get new ids as well. count: receives the number of old ids
+/// (deldrift_id_count before the call), which is also written when the buffer is too small: then nothing
+/// has been compacted.
+///
+/// Takes no longer than a rebuild, and while it runs the memory of a second
+/// triangulation.
+///
+/// Cost: n + m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_compact(
+    t: *mut deldrift_triangulation,
+    map: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Changing, map[capacity]: Buffer, count: Output);
+    t.change(|t| {
+        in_its_dimension!(t => {
+            let needed = t.id_count();
+            let fitting = fit(count, needed, capacity, &[map.offer()])?;
+            // Looked at before anything changes.
+            let places = map.places_if_any(needed)?;
+            write_all(places, t.compact()?.into_iter().map(VertexId::get));
+            fitting.tell();
+        });
+        Ok(())
+    })
+}
