@@ -45,7 +45,7 @@ font-size:12.5px}\
 
 fn main() -> Result<(), Error> {
     let mut positions = points();
-    let options = Options { algorithm: Algorithm::PlacementFlips, track_changes: true, ..Options::default() };
+    let options = Options { algorithm: Algorithm::PlacementFlips, ..Options::default() };
     let mut t = MovingTriangulation::<Plane>::new(&positions, options)?;
     let mut before = positions.clone();
     let mut edges_before = edges(t.cells().expect("room").corners);
@@ -58,8 +58,11 @@ fn main() -> Result<(), Error> {
             t.move_all(&positions)?;
             report = t.commit_timestamp()?;
         }
+        let created = t.take_changes()?.created.to_vec();
         let cells = t.cells().expect("room").corners.to_vec();
-        let changed: Vec<[VertexId; 3]> = t.changed_cells()?.iter().map(|&c| cells[c]).collect();
+        // The first time all are listed.
+        let n_changed = if panel > 0 { created.len() } else { 0 };
+        let changed: Vec<[VertexId; 3]> = created[..n_changed].iter().map(|&c| cells[c]).collect();
         let all = edges(&cells);
         let shown = Panel {
             before: &before,

@@ -60,7 +60,7 @@
  * on sets of points that are hard. Memory is in proportion to n + m.
  *
  * Ownership. What deldrift_create made must be given to deldrift_destroy, once. Arrays that are passed in
- * are read during the call and not kept. Views (deldrift_cells_view, deldrift_indices_view, deldrift_changes) belong to
+ * are read during the call and not kept. Views (deldrift_cells_view, deldrift_changes) belong to
  * the triangulation and end with the next call on it that takes it as non-const, or with its destruction.
  * Strings belong to the library.
  *
@@ -149,33 +149,31 @@ enum
     DELDRIFT_OUT_OF_MEMORY = 17,
     /// The cancel callback returned true.
     DELDRIFT_CANCELLED = 18,
-    /// Changed cells were asked for, but the options did not ask to track them.
-    DELDRIFT_CHANGES_NOT_TRACKED = 19,
     /// deldrift_validate found something wrong; the message says what.
-    DELDRIFT_INVALID = 20,
+    DELDRIFT_INVALID = 19,
     /// A callback, or another thread, used a triangulation while a call was changing it.
-    DELDRIFT_BUSY = 21,
+    DELDRIFT_BUSY = 20,
     /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. It can only
     /// be destroyed.
-    DELDRIFT_POISONED = 22,
+    DELDRIFT_POISONED = 21,
     /// A defect of the library; please report the message.
-    DELDRIFT_INTERNAL_ERROR = 23,
+    DELDRIFT_INTERNAL_ERROR = 22,
     /// There is no cell of this index, or cells have no corner of this number.
-    DELDRIFT_NO_SUCH_FACET = 24,
+    DELDRIFT_NO_SUCH_FACET = 23,
     /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
-    DELDRIFT_NO_DELIMITER = 25,
+    DELDRIFT_NO_DELIMITER = 24,
     /// A number has no meaning for its argument, as a negative squared radius.
-    DELDRIFT_INVALID_VALUE = 26,
+    DELDRIFT_INVALID_VALUE = 25,
     /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
     /// later version; the message says what is wrong, and where.
-    DELDRIFT_INVALID_DATA = 27,
+    DELDRIFT_INVALID_DATA = 26,
     /// The system cannot read or write a file; the message has the path, and what the system says.
-    DELDRIFT_IO_ERROR = 28,
+    DELDRIFT_IO_ERROR = 27,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
-    DELDRIFT_INVALID_FIELD = 29,
+    DELDRIFT_INVALID_FIELD = 28,
     /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
     /// and it can be neither moved with that commit nor removed twice. The message says which.
-    DELDRIFT_STAGED_VERTEX = 30,
+    DELDRIFT_STAGED_VERTEX = 29,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -346,8 +344,6 @@ typedef struct deldrift_options {
     uint32_t threads;
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     deldrift_coincidence coincidence;
-    /// 1 keeps what deldrift_changed_cells needs, at some cost for each commit; 0, the default, does not.
-    uint32_t track_changes;
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -475,14 +471,6 @@ typedef struct deldrift_location {
     /// A vertex or a cell.
     uint32_t index;
 } deldrift_location;
-
-/// A list of cell indices that belongs to the triangulation, valid until the next call that changes it.
-typedef struct deldrift_indices_view {
-    /// Number of indices.
-    size_t count;
-    /// The indices, in ascending order. NULL if there are none.
-    const uint32_t *indices;
-} deldrift_indices_view;
 
 /// Numbers for each vertex, or for each cell, that deldrift_write_vtu writes along.
 typedef struct deldrift_field {
@@ -772,7 +760,7 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
 /// alike. The first call lists all cells as created.
 ///
 /// A program that never calls this pays nothing for it; one that does pays in proportion to what has changed, and may
-/// call it as often or as rarely as it likes, without track_changes too. Ends all views; deldrift_cells takes constant
+/// call it as often or as rarely as it likes. Ends all views; deldrift_cells takes constant
 /// time after it.
 ///
 /// Cost: what has changed; of the first call n + m.
@@ -1034,16 +1022,6 @@ deldrift_status deldrift_nearest_vertex(const deldrift_triangulation *t,
 deldrift_status deldrift_coincident_representative(const deldrift_triangulation *t,
                                                    uint32_t vertex,
                                                    uint32_t *representative);
-
-/// The cells of now that did not exist before the latest commit, to *view, as indices into
-/// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
-/// first commit there are none. Needs track_changes in the options.
-///
-/// Cost: what has changed.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED, DELDRIFT_OUT_OF_MEMORY.
-deldrift_status deldrift_changed_cells(const deldrift_triangulation *t,
-                                       deldrift_indices_view *view);
 
 /// Checks the triangulation exactly, in time proportional to its size.
 ///
@@ -1509,7 +1487,7 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 ///
 /// The triangulation is as the one that was saved, cells with their indices included, and gives the same cells after
 /// the same calls; those cells that are new then may have other indices. It has given no changes yet: the first
-/// deldrift_take_changes lists all cells as created, and deldrift_changed_cells none before the next commit. Like one
+/// deldrift_take_changes lists all cells as created. Like one
 /// whose cells have been read, it keeps the arrays of deldrift_cells.
 ///
 /// data: size bytes, with any alignment, read during the call only. options: as for deldrift_create. They are not

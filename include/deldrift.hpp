@@ -212,10 +212,6 @@ public:
         require_ok(deldrift_take_changes(native(), &changes));
         return changes;
     }
-    span<const std::uint32_t> changed_cells() const {
-        const auto view = ask<deldrift_indices_view>(deldrift_changed_cells);
-        return {view.indices, view.count};
-    }
     std::vector<std::uint32_t> star(std::uint32_t vertex) const {
         std::vector<std::uint32_t> star(64);
         std::size_t count = 0;

@@ -160,8 +160,6 @@ pub enum Error {
     },
     /// The cancel callback asked to stop.
     Cancelled,
-    /// Changes were asked for but are not recorded: set `track_changes` in the options.
-    ChangesNotTracked,
 }
 
 /// What is staged for a vertex beside a move.
@@ -226,9 +224,6 @@ impl fmt::Display for Error {
             Error::TooManyCells { limit } => write!(f, "the triangulation needs more than {limit} cells"),
             Error::OutOfMemory { bytes } => write!(f, "no memory for {bytes} more bytes"),
             Error::Cancelled => write!(f, "the cancel callback asked to stop"),
-            Error::ChangesNotTracked => {
-                write!(f, "changes are not recorded: set track_changes in the options")
-            }
         }
     }
 }

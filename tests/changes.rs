@@ -7,8 +7,7 @@ use crate::common::carried::{Carried, some_present, take};
 use crate::common::exact::{Grid, orientation, representatives};
 use crate::common::inputs::{KINDS, Kind, draw, draw_one, quantized, to_grid};
 use crate::common::{
-    CellSet, Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, sorted, vertex,
-    vertices,
+    Rng, assert_same_cells, cell_set, check_adjacency, fresh_cells, point, seeds, vertex, vertices,
 };
 use deldrift::Error;
 use deldrift::motion::{
@@ -45,8 +44,6 @@ struct History<'c, G: Dimension> {
     leaving: BTreeSet<VertexId>,
     carried: Carried,
     /// Cells when the latest commit began, if changes are tracked.
-    baseline: Option<CellSet>,
-    tracks: bool,
     rejects: bool,
     /// One in so many operations is followed by a look at the cells.
     looks: usize,
@@ -62,7 +59,6 @@ impl<'c, G: Dimension> History<'c, G> {
         deldrift::internals::use_all_threads();
         let mut rng = Rng::new(seed);
         let points = draw::<G>(kind, n, &mut rng);
-        let tracks = rng.one_in(3);
         let positions: Vec<Option<G::Point>> = points.iter().copied().map(Some).collect();
         let is_merged = vertices().zip(representatives(&positions)).any(|(v, r)| r != Some(v));
         let rejects = !is_merged && rng.one_in(3);
@@ -71,7 +67,6 @@ impl<'c, G: Dimension> History<'c, G> {
         let monitor: Monitor = Box::new(move |_| left.fetch_sub(1, Relaxed) > 0);
         let options = Options {
             threads,
-            track_changes: tracks,
             coincidence: if rejects { CoincidencePolicy::Reject } else { CoincidencePolicy::Merge },
             monitor: Some(monitor),
             ..Options::default()
@@ -85,8 +80,6 @@ impl<'c, G: Dimension> History<'c, G> {
             coming: BTreeMap::new(),
             leaving: BTreeSet::new(),
             carried: Carried::default(),
-            baseline: None,
-            tracks,
             rejects,
             looks: *rng.pick(&[1, 3, 8]),
             patience,
@@ -173,7 +166,6 @@ impl<'c, G: Dimension> History<'c, G> {
         self.t.set_algorithm(algorithm);
         let calls = if self.rng.one_in(6) { self.rng.below(4) as i64 } else { i64::MAX };
         self.log.push(format!("commit {} by {algorithm:?}, {calls} calls", self.staged.len()));
-        let baseline = self.tracks.then(|| cell_set(&self.t));
         let given = self.unstage_all();
         let n_staged = if given.is_some() { 0 } else { self.staged.len() };
         let commit = |t: &mut MovingTriangulation<G>| match &given {
@@ -207,7 +199,6 @@ impl<'c, G: Dimension> History<'c, G> {
             return;
         }
         self.counts.commits += 1;
-        self.baseline = baseline;
         for (v, q) in std::mem::take(&mut self.staged).into_iter().chain(std::mem::take(&mut self.coming)) {
             self.positions[v] = Some(q);
         }
@@ -333,13 +324,6 @@ impl<'c, G: Dimension> History<'c, G> {
         check_adjacency(&self.t, &|| self.context());
         self.check_orientations();
         self.check_star();
-        if self.tracks {
-            let changed = self.t.changed_cells().expect("room");
-            let corners = self.t.cells().expect("room").corners;
-            let changed: CellSet = changed.iter().map(|&c| sorted(corners[c].as_ref())).collect();
-            let expected = self.baseline.as_ref().map(|before| cells.difference(before).cloned().collect());
-            assert_same_cells(&changed, &expected.unwrap_or_default(), || self.context());
-        }
     }
 
     fn check_orientations(&self) {
@@ -662,24 +646,6 @@ fn discarded_insertions_are_not_listed<G: Dimension>() {
 fn insertions_discarded_after_all_cells_are_built_are_not_listed() {
     discarded_insertions_are_not_listed::<Plane>();
     discarded_insertions_are_not_listed::<Space>();
-}
-
-/// A first commit that fails leaves no trace in the changed cells.
-#[test]
-fn nothing_has_changed_before_the_first_commit() {
-    let mut points = cloud::<Plane>(30, 9);
-    let options =
-        Options { track_changes: true, coincidence: CoincidencePolicy::Reject, ..Options::default() };
-    let mut t = built::<Plane>(&points, options);
-    t.move_vertices(&[vertex(3)], &[points[4]]).expect("room");
-    assert!(matches!(t.commit_timestamp(), Err(Error::Coincident { .. })));
-    t.discard_moves();
-    t.relocate_vertex(vertex(3), &[3.0, 4.0]).expect("room");
-    assert_eq!(t.changed_cells().expect("room"), &[]);
-    points[3] = [3.0, 4.0];
-    t.move_all(&points).expect("room");
-    t.commit_timestamp().expect("room");
-    assert_eq!(t.changed_cells().expect("room"), &[]);
 }
 
 /// The first repair of many cells sorts them; nobody hears of that, and a commit that is cancelled then leaves all as

@@ -73,12 +73,7 @@ struct History<G: Dimension> {
 impl<G: Dimension> History<G> {
     fn new(seed: u64) -> Self {
         let mut rng = Rng::new(seed);
-        let options = Options {
-            algorithm: *rng.pick(&Algorithm::ALL),
-            track_changes: rng.one_in(2),
-            threads: 1,
-            ..Options::default()
-        };
+        let options = Options { algorithm: *rng.pick(&Algorithm::ALL), threads: 1, ..Options::default() };
         let grid = if rng.one_in(3) { 1.0 } else { 0.0 };
         let is_flat = rng.one_in(6);
         let t = MovingTriangulation::new(&[], options).expect("room");
@@ -206,8 +201,6 @@ impl<G: Dimension> History<G> {
 
     /// Compacts, and compares all that can be asked with what it was before.
     fn compact(&mut self) {
-        let tracks = self.t.changed_cells().is_ok();
-        let changed = if tracks { self.t.changed_cells().expect("tracked").to_vec() } else { vec![] };
         // Without readers there are no arrays of cells to keep.
         let before = (self.rng.one_in(3) || self.mirror.is_some()).then(|| {
             let view = self.t.cells().expect("room");
@@ -234,9 +227,6 @@ impl<G: Dimension> History<G> {
             let named = |row: &G::Vertices| row.as_ref().iter().map(|&v| named(v)).collect::<Vec<_>>();
             assert!(corners.iter().map(named).eq(view.corners.iter().map(|row| row.as_ref().to_vec())));
             assert_eq!(neighbours, view.neighbours);
-        }
-        if tracks {
-            assert_eq!(self.t.changed_cells().expect("tracked"), changed);
         }
         self.positions.retain(Option::is_some);
         self.staged.iter_mut().for_each(|(v, _)| *v = named(*v));
@@ -346,7 +336,7 @@ fn used<G: Dimension>(t: &mut MovingTriangulation<G>) -> usize {
 
 fn memory_is_that_of_a_fresh_one<G: Dimension>() {
     for algorithm in Algorithm::ALL {
-        let options = || Options { algorithm, track_changes: true, ..Options::default() };
+        let options = || Options { algorithm, ..Options::default() };
         let mut t = worn::<G>(500, 40, options());
         let before = used(&mut t);
         let map = t.compact().expect("room");

@@ -188,7 +188,6 @@ struct Setting {
     n: usize,
     threads: u32,
     hides: bool,
-    tracks: bool,
     reads: bool,
     takes: bool,
     edits: bool,
@@ -204,7 +203,6 @@ const COLD: Setting = Setting {
     n: 60,
     threads: 1,
     hides: false,
-    tracks: false,
     reads: false,
     takes: false,
     edits: false,
@@ -218,13 +216,13 @@ const SETTINGS: [Setting; 11] = [
     Setting { stages: 7, ..COLD },
     Setting { reads: true, warm: 2, ..COLD },
     Setting { hides: true, takes: true, ..COLD },
-    Setting { tracks: true, warm: 1, ..COLD },
+    Setting { warm: 1, ..COLD },
     Setting { hides: true, reads: true, takes: true, stages: 3, warm: 1, ..COLD },
-    Setting { hides: true, takes: true, tracks: true, stages: 16, ..COLD },
-    Setting { hides: true, tracks: true, reads: true, takes: true, edits: true, warm: 1, ..COLD },
+    Setting { hides: true, takes: true, stages: 16, ..COLD },
+    Setting { hides: true, reads: true, takes: true, edits: true, warm: 1, ..COLD },
     Setting { n: 800, threads: 3, ..COLD },
     Setting { n: 800, threads: 3, leaps: true, takes: true, warm: 2, ..COLD },
-    Setting { n: 800, threads: 3, hides: true, tracks: true, reads: true, takes: true, warm: 1, ..COLD },
+    Setting { n: 800, threads: 3, hides: true, reads: true, takes: true, warm: 1, ..COLD },
 ];
 
 /// A call, with what it is about.
@@ -251,7 +249,6 @@ enum Call {
     Validate,
     AnnulusWidths,
     StandardDelimiter,
-    ChangedCells,
     TakeChanges,
     Tolerance,
     Circumspheres,
@@ -286,7 +283,7 @@ impl Call {
         calls.extend([Call::StageInsertions, Call::StageRemovals]);
         calls.extend([Call::MoveVertices, Call::MoveAll, Call::Cells, Call::Star, Call::Locate]);
         calls.extend([Call::Nearest, Call::Validate, Call::AnnulusWidths, Call::StandardDelimiter]);
-        calls.extend([Call::ChangedCells, Call::TakeChanges, Call::Tolerance]);
+        calls.extend([Call::TakeChanges, Call::Tolerance]);
         calls.extend([Call::Circumspheres, Call::MaskBoundary, Call::Edges, Call::VertexNeighbours]);
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
@@ -369,12 +366,8 @@ impl<G: Dimension> Scene<G> {
         if setting.hides {
             (points[20], points[30], points[40]) = (points[10], points[10], points[11]);
         }
-        let options = || Options {
-            algorithm: call.algorithm(),
-            threads: setting.threads,
-            track_changes: setting.tracks,
-            ..Options::default()
-        };
+        let options =
+            || Options { algorithm: call.algorithm(), threads: setting.threads, ..Options::default() };
         let mut t =
             MovingTriangulation::<G>::new(&points, Options { monitor, ..options() }).expect("a build");
         let spacing = (setting.n as f64).powf(-1.0 / G::D as f64);
@@ -545,16 +538,6 @@ impl<G: Dimension> Scene<G> {
             Call::StandardDelimiter => {
                 given(t.standard_delimiter(CellId::new(0), 1).map(drop))?;
                 Given::Nothing
-            }
-            Call::ChangedCells => {
-                let changed = t.changed_cells().map(|_| ());
-                disarm();
-                if matches!(changed, Err(Error::ChangesNotTracked)) {
-                    return Ok(Given::Nothing);
-                }
-                changed?;
-                let (changed, rows) = (t.changed_cells()?, t.cells()?.corners);
-                Given::Cells(changed.iter().map(|&c| sorted(rows[c].as_ref())).collect())
             }
             Call::TakeChanges => {
                 let taken = t.take_changes();

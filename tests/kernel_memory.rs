@@ -412,7 +412,7 @@ fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {
     let mut points = random::<G>(400);
     points[7] = points[300];
     let before = HELD.get();
-    let options = Options { algorithm, threads: 1, track_changes: true, ..Options::default() };
+    let options = Options { algorithm, threads: 1, ..Options::default() };
     let mut t = MovingTriangulation::<G>::new(&points, options).expect("room");
     let same = |t: &MovingTriangulation<G>, when: &str| {
         assert_eq!(t.memory_bytes(), HELD.get() - before, "{algorithm:?} {when}");
@@ -432,8 +432,6 @@ fn holds_what_it_says<G: Dimension>(algorithm: Algorithm) {
         same(&t, "after a commit");
         t.cells().expect("room");
         same(&t, "with cells");
-        t.changed_cells().expect("room");
-        same(&t, "with changed cells");
         t.take_changes().expect("room");
         same(&t, "with changes");
         t.relocate_vertex(VertexId::new(3), &points[4]).expect("room");

@@ -10,12 +10,8 @@ use crate::saving_format::{Parts, forged, seal};
 use deldrift::motion::{Algorithm, CoincidencePolicy, Level, MovingTriangulation, NO_CELL, Options, Saved};
 use deldrift::{CellId, Damage, Dimension, Error, LoadError, Plane, Space, VertexId};
 
-fn tracking() -> Options {
-    Options { track_changes: true, ..Options::default() }
-}
-
 fn load<G: Dimension>(bytes: &[u8]) -> Result<MovingTriangulation<G>, LoadError> {
-    MovingTriangulation::load(&Saved::of(bytes)?, tracking())
+    MovingTriangulation::load(&Saved::of(bytes)?, Options::default())
 }
 
 fn positions_of<G: Dimension>(t: &MovingTriangulation<G>) -> Vec<Option<G::Point>> {
@@ -133,7 +129,7 @@ fn the_same_calls_give_the_same<G: Dimension>(n: usize) {
         let context = || format!("{}D, {algorithm:?}", G::D);
         let rng = &mut Rng::new(31);
         let mut positions = draw::<G>(Kind::Random, n, rng);
-        let options = Options { algorithm, track_changes: true, threads: 1, ..Options::default() };
+        let options = Options { algorithm, threads: 1, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(&positions, options).expect("a build");
         for warm in 0..6 {
             positions = shaken::<G>(&positions, 0.3, rng);
@@ -165,7 +161,6 @@ fn the_same_calls_give_the_same<G: Dimension>(n: usize) {
             let (rows, others) = (t.cells().expect("room"), clone.cells().expect("room"));
             assert_eq!(rows.corners, others.corners, "{}", context());
             assert_eq!(rows.neighbours, others.neighbours, "{}", context());
-            assert_eq!(t.changed_cells(), clone.changed_cells(), "{}", context());
             if step != 1 {
                 assert_eq!(carried::take(&mut t), carried::take(&mut clone), "{}", context());
             }
@@ -193,7 +188,7 @@ fn with_everything<G: Dimension>(n: usize) -> MovingTriangulation<G> {
     let mut positions = draw::<G>(Kind::Lattice, n, rng);
     positions[n / 2] = positions[1];
     positions[n / 2 + 1] = positions[1];
-    let mut t = MovingTriangulation::<G>::new(&positions, tracking()).expect("a build");
+    let mut t = MovingTriangulation::<G>::new(&positions, Options::default()).expect("a build");
     t.remove_vertex(vertex(2)).expect("a removal");
     t.stage_insertions(&[point::<G>(|k| 0.5 + k as f64), positions[3]]).expect("room");
     t.insert_vertex(&point::<G>(|k| 0.25 * k as f64)).expect("an insertion");
@@ -239,7 +234,8 @@ fn what_is_staged_is_saved_in_space() {
 /// What may be damaged: everything at once, no cells, nothing.
 fn samples<G: Dimension>() -> [MovingTriangulation<G>; 3] {
     let line: Vec<G::Point> = (0..4).map(|i| point::<G>(|k| f64::from(i % 3) * (k + 1) as f64)).collect();
-    let of = |positions: &[G::Point]| MovingTriangulation::new(positions, tracking()).expect("a build");
+    let of =
+        |positions: &[G::Point]| MovingTriangulation::new(positions, Options::default()).expect("a build");
     [with_everything::<G>(9 + 2 * G::D), of(&line), of(&[])]
 }
 

@@ -221,34 +221,6 @@ std::vector<Call> reading_calls() {
                  must(deldrift_nearest_vertex(c.t, p.data(), &nearest));
              });
          }},
-        {"deldrift_changed_cells", "after each of some commits", [](Context &c) {
-             deldrift_options options = c.options();
-             options.track_changes = 1;
-             deldrift_destroy(c.t);
-             c.t = c.create(options);
-             c.meter.reset();
-             for (std::size_t i = 0; i < c.some(); ++i) {
-                 const std::uint32_t v = c.some_vertex(i);
-                 must(deldrift_move_vertex(c.t, v, c.nearby(v).data()));
-                 must(deldrift_commit_timestamp(c.t, nullptr));
-                 c.view();
-                 deldrift_indices_view view;
-                 c.meter.time([&] { must(deldrift_changed_cells(c.t, &view)); });
-                 c.meter.count(1 + double(view.count));
-             }
-         }},
-        {"deldrift_changed_cells", "after all have moved", [](Context &c) {
-             deldrift_options options = c.options();
-             options.track_changes = 1;
-             deldrift_destroy(c.t);
-             c.t = c.create(options);
-             must(deldrift_commit_positions(c.t, c.many(c.n, &Context::elsewhere).data(), c.n, nullptr));
-             c.view();
-             c.meter.reset();
-             deldrift_indices_view view;
-             c.meter.time([&] { must(deldrift_changed_cells(c.t, &view)); });
-             c.meter.count(double(c.n + view.count));
-         }},
         {"deldrift_validate", "level 1", validate<1>},
         {"deldrift_validate", "level 2", validate<2>},
         {"deldrift_validate", "level 3", validate<3>},

@@ -24,7 +24,6 @@ typedef struct {
     deldrift_commit_report report;
     deldrift_changes changes;
     deldrift_cells_view cells;
-    deldrift_indices_view indices;
     deldrift_location location, locations[8];
     double numbers[ROOM], more_numbers[ROOM], few_numbers[8];
     uint32_t ids[ROOM], more_ids[ROOM];
@@ -373,7 +372,6 @@ static void poisoned_ones_can_be_destroyed(void) {
 
 static void make_bases(void) {
     deldrift_options_init(&options);
-    options.track_changes = 1;
     options.cancel = intrude;
     before();
     uint32_t first;

@@ -59,7 +59,6 @@ pub const ROWS: &[Row] = &[
     row("deldrift_locate_points", &["t", "moved", "3", "near_by", "out.locations"]),
     row("deldrift_nearest_vertex", &["t", "moved", "&out.number"]),
     row("deldrift_coincident_representative", &["t", "HIDDEN", "&out.number"]),
-    row("deldrift_changed_cells", &["t", "&out.indices"]),
     row("deldrift_validate", &["t", "3"]),
     row("deldrift_circumcentres", &["t", "out.numbers", "out.more_numbers", "n_cells", "&out.count"]),
     row("deldrift_volumes", &["t", "out.numbers", "n_cells", "&out.count"]),

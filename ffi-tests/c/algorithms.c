@@ -64,7 +64,6 @@ static sums random_walk(uint32_t dimension, size_t count, deldrift_algorithm alg
     deldrift_options options;
     deldrift_options_init(&options);
     options.algorithm = algorithm;
-    options.track_changes = 1;
     deldrift_triangulation *t = create(dimension, positions, count, &options);
     for (int step = 0; step < 6; step++) {
         for (size_t i = 0; i < n; i++) {

@@ -22,7 +22,7 @@ typedef struct {
     kind kind;
     deldrift_algorithm algorithm;
     uint32_t threads;
-    bool tracks;
+    bool takes;
     // Of the moves, in spacings.
     double step;
 } scenario;
@@ -38,7 +38,7 @@ static const scenario SCENARIOS[] = {
     {"commit, repair", COMMIT, DELDRIFT_REPAIR, 1, false, 3e-2},
     {"commit, repair, 2 threads", COMMIT, DELDRIFT_REPAIR, 2, false, 3e-2},
     {"commit, slack", COMMIT, BY_SLACK, 1, false, 1e-4},
-    {"commit, tracked", COMMIT, DELDRIFT_AUTO, 1, true, 1e-2},
+    {"commit, changes taken", COMMIT, DELDRIFT_AUTO, 1, true, 1e-2},
     {"commit with edits", COMMIT_EDITS, DELDRIFT_AUTO, 1, true, 1e-2},
     {"take changes", TAKE_CHANGES, DELDRIFT_AUTO, 1, true, 1e-2},
     {"cells", CELLS, DELDRIFT_AUTO, 1, false, 1e-2},
@@ -100,12 +100,11 @@ static void prepare(void) {
     deldrift_options_init(&options);
     options.algorithm = now->algorithm;
     options.threads = now->threads;
-    options.track_changes = now->tracks;
     t = create(dimension, points, COUNT, &options);
     deldrift_cells_view view;
-    if (now->tracks || now->kind == CELLS) OK(deldrift_cells(t, &view));
+    if (now->takes || now->kind == CELLS) OK(deldrift_cells(t, &view));
     deldrift_changes changes;
-    if (now->tracks) OK(deldrift_take_changes(t, &changes));
+    if (now->takes) OK(deldrift_take_changes(t, &changes));
     for (size_t i = 0; i < (size_t)COUNT * dimension; i++) points[i] += now->step * spacing * (next_random(&state) - 0.5);
     for (uint32_t v = 0; v < EDITS; v++) ids[v] = v * 7;
     if (now->kind == COMMIT_SOME) {

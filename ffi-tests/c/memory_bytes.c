@@ -34,7 +34,7 @@ static bool never(void *user_data) {
 }
 
 // `flat` if all points are in one line at first. They move a little, then far; some come and go, at once and with a commit.
-static void what_is_told_is_held(uint32_t dimension, deldrift_algorithm algorithm, bool tracks, bool flat, size_t n,
+static void what_is_told_is_held(uint32_t dimension, deldrift_algorithm algorithm, bool asks, bool flat, size_t n,
                                  uint32_t threads) {
     uint64_t state = 3;
     double *points = random_positions(dimension, MOST, 9);
@@ -47,11 +47,9 @@ static void what_is_told_is_held(uint32_t dimension, deldrift_algorithm algorith
     deldrift_options options;
     deldrift_options_init(&options);
     options.algorithm = algorithm;
-    options.track_changes = tracks;
     options.threads = threads;
-    options.cancel = tracks ? never : NULL;
+    options.cancel = asks ? never : NULL;
     deldrift_cells_view cells;
-    deldrift_indices_view changed;
     deldrift_changes changes;
     size_t before = held_bytes;
     deldrift_triangulation *t = create(dimension, points, n, &options);
@@ -67,7 +65,6 @@ static void what_is_told_is_held(uint32_t dimension, deldrift_algorithm algorith
         }
         OK(deldrift_cells(t, &cells));
         compare(t, before, "with cells");
-        if (tracks) OK(deldrift_changed_cells(t, &changed));
         OK(deldrift_take_changes(t, &changes));
         compare(t, before, "with changes taken");
         for (uint32_t v = 0; v < 20; v++) {

@@ -31,7 +31,6 @@ static void structures_of_earlier_versions_are_accepted(void) {
     const size_t ends[] = {sizeof(size_t),
                            offsetof(deldrift_options, threads),
                            offsetof(deldrift_options, coincidence),
-                           offsetof(deldrift_options, track_changes),
                            offsetof(deldrift_options, cancel),
                            offsetof(deldrift_options, progress),
                            offsetof(deldrift_options, user_data),
@@ -90,10 +89,6 @@ static void unknown_values_are_refused_by_name(void) {
     options.coincidence = (deldrift_coincidence)2;
     CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
     CHECK_MESSAGE("options.coincidence is 2");
-    deldrift_options_init(&options);
-    options.track_changes = 2;
-    CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
-    CHECK_MESSAGE("options.track_changes is 2");
 }
 
 static void shares_are_parts_of_a_whole(void) {

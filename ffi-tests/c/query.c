@@ -253,8 +253,9 @@ static void cells_stay_while_vertices_are_within_tolerance(uint32_t dimension) {
     deldrift_options options;
     deldrift_options_init(&options);
     options.algorithm = DELDRIFT_TOLERANCE;
-    options.track_changes = 1;
     deldrift_triangulation *t = create(dimension, positions, COUNT, &options);
+    deldrift_changes changes;
+    OK(deldrift_take_changes(t, &changes));
     for (uint32_t v = 0; v < COUNT; v++) {
         double tolerance, direction[3] = {0}, nowhere[3] = {0};
         OK(deldrift_tolerance(t, v, &tolerance));
@@ -268,25 +269,21 @@ static void cells_stay_while_vertices_are_within_tolerance(uint32_t dimension) {
     deldrift_commit_report report;
     OK(deldrift_commit_timestamp(t, &report));
     CHECK(report.moved == COUNT && report.within_tolerance == COUNT && report.placements == 0);
-    deldrift_indices_view changed;
-    OK(deldrift_changed_cells(t, &changed));
-    CHECK(changed.count == 0);
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == 0 && changes.removed_count == 0);
     OK(deldrift_validate(t, 3));
     deldrift_destroy(t);
     free(positions);
 }
 
 static void views_without_cells_are_empty(void) {
-    deldrift_options options;
-    deldrift_options_init(&options);
-    options.track_changes = 1;
     static const double line[] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
-    deldrift_triangulation *t = create(3, line, 4, &options);
+    deldrift_triangulation *t = create(3, line, 4, NULL);
     deldrift_cells_view view = cells_of(t);
     CHECK(view.count == 0 && view.corners_per_cell == 4 && view.vertices == NULL && view.neighbours == NULL);
-    deldrift_indices_view changed = {77, NULL};
-    OK(deldrift_changed_cells(t, &changed));
-    CHECK(changed.count == 0 && changed.indices == NULL);
+    deldrift_changes changes = {.created_count = 77};
+    OK(deldrift_take_changes(t, &changes));
+    CHECK(changes.created_count == 0 && changes.created == NULL && changes.stars == NULL);
     size_t count = 77;
     OK(deldrift_star(t, 0, NULL, 0, &count));
     CHECK(count == 0);
@@ -334,36 +331,6 @@ static void views_stay_until_the_next_change(void) {
     free(positions);
 }
 
-static void changes_are_those_since_the_commit(void) {
-    deldrift_options options;
-    deldrift_options_init(&options);
-    deldrift_triangulation *t = create(2, SQUARE, SQUARE_COUNT, &options);
-    deldrift_indices_view changed = {77, NULL};
-    CHECK_STATUS(deldrift_changed_cells(t, &changed), DELDRIFT_CHANGES_NOT_TRACKED);
-    CHECK(changed.count == 77);
-    deldrift_destroy(t);
-
-    options.track_changes = 1;
-    t = create(2, SQUARE, SQUARE_COUNT, &options);
-    OK(deldrift_changed_cells(t, &changed));
-    CHECK(changed.count == 0);
-    // The vertex leaves through the side 0-3, which makes a hull of five vertices with other triangles.
-    static const double outside[2] = {-3, 2};
-    OK(deldrift_move_vertex(t, 4, outside));
-    OK(deldrift_commit_timestamp(t, NULL));
-    OK(deldrift_changed_cells(t, &changed));
-    CHECK(changed.count > 0);
-    deldrift_cells_view view = cells_of(t);
-    for (size_t i = 0; i < changed.count; i++) {
-        CHECK(changed.indices[i] < view.count);
-        CHECK(i == 0 || changed.indices[i - 1] < changed.indices[i]);
-    }
-    OK(deldrift_commit_timestamp(t, NULL));
-    OK(deldrift_changed_cells(t, &changed));
-    CHECK(changed.count == 0);
-    deldrift_destroy(t);
-}
-
 int main(void) {
     for (uint32_t dimension = 2; dimension <= 3; dimension++) {
         cells_are_positive_and_neighbours_mutual(dimension);
@@ -376,6 +343,5 @@ int main(void) {
     positions_of_removed_vertices_are_not_numbers();
     views_without_cells_are_empty();
     views_stay_until_the_next_change();
-    changes_are_those_since_the_commit();
     return 0;
 }

@@ -118,7 +118,6 @@ static void a_clone_is_independent(uint32_t dimension) {
     deldrift_options options;
     deldrift_options_init(&options);
     options.algorithm = DELDRIFT_REBUILDING;
-    options.track_changes = 1;
     options.cancel = count_calls;
     options.user_data = &counter;
     deldrift_triangulation *t = make(dimension, &options), *clone = NULL;
@@ -142,14 +141,12 @@ static void a_clone_is_independent(uint32_t dimension) {
     OK(deldrift_commit_timestamp(t, NULL));
     check_same(t, clone);
     deldrift_changes others;
-    deldrift_indices_view created;
     OK(deldrift_take_changes(t, &changes));
     OK(deldrift_take_changes(clone, &others));
     CHECK(changes.created_count == others.created_count && changes.removed_count == others.removed_count);
     CHECK(changes.removed_count > 0);
     CHECK(memcmp(changes.created, others.created, changes.created_count * sizeof *changes.created) == 0);
-    OK(deldrift_changed_cells(clone, &created));
-    CHECK(created.count > 0);
+    CHECK(changes.created_count > 0);
     deldrift_destroy(t);
     OK(deldrift_validate(clone, 3));
     deldrift_destroy(clone);

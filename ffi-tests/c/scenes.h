@@ -11,8 +11,8 @@
 typedef struct {
     size_t n;
     uint32_t threads;
-    // Vertices at the same place; changes tracked, cells read, changes taken; a callback.
-    bool hides, tracks, reads, takes, asks;
+    // Vertices at the same place; cells read, changes taken; a callback.
+    bool hides, reads, takes, asks;
     // Vertices that have come and gone at once.
     bool edits;
     // Insertions, and as many removals, staged with the moves of a commit.
@@ -27,22 +27,22 @@ static const setting SETTINGS[] = {
     {.n = 60, .threads = 1},
     {.n = 60, .threads = 1, .reads = true, .warm = 2},
     {.n = 60, .threads = 1, .hides = true, .takes = true, .asks = true},
-    {.n = 60, .threads = 1, .tracks = true, .warm = 1},
+    {.n = 60, .threads = 1, .warm = 1},
     {.n = 60, .threads = 1, .hides = true, .reads = true, .takes = true, .stages = 3, .warm = 1},
-    {.n = 60, .threads = 1, .hides = true, .takes = true, .tracks = true, .stages = 16},
-    {.n = 60, .threads = 1, .hides = true, .tracks = true, .reads = true, .takes = true, .edits = true, .warm = 1},
+    {.n = 60, .threads = 1, .hides = true, .takes = true, .stages = 16},
+    {.n = 60, .threads = 1, .hides = true, .reads = true, .takes = true, .edits = true, .warm = 1},
     {.n = 100, .threads = 1, .is_hub = true},
-    {.n = 60, .threads = 1, .is_flat = true, .hides = true, .tracks = true, .takes = true, .stages = 5},
-    {.n = 60, .threads = 1, .flattens = true, .hides = true, .tracks = true, .takes = true, .warm = 1, .stages = 2},
+    {.n = 60, .threads = 1, .is_flat = true, .hides = true, .takes = true, .stages = 5},
+    {.n = 60, .threads = 1, .flattens = true, .hides = true, .takes = true, .warm = 1, .stages = 2},
     {.n = 3000, .threads = 2},
     {.n = 700, .threads = 3},
-    {.n = 700, .threads = 3, .hides = true, .tracks = true, .reads = true, .takes = true, .warm = 1, .stages = 16},
+    {.n = 700, .threads = 3, .hides = true, .reads = true, .takes = true, .warm = 1, .stages = 16},
 };
 enum { N_SETTINGS = sizeof SETTINGS / sizeof *SETTINGS };
 
 typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAGE_INSERTIONS, STAGE_REMOVALS, COMMIT,
     COMMIT_SOME, COMMIT_POSITIONS, COMPACT, TAKE_CHANGES, CELLS, COPY_CELLS, STAR, TOLERANCE, ANNULUS_WIDTHS,
-    DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CHANGED_CELLS, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
+    DELIMITER, LOCATE, LOCATE_POINTS, NEAREST, CIRCUMCENTRES, VOLUMES, MASK_BY_CIRCUMRADIUS,
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
@@ -54,7 +54,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_stage_removals", "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
     "deldrift_commit_positions", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
     "deldrift_star", "deldrift_tolerance", "deldrift_annulus_widths", "deldrift_standard_delimiter", "deldrift_locate",
-    "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_changed_cells", "deldrift_circumcentres",
+    "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
     "deldrift_volumes", "deldrift_mask_by_circumradius", "deldrift_mask_boundary", "deldrift_hull_facets",
     "deldrift_edges", "deldrift_vertex_neighbours", "deldrift_vertex_cells", "deldrift_mirror_indices",
     "deldrift_mirror_index", "deldrift_ordered_star", "deldrift_cells_around", "deldrift_cells_around, all",
@@ -127,7 +127,6 @@ static deldrift_options options_of(const scene *s) {
     deldrift_options_init(&options);
     options.algorithm = s->call.algorithm;
     options.threads = s->setting->threads;
-    options.track_changes = s->setting->tracks;
     options.cancel = s->setting->asks ? never : NULL;
     return options;
 }
@@ -260,7 +259,6 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     deldrift_commit_report report = {.timestamp = 77};
     deldrift_changes changes;
     deldrift_cells_view cells;
-    deldrift_indices_view indices;
     deldrift_location location;
     uint32_t out = 77;
     size_t count = 0;
@@ -310,7 +308,6 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case LOCATE: status = deldrift_locate(s->t, to, &location); break;
         case LOCATE_POINTS: status = deldrift_locate_points(s->t, to, 1, NULL, &location); break;
         case NEAREST: status = deldrift_nearest_vertex(s->t, to, &out); break;
-        case CHANGED_CELLS: status = deldrift_changed_cells(s->t, &indices); break;
         case CIRCUMCENTRES: status = deldrift_circumcentres(s->t, numbers_out, NULL, ROOM / 3, &count); break;
         case VOLUMES: status = deldrift_volumes(s->t, numbers_out, ROOM, &count); break;
         case MASK_BY_CIRCUMRADIUS: status = deldrift_mask_by_circumradius(s->t, 0.01, bytes_out, ROOM, &count); break;
@@ -402,7 +399,6 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case CELLS_AROUND:
         case CELLS_AROUND_ALL:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
-        case CHANGED_CELLS: *given = digest_of_cells(s->t, indices.indices, indices.count); break;
         case INTERPOLATE:
         case INTERPOLATE_NATURAL:
             // Its last bits depend on the order of cells.

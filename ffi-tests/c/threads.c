@@ -42,8 +42,6 @@ static void *read_everything(void *argument) {
     size_t widths = 0;
     OK(deldrift_annulus_widths(t, NULL, 0, &widths));
     CHECK(widths == 4 * view.count);
-    deldrift_indices_view changed;
-    OK(deldrift_changed_cells(t, &changed));
     OK(deldrift_validate(t, 2));
 
     // A message belongs to the thread whose call failed.
@@ -59,10 +57,7 @@ static void *read_everything(void *argument) {
 
 int main(void) {
     positions = random_positions(3, COUNT, 9);
-    deldrift_options options;
-    deldrift_options_init(&options);
-    options.track_changes = 1;
-    t = create(3, positions, COUNT, &options);
+    t = create(3, positions, COUNT, NULL);
     uint64_t state = 10;
     for (int round = 0; round < ROUNDS; round++) {
         pthread_t threads[THREADS];

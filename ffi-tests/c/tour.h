@@ -159,9 +159,6 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     note(cells.neighbours, n_cells * corners * sizeof *cells.neighbours);
     GO(deldrift_copy_cells(t, ids, more_ids, TOUR_ROOM / corners, &count));
     note(ids, count * corners * sizeof *ids);
-    deldrift_indices_view changed;
-    GO(deldrift_changed_cells(t, &changed));
-    note(changed.indices, changed.count * sizeof *changed.indices);
     GO(deldrift_validate(t, 1));
     GO(deldrift_validate(t, 2));
     GO(deldrift_validate(t, 3));
@@ -268,7 +265,6 @@ static void make_tour(const places *p, record *made) {
     DO(deldrift_options_init(&options));
     options.algorithm = p->algorithm;
     options.threads = p->threads;
-    options.track_changes = 1;
     options.cancel = tour_cancel;
     options.progress = tour_progress;
     const char *text = NULL;

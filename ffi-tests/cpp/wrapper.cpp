@@ -70,16 +70,14 @@ static void motion() {
 }
 
 static void queries() {
-    deldrift_options options = deldrift::default_options();
-    options.track_changes = 1;
-    Triangulation t(3, {0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.5, 0.5, 0.75}, options);
+    Triangulation t(3, {0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 4.0, 0.5, 0.5, 0.75});
     CHECK(t.dimension() == 3 && t.star(4).size() == 4 && t.memory_bytes() > 0);
     CHECK(t.locate_points(std::array<double, 6>{0.25, 0.5, 0.5, 9, 9, 9}).at(1).kind == DELDRIFT_LOCATION_OUTSIDE);
     CHECK(t.locate({0.25, 0.5, 0.5}).kind == DELDRIFT_LOCATION_CELL && t.nearest_vertex({0.5, 0.5, 1.0}) == 4);
-    CHECK(t.changed_cells().empty());
+    CHECK(t.take_changes().created_count == t.cell_count());
     t.move_vertex(4, {0.0, 0.0, 4.0});
     t.commit_timestamp();
-    CHECK(t.coincident_representative(4) == 3 && t.changed_cells().size() == 1);
+    CHECK(t.coincident_representative(4) == 3 && t.take_changes().created_count == 1);
     CHECK(t.algorithm() == DELDRIFT_AUTO);
     t.set_algorithm(DELDRIFT_PLACEMENT_FLIPS);
     CHECK(t.algorithm() == DELDRIFT_PLACEMENT_FLIPS);
@@ -177,7 +175,6 @@ static void failures_are_exceptions() {
     options.switch_share = 1.5;
     CHECK_THROWS(Triangulation(2, square, options), DELDRIFT_INVALID_OPTIONS, "options.switch_share is 1.5");
     CHECK_THROWS(t.star(9), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
-    CHECK_THROWS(t.changed_cells(), DELDRIFT_CHANGES_NOT_TRACKED, "track_changes");
     CHECK_THROWS(t.validate(9), DELDRIFT_INVALID_LEVEL, "level is 9");
     CHECK(t.timestamp() == 0 && t.staged_count() == 0);
 }

@@ -65,7 +65,6 @@ fn default_options() -> deldrift_options {
         algorithm: 0,
         threads: 1,
         coincidence: 0,
-        track_changes: 0,
         cancel: None,
         progress: None,
         user_data: null_mut(),

@@ -71,8 +71,6 @@ pub struct deldrift_options {
     pub threads: u32,
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     pub coincidence: CoincidenceCode,
-    /// 1 keeps what deldrift_changed_cells needs, at some cost for each commit; 0, the default, does not.
-    pub track_changes: u32,
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -105,7 +103,6 @@ impl deldrift_options {
         algorithm: 0,
         threads: 0,
         coincidence: 0,
-        track_changes: 0,
         cancel: None,
         progress: None,
         user_data: ptr::null_mut(),
@@ -116,11 +113,10 @@ impl deldrift_options {
     };
 
     /// Where a `struct_size` may end: behind any field.
-    const ENDS: [usize; 12] = [
+    const ENDS: [usize; 11] = [
         size_of::<usize>(),
         offset_of!(deldrift_options, threads),
         offset_of!(deldrift_options, coincidence),
-        offset_of!(deldrift_options, track_changes),
         offset_of!(deldrift_options, cancel),
         offset_of!(deldrift_options, progress),
         offset_of!(deldrift_options, user_data),
@@ -138,17 +134,11 @@ impl deldrift_options {
             1 => CoincidencePolicy::Reject,
             other => return Err(invalid("options.coincidence", other, "a deldrift_coincidence")),
         };
-        let track_changes = match self.track_changes {
-            0 => false,
-            1 => true,
-            other => return Err(invalid("options.track_changes", other, "0 or 1")),
-        };
         let algorithm = algorithm("options.algorithm", self.algorithm)?;
         Ok(Options {
             algorithm,
             threads: self.threads,
             coincidence,
-            track_changes,
             switching: self.switching()?,
             monitor: self.callbacks().monitor()?,
         })

@@ -32,16 +32,6 @@ pub struct deldrift_cells_view {
     pub neighbours: *const u32,
 }
 
-/// A list of cell indices that belongs to the triangulation, valid until the next call that changes it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct deldrift_indices_view {
-    /// Number of indices.
-    pub count: usize,
-    /// The indices, in ascending order. NULL if there are none.
-    pub indices: *const u32,
-}
-
 /// The cells, without a copy, to *view.
 ///
 /// The first call of all makes the arrays. They are kept: the first call after a change brings them up
@@ -213,25 +203,6 @@ pub unsafe extern "C" fn deldrift_standard_delimiter(
             tolerance.write(delimiter.tolerance);
         });
         Ok(())
-    })
-}
-
-/// The cells of now that did not exist before the latest commit, to *view, as indices into
-/// deldrift_cells. Cells that immediate calls have made since that commit are among them; before the
-/// first commit there are none. Needs track_changes in the options.
-///
-/// Cost: what has changed.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_CHANGES_NOT_TRACKED, DELDRIFT_OUT_OF_MEMORY.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn deldrift_changed_cells(
-    t: *const deldrift_triangulation,
-    view: *mut deldrift_indices_view,
-) -> deldrift_status {
-    given!(t: Reading, view: Output);
-    tell!(t, view => {
-        let changed = CellId::numbers_of(t.changed_cells()?);
-        deldrift_indices_view { count: changed.len(), indices: start_of(changed) }
     })
 }
 

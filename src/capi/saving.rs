@@ -91,7 +91,7 @@ fn fill_front<'b>(buffer: &'b mut [MaybeUninit<u8>], bytes: &[u8]) -> &'b mut [M
 ///
 /// The triangulation is as the one that was saved, cells with their indices included, and gives the same cells after
 /// the same calls; those cells that are new then may have other indices. It has given no changes yet: the first
-/// deldrift_take_changes lists all cells as created, and deldrift_changed_cells none before the next commit. Like one
+/// deldrift_take_changes lists all cells as created. Like one
 /// whose cells have been read, it keeps the arrays of deldrift_cells.
 ///
 /// data: size bytes, with any alignment, read during the call only. options: they are not

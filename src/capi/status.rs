@@ -56,33 +56,31 @@ pub enum deldrift_status {
     DELDRIFT_OUT_OF_MEMORY = 17,
     /// The cancel callback returned true.
     DELDRIFT_CANCELLED = 18,
-    /// Changed cells were asked for, but the options did not ask to track them.
-    DELDRIFT_CHANGES_NOT_TRACKED = 19,
     /// deldrift_validate found something wrong; the message says what.
-    DELDRIFT_INVALID = 20,
+    DELDRIFT_INVALID = 19,
     /// A callback, or another thread, used a triangulation while a call was changing it.
-    DELDRIFT_BUSY = 21,
+    DELDRIFT_BUSY = 20,
     /// An earlier call on this triangulation ended in DELDRIFT_INTERNAL_ERROR while changing it. It can only
     /// be destroyed.
-    DELDRIFT_POISONED = 22,
+    DELDRIFT_POISONED = 21,
     /// A defect of the library; please report the message.
-    DELDRIFT_INTERNAL_ERROR = 23,
+    DELDRIFT_INTERNAL_ERROR = 22,
     /// There is no cell of this index, or cells have no corner of this number.
-    DELDRIFT_NO_SUCH_FACET = 24,
+    DELDRIFT_NO_SUCH_FACET = 23,
     /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
-    DELDRIFT_NO_DELIMITER = 25,
+    DELDRIFT_NO_DELIMITER = 24,
     /// A number has no meaning for its argument, as a negative squared radius.
-    DELDRIFT_INVALID_VALUE = 26,
+    DELDRIFT_INVALID_VALUE = 25,
     /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
     /// later version; the message says what is wrong, and where.
-    DELDRIFT_INVALID_DATA = 27,
+    DELDRIFT_INVALID_DATA = 26,
     /// The system cannot read or write a file; the message has the path, and what the system says.
-    DELDRIFT_IO_ERROR = 28,
+    DELDRIFT_IO_ERROR = 27,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
-    DELDRIFT_INVALID_FIELD = 29,
+    DELDRIFT_INVALID_FIELD = 28,
     /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
     /// and it can be neither moved with that commit nor removed twice. The message says which.
-    DELDRIFT_STAGED_VERTEX = 30,
+    DELDRIFT_STAGED_VERTEX = 29,
 }
 
 use deldrift_status::*;
@@ -92,7 +90,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 31] = [
+    const ALL: [deldrift_status; 30] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -112,7 +110,6 @@ impl deldrift_status {
         DELDRIFT_TOO_MANY_CELLS,
         DELDRIFT_OUT_OF_MEMORY,
         DELDRIFT_CANCELLED,
-        DELDRIFT_CHANGES_NOT_TRACKED,
         DELDRIFT_INVALID,
         DELDRIFT_BUSY,
         DELDRIFT_POISONED,
@@ -147,7 +144,6 @@ impl deldrift_status {
             DELDRIFT_TOO_MANY_CELLS => c"too many cells",
             DELDRIFT_OUT_OF_MEMORY => c"out of memory",
             DELDRIFT_CANCELLED => c"cancelled by the callback",
-            DELDRIFT_CHANGES_NOT_TRACKED => c"changes are not tracked",
             DELDRIFT_INVALID => c"the triangulation violates an invariant",
             DELDRIFT_BUSY => c"the triangulation is being changed",
             DELDRIFT_POISONED => c"an internal error has made the triangulation unusable",
@@ -269,7 +265,6 @@ impl Failure {
                 Error::TooManyCells { .. } => DELDRIFT_TOO_MANY_CELLS,
                 Error::OutOfMemory { .. } => DELDRIFT_OUT_OF_MEMORY,
                 Error::Cancelled => DELDRIFT_CANCELLED,
-                Error::ChangesNotTracked => DELDRIFT_CHANGES_NOT_TRACKED,
             },
         }
     }

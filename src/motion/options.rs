@@ -74,8 +74,6 @@ pub struct Options {
     pub threads: u32,
     /// Coincident vertices.
     pub coincidence: CoincidencePolicy,
-    /// Keep what [`changed_cells`](super::MovingTriangulation::changed_cells) needs.
-    pub track_changes: bool,
     /// Rule of [`Algorithm::RebuildingTolerance`].
     pub switching: SwitchingRule,
     /// Progress and cancellation, of creation, loading, commits, and immediate calls that take long.
@@ -88,7 +86,6 @@ impl fmt::Debug for Options {
             .field("algorithm", &self.algorithm)
             .field("threads", &self.threads)
             .field("coincidence", &self.coincidence)
-            .field("track_changes", &self.track_changes)
             .field("switching", &self.switching)
             .field("monitor", &self.monitor.is_some())
             .finish()
@@ -103,9 +100,7 @@ mod tests {
     fn options_are_shown_by_name() {
         let options = Options { monitor: Some(Box::new(|_| true)), ..Options::default() };
         let shown = format!("{options:?}");
-        for part in
-            ["algorithm: Auto", "threads: 0", "coincidence: Merge", "track_changes: false", "monitor: true"]
-        {
+        for part in ["algorithm: Auto", "threads: 0", "coincidence: Merge", "monitor: true"] {
             assert!(shown.contains(part), "{shown}");
         }
     }

@@ -1,5 +1,6 @@
 //! A triangulation with everything that it should say about itself: random histories, checked step by step.
 
+use super::carried::{self, List};
 use super::exact::{Grid, orientation, representatives, squared_distance};
 use super::inputs::{Kind, QUANTUM, draw, draw_one, quantized, to_grid};
 use super::{
@@ -56,8 +57,8 @@ pub struct History<G: Dimension> {
     /// Positions by id at the timestamp; `None` once removed.
     pub positions: Vec<Option<G::Point>>,
     staged: BTreeMap<VertexId, G::Point>,
-    /// Cells when the latest commit began.
-    baseline: Option<CellSet>,
+    /// Cells when the changes were last taken.
+    baseline: CellSet,
     timestamp: u64,
     kind: Kind,
     name: String,
@@ -75,11 +76,11 @@ impl<G: Dimension> History<G> {
     }
 
     pub fn of(points: Vec<G::Point>, kind: Kind, name: String, rng: Rng) -> Self {
-        let options = Options { track_changes: true, ..Options::default() };
-        let t = MovingTriangulation::new(&points, options).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let t = MovingTriangulation::new(&points, Options::default())
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
         let positions = points.into_iter().map(Some).collect();
         let (staged, log) = (BTreeMap::new(), Vec::new());
-        History { t, positions, staged, baseline: None, timestamp: 0, kind, name, log, rng }
+        History { t, positions, staged, baseline: CellSet::new(), timestamp: 0, kind, name, log, rng }
     }
 
     pub fn context(&self) -> String {
@@ -134,7 +135,6 @@ impl<G: Dimension> History<G> {
         self.log.push(format!("commit {} moves by {algorithm:?}", self.staged.len()));
         assert_eq!(self.t.staged_count(), self.staged.len(), "{}", self.context());
         self.t.set_algorithm(algorithm);
-        self.baseline = Some(cell_set(&self.t));
         let committed = self.t.commit_timestamp();
         let report = self.expect(committed);
         let mut moved = 0;
@@ -156,7 +156,7 @@ impl<G: Dimension> History<G> {
     pub fn replace(&mut self, t: MovingTriangulation<G>, knows_changes: bool) -> MovingTriangulation<G> {
         self.log.push(format!("replaced, knows changes: {knows_changes}"));
         if !knows_changes {
-            self.baseline = None;
+            self.baseline.clear();
         }
         std::mem::replace(&mut self.t, t)
     }
@@ -308,16 +308,19 @@ impl<G: Dimension> History<G> {
         }
     }
 
-    fn check_changes(&self) {
-        let changed = self.expect(self.t.changed_cells());
+    fn check_changes(&mut self) {
+        let taken = carried::take(&mut self.t);
+        let List { created, removed_corners, .. } = self.expect(taken);
         let corners = self.t.cells().expect("room").corners;
-        let found: CellSet = changed.iter().map(|&c| sorted(corners[c].as_ref())).collect();
-        let expected = match &self.baseline {
-            None => CellSet::new(),
-            Some(baseline) => cell_set(&self.t).difference(baseline).cloned().collect(),
-        };
-        assert_same_cells(&found, &expected, || format!("changed cells, {}", self.context()));
-        assert!(changed.is_sorted_by(|a, b| a < b), "{}", self.context());
+        let created_cells: CellSet = created.iter().map(|&c| sorted(corners[c].as_ref())).collect();
+        let removed_cells: CellSet = removed_corners.iter().map(|row| sorted(row)).collect();
+        let now = cell_set(&self.t);
+        let difference = |of: &CellSet, from: &CellSet| of.difference(from).cloned().collect();
+        let context = |what| format!("{what} cells, {}", self.context());
+        assert_same_cells(&created_cells, &difference(&now, &self.baseline), || context("created"));
+        assert_same_cells(&removed_cells, &difference(&self.baseline, &now), || context("removed"));
+        assert!(created.is_sorted_by(|a, b| a < b), "{}", self.context());
+        self.baseline = now;
     }
 
     fn check_stars(&mut self) {

@@ -2,7 +2,7 @@
 
 use super::super::tally;
 use super::called::{c, note};
-use super::model::{NONE, Place, Row, sorted};
+use super::model::{NONE, Place, Row};
 use super::places::Motion;
 use super::{ALGORITHMS, Carried, History, flattened, options};
 use deldrift::capi::deldrift_status::*;
@@ -186,7 +186,6 @@ impl History<'_> {
     /// The model after a commit, and what the report must say.
     fn committed(&mut self, after: Vec<Option<Place>>, report: &deldrift_commit_report) {
         tally::COMMITS.add(1);
-        self.baseline = Some(self.wanted_cells().to_vec());
         let pairs = self.m.positions.iter().zip(&after);
         let moved = pairs.filter(|(old, new)| old.is_some() && new.is_some() && old != new).count();
         self.fresh = None;
@@ -271,10 +270,6 @@ impl History<'_> {
         self.m.leaving = self.m.leaving.iter().map(|&v| new(v)).collect();
         self.carried.rows.iter_mut().for_each(|r| *r = row(r));
         self.carried.hidden = self.carried.hidden.iter().map(|&v| new(v)).filter(|&v| v != NONE).collect();
-        if let Some(rows) = &mut self.baseline {
-            rows.iter_mut().for_each(|r| *r = sorted(row(r)));
-            rows.sort_unstable();
-        }
         self.fresh = None;
     }
 
@@ -305,7 +300,7 @@ impl History<'_> {
                 return;
             }
             self.options = options;
-            (self.baseline, self.carried) = (None, Carried::default());
+            self.carried = Carried::default();
         }
         let (kept, gone) = if way == 0 && self.s.below(2) == 0 { (t, other) } else { (other, t) };
         self.t = kept;

@@ -243,24 +243,6 @@ impl History<'_> {
         self.carried = Carried { rows: now, hidden: all };
     }
 
-    /// The cells that were not there before the latest commit.
-    pub(super) fn check_changed_cells(&mut self) {
-        let t = self.t;
-        let mut view = deldrift_indices_view { count: 0, indices: null() };
-        if self.options.track_changes == 0 {
-            self.expect(DELDRIFT_CHANGES_NOT_TRACKED, || c!(deldrift_changed_cells(t, &mut view)));
-            return;
-        }
-        self.ok(|| c!(deldrift_changed_cells(t, &mut view)));
-        let found = slice(view.indices, view.count);
-        let (rows, _) = self.cells();
-        let is_new =
-            |row: &Row| self.baseline.as_ref().is_some_and(|old| old.binary_search(&sorted(*row)).is_err());
-        let wanted: Vec<u32> =
-            (0..).zip(&rows).filter(|(_, row)| is_new(row)).map(|(cell, _)| cell).collect();
-        assert_eq!(found, wanted, "changed cells");
-    }
-
     /// Whether the positions that would come of a commit are refused.
     pub(super) fn is_rejected(&self, positions: &[Option<Place>]) -> bool {
         self.options.coincidence == 1 && Model::has_coincidence(positions)

@@ -103,8 +103,6 @@ struct History<'a> {
     cancel_after: Option<u32>,
     /// The cells of a fresh build, sorted, unless positions have changed since.
     fresh: Option<Vec<Row>>,
-    /// The cells before the latest commit.
-    baseline: Option<Vec<Row>>,
     carried: Carried,
     /// Whether cells are compared with the definition at the end.
     proves: bool,
@@ -132,7 +130,6 @@ fn options(s: &mut Source, callback: &Callback) -> deldrift_options {
         algorithm: s.pick(&ALGORITHMS),
         threads: u32::from(flags >> 2 & 3),
         coincidence: u32::from(flags & 0x70 == 0),
-        track_changes: u32::from(flags >> 7),
         cancel: asks.then_some(cancel as unsafe extern "C" fn(*mut c_void) -> bool),
         progress: tells.then_some(progress as unsafe extern "C" fn(*mut c_void, f64)),
         user_data: std::ptr::from_ref(callback).cast_mut().cast(),
@@ -175,7 +172,6 @@ impl<'a> History<'a> {
             fault: None,
             cancel_after: None,
             fresh: None,
-            baseline: None,
             carried: Carried::default(),
             proves: flags & 0x3e == 0 && n < 60,
         };

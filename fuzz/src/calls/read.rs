@@ -23,8 +23,7 @@ impl History<'_> {
             5 => self.locate(),
             6 => self.locate_points(),
             7 => self.nearest(),
-            8 => self.check_changed_cells(),
-            9 => self.position(),
+            8 | 9 => self.position(),
             10 => self.strings(),
             _ => {
                 let (t, level) = (self.t, 1 + self.s.below(3) as u32);

@@ -154,7 +154,6 @@ impl History<'_> {
             0 => options.struct_size = self.s.pick(&[0, 1, 9, 4097, usize::MAX]),
             1 => options.algorithm = self.s.pick(&[5, 15, 20, 999, 1002, u32::MAX]),
             2 => options.coincidence = 2,
-            3 => options.track_changes = 2,
             _ => options.switch_share = self.s.pick(&[f64::NAN, -0.5, 1.5]),
         }
         let wanted = DELDRIFT_INVALID_OPTIONS;

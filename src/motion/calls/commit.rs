@@ -43,7 +43,6 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Makes these moves, and the staged edits, the next timestamp.
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
-        self.prepare_tracking()?;
         let mut report = CommitReport::default();
         let before = self.mesh.evaluations();
         self.mesh.begin()?;
@@ -52,7 +51,6 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.undo();
             return Err(error);
         }
-        self.mesh.views.begin_commit();
         self.mesh.publish();
         self.enter_evaluations(&mut report, before);
         self.end_edits();

@@ -25,8 +25,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// alone. Returns the new id of each old one, [`NO_VERTEX`](crate::motion::NO_VERTEX) for vertices that have been removed.
     ///
     /// All else stays: positions, cells with their indices in [`cells`](Self::cells), what is staged, the timestamp.
-    /// [`changed_cells`](Self::changed_cells) and [`take_changes`](Self::take_changes) go on as they would have, with
-    /// vertices under their new ids.
+    /// [`take_changes`](Self::take_changes) goes on as it would have, with vertices under their new ids.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, NO_VERTEX, Options}};

@@ -1,8 +1,8 @@
 //! What programs read: the cells, and what has changed.
 
 use crate::delaunay::Dimension;
-use crate::error::{Error, Result};
-use crate::ids::{CellId, SiteId, VertexId};
+use crate::error::Result;
+use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::changes::{Changes, Taken};
@@ -28,7 +28,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`].
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn cells(&self) -> Result<CellsView<'_, G>> {
         let cells = self.cell_arrays()?;
         Ok(CellsView { corners: cells.corners(), neighbours: cells.neighbours() })
@@ -36,26 +36,6 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     pub(in crate::motion) fn cell_arrays(&self) -> Result<&Cells<G>> {
         self.mesh.views.cells(&self.mesh.kernel)
-    }
-
-    /// Indices, ascending, of the finite cells that did not exist when the latest commit began: of none before the
-    /// first one since it was made or loaded. Immediate relocations, insertions and removals since then count.
-    ///
-    /// # Errors
-    /// [`Error::ChangesNotTracked`] unless the options ask for it, [`Error::OutOfMemory`].
-    pub fn changed_cells(&self) -> Result<&[CellId]> {
-        if !self.options.track_changes {
-            return Err(Error::ChangesNotTracked);
-        }
-        self.mesh.views.changed(&self.mesh.kernel, Cells::list_created)
-    }
-
-    /// Gets ready to track what a commit changes, if the options ask for it.
-    pub(in crate::motion) fn prepare_tracking(&mut self) -> Result<()> {
-        if !self.options.track_changes {
-            return Ok(());
-        }
-        self.mesh.views.cells_mut(&self.mesh.kernel)?.track_commit()
     }
 
     /// What has changed since this was last called: everything, as created, at the first call. Commits and immediate

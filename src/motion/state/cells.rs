@@ -58,10 +58,6 @@ pub(in crate::motion) struct Cells<G: Dimension> {
     is_settled: Bits,
     /// What has changed since the program last took the changes, if it ever did.
     since_taken: Option<Tracker<G::Vertices>>,
-    /// What has changed since the latest commit began, if that is tracked.
-    since_commit: Option<Tracker<G::Vertices>>,
-    /// Whether the commit of `since_commit` has succeeded: the tracker may be there from a first one that failed.
-    has_committed: bool,
     scratch: Scratch<G::Vertices>,
 }
 
@@ -121,8 +117,6 @@ impl<G: Dimension> Default for Cells<G> {
             orderings: Vec::new(),
             is_settled: Bits::default(),
             since_taken: None,
-            since_commit: None,
-            has_committed: false,
             scratch: Scratch::default(),
         }
     }
@@ -189,31 +183,6 @@ impl<G: Dimension> Cells<G> {
             }
         }
         mirrors
-    }
-
-    /// Tracks what changes from now on, which is when a commit begins.
-    pub(in crate::motion) fn track_commit(&mut self) -> Result<()> {
-        if self.since_commit.is_none() {
-            self.since_commit = Some(Tracker::of(self.corners.len())?);
-        }
-        Ok(())
-    }
-
-    /// A commit begins: if its changes are tracked, the cells of now are their base.
-    pub(in crate::motion) fn begin_commit(&mut self) {
-        if let Some(tracker) = &mut self.since_commit {
-            tracker.reset();
-            self.has_committed = true;
-        }
-    }
-
-    /// Lists, ascending, the cells created since the latest commit began, if that is tracked; none before the first.
-    pub(in crate::motion) fn list_created(&self) -> Result<Vec<CellId>> {
-        let mut created = Vec::new();
-        if let Some(tracker) = self.since_commit.as_ref().filter(|_| self.has_committed) {
-            tracker.list_created(&self.corners, &mut created)?;
-        }
-        Ok(created)
     }
 
     /// Lists what has changed since this was last [ended](Self::end_taking): everything, as created, if it never was.
@@ -304,7 +273,7 @@ impl<G: Dimension> Cells<G> {
         memory::reserve_sparingly(&mut self.index_of, more_slots)?;
         let (n_lost, n_found) = (scratch.lost.len(), scratch.found.len());
         memory::reserve(&mut scratch.moved, n_lost)?;
-        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
+        if let Some(tracker) = &mut self.since_taken {
             tracker.reserve(n_lost, scratch.turned.len(), n_lost + n_found, n)?;
         }
         Ok(())
@@ -332,8 +301,6 @@ impl<G: Dimension> Cells<G> {
             slots: memory::copy_of(&self.slots)?,
             orderings: memory::copy_of(&self.orderings)?,
             since_taken: self.since_taken.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
-            since_commit: self.since_commit.as_ref().map(|tracker| tracker.renumbered(ids)).transpose()?,
-            has_committed: self.has_committed,
             ..Cells::default()
         };
         memory::reserve_exact(&mut cells.index_of, n_slots)?;
@@ -355,8 +322,6 @@ impl<G: Dimension> Cells<G> {
             slots: memory::copy_of(&self.slots)?,
             orderings: memory::copy_of(&self.orderings)?,
             since_taken: self.since_taken.as_ref().map(Tracker::copied).transpose()?,
-            since_commit: self.since_commit.as_ref().map(Tracker::copied).transpose()?,
-            has_committed: self.has_committed,
             ..Cells::default()
         })
     }
@@ -379,7 +344,6 @@ impl<G: Dimension> Cells<G> {
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
-        let trackers = [&self.since_taken, &self.since_commit].into_iter().flatten();
         memory::bytes_of(&self.corners)
             + memory::bytes_of(&self.neighbours)
             + memory::bytes_of(&self.index_of)
@@ -387,6 +351,6 @@ impl<G: Dimension> Cells<G> {
             + self.orderings.capacity()
             + self.is_settled.memory_bytes()
             + self.scratch.memory_bytes()
-            + trackers.map(Tracker::memory_bytes).sum::<usize>()
+            + self.since_taken.as_ref().map_or(0, Tracker::memory_bytes)
     }
 }

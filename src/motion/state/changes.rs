@@ -43,28 +43,22 @@ struct Turned<C> {
 }
 
 impl<C: Corners<VertexId>> Tracker<C> {
-    /// A tracker whose base are `n` cells of now.
-    pub(in crate::motion) fn of(n: usize) -> Result<Self> {
+    /// A tracker whose base has no cells, while there are `n`.
+    pub(in crate::motion) fn of_none(n: usize) -> Result<Self> {
         let mut origin = Vec::new();
         memory::reserve_exact(&mut origin, n)?;
-        origin.extend(CellId::range(0..n));
+        origin.resize(n, CellId::NONE);
+        let mut touched = Marks::default();
+        touched.reserve(n, n)?;
+        CellId::range(0..n).for_each(|index| touched.insert(index));
         Ok(Tracker {
             origin,
-            touched: Marks::default(),
+            touched,
             removed: Vec::new(),
             n_refreshed: 0,
             n_renumbered: 0,
             turned: Vec::new(),
         })
-    }
-
-    /// A tracker whose base has no cells.
-    pub(in crate::motion) fn of_none(n: usize) -> Result<Self> {
-        let mut tracker = Self::of(n)?;
-        tracker.touched.reserve(n, n)?;
-        CellId::range(0..n).for_each(|index| tracker.touched.insert(index));
-        tracker.origin.fill(CellId::NONE);
-        Ok(tracker)
     }
 
     /// Makes room for these numbers of removals, cells turned over, touched indices, and cells.
@@ -187,14 +181,6 @@ impl<C: Corners<VertexId>> Tracker<C> {
             n_renumbered: self.n_renumbered,
             turned: memory::copy_of(&self.turned)?,
         })
-    }
-
-    /// Lists, ascending, the cells that are not among those of the base.
-    pub(in crate::motion) fn list_created(&self, corners: &[C], created: &mut Vec<CellId>) -> Result<()> {
-        let removed = self.sorted_removed()?;
-        *created = self.touched.sorted()?;
-        created.retain(|&index| self.origin_of(index, corners, &removed) == Some((CellId::NONE, None)));
-        Ok(())
     }
 
     /// The index at the base of a cell, [`CellId::NONE`] if it is new, and which of the removed ones it is if it has

@@ -126,13 +126,6 @@ impl<I: Id> Marks<I> {
         self.list = list;
     }
 
-    /// The numbers, ascending.
-    pub(in crate::motion) fn sorted(&self) -> Result<Vec<I>> {
-        let mut list = memory::copy_of(&self.list)?;
-        self.put_in_order(&mut list);
-        Ok(list)
-    }
-
     pub(in crate::motion) fn clear(&mut self) {
         for k in self.list.drain(..) {
             self.bits.clear_around(k);
@@ -173,7 +166,6 @@ mod tests {
             expected.sort_unstable();
             expected.dedup();
             assert_eq!((expected.len(), marks.as_slice().len()), (1_009, 1_009));
-            assert_eq!(marks.sorted().expect("room"), expected, "below {n}");
             marks.sort();
             assert_eq!(marks.as_slice(), expected, "below {n}");
             assert!(

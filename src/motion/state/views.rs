@@ -10,7 +10,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
-use crate::ids::{CellId, Slot, VertexId};
+use crate::ids::{Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::state::cells::{Cells, are_most};
 use crate::motion::state::marks::Marks;
@@ -45,18 +45,12 @@ impl<G: Dimension> Default for Behind<G> {
 pub(in crate::motion) struct Views<G: Dimension> {
     current: OnceLock<Box<Cells<G>>>,
     behind: Mutex<Behind<G>>,
-    changed: OnceLock<Vec<CellId>>,
     visibilities: Visibilities,
 }
 
 impl<G: Dimension> Default for Views<G> {
     fn default() -> Self {
-        Views {
-            current: OnceLock::new(),
-            behind: Mutex::default(),
-            changed: OnceLock::new(),
-            visibilities: Visibilities::default(),
-        }
+        Views { current: OnceLock::new(), behind: Mutex::default(), visibilities: Visibilities::default() }
     }
 }
 
@@ -166,7 +160,6 @@ impl<G: Dimension> Views<G> {
 
     /// The arrays are not up to date any more.
     fn fall_behind(&mut self) {
-        self.changed.take();
         if let Some(cells) = self.current.take() {
             self.behind().cells = Some(cells);
         }
@@ -224,39 +217,9 @@ impl<G: Dimension> Views<G> {
         Ok(())
     }
 
-    /// From now on changes are since this commit: the arrays have been up to date when it began.
-    pub(in crate::motion) fn begin_commit(&mut self) {
-        self.changed.take();
-        let cells = match self.current.get_mut() {
-            Some(cells) => Some(cells),
-            None => self.behind.get_mut().unwrap_or_else(PoisonError::into_inner).cells.as_mut(),
-        };
-        if let Some(cells) = cells {
-            cells.begin_commit();
-        }
-    }
-
     /// Vertices hidden or shown since the program last took the changes.
     pub(in crate::motion) fn visibilities(&mut self) -> &mut Visibilities {
         &mut self.visibilities
-    }
-
-    /// The indices of the cells created since the latest commit began, as `list` lists them if they are not listed yet.
-    pub(in crate::motion) fn changed(
-        &self,
-        kernel: &Delaunay<G>,
-        list: impl FnOnce(&Cells<G>) -> Result<Vec<CellId>>,
-    ) -> Result<&[CellId]> {
-        if let Some(changed) = self.changed.get() {
-            return Ok(changed);
-        }
-        let cells = self.cells(kernel)?;
-        let _alone = self.lock();
-        if let Some(changed) = self.changed.get() {
-            return Ok(changed);
-        }
-        let changed = list(cells)?;
-        Ok(self.changed.get_or_init(|| changed))
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {
@@ -264,7 +227,6 @@ impl<G: Dimension> Views<G> {
         let kept = self.current.get().or(behind.cells.as_ref());
         behind.dirty.memory_bytes()
             + kept.map_or(0, |cells| cells.memory_bytes() + size_of::<Cells<G>>())
-            + self.changed.get().map_or(0, |changed| changed.capacity() * 4)
             + self.visibilities.memory_bytes()
     }
 }

@@ -90,11 +90,11 @@ impl<G: Dimension> Cells<G> {
         memory::reserve(orderings, more_orderings)?;
         index_of.clear();
         memory::reserve(index_of, n_slots)?;
-        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
+        if let Some(tracker) = &mut self.since_taken {
             tracker.reserve(0, 0, n, n)?;
         }
         // From here on nothing fails.
-        for tracker in [&mut self.since_taken, &mut self.since_commit].into_iter().flatten() {
+        if let Some(tracker) = &mut self.since_taken {
             CellId::range(0..n).for_each(|index| tracker.create(index));
         }
         index_of.resize(n_slots, NO_CELL);

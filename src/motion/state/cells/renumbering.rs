@@ -31,10 +31,12 @@ impl<G: Dimension> Cells<G> {
         self.tell(|tracker| tracker.truncate(n));
     }
 
-    /// Tells all trackers of changes.
+    /// Tells the tracker of changes, if there is one.
     #[inline(always)]
-    fn tell(&mut self, event: impl Fn(&mut Tracker<G::Vertices>)) {
-        [&mut self.since_taken, &mut self.since_commit].into_iter().flatten().for_each(event);
+    fn tell(&mut self, event: impl FnOnce(&mut Tracker<G::Vertices>)) {
+        if let Some(tracker) = &mut self.since_taken {
+            event(tracker);
+        }
     }
 
     /// A slot no longer holds the cell of this index, unless it holds another one already.
