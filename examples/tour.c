@@ -193,7 +193,10 @@ int main(void) {
     uint32_t dimension;
     size_t bytes;
     deldrift_triangulation *t;
-    check(deldrift_create(2, positions, VERTICES, NULL, &t));
+    deldrift_options options;
+    deldrift_options_init(&options);
+    options.threads = 1;  // more would not pay for so few
+    check(deldrift_create(2, positions, VERTICES, &options, &t));
     change_one_at_a_time(t);
     ask_for_places(t);
     ask_for_geometry(t);
