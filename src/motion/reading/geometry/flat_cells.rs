@@ -6,6 +6,8 @@
 //! vertices alone, so it holds no other vertex: these cells are a Delaunay triangulation of the vertices in their
 //! hyperplane. What is said of the further places is left out.
 
+use std::array::from_fn;
+
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
@@ -20,16 +22,16 @@ use crate::motion::reading::geometry::voronoi::Progress;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::sign_of_cross;
 
-/// Axes along which places are moved from the first one of a set to make it span the dimension.
-fn missing_axes<G: Dimension>(places: &[Vector]) -> Vec<usize> {
+/// Whether places are moved along each axis from the first one of a set to make it span the dimension.
+fn missing_axes<G: Dimension>(places: &[Vector]) -> [bool; 3] {
     let first = &places[0];
-    let Some(second) = places.iter().find(|p| *p != first) else { return Vec::new() };
+    let Some(second) = places.iter().find(|p| *p != first) else { return [false; 3] };
     let normal = |p: &Vector| (0..3).find(|&axis| sign_of_cross([first, second, p], axis) != 0);
     match if G::D == 3 { places.iter().find_map(normal) } else { None } {
-        Some(axis) => vec![axis],
+        Some(missing) => from_fn(|axis| axis == missing),
         None => {
             let along = (0..G::D).find(|&axis| first[axis] != second[axis]).expect("other places");
-            (0..G::D).filter(|&axis| axis != along).collect()
+            from_fn(|axis| axis < G::D && axis != along)
         }
     }
 }
@@ -40,7 +42,8 @@ fn spanning<G: Dimension>(mut places: Vec<G::Point>) -> Result<Vec<G::Point>> {
     memory::collect(&mut in_space_all, places.iter().map(in_space::<G>))?;
     let size = in_space_all.iter().fold(0.0f64, |most, p| most.max(greatest(p)));
     let step = if size > 0.0 { size } else { 1.0 };
-    for axis in missing_axes::<G>(&in_space_all) {
+    let is_missing = missing_axes::<G>(&in_space_all);
+    for axis in (0..G::D).filter(|&axis| is_missing[axis]) {
         let mut place = places[0];
         place[axis] -= step.copysign(place[axis]);
         memory::push(&mut places, place)?;
