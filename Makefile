@@ -123,7 +123,7 @@ lint: ## format, clippy, documentation, freshness of the header
 	RUSTDOCFLAGS=-Dwarnings cargo doc --no-deps
 	cargo test --test ffi header
 
-header: ## include/deldrift.h, from the sources in src/capi, docs/FUNCTIONS.md and docs/ABUSE.md
+header: ## include/deldrift.h and deldrift/research.h, from the sources in src/capi, docs/FUNCTIONS.md and docs/ABUSE.md
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi header_is_what_the_sources_say
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi table_of_functions
 	DELDRIFT_UPDATE_HEADER=1 cargo test --test ffi abuse
@@ -146,6 +146,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	cmake --build build/examples
 	build/examples/solver docs/solver.svg
 	build/examples/tour
+	build/examples/comparison
 	build/examples/heat 4000 100 docs/heat.svg
 	build/examples/smoothing 60 docs/smoothing.svg
 	build/examples/densities 1225 docs/densities.svg

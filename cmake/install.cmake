@@ -8,15 +8,15 @@ if(PROJECT_VERSION_MAJOR EQUAL 0)
   set(compatibility SameMinorVersion)
 endif()
 
-# Without debug information, and with no other symbols than those of the header.
+# Without debug information, and with no other symbols than those of the headers.
 set(stripped "${PROJECT_BINARY_DIR}/stripped")
 add_custom_command(OUTPUT "${stripped}/libdeldrift.so" "${stripped}/libdeldrift.a"
   COMMAND "${CMAKE_COMMAND}" "-DFROM=${libraries}" "-DTO=${stripped}"
-          "-DHEADER=${PROJECT_SOURCE_DIR}/include/deldrift.h"
+          "-DHEADERS=${PROJECT_SOURCE_DIR}/include"
           "-DSTRIP=${CMAKE_STRIP}" "-DLINKER=${CMAKE_LINKER}" "-DOBJCOPY=${CMAKE_OBJCOPY}" "-DAR=${CMAKE_AR}"
           -P "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
   DEPENDS "${libraries}/libdeldrift.so" "${libraries}/libdeldrift.a" "${PROJECT_SOURCE_DIR}/include/deldrift.h"
-          "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
+          "${PROJECT_SOURCE_DIR}/include/deldrift/research.h" "${CMAKE_CURRENT_LIST_DIR}/strip.cmake"
   COMMENT "Stripping the libraries" VERBATIM)
 add_custom_target(deldrift_stripped ALL DEPENDS "${stripped}/libdeldrift.so" "${stripped}/libdeldrift.a")
 

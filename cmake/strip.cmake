@@ -1,5 +1,5 @@
 # The libraries in FROM, without debug information, to TO. The static one becomes a single object in which only what
-# HEADER declares is global: the rest is of no use to programs, and could clash with another library written in Rust.
+# the headers in the folder HEADERS declare is global: the rest is of no use to programs, and could clash with another library written in Rust.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
   if(result)
@@ -7,14 +7,18 @@ function(run)
   endif()
 endfunction()
 
-# The functions that HEADER declares at the beginning of a line; those that it defines are static.
-file(READ "${HEADER}" header)
-string(REGEX MATCHALL "\n(const )?[a-z0-9_]+ [*]?deldrift_[a-z0-9_]+[(]" functions "${header}")
+# The functions that a header declares at the beginning of a line; those that it defines are static.
+set(functions "")
+foreach(header IN ITEMS deldrift.h deldrift/research.h)
+  file(READ "${HEADERS}/${header}" text)
+  string(REGEX MATCHALL "\n(const )?[a-z0-9_]+ [*]?deldrift_[a-z0-9_]+[(]" declared "${text}")
+  list(LENGTH declared n_declared)
+  if(n_declared EQUAL 0)
+    message(FATAL_ERROR "No functions in ${HEADERS}/${header}")
+  endif()
+  list(APPEND functions ${declared})
+endforeach()
 list(TRANSFORM functions REPLACE ".*(deldrift_[a-z0-9_]+)[(]" "\\1")
-list(LENGTH functions n_functions)
-if(n_functions EQUAL 0)
-  message(FATAL_ERROR "No functions in ${HEADER}")
-endif()
 
 file(MAKE_DIRECTORY "${TO}")
 run("${STRIP}" --strip-unneeded -o "${TO}/libdeldrift.so" "${FROM}/libdeldrift.so")

@@ -10,12 +10,15 @@ use crate::support::{repository, text_of};
 /// The list of the algorithms for the benchmark, and for its page of the report.
 pub const LIST: &str = "cpp-bench/src/algorithms.inc";
 
+/// The page with the algorithms of research.
+const COMPARISON: &str = "docs/WHICH_ALGORITHM.md";
+
 /// The name of an algorithm in C.
 pub fn c_name(algorithm: Algorithm) -> Option<String> {
     let name = algorithm.name().to_uppercase();
     match algorithm.row().purpose {
         Purpose::Use => Some(format!("DELDRIFT_{name}")),
-        Purpose::Comparison => Some(format!("DELDRIFT_COMPARE_{name}")),
+        Purpose::Comparison => Some(format!("DELDRIFT_RESEARCH_{name}")),
         Purpose::Internal => None,
     }
 }
@@ -69,13 +72,19 @@ fn section<'a>(text: &'a str, heading: &str) -> &'a str {
 }
 
 #[test]
-fn readme_has_a_row_for_every_algorithm_with_a_name_in_c() {
-    let readme = text_of("README.md");
-    let rows = rows(section(&readme, "Algorithms"));
-    let first = rows.iter().filter_map(|row| row[0].split('`').nth(1)).filter(|name| !name.contains("..."));
-    let listed: Vec<String> = first.map(|name| format!("DELDRIFT_{name}")).collect();
-    let named: Vec<String> = Algorithm::ALL.into_iter().filter_map(c_name).collect();
-    assert_eq!(listed, named, "the algorithms in README.md");
+fn pages_have_a_row_for_every_algorithm_with_a_name_in_c() {
+    for (page, heading, purpose) in
+        [("README.md", "Algorithms", Purpose::Use), (COMPARISON, "For comparison", Purpose::Comparison)]
+    {
+        let text = text_of(page);
+        let rows = rows(section(&text, heading));
+        let first =
+            rows.iter().filter_map(|row| row[0].split('`').nth(1)).filter(|name| !name.contains("..."));
+        let listed: Vec<String> = first.map(|name| format!("DELDRIFT_{name}")).collect();
+        let of_page = Algorithm::ALL.into_iter().filter(|algorithm| algorithm.row().purpose == purpose);
+        let named: Vec<String> = of_page.filter_map(c_name).collect();
+        assert_eq!(listed, named, "the algorithms in {page}");
+    }
 }
 
 #[test]
@@ -124,8 +133,8 @@ fn slower_rows(slow: Algorithm, fast: Algorithm) -> (usize, usize) {
 
 #[test]
 fn what_is_said_of_the_recorded_report_is_so() {
-    let readme = text_of("README.md");
-    let readme = rows(section(&readme, "Algorithms"));
+    let page = text_of(COMPARISON);
+    let page = rows(section(&page, "For comparison"));
     let said = [
         (Algorithm::Placement, Algorithm::PlacementFlips),
         (Algorithm::SafeRegion, Algorithm::Tolerance),
@@ -141,11 +150,11 @@ fn what_is_said_of_the_recorded_report_is_so() {
             header.contains(&claim),
             "{slow:?} is slower than {fast:?} in {claim}: src/motion/algorithms.rs"
         );
-        let name = format!("`COMPARE_{}`", slow.name().to_uppercase());
-        let row = readme.iter().find(|row| row[0] == name).expect("a row");
+        let name = format!("`RESEARCH_{}`", slow.name().to_uppercase());
+        let row = page.iter().find(|row| row[0] == name).expect("a row");
         let names_it =
             row.iter().any(|cell| cell.contains(&claim) && cell.contains(&fast.name().to_uppercase()));
-        assert!(names_it, "{slow:?} is slower than {fast:?} in {claim}: README.md");
+        assert!(names_it, "{slow:?} is slower than {fast:?} in {claim}: {COMPARISON}");
     }
     let compared: Vec<Algorithm> =
         Algorithm::ALL.into_iter().filter(|a| a.row().purpose == Purpose::Comparison).collect();

@@ -8,7 +8,7 @@ use std::process::Command;
 use crate::coverage::exported_functions;
 use crate::installation::exported_symbols;
 use crate::memory::{SANITIZERS, under_drd, under_memcheck, under_sanitizers};
-use crate::support::{Linkage, build, command, fresh_folder, library_folder, repository, succeed, text_of};
+use crate::support::{Linkage, build, command, fresh_folder, headers, library_folder, repository, succeed};
 
 /// Faults, and what a checker says of each.
 type Faults = [(&'static str, &'static str)];
@@ -60,7 +60,7 @@ fn drd_finds_planted_races() {
 
 #[test]
 fn shared_library_exports_the_header_and_nothing_else() {
-    let header = text_of("include/deldrift.h");
+    let header = headers();
     let declared: BTreeSet<String> = exported_functions(&header).into_iter().map(str::to_string).collect();
     assert!(declared.len() > 40, "{declared:?}");
     let library = library_folder().join("libdeldrift.so");

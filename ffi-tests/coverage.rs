@@ -1,10 +1,10 @@
-//! What the programs use of the header: everything.
+//! What the programs use of the headers: everything.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::support::{repository, sources, text_of};
+use crate::support::{headers, repository, sources, text_of};
 
 /// Statuses that no C program can bring about on purpose, and the unit tests in `src/capi` that stand in:
 /// a program would need 2^30 cells for the first, and a defect of the library for the others.
@@ -17,7 +17,7 @@ const TESTED_IN_RUST: [(&str, &str); 4] = [
 
 #[test]
 fn every_function_is_called_by_a_c_program() {
-    let header = text_of("include/deldrift.h");
+    let header = headers();
     let functions: BTreeSet<&str> = declarations(&header).filter_map(function_name).collect();
     assert!(functions.len() > 30, "{functions:?}");
     let programs = programs("c");
@@ -29,7 +29,7 @@ fn every_function_is_called_by_a_c_program() {
 /// Those that may give `DELDRIFT_OUT_OF_MEMORY`, and say so, have their requests refused; the others have none.
 #[test]
 fn every_function_is_called_without_memory() {
-    let (header, faults) = (text_of("include/deldrift.h"), text_of("ffi-tests/c/faults.c"));
+    let (header, faults) = (headers(), text_of("ffi-tests/c/faults.c"));
     let (_, calls) = faults.split_once("other_functions_ask_for_nothing(").expect("it is there");
     let (without_requests, _) = calls.split_once("\n}\n").expect("a function ends");
     let with_requests = text_of("ffi-tests/c/scenes.h");
@@ -56,7 +56,7 @@ fn every_function_is_called_without_memory() {
 /// A tour is made from foreign floating-point environments, and on little stack.
 #[test]
 fn every_function_is_called_on_a_tour() {
-    let (header, tour) = (text_of("include/deldrift.h"), text_of("ffi-tests/c/tour.h"));
+    let (header, tour) = (headers(), text_of("ffi-tests/c/tour.h"));
     let functions = declarations(&header).filter_map(function_name);
     let missing: Vec<&str> = functions.filter(|name| !tour.contains(&format!("{name}("))).collect();
     assert!(missing.is_empty(), "no tour calls {missing:?}");
@@ -97,7 +97,7 @@ fn every_member_of_the_cpp_headers_is_used() {
     assert!(missing.is_empty(), "no C++ program uses {missing:?}");
 }
 
-/// The functions of the header that are in the library.
+/// The functions of a header that are in the library.
 pub fn exported_functions(header: &str) -> BTreeSet<&str> {
     declarations(header).filter(|line| !line.starts_with("static ")).filter_map(function_name).collect()
 }

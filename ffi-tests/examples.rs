@@ -60,6 +60,20 @@ fn the_tour_sees_what_it_expects() {
     assert!(found == expected && expected > 15.0 && said.lines().count() == 1, "{said}");
 }
 
+#[test]
+fn algorithms_of_research_have_the_same_triangles() {
+    let folder = fresh_folder("comparison");
+    let source = repository("examples/comparison.c");
+    let said = succeed(&mut command(build(&source, &folder, Linkage::Shared, &[])));
+    let within = |name, what| {
+        let line = said.lines().find(|line| line.starts_with(name)).expect("a line for each");
+        line.split(", ").find_map(|part| part.strip_suffix(what)?.split_whitespace().last()?.parse().ok())
+    };
+    assert_eq!(within("placement", " within safe region"), Some(0), "{said}");
+    assert!(within("safe region", " within safe region") > Some(1000), "{said}");
+    assert!(said.ends_with("4 of 4 have the same triangles\n"), "{said}");
+}
+
 /// The program of docs/FIVE_MINUTES.md, as it stands there.
 #[test]
 fn the_program_of_the_first_page_runs() {

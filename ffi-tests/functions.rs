@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::coverage::{declarations, function_name};
-use crate::support::{repository, text_of};
+use crate::support::{headers, repository, text_of};
 
 const TABLE: &str = "docs/FUNCTIONS.md";
 
@@ -68,9 +68,9 @@ fn every_status_has_a_cause_and_a_remedy() {
     assert!(rows.iter().all(|row| row.len() == 3 && row.iter().all(|cell| !cell.is_empty())));
 }
 
-/// In the order of the header.
+/// In the order of the headers.
 fn functions() -> Vec<Function> {
-    let header = text_of("include/deldrift.h");
+    let header = headers();
     let (mut functions, mut documentation) = (Vec::new(), String::new());
     for line in header.lines() {
         if let Some(text) = line.strip_prefix("///") {
@@ -97,8 +97,9 @@ fn functions() -> Vec<Function> {
 /// For each function the test and the example that call it most often.
 fn table(functions: &[Function]) -> String {
     let mut text = String::from(
-        "# Functions\n\nEvery function of the [header](../include/deldrift.h), with a test and an example that\ncall it. \
-         Tests compare this table with the header and with the programs; `make header` writes it.\n\n\
+        "# Functions\n\nEvery function of [deldrift.h](../include/deldrift.h), with a test and an example that\ncall it; \
+         those that begin with `deldrift_research_` are in [deldrift/research.h](../include/deldrift/research.h), for \
+         comparisons.\nTests compare this table with the headers and with the programs; `make header` writes it.\n\n\
          | function | what it does | test | example |\n|---|---|---|---|\n",
     );
     let (tests, examples) =

@@ -1,39 +1,66 @@
-//! The header: made from the sources, committed, and fit for every compiler that may read it.
+//! The headers: made from the sources, committed, and fit for every compiler that may read them.
 
 use std::fs;
 
-use deldrift::motion::Algorithm;
+use deldrift::motion::{Algorithm, Purpose};
 
 use crate::algorithms;
 use crate::support::{compiler, fresh_folder, repository, succeed, text_of};
 
-const HEADER: &str = "include/deldrift.h";
+/// A header that is made.
+struct Header {
+    path: &'static str,
+    configuration: &'static str,
+    /// Files of src/capi, in the order in which the header shows them.
+    sources: &'static [&'static str],
+    /// The enumeration of its algorithms, and what these are there for.
+    algorithms: &'static str,
+    purpose: Purpose,
+    /// The file of src/capi that says what the enumeration is, and the type of its numbers.
+    documented_at: (&'static str, &'static str),
+}
 
-/// The sources of the header, in the order in which it shows them.
-const SOURCES: [&str; 17] = [
-    "status",
-    "options",
-    "handle",
-    "triangulation",
-    "motion",
-    "immediate",
-    "changes",
-    "state",
-    "query",
-    "location",
-    "geometry",
-    "incidence",
-    "listed",
-    "voronoi",
-    "interpolation",
-    "saving",
-    "predicates",
-];
+const MAIN: Header = Header {
+    path: "include/deldrift.h",
+    configuration: "cbindgen.toml",
+    sources: &[
+        "status",
+        "options",
+        "handle",
+        "triangulation",
+        "motion",
+        "immediate",
+        "changes",
+        "state",
+        "query",
+        "location",
+        "geometry",
+        "incidence",
+        "listed",
+        "voronoi",
+        "interpolation",
+        "saving",
+        "predicates",
+    ],
+    algorithms: "deldrift_algorithm",
+    purpose: Purpose::Use,
+    documented_at: ("options", "AlgorithmCode"),
+};
+
+const RESEARCH: Header = Header {
+    path: "include/deldrift/research.h",
+    configuration: "ffi-tests/header/research.toml",
+    sources: &["research"],
+    algorithms: "deldrift_research_algorithm",
+    purpose: Purpose::Comparison,
+    documented_at: ("research", "ResearchAlgorithmCode"),
+};
 
 /// With `DELDRIFT_UPDATE_HEADER=1` the files are written instead.
 #[test]
 fn header_is_what_the_sources_say() {
-    for (path, made) in [(HEADER, make_header()), (algorithms::LIST, algorithms::list())] {
+    let headers = [MAIN, RESEARCH].map(|header| (header.path, header.text()));
+    for (path, made) in headers.into_iter().chain([(algorithms::LIST, algorithms::list())]) {
         if std::env::var_os("DELDRIFT_UPDATE_HEADER").is_some_and(|value| value == "1") {
             fs::write(repository(path), made).expect("a file can be written");
         } else {
@@ -49,6 +76,8 @@ fn headers_compile_alone_as_c11_cpp17_and_cpp20() {
     for (name, include, standard) in [
         ("c.c", "deldrift.h", c),
         ("c.cpp", "deldrift.h", cpp17),
+        ("research.c", "deldrift/research.h", c),
+        ("research.cpp", "deldrift/research.h", cpp17),
         ("cpp.cpp", "deldrift.hpp", cpp17),
         ("cpp.cpp", "deldrift.hpp", cpp20),
         ("cgal.cpp", "deldrift/cgal.hpp", cpp17),
@@ -67,39 +96,41 @@ fn readme_shows_the_example_that_is_compiled() {
     assert!(text_of("README.md").contains(&text_of("ffi-tests/c/readme_example.c")));
 }
 
-fn make_header() -> String {
-    let mut config =
-        cbindgen::Config::from_file(repository("cbindgen.toml")).expect("cbindgen.toml is valid");
-    config.header = config.header.map(|page| page.trim().replace("@EXAMPLE@", &example()));
-    config.after_includes = Some(version());
-    let enumeration = fresh_folder("enumeration").join("algorithms.rs");
-    fs::write(&enumeration, enumeration_of_algorithms()).expect("a source can be written");
-    let mut builder = cbindgen::Builder::new().with_config(config).with_src(enumeration);
-    for source in SOURCES {
-        builder = builder.with_src(repository(&format!("src/capi/{source}.rs")));
+impl Header {
+    fn text(&self) -> String {
+        let path = repository(self.configuration);
+        let mut config = cbindgen::Config::from_file(path).expect("the configuration is valid");
+        let is_main = self.path == MAIN.path;
+        config.header = config.header.map(|page| page.trim().replace("@EXAMPLE@", &example()));
+        config.after_includes = is_main.then(version);
+        let enumeration = fresh_folder(self.algorithms).join("algorithms.rs");
+        fs::write(&enumeration, self.enumeration_of_algorithms()).expect("a source can be written");
+        let mut builder = cbindgen::Builder::new().with_config(config).with_src(enumeration);
+        for source in self.sources {
+            builder = builder.with_src(repository(&format!("src/capi/{source}.rs")));
+        }
+        let mut header = Vec::new();
+        builder.generate().expect("the sources are understood").write(&mut header);
+        let header = enumerations_in_c(&String::from_utf8(header).expect("the sources are text"));
+        header.lines().map(|line| without_tags(line) + "\n").collect()
     }
-    let mut header = Vec::new();
-    builder.generate().expect("the sources are understood").write(&mut header);
-    let header = enumerations_in_c(&String::from_utf8(header).expect("the sources are text"));
-    header.lines().map(|line| without_tags(line) + "\n").collect()
-}
 
-/// The algorithms that have a name in C, as a source. What the enumeration says of itself is said of the type of its
-/// numbers.
-fn enumeration_of_algorithms() -> String {
-    let options = text_of("src/capi/options.rs");
-    let (before, _) = options.split_once("pub type AlgorithmCode").expect("it is there");
-    let (_, documentation) = before.rsplit_once("\n\n").expect("it is not the first item");
-    let mut source = format!("{documentation}#[repr(u32)]\npub enum deldrift_algorithm {{\n");
-    for algorithm in Algorithm::ALL {
-        if let Some(name) = algorithms::c_name(algorithm) {
+    /// The algorithms, as a source. What the enumeration says of itself is said of the type of its numbers.
+    fn enumeration_of_algorithms(&self) -> String {
+        let (file, code) = self.documented_at;
+        let text = text_of(&format!("src/capi/{file}.rs"));
+        let (before, _) = text.split_once(&format!("pub type {code}")).expect("it is there");
+        let (_, documentation) = before.rsplit_once("\n\n").expect("it is not the first item");
+        let mut source = format!("{documentation}#[repr(u32)]\npub enum {} {{\n", self.algorithms);
+        for algorithm in Algorithm::ALL.into_iter().filter(|one| one.row().purpose == self.purpose) {
             for line in algorithm.row().documentation.lines() {
                 source += &format!("    ///{line}\n");
             }
+            let name = algorithms::c_name(algorithm).expect("it has a name");
             source += &format!("    {name} = {},\n", algorithm.code());
         }
+        source + "}\n"
     }
-    source + "}\n"
 }
 
 /// Enumerations have a tag only where they have a type, too: in older C a type of numbers has that name, which would

@@ -8,7 +8,7 @@ use std::process::Command;
 use std::{env, fs};
 
 use crate::coverage::exported_functions;
-use crate::support::{command, fresh_folder, library_folder, repository, succeed, text_of};
+use crate::support::{command, fresh_folder, headers, library_folder, repository, succeed, text_of};
 
 #[test]
 #[ignore = "needs CMake and pkg-config"]
@@ -299,7 +299,7 @@ fn commands_of_the_readme_find_it(folder: &Path, libraries: &Path) {
 
 /// Nor is there debug information.
 fn only_the_header_is_exported(libraries: &Path) {
-    let header = text_of("include/deldrift.h");
+    let header = headers();
     let declared = exported_functions(&header);
     assert!(declared.len() > 40, "{declared:?}");
     for (library, dynamic) in [("libdeldrift.so", Some("-D")), ("libdeldrift.a", None)] {

@@ -11,6 +11,9 @@ use crate::algorithms;
 /// What the static library needs of the system, as `rustc --print native-static-libs` says.
 pub const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
 
+/// The headers for C.
+pub const HEADERS: [&str; 2] = ["include/deldrift.h", "include/deldrift/research.h"];
+
 /// Functions of the system in whose place `c/requests.h` has its own.
 const REPLACED: [&str; 9] = [
     "malloc",
@@ -32,6 +35,11 @@ pub fn repository(path: &str) -> PathBuf {
 /// The text of a file of the repository.
 pub fn text_of(path: &str) -> String {
     fs::read_to_string(repository(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// The texts of the headers for C, one after the other.
+pub fn headers() -> String {
+    HEADERS.map(text_of).concat()
 }
 
 /// The programs in a folder, by file name, in alphabetical order.

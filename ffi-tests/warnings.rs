@@ -58,8 +58,8 @@ const CPP: [&str; 2] = ["c++17", "c++20"];
 #[test]
 fn headers_give_no_warnings() {
     let folder = fresh_folder("warnings");
-    let c = write(&folder, "c.c", "#include <deldrift.h>\nint main(void) { return 0; }\n");
-    let cpp = write(&folder, "c.cpp", "#include <deldrift.h>\nint main() { return 0; }\n");
+    let c = write(&folder, "c.c", "#include <deldrift/research.h>\nint main(void) { return 0; }\n");
+    let cpp = write(&folder, "c.cpp", "#include <deldrift/research.h>\nint main() { return 0; }\n");
     let uses = repository("ffi-tests/header/uses.cpp");
     for (standard, source) in [for_all(&C, &[&c]), for_all(&CPP, &[&cpp, &uses])].concat() {
         let is_c = standard.starts_with("c1");
@@ -84,7 +84,7 @@ fn headers_have_no_names_that_are_macros_of_others() {
     let program = |headers: &str, uses: &str| {
         format!("{headers}\n#include \"{}\"\n{uses}\nint main(void) {{ return 0; }}\n", macros.display())
     };
-    let c = program(&headers_of_the_system(&["include"], "h"), "#include <deldrift.h>");
+    let c = program(&headers_of_the_system(&["include"], "h"), "#include <deldrift/research.h>");
     let folders = ["include", "include/deldrift", "include/deldrift/cgal"];
     let triangulations = [2, 3].map(|d| {
         format!("template class deldrift::cgal::Delaunay_triangulation_{d}<deldrift::cgal::Kernel, int>;")

@@ -160,20 +160,18 @@ enum
     DELDRIFT_INTERNAL_ERROR = 22,
     /// There is no cell of this index, or cells have no corner of this number.
     DELDRIFT_NO_SUCH_FACET = 23,
-    /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
-    DELDRIFT_NO_DELIMITER = 24,
     /// A number has no meaning for its argument, as a negative squared radius.
-    DELDRIFT_INVALID_VALUE = 25,
+    DELDRIFT_INVALID_VALUE = 24,
     /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
     /// later version; the message says what is wrong, and where.
-    DELDRIFT_INVALID_DATA = 26,
+    DELDRIFT_INVALID_DATA = 25,
     /// The system cannot read or write a file; the message has the path, and what the system says.
-    DELDRIFT_IO_ERROR = 27,
+    DELDRIFT_IO_ERROR = 26,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
-    DELDRIFT_INVALID_FIELD = 28,
+    DELDRIFT_INVALID_FIELD = 27,
     /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
     /// and it can be neither moved with that commit nor removed twice. The message says which.
-    DELDRIFT_STAGED_VERTEX = 29,
+    DELDRIFT_STAGED_VERTEX = 28,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -210,12 +208,7 @@ typedef uint32_t deldrift_location_kind;
 /// How deldrift_commit_timestamp brings the triangulation to the staged positions. Every algorithm
 /// gives exactly the same cells; they differ in what they cost.
 ///
-/// DELDRIFT_AUTO is for most programs. DELDRIFT_COMPARE_... are algorithms of the research report RR-6750 to
-/// compare with, not for use: in the recorded report each of them is slower than another algorithm in most or all
-/// rows. The recorded report is cpp-bench/results/report.csv, in which the experiments of RR-6750 are repeated: 74
-/// rows, each an input or a part of one.
-///
-/// Numbers from 1000 on are for the library's own tests, and may mean something else in any version.
+/// DELDRIFT_AUTO is for most programs.
 enum
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   deldrift_algorithm : uint32_t
@@ -242,24 +235,6 @@ enum
     /// All vertices move at once, every certificate is checked, and what fails is repaired by flips and
     /// placements. Rebuilds where too much fails.
     DELDRIFT_REPAIR = 4,
-    /// For comparison: as DELDRIFT_PLACEMENT_FLIPS, without flips (RR-6750, section 3.1). In the recorded report
-    /// slower than that in 59 of 74 rows.
-    DELDRIFT_COMPARE_PLACEMENT = 16,
-    /// For comparison: as DELDRIFT_TOLERANCE, with a larger region for each vertex: inside the delimiters of the
-    /// facets it is on, outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not
-    /// so far that delimiters prove too little (RR-6750, Algorithm 2). More vertices stay within, at the cost of a
-    /// distance for every facet of the star of each, and of the memory of a delimiter for every facet of every
-    /// cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
-    DELDRIFT_COMPARE_SAFE_REGION = 17,
-    /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within
-    /// as with either, and most cost one distance. Memory as for the safe region. In the recorded report slower
-    /// than DELDRIFT_TOLERANCE in 68 of 74 rows.
-    DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE = 18,
-    /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
-    /// rule is that of switch_share and the options behind it (RR-6750, section 5.2). A sample costs the tolerances
-    /// of a few vertices. To choose another algorithm and this one again starts over. In the recorded report slower
-    /// than DELDRIFT_AUTO in 71 of 74 rows.
-    DELDRIFT_COMPARE_REBUILDING_TOLERANCE = 19,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -344,6 +319,8 @@ typedef struct deldrift_options {
     uint32_t threads;
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     deldrift_coincidence coincidence;
+    /// Zero; later versions may have an option here.
+    uint32_t reserved;
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -355,20 +332,11 @@ typedef struct deldrift_options {
     void (*progress)(void *user_data, double fraction);
     /// Handed to the callbacks as it is.
     void *user_data;
-    /// DELDRIFT_COMPARE_REBUILDING_TOLERANCE stops rebuilding at the first sample of which at least this share stays
-    /// within tolerance: above 0 and at most 1. 0, the default, stands for 0.75 in 2D and 0.55 in 3D.
-    double switch_share;
-    /// Seed of its random samples: with the same seed, the same calls do the same. Default 0.
-    uint64_t switch_seed;
-    /// How many vertices it samples each time, at most as many as there are. 0, the default, stands for 40.
-    uint32_t switch_sample;
-    /// It takes a sample at the first of every switch_period commits. 0, the default, stands for 4.
-    uint32_t switch_period;
 } deldrift_options;
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
 ///
-/// A vertex that leaves its tolerance or safe region is relocated once; none ever has to be a second time.
+/// A vertex that leaves its tolerance is relocated once; none ever has to be a second time.
 typedef struct deldrift_commit_report {
     /// Number of the timestamp reached: 0 at creation, one more at each commit.
     uint64_t timestamp;
@@ -386,8 +354,6 @@ typedef struct deldrift_commit_report {
     uint64_t coincident;
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     uint64_t within_tolerance;
-    /// Vertices that were not, but certainly within their safe region, with an algorithm that tests it.
-    uint64_t within_safe_region;
     /// Bi-cells whose tolerance was computed.
     uint64_t tolerances;
     /// Orientations and in-sphere tests of the stars of relocated vertices.
@@ -400,7 +366,7 @@ typedef struct deldrift_commit_report {
     /// Vertices removed.
     uint64_t removed;
     /// Zero; later versions may count more.
-    uint64_t reserved[2];
+    uint64_t reserved[3];
 } deldrift_commit_report;
 
 /// What has changed since the program last took the changes: lists that belong to the triangulation, valid
@@ -559,7 +525,8 @@ deldrift_status deldrift_dimension(const deldrift_triangulation *t, uint32_t *di
 deldrift_status deldrift_set_algorithm(deldrift_triangulation *t,
                                        deldrift_algorithm algorithm);
 
-/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses.
+/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses; after
+/// deldrift_research_set_algorithm the number of that of deldrift/research.h.
 ///
 /// Cost: constant.
 ///
@@ -924,47 +891,6 @@ deldrift_status deldrift_star(const deldrift_triangulation *t,
 deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
                                    uint32_t vertex,
                                    double *out);
-
-/// The annulus widths of all bi-cells: entry i of the row of a cell, in the order of deldrift_cells, is
-/// that of the bi-cell at the facet opposite corner i. Each bi-cell is there twice, from either side;
-/// facets of the hull have none, and their entries are NaN.
-///
-/// A bi-cell is a facet with the two cells that share it. Its annulus is between two circles or spheres
-/// with the same centre: the inner one through the vertices of the facet, the outer one through the two
-/// vertices opposite it. The widths are certified lower bounds, 0 where nothing is certain.
-///
-/// widths: a buffer with room for capacity numbers. count: receives the number of entries, 3 (2D) or 4 (3D)
-/// times that of the cells, which is also written when the buffer is too small. NULL with capacity 0 asks
-/// for the count alone.
-///
-/// Cost: m. After a change the first call also does what the first deldrift_cells does.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY.
-deldrift_status deldrift_annulus_widths(const deldrift_triangulation *t,
-                                        double *widths,
-                                        size_t capacity,
-                                        size_t *count);
-
-/// The standard delimiter of a bi-cell: the circle or sphere in the middle of its annulus, see
-/// deldrift_annulus_widths, which has the vertices of the facet inside and the two opposite it outside.
-///
-/// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
-/// centre: receives 2 or 3 numbers, which are not finite where none could be computed. tolerance: receives
-/// the certified tolerance of the bi-cell, which those of its vertices do not exceed; half the annulus
-/// width in 2D, and at most that in 3D, where other changes may come sooner.
-///
-/// Cost: constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET,
-/// DELDRIFT_NO_DELIMITER for a facet of the hull, DELDRIFT_OUT_OF_MEMORY. After a change the first call also
-/// does what the first deldrift_cells does.
-deldrift_status deldrift_standard_delimiter(const deldrift_triangulation *t,
-                                            uint32_t cell,
-                                            uint32_t corner,
-                                            double *centre,
-                                            double *radius,
-                                            double *tolerance);
 
 /// Where a point lies, exactly, to *location.
 ///

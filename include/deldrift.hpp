@@ -27,7 +27,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -228,22 +227,6 @@ public:
         return {star(vertex), coincident_representative(vertex), ask<deldrift_cells_view>(deldrift_cells)};
     }
     double tolerance(std::uint32_t vertex) const { return ask<double>(deldrift_tolerance, vertex); }
-    // A number for each corner of each cell, NaN for facets of the hull.
-    std::vector<double> annulus_widths() const {
-        std::size_t count = cell_count() * (dimension_ + std::size_t{1});
-        std::vector<double> widths(count);
-        require_ok(deldrift_annulus_widths(native(), widths.data(), count, &count));
-        return widths;
-    }
-    // Nothing for a facet of the hull.
-    std::optional<Delimiter> standard_delimiter(std::uint32_t cell, std::uint32_t corner) const {
-        Delimiter delimiter{std::vector<double>(dimension_), 0, 0};
-        const deldrift_status status = deldrift_standard_delimiter(
-            native(), cell, corner, delimiter.centre.data(), &delimiter.radius, &delimiter.tolerance);
-        if (status == DELDRIFT_NO_DELIMITER) return std::nullopt;
-        require_ok(status);
-        return delimiter;
-    }
 
     // Of the cells, in the order of cells().
     Circumspheres circumcentres() const {

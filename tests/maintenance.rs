@@ -48,8 +48,9 @@ fn agree<G: Dimension>(algorithm: Algorithm, seed: u64, n: usize) -> CommitRepor
     let mut now = positions::<G>(seed, n, rng);
     let start: Vec<G::Point> = now.iter().map(|p| p.expect("present")).collect();
     let switching = SwitchingRule { seed, ..SwitchingRule::default() };
-    let options = Options { algorithm, switching, ..Options::default() };
+    let options = Options { algorithm, ..Options::default() };
     let mut t = MovingTriangulation::<G>::new(&start, options).expect("a build");
+    t.set_switching_rule(switching);
     for step in 0..12 {
         let context = || format!("{algorithm:?} in {} dimensions, seed {seed}, step {step}", G::D);
         let present: Vec<usize> = (0..now.len()).filter(|&v| now[v].is_some()).collect();

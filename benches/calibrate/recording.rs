@@ -43,9 +43,10 @@ impl<G: Dimension> Recording<G> {
 
     /// Does what is on record, by one thread.
     pub fn replay(&self, switching: SwitchingRule) -> Vec<Step> {
-        let options = Options { algorithm: self.algorithm, threads: 1, switching, ..Options::default() };
+        let options = Options { algorithm: self.algorithm, threads: 1, ..Options::default() };
         let mut t = MovingTriangulation::<G>::new(&self.start, options).expect("points in range");
         t.set_constants(in_force());
+        t.set_switching_rule(switching);
         self.frames.iter().map(|frame| step(&mut t, frame)).collect()
     }
 }

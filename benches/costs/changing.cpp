@@ -134,6 +134,12 @@ std::vector<Call> changing_calls() {
                  c.meter.time([&] { must(deldrift_set_algorithm(c.t, i % 2 ? DELDRIFT_AUTO : DELDRIFT_REPAIR)); });
              c.meter.count(double(c.n));
          }},
+        {"deldrift_research_set_algorithm", "", [](Context &c) {
+             const deldrift_research_algorithm both[] = {DELDRIFT_RESEARCH_PLACEMENT, DELDRIFT_RESEARCH_SAFE_REGION};
+             for (std::size_t i = 0; i < c.n; ++i)
+                 c.meter.time([&] { must(deldrift_research_set_algorithm(c.t, both[i % 2], nullptr)); });
+             c.meter.count(double(c.n));
+         }},
         {"deldrift_move_vertex", "all, one by one", [](Context &c) {
              const Points moved = c.all_nearby();
              c.meter.time([&] {

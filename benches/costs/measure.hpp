@@ -1,7 +1,7 @@
 // One call on one set, timed in a process of its own, which may be ended when it takes too long.
 #pragma once
 
-#include <deldrift.h>
+#include <deldrift/research.h>
 #include <time.h>
 
 #include <algorithm>

@@ -101,6 +101,10 @@ std::vector<Call> reading_calls() {
              deldrift_commit_report report;
              for_all(c, [&](std::uint32_t) { must(deldrift_statistics(c.t, &report)); });
          }},
+        {"deldrift_research_within_safe_region", "", [](Context &c) {
+             std::uint64_t count;
+             for_all(c, [&](std::uint32_t) { must(deldrift_research_within_safe_region(c.t, &count)); });
+         }},
         {"deldrift_is_present", "all", [](Context &c) {
              bool present;
              for_all(c, [&](std::uint32_t v) { must(deldrift_is_present(c.t, v, &present)); });
@@ -170,17 +174,17 @@ std::vector<Call> reading_calls() {
              for_all(c, [&](std::uint32_t v) { must(deldrift_tolerance(c.t, v, &tolerance)); });
              c.meter.count(double(c.cells()));
          }},
-        {"deldrift_annulus_widths", "", [](Context &c) {
+        {"deldrift_research_annulus_widths", "", [](Context &c) {
              const std::size_t n = c.cells() * c.corners();
              fill<double>(c, n, double(c.n + c.cells()),
-                          [&](double *to, std::size_t *count) { return deldrift_annulus_widths(c.t, to, n, count); });
+                          [&](double *to, std::size_t *count) { return deldrift_research_annulus_widths(c.t, to, n, count); });
          }},
-        {"deldrift_standard_delimiter", "one facet of each cell", [](Context &c) {
+        {"deldrift_research_standard_delimiter", "one facet of each cell", [](Context &c) {
              double centre[3], radius, tolerance;
              const auto n = std::uint32_t(c.cells());
              c.meter.time([&] {
                  for (std::uint32_t cell = 0; cell < n; ++cell)
-                     deldrift_standard_delimiter(c.t, cell, cell % 3, centre, &radius, &tolerance);
+                     deldrift_research_standard_delimiter(c.t, cell, cell % 3, centre, &radius, &tolerance);
              }, n + 1);
              c.meter.count(double(c.n + n));
          }},

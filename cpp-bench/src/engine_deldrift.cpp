@@ -14,11 +14,7 @@ constexpr std::uint32_t full_validation = 3;
 class Deldrift : public Engine {
 public:
     Deldrift(unsigned dimension, const Algorithm &algorithm, unsigned n_threads)
-        : dimension_(dimension), has_pre_computations_(algorithm.is_one_by_one && algorithm.keeps_data) {
-        deldrift_options_init(&options_);
-        options_.algorithm = algorithm.code;
-        options_.threads = n_threads;
-    }
+        : dimension_(dimension), algorithm_(algorithm), n_threads_(n_threads) {}
     Deldrift(const Deldrift &) = delete;
     Deldrift &operator=(const Deldrift &) = delete;
     ~Deldrift() override { deldrift_destroy(triangulation_); }
@@ -29,8 +25,8 @@ public:
         n_points_ = n_points;
         positions_.clear();
         rebuilds_ =
-            options_.algorithm == DELDRIFT_REBUILDING || options_.algorithm == DELDRIFT_COMPARE_REBUILDING_TOLERANCE;
-        require(deldrift_create(dimension_, positions, n_points, &options_, &triangulation_), "deldrift_create");
+            algorithm_.code == DELDRIFT_REBUILDING || algorithm_.code == DELDRIFT_RESEARCH_REBUILDING_TOLERANCE;
+        triangulation_ = create_by(algorithm_, dimension_, positions, n_points, n_threads_);
         pre_compute();
     }
 
@@ -43,7 +39,7 @@ public:
             deldrift_commit_report report;
             advance_all(positions, &report);
             // Rebuilding and tolerance relocates one by one as soon as it has turned to tolerances.
-            rebuilds_ = options_.algorithm == DELDRIFT_REBUILDING || report.rebuilds > 0;
+            rebuilds_ = algorithm_.code == DELDRIFT_REBUILDING || report.rebuilds > 0;
             return;
         }
         for (std::size_t id = 0; id < n_points_; ++id)
@@ -135,12 +131,12 @@ private:
 
     /// What the report calls pre-computations, of tolerances and delimiters, is done by the first commit.
     void pre_compute() {
-        if (has_pre_computations_) commit();
+        if (algorithm_.is_one_by_one && algorithm_.keeps_data) commit();
     }
 
     unsigned dimension_;
-    bool has_pre_computations_;
-    deldrift_options options_;
+    Algorithm algorithm_;
+    unsigned n_threads_;
     deldrift_triangulation *triangulation_ = nullptr;
     std::size_t n_points_ = 0;
     bool rebuilds_ = false;

@@ -5,7 +5,7 @@
 #include "report_tolerance.hpp"
 #include "table.hpp"
 
-#include <deldrift.h>
+#include <deldrift/research.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ public:
         require(deldrift_cells(t, &cells_));
         std::size_t count = 0;
         std::vector<double> all(cells_.count * cells_.corners_per_cell);
-        require(deldrift_annulus_widths(t, all.data(), all.size(), &count));
+        require(deldrift_research_annulus_widths(t, all.data(), all.size(), &count));
         tolerances_.assign(series.n_points, std::numeric_limits<double>::infinity());
         widest_.assign(series.n_points, 0);
         is_uncertain_.assign(series.n_points, 0);

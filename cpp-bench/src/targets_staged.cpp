@@ -48,16 +48,9 @@ struct Moves {
 class Runner {
 public:
     Runner(const Algorithm &algorithm, const Series &series)
-        : algorithm_(algorithm), triangulation_(nullptr, &deldrift_destroy) {
-        deldrift_triangulation *triangulation = nullptr;
-        deldrift_options options;
-        deldrift_options_init(&options);
-        options.algorithm = algorithm.code;
-        options.threads = 1;
-        require(deldrift_create(series.dimension, series.frame(0), series.n_points, &options, &triangulation),
-                "deldrift_create");
-        triangulation_.reset(triangulation);
-    }
+        : algorithm_(algorithm),
+          triangulation_(create_by(algorithm, series.dimension, series.frame(0), series.n_points, 1),
+                         &deldrift_destroy) {}
 
     std::string name() const { return fmt::format("deldrift/{}", algorithm_.name); }
     bool is_auto() const { return algorithm_.code == DELDRIFT_AUTO; }

@@ -141,7 +141,9 @@ impl Cases<'_> {
         let is_list = self.function.has("offsets");
         let is_legal = match role {
             Role::Handle => self.function.name == "deldrift_destroy",
-            Role::Hint | Role::Options | Role::OutputIfAny | Role::NumbersIfAny => true,
+            Role::Hint | Role::Options | Role::ResearchOptions | Role::OutputIfAny | Role::NumbersIfAny => {
+                true
+            }
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
@@ -227,6 +229,7 @@ impl Cases<'_> {
                 let message = "\"options.algorithm is 999\"";
                 self.refused("value", at, "an algorithm that is none", &wrong, "INVALID_OPTIONS", message);
             }
+            Role::ResearchOptions => self.research_options(at),
             Role::Data => {
                 self.legal("misaligned", at, "an odd address", "shifted(saved, saved_size)");
                 for (given, place) in [("damaged at its start", "0"), ("damaged within", "saved_size / 2")] {
@@ -248,6 +251,24 @@ impl Cases<'_> {
                 self.legal("misaligned", at, "an odd address", "shifted(out.bytes, 1)");
             }
             _ => {}
+        }
+    }
+
+    fn research_options(&mut self, at: usize) {
+        for (column, given, wrong, said) in [
+            ("zero", "a struct_size of 0", "0, 0", "options.struct_size is 0"),
+            (
+                "huge",
+                "a struct_size of SIZE_MAX",
+                "SIZE_MAX, 0",
+                "options.struct_size is 18446744073709551615",
+            ),
+            ("nan", "NaN", "sizeof research, NAN", "options.switch_share is NaN"),
+            ("infinite", "infinity", "sizeof research, INFINITY", "options.switch_share is inf"),
+            ("value", "a share above 1", "sizeof research, 2", "options.switch_share is 2"),
+        ] {
+            let (wrong, message) = (format!("bad_research({wrong})"), format!("\"{said}\""));
+            self.refused(column, at, given, &wrong, "INVALID_OPTIONS", &message);
         }
     }
 

@@ -1,9 +1,9 @@
-//! The functions of the header with their parameters.
+//! The functions of the headers with their parameters.
 
 use std::collections::BTreeSet;
 
 use crate::coverage::declarations as lines_of_code;
-use crate::support::text_of;
+use crate::support::{HEADERS, text_of};
 
 /// A parameter: its type, with one space before the stars, and its name.
 #[derive(Clone)]
@@ -60,9 +60,12 @@ pub fn statuses() -> Vec<String> {
     names.map(|(name, _)| name.to_string()).collect()
 }
 
-/// In the order of the header.
+/// In the order of the headers.
 pub fn declarations() -> Vec<Declaration> {
-    let header = text_of("include/deldrift.h");
+    HEADERS.into_iter().flat_map(|header| declarations_in(&text_of(header))).collect()
+}
+
+fn declarations_in(header: &str) -> Vec<Declaration> {
     let (_, functions) = header.split_once("extern \"C\" {").expect("functions come after the types");
     let (mut found, mut documentation, mut code) = (Vec::new(), String::new(), String::new());
     let mut is_body = false;

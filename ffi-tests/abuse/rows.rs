@@ -1,6 +1,6 @@
-//! For every function of the header a call with arguments that are all right, in the words of `harness.h`.
+//! For every function of the headers a call with arguments that are all right, in the words of `harness.h`.
 
-/// A function, its arguments in the order of the header, and whether moves, insertions and removals are staged.
+/// A function, its arguments in the order of its declaration, and whether moves, insertions and removals are staged.
 pub struct Row {
     pub function: &'static str,
     pub arguments: &'static [&'static str],
@@ -50,11 +50,6 @@ pub const ROWS: &[Row] = &[
     row("deldrift_copy_cells", &["t", "out.ids", "out.more_ids", "n_cells", "&out.count"]),
     row("deldrift_star", &["t", "1", "out.ids", "ROOM", "&out.count"]),
     row("deldrift_tolerance", &["t", "1", "out.numbers"]),
-    row("deldrift_annulus_widths", &["t", "out.numbers", "(dimension + 1) * n_cells", "&out.count"]),
-    row(
-        "deldrift_standard_delimiter",
-        &["t", "inner_cell", "inner_corner", "out.numbers", "out.more_numbers", "out.few_numbers"],
-    ),
     row("deldrift_locate", &["t", "moved", "&out.location"]),
     row("deldrift_locate_points", &["t", "moved", "3", "near_by", "out.locations"]),
     row("deldrift_nearest_vertex", &["t", "moved", "&out.number"]),
@@ -99,4 +94,11 @@ pub const ROWS: &[Row] = &[
     row("deldrift_write_medit", &["t", "path"]),
     row("deldrift_orientation", &["dimension", "moved", "&out.sign"]),
     row("deldrift_options_init", &["&options"]),
+    row("deldrift_research_set_algorithm", &["t", "DELDRIFT_RESEARCH_PLACEMENT", "&research"]),
+    row("deldrift_research_within_safe_region", &["t", "&out.timestamp"]),
+    row("deldrift_research_annulus_widths", &["t", "out.numbers", "(dimension + 1) * n_cells", "&out.count"]),
+    row(
+        "deldrift_research_standard_delimiter",
+        &["t", "inner_cell", "inner_corner", "out.numbers", "out.more_numbers", "out.few_numbers"],
+    ),
 ];

@@ -90,23 +90,25 @@ static sums random_walk(uint32_t dimension, size_t count, deldrift_algorithm alg
         }
     }
     deldrift_commit_report report;
+    uint64_t within_safe_region = 77;
     OK(deldrift_statistics(t, &report));
+    OK(deldrift_research_within_safe_region(t, &within_safe_region));
     deldrift_destroy(t);
     free(positions);
-    return (sums){report.within_tolerance, report.within_safe_region, report.placements, report.rebuilds};
+    return (sums){report.within_tolerance, within_safe_region, report.placements, report.rebuilds};
 }
 
 // That each does what it is called after.
 static void is_what_it_says(deldrift_algorithm algorithm, sums near) {
-    bool by_tolerance = algorithm == DELDRIFT_TOLERANCE || algorithm == DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE;
+    bool by_tolerance = algorithm == DELDRIFT_TOLERANCE || algorithm == DELDRIFT_RESEARCH_SAFE_REGION_TOLERANCE;
     bool by_safe_region =
-        algorithm == DELDRIFT_COMPARE_SAFE_REGION || algorithm == DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE;
-    bool may_turn_to_it = algorithm == DELDRIFT_COMPARE_REBUILDING_TOLERANCE || algorithm == BY_WATCHING ||
+        algorithm == DELDRIFT_RESEARCH_SAFE_REGION || algorithm == DELDRIFT_RESEARCH_SAFE_REGION_TOLERANCE;
+    bool may_turn_to_it = algorithm == DELDRIFT_RESEARCH_REBUILDING_TOLERANCE || algorithm == BY_WATCHING ||
                           algorithm == DELDRIFT_AUTO;
     if (!may_turn_to_it) CHECK((near.within_tolerance > 0) == by_tolerance);
     CHECK((near.within_safe_region > 0) == by_safe_region);
     if (algorithm == DELDRIFT_REBUILDING) CHECK(near.rebuilds == 6);
-    if (algorithm != DELDRIFT_REBUILDING && algorithm != DELDRIFT_COMPARE_REBUILDING_TOLERANCE) CHECK(near.rebuilds < 6);
+    if (algorithm != DELDRIFT_REBUILDING && algorithm != DELDRIFT_RESEARCH_REBUILDING_TOLERANCE) CHECK(near.rebuilds < 6);
     if (by_tolerance || by_safe_region) CHECK(near.rebuilds == 0 && near.placements > 0);
 }
 

@@ -5,6 +5,7 @@
 #include "condition.h"
 
 #include <deldrift.h>
+#include <deldrift/research.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -48,10 +49,25 @@ static inline double *random_positions(uint32_t dimension, size_t count, uint64_
     return positions;
 }
 
+// Algorithms of deldrift/research.h, and those for tests, are chosen after creation.
+static inline bool is_of_research(deldrift_algorithm algorithm) { return algorithm >= DELDRIFT_RESEARCH_PLACEMENT; }
+
+static inline deldrift_status choose(deldrift_triangulation *t, deldrift_algorithm algorithm) {
+    if (is_of_research(algorithm)) return deldrift_research_set_algorithm(t, algorithm, NULL);
+    return deldrift_set_algorithm(t, algorithm);
+}
+
 static inline deldrift_triangulation *create(uint32_t dimension, const double *positions, size_t count,
                                              const deldrift_options *options) {
     deldrift_triangulation *t = NULL;
-    OK(deldrift_create(dimension, positions, count, options, &t));
+    if (options != NULL && is_of_research(options->algorithm)) {
+        deldrift_options at_creation = *options;
+        at_creation.algorithm = DELDRIFT_AUTO;
+        OK(deldrift_create(dimension, positions, count, &at_creation, &t));
+        OK(choose(t, options->algorithm));
+    } else {
+        OK(deldrift_create(dimension, positions, count, options, &t));
+    }
     CHECK(t != NULL);
     return t;
 }
@@ -62,7 +78,7 @@ static inline size_t cell_count(const deldrift_triangulation *t) {
     return count;
 }
 
-// ALL_ALGORITHMS, for an array, and BY_WATCHING and so on for those that have no name in the header, come from the command
+// ALL_ALGORITHMS, for an array, and BY_WATCHING and so on for those that have no name in a header, come from the command
 // line: see ffi-tests/algorithms.rs.
 
 // The corners of a quadrilateral, and of a tetrahedron, with a vertex inside: four cells, without ties.

@@ -31,13 +31,10 @@ static void structures_of_earlier_versions_are_accepted(void) {
     const size_t ends[] = {sizeof(size_t),
                            offsetof(deldrift_options, threads),
                            offsetof(deldrift_options, coincidence),
+                           offsetof(deldrift_options, reserved),
                            offsetof(deldrift_options, cancel),
                            offsetof(deldrift_options, progress),
                            offsetof(deldrift_options, user_data),
-                           offsetof(deldrift_options, switch_share),
-                           offsetof(deldrift_options, switch_seed),
-                           offsetof(deldrift_options, switch_sample),
-                           offsetof(deldrift_options, switch_period),
                            sizeof(deldrift_options)};
     for (size_t size = 0; size < sizeof(deldrift_options); size++) {
         bool is_end = false;
@@ -89,29 +86,15 @@ static void unknown_values_are_refused_by_name(void) {
     options.coincidence = (deldrift_coincidence)2;
     CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
     CHECK_MESSAGE("options.coincidence is 2");
-}
-
-static void shares_are_parts_of_a_whole(void) {
-    static const double bad[] = {NAN, INFINITY, -INFINITY, -0.25, -4.9406564584124654e-324, 1.0000000000000002, 75};
-    static const double good[] = {0, -0.0, 4.9406564584124654e-324, 0.25, 1};
-    deldrift_options options;
     deldrift_options_init(&options);
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        options.switch_share = bad[i];
-        CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
-        CHECK_MESSAGE("options.switch_share is ");
-    }
-    CHECK_MESSAGE("options.switch_share is 75");
-    options.switch_share = bad[0];
+    options.reserved = 1;
     CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
-    CHECK_MESSAGE("options.switch_share is NaN");
-    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
-        options.switch_share = good[i];
-        OK(try_options(&options));
-    }
-    options.switch_seed = UINT64_MAX;
-    options.switch_sample = options.switch_period = UINT32_MAX;
-    OK(try_options(&options));
+    CHECK_MESSAGE("options.reserved is 1");
+    // Those of deldrift/research.h are chosen by its own function.
+    deldrift_options_init(&options);
+    options.algorithm = DELDRIFT_RESEARCH_PLACEMENT;
+    CHECK_STATUS(try_options(&options), DELDRIFT_INVALID_OPTIONS);
+    CHECK_MESSAGE("options.algorithm is 16");
 }
 
 static void algorithms_can_be_exchanged(void) {
@@ -126,7 +109,7 @@ static void algorithms_can_be_exchanged(void) {
         OK(deldrift_get_algorithm(t, &algorithm));
         CHECK(algorithm == all[i]);
         for (size_t j = 0; j < sizeof all / sizeof *all; j++) {
-            OK(deldrift_set_algorithm(t, all[j]));
+            OK(choose(t, all[j]));
             OK(deldrift_get_algorithm(t, &algorithm));
             CHECK(algorithm == all[j]);
         }
@@ -136,95 +119,6 @@ static void algorithms_can_be_exchanged(void) {
         CHECK(algorithm == all[sizeof all / sizeof *all - 1]);
         deldrift_destroy(t);
     }
-}
-
-// A triangulation by DELDRIFT_COMPARE_REBUILDING_TOLERANCE, of which a part moves at each step.
-typedef struct {
-    deldrift_triangulation *t;
-    uint32_t dimension;
-    double *positions;
-    uint64_t state;
-} switching;
-
-enum { SWITCHING_COUNT = 200 };
-
-static switching switching_by(uint32_t dimension, deldrift_options options) {
-    options.algorithm = DELDRIFT_COMPARE_REBUILDING_TOLERANCE;
-    switching s = {NULL, dimension, random_positions(dimension, SWITCHING_COUNT, 9), 10};
-    s.t = create(dimension, s.positions, SWITCHING_COUNT, &options);
-    return s;
-}
-
-static void end(switching s) {
-    OK(deldrift_validate(s.t, 3));
-    deldrift_destroy(s.t);
-    free(s.positions);
-}
-
-// Moves this share of the vertices far away and the others not at all; whether that was done by rebuilding.
-static bool rebuilds(switching *s, double share) {
-    for (size_t i = 0; i < (size_t)(share * SWITCHING_COUNT) * s->dimension; i++) {
-        s->positions[i] = next_random(&s->state);
-    }
-    OK(deldrift_move_vertices(s->t, NULL, s->positions, SWITCHING_COUNT));
-    deldrift_commit_report report;
-    OK(deldrift_commit_timestamp(s->t, &report));
-    CHECK(report.rebuilds == 1 || report.within_tolerance > 0 || share == 1);
-    return report.rebuilds == 1;
-}
-
-static void rebuilding_ends_at_a_sample_within_tolerance(uint32_t dimension, uint32_t period) {
-    deldrift_options options;
-    deldrift_options_init(&options);
-    options.switch_period = period;
-    switching s = switching_by(dimension, options);
-    CHECK(rebuilds(&s, 1));
-    for (uint32_t step = 1; step < (period == 0 ? 4 : period); step++) CHECK(rebuilds(&s, 0));
-    CHECK(!rebuilds(&s, 0));
-
-    // Once and for all, unless the algorithm is chosen again.
-    for (int step = 0; step < 6; step++) CHECK(!rebuilds(&s, 1));
-    OK(deldrift_set_algorithm(s.t, DELDRIFT_COMPARE_REBUILDING_TOLERANCE));
-    CHECK(!rebuilds(&s, 1));
-    OK(deldrift_set_algorithm(s.t, DELDRIFT_TOLERANCE));
-    CHECK(!rebuilds(&s, 1));
-    OK(deldrift_set_algorithm(s.t, DELDRIFT_COMPARE_REBUILDING_TOLERANCE));
-    CHECK(rebuilds(&s, 1));
-    end(s);
-}
-
-// With four vertices in ten far away, of which a sample of 2000 is a fair picture.
-static void the_share_decides(uint32_t dimension, double share, bool switches) {
-    deldrift_options options;
-    deldrift_options_init(&options);
-    options.switch_share = share;
-    options.switch_sample = 2000;
-    options.switch_period = 1;
-    switching s = switching_by(dimension, options);
-    for (int step = 0; step < 3; step++) CHECK(rebuilds(&s, 0.4) == !switches);
-    end(s);
-}
-
-// Steps before the sample of a single vertex, at each of them, is of the half that does not move.
-static int steps_of_rebuilding(uint64_t seed) {
-    deldrift_options options;
-    deldrift_options_init(&options);
-    options.switch_seed = seed;
-    options.switch_sample = options.switch_period = 1;
-    switching s = switching_by(2, options);
-    int steps = 0;
-    while (rebuilds(&s, 0.5)) steps++;
-    end(s);
-    return steps;
-}
-
-static void the_seed_decides(void) {
-    bool differs = false;
-    for (uint64_t seed = 0; seed < 10; seed++) {
-        CHECK(steps_of_rebuilding(seed) == steps_of_rebuilding(seed));
-        differs = differs || steps_of_rebuilding(seed) != steps_of_rebuilding(0);
-    }
-    CHECK(differs);
 }
 
 // What the callbacks see and do.
@@ -327,20 +221,11 @@ int main(void) {
     structures_of_earlier_versions_are_accepted();
     structures_of_later_versions_are_accepted_if_unused();
     unknown_values_are_refused_by_name();
-    shares_are_parts_of_a_whole();
     algorithms_can_be_exchanged();
-    for (uint32_t dimension = 2; dimension <= 3; dimension++) {
-        rebuilding_ends_at_a_sample_within_tolerance(dimension, 0);
-        rebuilding_ends_at_a_sample_within_tolerance(dimension, 3);
-        the_share_decides(dimension, 0.5, true);
-        the_share_decides(dimension, 0.7, false);
-        the_share_decides(dimension, 0, dimension == 3);
-    }
-    the_seed_decides();
     creation_can_be_cancelled();
     a_cancelled_commit_has_no_effect(DELDRIFT_REBUILDING);
     a_cancelled_commit_has_no_effect(DELDRIFT_PLACEMENT_FLIPS);
     a_cancelled_commit_has_no_effect(DELDRIFT_TOLERANCE);
-    a_cancelled_commit_has_no_effect(DELDRIFT_COMPARE_SAFE_REGION_TOLERANCE);
+    a_cancelled_commit_has_no_effect(DELDRIFT_RESEARCH_SAFE_REGION_TOLERANCE);
     return 0;
 }

@@ -53,7 +53,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_move_vertex", "deldrift_move_vertices", "deldrift_move_vertices, all", "deldrift_stage_insertions",
     "deldrift_stage_removals", "deldrift_commit_timestamp", "deldrift_commit_timestamp, some",
     "deldrift_commit_positions", "deldrift_compact", "deldrift_take_changes", "deldrift_cells", "deldrift_copy_cells",
-    "deldrift_star", "deldrift_tolerance", "deldrift_annulus_widths", "deldrift_standard_delimiter", "deldrift_locate",
+    "deldrift_star", "deldrift_tolerance", "deldrift_research_annulus_widths", "deldrift_research_standard_delimiter", "deldrift_locate",
     "deldrift_locate_points", "deldrift_nearest_vertex", "deldrift_circumcentres",
     "deldrift_volumes", "deldrift_mask_by_circumradius", "deldrift_mask_boundary", "deldrift_hull_facets",
     "deldrift_edges", "deldrift_vertex_neighbours", "deldrift_vertex_cells", "deldrift_mirror_indices",
@@ -303,8 +303,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case COPY_CELLS: status = deldrift_copy_cells(s->t, ids_out, more_out, ROOM / 4, &count); break;
         case STAR: status = deldrift_star(s->t, 12, ids_out, ROOM, &count); break;
         case TOLERANCE: status = deldrift_tolerance(s->t, 12, &tolerance); break;
-        case ANNULUS_WIDTHS: status = deldrift_annulus_widths(s->t, numbers_out, ROOM, &count); break;
-        case DELIMITER: status = deldrift_standard_delimiter(s->t, 11, 1, centre, &radius, &tolerance); break;
+        case ANNULUS_WIDTHS: status = deldrift_research_annulus_widths(s->t, numbers_out, ROOM, &count); break;
+        case DELIMITER: status = deldrift_research_standard_delimiter(s->t, 11, 1, centre, &radius, &tolerance); break;
         case LOCATE: status = deldrift_locate(s->t, to, &location); break;
         case LOCATE_POINTS: status = deldrift_locate_points(s->t, to, 1, NULL, &location); break;
         case NEAREST: status = deldrift_nearest_vertex(s->t, to, &out); break;

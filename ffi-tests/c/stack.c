@@ -92,12 +92,14 @@ static void many_points(void) {
         for (size_t i = 0; i < MANY * dimension; i++) then[i] = at[i] + (k % 4 < 2 ? 1e-3 : 0.1) * next_random(&state);
         deldrift_options options;
         deldrift_options_init(&options);
-        options.algorithm = algorithms[k / 6];
+        deldrift_algorithm algorithm = algorithms[k / 6];
+        options.algorithm = is_of_research(algorithm) ? DELDRIFT_AUTO : algorithm;
         options.threads = 3;
         size_t n = kind == 1 ? 300 : MANY;
         deldrift_triangulation *t = NULL, *other = NULL;
         made.count = 0;
         GO(deldrift_create(dimension, at, n, &options, &t));
+        if (is_of_research(algorithm)) GO(deldrift_research_set_algorithm(t, algorithm, NULL));
         for (int step = 0; step < 2; step++) {
             GO(deldrift_commit_positions(t, step == 0 ? then : at, n, NULL));
             for (v = 0; v < 30; v += 3) GO(deldrift_move_vertex(t, v, then + (v + 7) * dimension));

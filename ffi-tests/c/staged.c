@@ -288,7 +288,7 @@ static void null_has_no_capacity(void) {
     OK(deldrift_copy_cells(t, NULL, NULL, 0, &count));
     OK(deldrift_copy_positions(t, NULL, 0, &count));
     OK(deldrift_star(t, vertex, NULL, 0, &count));
-    OK(deldrift_annulus_widths(t, NULL, 0, &count));
+    OK(deldrift_research_annulus_widths(t, NULL, 0, &count));
     OK(deldrift_cells_around(t, &vertex, 1, NULL, 0, &count));
     OK(deldrift_edges(t, NULL, 0, &count));
     count = 77;
@@ -296,7 +296,7 @@ static void null_has_no_capacity(void) {
     CHECK_MESSAGE("vertices is NULL");
     CHECK_STATUS(deldrift_copy_positions(t, NULL, 5, &count), DELDRIFT_NULL_ARGUMENT);
     CHECK_STATUS(deldrift_star(t, vertex, NULL, 4, &count), DELDRIFT_NULL_ARGUMENT);
-    CHECK_STATUS(deldrift_annulus_widths(t, NULL, 1, &count), DELDRIFT_NULL_ARGUMENT);
+    CHECK_STATUS(deldrift_research_annulus_widths(t, NULL, 1, &count), DELDRIFT_NULL_ARGUMENT);
     CHECK_STATUS(deldrift_cells_around(t, &vertex, 1, NULL, 9, &count), DELDRIFT_NULL_ARGUMENT);
     CHECK_STATUS(deldrift_edges(t, NULL, 9, &count), DELDRIFT_NULL_ARGUMENT);
     CHECK(count == 77);

@@ -1,4 +1,4 @@
-// Every function of the header, called once or more for one set of points, and a number for all that each call gives.
+// Every function of the headers, called once or more for one set of points, and a number for all that each call gives.
 //
 // The program has its own functions called before and after each call, and in the callbacks. What the calls are given is
 // made before: a tour does no arithmetic of its own with numbers that have a point.
@@ -146,6 +146,8 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     deldrift_commit_report sums;
     GO(deldrift_statistics(t, &sums));
     note(&sums, sizeof sums);
+    GO(deldrift_research_within_safe_region(t, &timestamp));
+    note(&timestamp, sizeof timestamp);
     bool present = false;
     GO(deldrift_is_present(t, 1, &present));
     note(&present, sizeof present);
@@ -168,10 +170,10 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     note(ids, count * sizeof *ids);
     TRY(deldrift_tolerance(t, 4, &width));
     note(&width, sizeof width);
-    GO(deldrift_annulus_widths(t, numbers, TOUR_ROOM, &count));
+    GO(deldrift_research_annulus_widths(t, numbers, TOUR_ROOM, &count));
     note(numbers, count * sizeof *numbers);
     for (uint32_t corner = 0; corner < corners; corner++) {
-        TRY(deldrift_standard_delimiter(t, 0, corner, numbers, numbers + 3, numbers + 4));
+        TRY(deldrift_research_standard_delimiter(t, 0, corner, numbers, numbers + 3, numbers + 4));
         note(numbers, d * sizeof *numbers);
         note(numbers + 3, 2 * sizeof *numbers);
         TRY(deldrift_mirror_index(t, 0, corner, &one));
@@ -263,7 +265,7 @@ static void make_tour(const places *p, record *made) {
     tour_record = made;
     deldrift_options options;
     DO(deldrift_options_init(&options));
-    options.algorithm = p->algorithm;
+    options.algorithm = is_of_research(p->algorithm) ? DELDRIFT_AUTO : p->algorithm;
     options.threads = p->threads;
     options.cancel = tour_cancel;
     options.progress = tour_progress;
@@ -281,6 +283,7 @@ static void make_tour(const places *p, record *made) {
     }
     deldrift_triangulation *t = NULL;
     GO(deldrift_create(d, p->at, n, &options, &t));
+    if (is_of_research(p->algorithm)) GO(deldrift_research_set_algorithm(t, p->algorithm, NULL));
     deldrift_commit_report report;
     deldrift_changes changes;
     GO(deldrift_take_changes(t, &changes));

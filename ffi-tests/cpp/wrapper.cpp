@@ -1,6 +1,8 @@
 // The C++ wrapper: every member, exceptions, ownership.
 #include "check.hpp"
 
+#include <deldrift/research.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,31 +85,31 @@ static void queries() {
     CHECK(t.algorithm() == DELDRIFT_PLACEMENT_FLIPS);
 }
 
+// On what a wrapper owns, as everything else of deldrift/research.h.
 static void tolerances() {
     Triangulation t(2, square);
     const deldrift::Cells cells = t.cells();
-    const std::vector<double> widths = t.annulus_widths();
-    CHECK(widths.size() == 12);
-    double least = INFINITY;
+    std::size_t count = 0;
+    double widths[12], least = INFINITY;
+    CHECK(deldrift_research_annulus_widths(t.native(), widths, 12, &count) == DELDRIFT_OK && count == 12);
     for (std::uint32_t cell = 0; cell < cells.size(); cell++) {
         for (std::uint32_t corner = 0; corner < 3; corner++) {
-            const auto delimiter = t.standard_delimiter(cell, corner);
+            double centre[2], radius, tolerance;
+            CHECK(deldrift_research_standard_delimiter(t.native(), cell, corner, centre, &radius, &tolerance) ==
+                  DELDRIFT_OK);
             const double width = widths[3 * cell + corner];
-            CHECK(delimiter.has_value() == (cells.neighbours_of(cell)[corner] != DELDRIFT_NONE));
-            CHECK(delimiter.has_value() != std::isnan(width));
-            if (!delimiter) continue;
+            const bool is_hull = cells.neighbours_of(cell)[corner] == DELDRIFT_NONE;
+            CHECK(is_hull == std::isnan(radius) && is_hull == std::isnan(width));
+            if (is_hull) continue;
             const std::vector<double> opposite = t.position(cells[cell][corner]);
-            const double x = opposite[0] - delimiter->centre[0], y = opposite[1] - delimiter->centre[1];
-            CHECK(delimiter->centre.size() == 2 && 2 * delimiter->tolerance == width);
-            CHECK(std::fabs(std::hypot(x, y) - delimiter->radius - width / 2) < 1e-13 * delimiter->radius);
-            least = std::fmin(least, delimiter->tolerance);
+            const double x = opposite[0] - centre[0], y = opposite[1] - centre[1];
+            CHECK(2 * tolerance == width);
+            CHECK(std::fabs(std::hypot(x, y) - radius - width / 2) < 1e-13 * radius);
+            least = std::fmin(least, tolerance);
         }
     }
     CHECK(t.tolerance(4) > 0 && t.tolerance(4) <= least);
     CHECK_THROWS(t.tolerance(9), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
-    CHECK_THROWS(t.standard_delimiter(4, 0), DELDRIFT_NO_SUCH_FACET, "cell is 4");
-    CHECK_THROWS(t.standard_delimiter(0, 3), DELDRIFT_NO_SUCH_FACET, "corner is 3");
-    CHECK(Triangulation(3, {}).annulus_widths().empty());
 }
 
 // Positions that move by less and less, by every algorithm: the cells are those of rebuilding.
@@ -126,16 +128,17 @@ static void algorithms(std::uint32_t dimension) {
     std::uniform_real_distribution<double> anywhere(-1, 1);
     std::vector<double> positions(dimension * 200);
     for (double &x : positions) x = anywhere(random);
+    const deldrift_research_options rule{sizeof rule, 0.5, 19, 100, 1};
     std::map<std::uint32_t, Triangulation> all;
     for (std::uint32_t algorithm : ALL_ALGORITHMS) {
-        deldrift_options options = deldrift::default_options();
-        options.algorithm = static_cast<deldrift_algorithm>(algorithm);
-        options.switch_share = 0.5;
-        options.switch_seed = 19;
-        options.switch_sample = 100;
-        options.switch_period = 1;
-        const auto &made = all.emplace(algorithm, Triangulation(dimension, positions, options)).first->second;
-        CHECK(made.algorithm() == options.algorithm);
+        Triangulation &made = all.emplace(algorithm, Triangulation(dimension, positions)).first->second;
+        if (algorithm < DELDRIFT_RESEARCH_PLACEMENT) {
+            made.set_algorithm(static_cast<deldrift_algorithm>(algorithm));
+        } else {
+            const auto of_research = static_cast<deldrift_research_algorithm>(algorithm);
+            CHECK(deldrift_research_set_algorithm(made.native(), of_research, &rule) == DELDRIFT_OK);
+        }
+        CHECK(made.algorithm() == algorithm);
     }
     for (double step = 0.2; step > 1e-4; step /= 2) {
         for (double &x : positions) x += step * anywhere(random);
@@ -145,9 +148,9 @@ static void algorithms(std::uint32_t dimension) {
         }
         const std::vector<Cell> wanted = sorted(all.at(DELDRIFT_REBUILDING));
         for (const auto &[algorithm, t] : all) CHECK(sorted(t) == wanted);
-        all.at(DELDRIFT_COMPARE_SAFE_REGION).validate(3);
+        all.at(DELDRIFT_RESEARCH_SAFE_REGION).validate(3);
     }
-    const deldrift_commit_report sums = all.at(DELDRIFT_COMPARE_REBUILDING_TOLERANCE).statistics();
+    const deldrift_commit_report sums = all.at(DELDRIFT_RESEARCH_REBUILDING_TOLERANCE).statistics();
     CHECK(sums.rebuilds > 0 && sums.rebuilds < sums.timestamp && sums.within_tolerance > 0);
 }
 
@@ -172,8 +175,8 @@ static void failures_are_exceptions() {
     CHECK_THROWS(t.move_vertex(4, {1.0, 1.0, 1.0}), DELDRIFT_WRONG_COUNT, "position has 3 numbers");
     CHECK_THROWS(t.move_vertices({0, 1}, {1.0, 1.0}), DELDRIFT_WRONG_COUNT, "must have 4");
     deldrift_options options = deldrift::default_options();
-    options.switch_share = 1.5;
-    CHECK_THROWS(Triangulation(2, square, options), DELDRIFT_INVALID_OPTIONS, "options.switch_share is 1.5");
+    options.reserved = 1;
+    CHECK_THROWS(Triangulation(2, square, options), DELDRIFT_INVALID_OPTIONS, "options.reserved is 1");
     CHECK_THROWS(t.star(9), DELDRIFT_NO_SUCH_VERTEX, "vertex[0] is 9");
     CHECK_THROWS(t.validate(9), DELDRIFT_INVALID_LEVEL, "level is 9");
     CHECK(t.timestamp() == 0 && t.staged_count() == 0);

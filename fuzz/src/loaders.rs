@@ -34,7 +34,9 @@ pub fn run(data: &[u8]) {
         seal(&mut bytes);
     }
     let mut options = deldrift_options { coincidence: u32::from(flags & 0xc0 == 0xc0), ..default_options() };
-    options.algorithm = s.pick(&[0, 1, 2, 3, 4, 17]);
+    let algorithm = s.pick(&[0, 1, 2, 3, 4, 17]);
+    let is_of_research = algorithm == 17;
+    options.algorithm = if is_of_research { 0 } else { algorithm };
     if s.below(8) == 0 {
         let fault = Fault { first: s.below(40), goes_on: s.below(2) == 0 };
         let (status, refused, t) = fault_while_loading(fault, &bytes, &options);
@@ -55,6 +57,9 @@ pub fn run(data: &[u8]) {
         return;
     }
     tally::LOADED.add(1);
+    if is_of_research {
+        assert_eq!(c!(deldrift_research_set_algorithm(t, algorithm, null())), DELDRIFT_OK);
+    }
     check_loaded(s, t, &options);
     c!(deldrift_destroy(t));
 }
@@ -65,13 +70,10 @@ fn default_options() -> deldrift_options {
         algorithm: 0,
         threads: 1,
         coincidence: 0,
+        reserved: 0,
         cancel: None,
         progress: None,
         user_data: null_mut(),
-        switch_share: 0.0,
-        switch_seed: 0,
-        switch_sample: 0,
-        switch_period: 0,
     }
 }
 

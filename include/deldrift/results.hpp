@@ -11,13 +11,6 @@
 
 namespace deldrift {
 
-// The circle or sphere of a bi-cell; see deldrift_standard_delimiter.
-struct Delimiter {
-    std::vector<double> centre;
-    double radius;
-    double tolerance;
-};
-
 // For each cell; see deldrift_circumcentres.
 struct Circumspheres {
     std::vector<double> centres;

@@ -1,4 +1,4 @@
-//! The C boundary: everything that `include/deldrift.h` declares, and nothing else.
+//! The C boundary: everything that `include/deldrift.h` and `include/deldrift/research.h` declare, and nothing else.
 //!
 //! Each function here does three things and no geometry: it takes its arguments and checks them, calls the one
 //! method of [`MovingTriangulation`](crate::motion::MovingTriangulation) that does the work, and
@@ -69,6 +69,7 @@ mod panics;
 mod pointers;
 mod predicates;
 mod query;
+mod research;
 mod saving;
 mod state;
 mod status;
@@ -87,6 +88,7 @@ pub use motion::*;
 pub use options::*;
 pub use predicates::*;
 pub use query::*;
+pub use research::*;
 pub use saving::*;
 pub use state::*;
 pub use status::*;

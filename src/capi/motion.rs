@@ -12,7 +12,7 @@ use crate::motion::CommitReport;
 
 /// What a commit did, or, from deldrift_statistics, what all of them did.
 ///
-/// A vertex that leaves its tolerance or safe region is relocated once; none ever has to be a second time.
+/// A vertex that leaves its tolerance is relocated once; none ever has to be a second time.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct deldrift_commit_report {
@@ -32,8 +32,6 @@ pub struct deldrift_commit_report {
     pub coincident: u64,
     /// Vertices that were certainly within their tolerance, with an algorithm that tests it.
     pub within_tolerance: u64,
-    /// Vertices that were not, but certainly within their safe region, with an algorithm that tests it.
-    pub within_safe_region: u64,
     /// Bi-cells whose tolerance was computed.
     pub tolerances: u64,
     /// Orientations and in-sphere tests of the stars of relocated vertices.
@@ -46,7 +44,7 @@ pub struct deldrift_commit_report {
     /// Vertices removed.
     pub removed: u64,
     /// Zero; later versions may count more.
-    pub reserved: [u64; 2],
+    pub reserved: [u64; 3],
 }
 
 impl From<CommitReport> for deldrift_commit_report {
@@ -60,13 +58,12 @@ impl From<CommitReport> for deldrift_commit_report {
             rebuilds: report.rebuilds,
             coincident: report.coincident,
             within_tolerance: report.within_tolerance,
-            within_safe_region: report.within_safe_region,
             tolerances: report.tolerances,
             certificates: report.certificates,
             exact_calls: report.exact_calls,
             inserted: report.inserted,
             removed: report.removed,
-            reserved: [0; 2],
+            reserved: [0; 3],
         }
     }
 }

@@ -10,7 +10,7 @@ use super::status::Failure;
 use crate::error::Error;
 use crate::machine::memory;
 use crate::machine::tally;
-use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, SwitchingRule};
+use crate::motion::{Algorithm, CoincidencePolicy, Monitor, Options, Purpose};
 
 /// What happens when vertices come to lie at the same place.
 #[repr(u32)]
@@ -25,12 +25,7 @@ pub enum deldrift_coincidence {
 /// How deldrift_commit_timestamp brings the triangulation to the staged positions. Every algorithm
 /// gives exactly the same cells; they differ in what they cost.
 ///
-/// DELDRIFT_AUTO is for most programs. DELDRIFT_COMPARE_... are algorithms of the research report RR-6750 to
-/// compare with, not for use: in the recorded report each of them is slower than another algorithm in most or all
-/// rows. The recorded report is cpp-bench/results/report.csv, in which the experiments of RR-6750 are repeated: 74
-/// rows, each an input or a part of one.
-///
-/// Numbers from 1000 on are for the library's own tests, and may mean something else in any version.
+/// DELDRIFT_AUTO is for most programs.
 // An algorithm as it arrives from C, where any number may be passed. The header's enumeration has the rows of
 // motion/algorithms.rs.
 pub type AlgorithmCode = u32;
@@ -71,6 +66,8 @@ pub struct deldrift_options {
     pub threads: u32,
     /// Default DELDRIFT_COINCIDENCE_MERGE.
     pub coincidence: CoincidenceCode,
+    /// Zero; later versions may have an option here.
+    pub reserved: u32,
     /// Called now and then during long calls: at least once for some ten thousand cells that are made, or looked at
     /// around single vertices. Passes over all vertices or cells, each of which takes a part of a build, are not
     /// interrupted. When it returns true, the call ends in DELDRIFT_CANCELLED and has had no effect. NULL, the default,
@@ -82,15 +79,6 @@ pub struct deldrift_options {
     pub progress: Option<unsafe extern "C" fn(user_data: *mut c_void, fraction: f64)>,
     /// Handed to the callbacks as it is.
     pub user_data: *mut c_void,
-    /// DELDRIFT_COMPARE_REBUILDING_TOLERANCE stops rebuilding at the first sample of which at least this share stays
-    /// within tolerance: above 0 and at most 1. 0, the default, stands for 0.75 in 2D and 0.55 in 3D.
-    pub switch_share: f64,
-    /// Seed of its random samples: with the same seed, the same calls do the same. Default 0.
-    pub switch_seed: u64,
-    /// How many vertices it samples each time, at most as many as there are. 0, the default, stands for 40.
-    pub switch_sample: u32,
-    /// It takes a sample at the first of every switch_period commits. 0, the default, stands for 4.
-    pub switch_period: u32,
 }
 
 /// Greatest `struct_size` that is taken for a size: anything above it is more likely to be garbage, and
@@ -103,27 +91,21 @@ impl deldrift_options {
         algorithm: 0,
         threads: 0,
         coincidence: 0,
+        reserved: 0,
         cancel: None,
         progress: None,
         user_data: ptr::null_mut(),
-        switch_share: 0.0,
-        switch_seed: 0,
-        switch_sample: 0,
-        switch_period: 0,
     };
 
     /// Where a `struct_size` may end: behind any field.
-    const ENDS: [usize; 11] = [
+    const ENDS: [usize; 8] = [
         size_of::<usize>(),
         offset_of!(deldrift_options, threads),
         offset_of!(deldrift_options, coincidence),
+        offset_of!(deldrift_options, reserved),
         offset_of!(deldrift_options, cancel),
         offset_of!(deldrift_options, progress),
         offset_of!(deldrift_options, user_data),
-        offset_of!(deldrift_options, switch_share),
-        offset_of!(deldrift_options, switch_seed),
-        offset_of!(deldrift_options, switch_sample),
-        offset_of!(deldrift_options, switch_period),
         size_of::<deldrift_options>(),
     ];
 
@@ -134,30 +116,11 @@ impl deldrift_options {
             1 => CoincidencePolicy::Reject,
             other => return Err(invalid("options.coincidence", other, "a deldrift_coincidence")),
         };
+        if self.reserved != 0 {
+            return Err(invalid("options.reserved", self.reserved, "0"));
+        }
         let algorithm = algorithm("options.algorithm", self.algorithm)?;
-        Ok(Options {
-            algorithm,
-            threads: self.threads,
-            coincidence,
-            switching: self.switching()?,
-            monitor: self.callbacks().monitor()?,
-        })
-    }
-
-    fn switching(&self) -> Result<SwitchingRule, Failure> {
-        let share = match self.switch_share {
-            0.0 => None,
-            share if share > 0.0 && share <= 1.0 => Some(share),
-            value => return Err(Failure::Share { field: "options.switch_share", value }),
-        };
-        let default = SwitchingRule::default();
-        let given_or = |given, default| if given == 0 { default } else { given };
-        Ok(SwitchingRule {
-            sample: given_or(self.switch_sample, default.sample),
-            period: given_or(self.switch_period, default.period),
-            share,
-            seed: self.switch_seed,
-        })
+        Ok(Options { algorithm, threads: self.threads, coincidence, monitor: self.callbacks().monitor()? })
     }
 
     /// The callbacks that the options name.
@@ -255,39 +218,19 @@ impl Callbacks {
     }
 }
 
-/// The algorithm of a number.
+/// The algorithm of a number: one that is for use.
 pub(super) fn algorithm(field: &'static str, code: AlgorithmCode) -> Result<Algorithm, Failure> {
-    Algorithm::from_code(code).ok_or_else(|| invalid(field, code, "a deldrift_algorithm"))
+    let found = Algorithm::from_code(code).filter(|algorithm| algorithm.row().purpose == Purpose::Use);
+    found.ok_or_else(|| invalid(field, code, "a deldrift_algorithm"))
 }
 
-fn invalid(field: &'static str, value: u32, wanted: &'static str) -> Failure {
+pub(super) fn invalid(field: &'static str, value: u32, wanted: &'static str) -> Failure {
     Failure::Option { field, value: value.into(), wanted }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn switching_rule_is_taken_over() {
-        let rule = |options: deldrift_options| options.convert().map(|options| options.switching).ok();
-        assert_eq!(rule(deldrift_options::DEFAULT), Some(SwitchingRule::default()));
-        let options = deldrift_options {
-            switch_share: 0.25,
-            switch_seed: u64::MAX,
-            switch_sample: 7,
-            switch_period: 9,
-            ..deldrift_options::DEFAULT
-        };
-        let wanted = SwitchingRule { sample: 7, period: 9, share: Some(0.25), seed: u64::MAX };
-        assert_eq!(rule(options), Some(wanted));
-        for switch_share in [f64::MIN_POSITIVE, 1.0, -0.0] {
-            assert!(rule(deldrift_options { switch_share, ..options }).is_some(), "{switch_share}");
-        }
-        for switch_share in [f64::NAN, f64::INFINITY, -f64::MIN_POSITIVE, 1.0 + f64::EPSILON] {
-            assert!(rule(deldrift_options { switch_share, ..options }).is_none(), "{switch_share}");
-        }
-    }
 
     #[test]
     fn sizes_end_behind_a_field() {

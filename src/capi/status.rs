@@ -67,20 +67,18 @@ pub enum deldrift_status {
     DELDRIFT_INTERNAL_ERROR = 22,
     /// There is no cell of this index, or cells have no corner of this number.
     DELDRIFT_NO_SUCH_FACET = 23,
-    /// The facet is on the convex hull: only one cell has it, so there is no bi-cell and no delimiter.
-    DELDRIFT_NO_DELIMITER = 24,
     /// A number has no meaning for its argument, as a negative squared radius.
-    DELDRIFT_INVALID_VALUE = 25,
+    DELDRIFT_INVALID_VALUE = 24,
     /// Data are not those of a saved triangulation: they are damaged, incomplete or of another kind, or come from a
     /// later version; the message says what is wrong, and where.
-    DELDRIFT_INVALID_DATA = 26,
+    DELDRIFT_INVALID_DATA = 25,
     /// The system cannot read or write a file; the message has the path, and what the system says.
-    DELDRIFT_IO_ERROR = 27,
+    DELDRIFT_IO_ERROR = 26,
     /// A field has no name, one that is not UTF-8, or no components; the message has its index.
-    DELDRIFT_INVALID_FIELD = 28,
+    DELDRIFT_INVALID_FIELD = 27,
     /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
     /// and it can be neither moved with that commit nor removed twice. The message says which.
-    DELDRIFT_STAGED_VERTEX = 29,
+    DELDRIFT_STAGED_VERTEX = 28,
 }
 
 use deldrift_status::*;
@@ -90,7 +88,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 30] = [
+    const ALL: [deldrift_status; 29] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -115,7 +113,6 @@ impl deldrift_status {
         DELDRIFT_POISONED,
         DELDRIFT_INTERNAL_ERROR,
         DELDRIFT_NO_SUCH_FACET,
-        DELDRIFT_NO_DELIMITER,
         DELDRIFT_INVALID_VALUE,
         DELDRIFT_INVALID_DATA,
         DELDRIFT_IO_ERROR,
@@ -149,7 +146,6 @@ impl deldrift_status {
             DELDRIFT_POISONED => c"an internal error has made the triangulation unusable",
             DELDRIFT_INTERNAL_ERROR => c"internal error",
             DELDRIFT_NO_SUCH_FACET => c"there is no such cell or facet",
-            DELDRIFT_NO_DELIMITER => c"a facet of the hull has no delimiter",
             DELDRIFT_INVALID_VALUE => c"a number has no meaning for its argument",
             DELDRIFT_INVALID_DATA => c"the data are not those of a saved triangulation",
             DELDRIFT_IO_ERROR => c"a file cannot be read or written",
@@ -208,7 +204,6 @@ pub(super) enum Failure {
     Level { given: u32 },
     BufferTooSmall { argument: &'static str, capacity: usize, needed: usize },
     NoSuchFacet { cell: u32, corner: u32, cells: usize, corners: usize },
-    HullFacet { cell: u32, corner: u32 },
     Invalid(Violation),
     Data { argument: &'static str, damage: Damage },
     File(FileError),
@@ -242,7 +237,6 @@ impl Failure {
             Failure::Level { .. } => DELDRIFT_INVALID_LEVEL,
             Failure::BufferTooSmall { .. } => DELDRIFT_BUFFER_TOO_SMALL,
             Failure::NoSuchFacet { .. } => DELDRIFT_NO_SUCH_FACET,
-            Failure::HullFacet { .. } => DELDRIFT_NO_DELIMITER,
             Failure::Invalid(_) => DELDRIFT_INVALID,
             Failure::Data { .. } => DELDRIFT_INVALID_DATA,
             Failure::File(_) => DELDRIFT_IO_ERROR,
@@ -293,9 +287,6 @@ impl fmt::Display for Failure {
                 f,
                 "cell is {cell} and corner is {corner}, but there are {cells} cells of {corners} corners"
             ),
-            Failure::HullFacet { cell, corner } => {
-                write!(f, "cell is {cell} and corner is {corner}, which is opposite a facet of the hull")
-            }
             Failure::Invalid(violation) => write!(f, "{}", violation.message),
             Failure::Data { argument, damage } => write!(f, "{argument}: {damage}"),
             Failure::File(error) => write!(f, "{error}"),

@@ -116,7 +116,8 @@ pub unsafe extern "C" fn deldrift_set_algorithm(
     })
 }
 
-/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses.
+/// The algorithm in force, to *algorithm: the one chosen, thus DELDRIFT_AUTO where the library chooses; after
+/// deldrift_research_set_algorithm the number of that of deldrift/research.h.
 ///
 /// Cost: constant.
 ///

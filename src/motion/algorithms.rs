@@ -11,7 +11,7 @@ use crate::motion::region_kind::Filter;
 pub enum Purpose {
     /// For programs: `DELDRIFT_<NAME>` in C.
     Use,
-    /// To compare with: `DELDRIFT_COMPARE_<NAME>` in C. Another algorithm is faster.
+    /// To compare with: `DELDRIFT_RESEARCH_<NAME>` in C. Another algorithm is faster.
     Comparison,
     /// A means of [`Algorithm::Auto`], by itself for tests and the benchmark only: no name in C.
     Internal,
@@ -139,10 +139,10 @@ macro_rules! for_algorithms {
         }
 
         /// For comparison: as DELDRIFT_TOLERANCE, with a larger region for each vertex: inside the delimiters of the
-        /// facets it is on, outside those of the facets opposite it (see deldrift_standard_delimiter); in 3D also not
-        /// so far that delimiters prove too little (RR-6750, Algorithm 2). More vertices stay within, at the cost of a
-        /// distance for every facet of the star of each, and of the memory of a delimiter for every facet of every
-        /// cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
+        /// facets it is on, outside those of the facets opposite it (see deldrift_research_standard_delimiter); in 3D
+        /// also not so far that delimiters prove too little (RR-6750, Algorithm 2). More vertices stay within, at the
+        /// cost of a distance for every facet of the star of each, and of the memory of a delimiter for every facet of
+        /// every cell. In the recorded report slower than DELDRIFT_TOLERANCE in 74 of 74 rows.
         SafeRegion = 17 {
             name: "safe_region",
             purpose: Comparison,
@@ -164,10 +164,10 @@ macro_rules! for_algorithms {
             by: commit_by_safe_region(Filter::Both),
         }
 
-        /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good; the
-        /// rule is that of switch_share and the options behind it (RR-6750, section 5.2). A sample costs the tolerances
-        /// of a few vertices. To choose another algorithm and this one again starts over. In the recorded report slower
-        /// than DELDRIFT_AUTO in 71 of 74 rows.
+        /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good, by
+        /// the rule of deldrift_research_options (RR-6750, section 5.2). A sample costs the tolerances of a few vertices.
+        /// To choose another algorithm and this one again starts over. In the recorded report slower than DELDRIFT_AUTO
+        /// in 71 of 74 rows.
         RebuildingTolerance = 19 {
             name: "rebuilding_tolerance",
             purpose: Comparison,

@@ -74,8 +74,6 @@ pub struct Options {
     pub threads: u32,
     /// Coincident vertices.
     pub coincidence: CoincidencePolicy,
-    /// Rule of [`Algorithm::RebuildingTolerance`].
-    pub switching: SwitchingRule,
     /// Progress and cancellation, of creation, loading, commits, and immediate calls that take long.
     pub monitor: Option<Monitor>,
 }
@@ -86,7 +84,6 @@ impl fmt::Debug for Options {
             .field("algorithm", &self.algorithm)
             .field("threads", &self.threads)
             .field("coincidence", &self.coincidence)
-            .field("switching", &self.switching)
             .field("monitor", &self.monitor.is_some())
             .finish()
     }

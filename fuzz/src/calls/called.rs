@@ -22,16 +22,17 @@ pub fn names() -> BTreeSet<&'static str> {
     names[..*count].iter().copied().collect()
 }
 
-/// The functions that the header declares, but for those defined in it.
-pub fn names_of_header() -> BTreeSet<&'static str> {
-    let header = include_str!("../../../include/deldrift.h");
+/// The functions that the headers declare, but for those defined in them.
+pub fn names_of_headers() -> BTreeSet<&'static str> {
+    let headers =
+        [include_str!("../../../include/deldrift.h"), include_str!("../../../include/deldrift/research.h")];
     let is_declaration = |line: &&str| !line.starts_with(['/', ' ', '#', '*']) && !line.starts_with("static");
     let name = |line: &'static str| {
         let (before, _) = line.split_once('(')?;
         let name = before.rsplit([' ', '*']).next()?;
         name.starts_with("deldrift_").then_some(name)
     };
-    header.lines().filter(is_declaration).filter_map(name).collect()
+    headers.into_iter().flat_map(str::lines).filter(is_declaration).filter_map(name).collect()
 }
 
 /// Calls a C function.

@@ -4,7 +4,7 @@ use super::super::tally;
 use super::called::{c, note};
 use super::model::{NONE, Place, Row};
 use super::places::Motion;
-use super::{ALGORITHMS, Carried, History, flattened, options};
+use super::{ALGORITHMS, Carried, Chosen, History, flattened, options};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::BTreeSet;
@@ -233,9 +233,10 @@ impl History<'_> {
     }
 
     pub(super) fn set_algorithm(&mut self) {
-        let (t, algorithm) = (self.t, self.s.pick(&ALGORITHMS));
-        self.ok(|| c!(deldrift_set_algorithm(t, algorithm)));
-        self.options.algorithm = algorithm;
+        let t = self.t;
+        let chosen = Chosen { algorithm: self.s.pick(&ALGORITHMS), ..self.chosen };
+        self.ok(|| chosen.choose(t));
+        self.chosen = chosen;
         self.check();
     }
 
@@ -282,7 +283,7 @@ impl History<'_> {
         } else {
             // What is loaded from is not in use by that call.
             self.callback.calls_back.set(false);
-            let options = options(&mut self.s, &self.callback);
+            let (options, chosen) = options(&mut self.s, &self.callback);
             let hides = options.coincidence == 1 && !self.m.hidden().is_empty();
             let wanted = if hides { DELDRIFT_COINCIDENT } else { DELDRIFT_OK };
             if way == 1 {
@@ -299,7 +300,8 @@ impl History<'_> {
                 self.check();
                 return;
             }
-            self.options = options;
+            self.is_ok(chosen.choose(other));
+            (self.options, self.chosen) = (options, chosen);
             self.carried = Carried::default();
         }
         let (kept, gone) = if way == 0 && self.s.below(2) == 0 { (t, other) } else { (other, t) };

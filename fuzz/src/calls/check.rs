@@ -121,7 +121,7 @@ impl History<'_> {
         self.is_ok(c!(deldrift_staged_count(t, &mut staged)));
         self.is_ok(c!(deldrift_timestamp(t, &mut timestamp)));
         self.is_ok(c!(deldrift_memory_bytes(t, &mut bytes)));
-        assert_eq!((dimension as usize, algorithm), (m.d, self.options.algorithm));
+        assert_eq!((dimension as usize, algorithm), (m.d, self.chosen.algorithm));
         assert_eq!(
             (ids, vertices, staged),
             (m.positions.len(), m.present().count(), m.staged.len()),
@@ -136,6 +136,9 @@ impl History<'_> {
             (m.timestamp, m.hidden().len() as u64),
             "statistics"
         );
+        let mut within = u64::MAX;
+        self.is_ok(c!(deldrift_research_within_safe_region(t, &mut within)));
+        assert!(within <= report.unchanged, "{within} within their safe region");
     }
 
     fn check_vertices(&self) {

@@ -97,6 +97,7 @@ struct History<'a> {
     m: Model,
     t: *mut deldrift_triangulation,
     options: deldrift_options,
+    chosen: Chosen,
     callback: Box<Callback>,
     /// What is to befall the next call.
     fault: Option<Fault>,
@@ -121,30 +122,61 @@ pub fn message() -> String {
 /// The algorithm codes, those for tests included.
 const ALGORITHMS: [u32; 12] = [0, 0, 1, 2, 3, 4, 16, 17, 18, 19, 1000, 1001];
 
-fn options(s: &mut Source, callback: &Callback) -> deldrift_options {
+/// An algorithm, and the rule of one of research.
+#[derive(Clone, Copy)]
+struct Chosen {
+    algorithm: u32,
+    rule: deldrift_research_options,
+}
+
+impl Chosen {
+    /// What a triangulation can be created with: algorithms of research are chosen afterwards.
+    fn at_creation(&self) -> u32 {
+        if self.is_of_research() { 0 } else { self.algorithm }
+    }
+
+    fn is_of_research(&self) -> bool {
+        self.algorithm >= 16
+    }
+
+    fn choose(&self, t: *mut deldrift_triangulation) -> deldrift_status {
+        if self.is_of_research() {
+            c!(deldrift_research_set_algorithm(t, self.algorithm, &self.rule))
+        } else {
+            c!(deldrift_set_algorithm(t, self.algorithm))
+        }
+    }
+}
+
+fn options(s: &mut Source, callback: &Callback) -> (deldrift_options, Chosen) {
     let flags = s.byte();
     let asks = flags & 1 != 0;
     let tells = flags & 2 != 0;
-    let mut options = deldrift_options {
-        struct_size: size_of::<deldrift_options>(),
-        algorithm: s.pick(&ALGORITHMS),
-        threads: u32::from(flags >> 2 & 3),
-        coincidence: u32::from(flags & 0x70 == 0),
-        cancel: asks.then_some(cancel as unsafe extern "C" fn(*mut c_void) -> bool),
-        progress: tells.then_some(progress as unsafe extern "C" fn(*mut c_void, f64)),
-        user_data: std::ptr::from_ref(callback).cast_mut().cast(),
+    let rule = deldrift_research_options {
+        struct_size: size_of::<deldrift_research_options>(),
         switch_share: 0.0,
         switch_seed: 0,
         switch_sample: 0,
         switch_period: 0,
     };
-    if options.algorithm == 19 {
-        options.switch_share = s.pick(&[0.0, 1.0, 0.01]);
-        options.switch_seed = u64::from(s.byte());
-        options.switch_sample = s.pick(&[0, 1, 5, u32::MAX]);
-        options.switch_period = s.pick(&[0, 1, 2]);
+    let mut chosen = Chosen { algorithm: s.pick(&ALGORITHMS), rule };
+    let options = deldrift_options {
+        struct_size: size_of::<deldrift_options>(),
+        algorithm: chosen.at_creation(),
+        threads: u32::from(flags >> 2 & 3),
+        coincidence: u32::from(flags & 0x70 == 0),
+        reserved: 0,
+        cancel: asks.then_some(cancel as unsafe extern "C" fn(*mut c_void) -> bool),
+        progress: tells.then_some(progress as unsafe extern "C" fn(*mut c_void, f64)),
+        user_data: std::ptr::from_ref(callback).cast_mut().cast(),
+    };
+    if chosen.algorithm == 19 {
+        chosen.rule.switch_share = s.pick(&[0.0, 1.0, 0.01]);
+        chosen.rule.switch_seed = u64::from(s.byte());
+        chosen.rule.switch_sample = s.pick(&[0, 1, 5, u32::MAX]);
+        chosen.rule.switch_period = s.pick(&[0, 1, 2]);
     }
-    options
+    (options, chosen)
 }
 
 impl<'a> History<'a> {
@@ -160,7 +192,7 @@ impl<'a> History<'a> {
         };
         let style = Style::new(&mut s);
         let callback = Box::<Callback>::default();
-        let options = options(&mut s, &callback);
+        let (options, chosen) = options(&mut s, &callback);
         let m = Model { d, ..Model::default() };
         let mut history = History {
             s,
@@ -168,6 +200,7 @@ impl<'a> History<'a> {
             m,
             t: null_mut(),
             options,
+            chosen,
             callback,
             fault: None,
             cancel_after: None,
@@ -321,6 +354,7 @@ impl<'a> History<'a> {
             self.ok(|| c!(deldrift_create(d as u32, numbers.as_ptr(), places.len(), &options, &mut t)));
         }
         self.t = t;
+        self.is_ok(self.chosen.choose(t));
         self.check();
     }
 

@@ -104,7 +104,8 @@ impl History<'_> {
 
     fn annulus_widths(&mut self) {
         let t = self.t;
-        let found = self.copied(-1.0, 1, |to, room, count| c!(deldrift_annulus_widths(t, to, room, count)));
+        let found =
+            self.copied(-1.0, 1, |to, room, count| c!(deldrift_research_annulus_widths(t, to, room, count)));
         let (_, neighbours) = self.cells();
         let corners = self.m.d + 1;
         assert_eq!(found.len(), corners * neighbours.len());
@@ -118,21 +119,25 @@ impl History<'_> {
         let (t, corners) = (self.t, self.m.d + 1);
         let (rows, neighbours) = self.cells();
         let (cell, corner) = (self.s.below(rows.len() + 1), self.s.below(corners + 1));
-        let wanted = if cell >= rows.len() || corner >= corners {
-            DELDRIFT_NO_SUCH_FACET
-        } else if neighbours[cell][corner] == NONE {
-            DELDRIFT_NO_DELIMITER
-        } else {
-            DELDRIFT_OK
-        };
+        let is_there = cell < rows.len() && corner < corners;
+        let is_hull = is_there && neighbours[cell][corner] == NONE;
+        let wanted = if is_there { DELDRIFT_OK } else { DELDRIFT_NO_SUCH_FACET };
         let (mut centre, mut radius, mut tolerance) = ([77.0; 3], 77.0, -1.0);
         let (cell, corner) = (cell as u32, corner as u32);
         self.expect(wanted, || {
-            c!(deldrift_standard_delimiter(t, cell, corner, centre.as_mut_ptr(), &mut radius, &mut tolerance))
+            c!(deldrift_research_standard_delimiter(
+                t,
+                cell,
+                corner,
+                centre.as_mut_ptr(),
+                &mut radius,
+                &mut tolerance
+            ))
         });
         let is_written = tolerance != -1.0;
-        assert_eq!(is_written, wanted == DELDRIFT_OK);
-        assert!(!is_written || tolerance >= 0.0, "tolerance {tolerance}");
+        assert_eq!(is_written, is_there);
+        assert_eq!(is_hull, radius.is_nan() && tolerance.is_nan());
+        assert!(!is_there || is_hull || tolerance >= 0.0, "tolerance {tolerance}");
     }
 
     /// Whether no corner's side of a cell is negative, for a place; and whether a facet of the hull has it beyond.

@@ -152,9 +152,9 @@ impl History<'_> {
         options.cancel = None;
         match self.s.below(6) {
             0 => options.struct_size = self.s.pick(&[0, 1, 9, 4097, usize::MAX]),
-            1 => options.algorithm = self.s.pick(&[5, 15, 20, 999, 1002, u32::MAX]),
+            1 => options.algorithm = self.s.pick(&[5, 15, 16, 999, 1000, u32::MAX]),
             2 => options.coincidence = 2,
-            _ => options.switch_share = self.s.pick(&[f64::NAN, -0.5, 1.5]),
+            _ => options.reserved = self.s.pick(&[1, 7, u32::MAX]),
         }
         let wanted = DELDRIFT_INVALID_OPTIONS;
         self.expect(wanted, || c!(deldrift_create(d, numbers.as_ptr(), 1, &options, &mut created)));
@@ -170,6 +170,9 @@ impl History<'_> {
         });
         let t = self.t;
         self.expect(wanted, || c!(deldrift_set_algorithm(t, 7)));
+        self.expect(wanted, || c!(deldrift_research_set_algorithm(t, 4, null())));
+        let rule = deldrift_research_options { switch_share: 1.5, ..self.chosen.rule };
+        self.expect(wanted, || c!(deldrift_research_set_algorithm(t, 19, &rule)));
         assert!(created.is_null(), "an output of a call that failed");
     }
 

@@ -1,14 +1,32 @@
 //! Which of the two algorithms has its turn.
 
-/// Where the algorithm is.
+use crate::motion::options::SwitchingRule;
+
+/// Where the algorithm is, and the rule that it goes by.
 #[derive(Clone, Debug, Default)]
 pub(in crate::motion) struct Switching {
+    rule: SwitchingRule,
     has_switched: bool,
     commits: u64,
     draws: u64,
 }
 
 impl Switching {
+    /// The rule in force.
+    pub(in crate::motion) fn rule(&self) -> SwitchingRule {
+        self.rule
+    }
+
+    /// From now on this is the rule.
+    pub(in crate::motion) fn set_rule(&mut self, rule: SwitchingRule) {
+        self.rule = rule;
+    }
+
+    /// It is rebuilding's turn again, with the first commit of a group.
+    pub(in crate::motion) fn start_over(&mut self) {
+        *self = Switching { rule: self.rule, ..Switching::default() };
+    }
+
     /// Whether it is *tolerance*'s turn.
     pub(in crate::motion) fn has_switched(&self) -> bool {
         self.has_switched

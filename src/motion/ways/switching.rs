@@ -12,7 +12,6 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::filters::bicell::tolerance_of_site;
 use crate::motion::options::SwitchingRule;
-use crate::motion::plan::switching::Switching;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Movers, Moves};
 use crate::motion::triangulation::MovingTriangulation;
@@ -24,7 +23,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let mut rule = self.options.switching;
+        let mut rule = self.switching.rule();
         rule.sample = rule.sample.min(self.mesh.site_of.len() as u32);
         let group = u64::from(rule.period.max(1));
         if self.switching.begin_commit(group) && self.sampled_share(&rule, moves)? >= rule.share_for::<G>() {
@@ -67,8 +66,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(f64::from(within) / f64::from(rule.sample.max(1)))
     }
 
+    /// The rule of [`Algorithm::RebuildingTolerance`](crate::motion::Algorithm::RebuildingTolerance), from the next commit
+    /// on; until this is called it is the default one.
+    pub fn set_switching_rule(&mut self, rule: SwitchingRule) {
+        self.switching.set_rule(rule);
+    }
+
     /// Starts over with rebuilding, when the algorithm is chosen again.
     pub(in crate::motion) fn reset_switching(&mut self) {
-        self.switching = Switching::default();
+        self.switching.start_over();
     }
 }
