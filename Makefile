@@ -55,7 +55,7 @@ test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; install
 	ctest --test-dir cpp-bench/build --output-on-failure
 	$(MAKE) compat
 	ctest --test-dir build/compat --output-on-failure
-	cpp-bench/report_page/test_page.py
+	cpp-bench/report/page/test_page.py
 
 soak: ## random histories against fresh builds, on two threads: cpp-bench/results/soak.csv (HOURS=1, or ARGS="--seed 7")
 	cargo bench --bench soak -- $(or $(ARGS),--hours $(HOURS) --csv cpp-bench/results/soak.csv)
@@ -66,10 +66,10 @@ bench: benchmark ## deldrift beside CGAL: tables, cpp-bench/results/bench.csv an
 
 report: benchmark ## the experiments of RR-6750, beside CGAL: cpp-bench/results/report/index.html (PRESET=quick or full)
 	@.ci/packages $(PAGE_NEEDS)
-	-@cpp-bench/fetch_man
+	-@cpp-bench/report/fetch_man
 	cpp-bench/run --report --preset $(PRESET) $(ARGS)
-	cpp-bench/regret
-	cpp-bench/report_page/page.py
+	cpp-bench/report/regret
+	cpp-bench/report/page/page.py
 
 memory: benchmark ## bytes per vertex, beside CGAL's: cpp-bench/results/memory.csv
 	cpp-bench/run --memory $(ARGS)

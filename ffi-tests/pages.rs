@@ -9,8 +9,9 @@ use crate::support::{compiler, fresh_folder, repository, sources, succeed, text_
 /// Pages for people.
 fn pages() -> Vec<String> {
     let root = repository("");
-    let paths =
-        ["", "docs", "compat", "cpp-bench", "fuzz"].into_iter().flat_map(|folder| sources(folder, "md"));
+    let paths = ["", "docs", "compat", "cpp-bench", "cpp-bench/report", "fuzz"]
+        .into_iter()
+        .flat_map(|folder| sources(folder, "md"));
     let name =
         |path: PathBuf| path.strip_prefix(&root).expect("it is in the repository").display().to_string();
     let pages: Vec<String> = paths.map(name).collect();

@@ -2,7 +2,7 @@
 #include "step_table.hpp"
 
 #include "replay.hpp"
-#include "report_replay.hpp"
+#include "replay_in_turns.hpp"
 #include "scenarios.hpp"
 #include "step.hpp"
 
@@ -57,7 +57,7 @@ std::vector<std::vector<double>> replay_displacements(const std::string &name, u
     checks.scenario = series.name;
     checks.n_points = n_points;
     const std::vector<UpdateTimes> times =
-        replay_report(series, entrants_of(series, kinds), checked_timestamps(series),
+        replay_in_turns(series, entrants_of(series, kinds), checked_timestamps(series),
                       n_points > most_points_repeated ? 1 : n_repeats, checks, progress);
     std::vector<std::vector<double>> ns;
     for (const Segment &segment : series.segments) {

@@ -21,7 +21,7 @@ void forget_warm_up(UpdateTimes &times, const Series &series);
 
 /// Every entrant is replayed at its timestamps `n_repeats` times, of which the median counts. In the first of
 /// them cells are compared at `check_timestamps`, outside the clock. Throws Mismatch.
-std::vector<UpdateTimes> replay_report(const Series &series, const std::vector<Entrant> &entrants,
+std::vector<UpdateTimes> replay_in_turns(const Series &series, const std::vector<Entrant> &entrants,
                                        const std::vector<std::size_t> &check_timestamps, unsigned n_repeats,
                                        Checks &checks, Progress &progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report_replay.hpp"
+#include "replay_in_turns.hpp"
 
 #include "referee.hpp"
 #include "replay.hpp"
@@ -71,7 +71,7 @@ void forget_warm_up(UpdateTimes &times, const Series &series) {
         times.erase(times.lower_bound(segment.begin), times.lower_bound(segment.first));
 }
 
-std::vector<UpdateTimes> replay_report(const Series &series, const std::vector<Entrant> &entrants,
+std::vector<UpdateTimes> replay_in_turns(const Series &series, const std::vector<Entrant> &entrants,
                                        const std::vector<std::size_t> &check_timestamps, unsigned n_repeats,
                                        Checks &checks, Progress &progress) {
     std::vector<Lane> lanes = lanes_of(entrants);

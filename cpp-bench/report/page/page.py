@@ -3,7 +3,7 @@
 """Makes one self-contained page, and an SVG file for each figure, of what `cpp-bench/run --report`
 has measured.
 
-    cpp-bench/report_page/page.py [RESULTS]
+    cpp-bench/report/page/page.py [RESULTS]
 
 Writes RESULTS/report/index.html and RESULTS/report/figure_N.svg. The page needs nothing but a browser. The
 interpreter is Debian's, as Debian's packages of Jinja2 and matplotlib are for that one alone.
@@ -37,7 +37,7 @@ TEMPLATES.filters.update(count=count, listed=listed, span=span, times=times)
 
 
 def main():
-    folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(HERE, "..", "results")
+    folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(HERE, "..", "..", "results")
     results = Results(folder)
     target = os.path.join(folder, "report")
     os.makedirs(target, exist_ok=True)

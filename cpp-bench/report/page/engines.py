@@ -7,7 +7,7 @@ import re
 
 def algorithms():
     """(name, purpose) of the algorithms of deldrift."""
-    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "src", "algorithms.inc")
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "src", "algorithms.inc")
     with open(path, encoding="utf-8") as file:
         return re.findall(r"^ALGORITHM\((\w+), \d+, (\w+),", file.read(), re.MULTILINE)
 

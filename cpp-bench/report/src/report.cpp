@@ -5,7 +5,7 @@
 #include "engine.hpp"
 #include "progress.hpp"
 #include "report_input.hpp"
-#include "report_replay.hpp"
+#include "replay_in_turns.hpp"
 #include "report_statistics.hpp"
 #include "report_steps.hpp"
 #include "table.hpp"
@@ -233,7 +233,7 @@ private:
                                     ? sampled_timestamps(series, effort.n_slow_timestamps)
                                     : all_timestamps(series, !kind->is_stateless)});
         Checks checks;
-        std::vector<UpdateTimes> times = replay_report(
+        std::vector<UpdateTimes> times = replay_in_turns(
             series, entrants, check_timestamps(series, effort), effort.n_repeats, checks, progress_);
         for (UpdateTimes &of_engine : times) forget_warm_up(of_engine, series);
         for (std::size_t i = 0; i < kinds.size(); ++i) save_times(series, *kinds[i], times[i]);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "progress.hpp"
-#include "report_replay.hpp"
+#include "replay_in_turns.hpp"
 #include "series.hpp"
 
 namespace bench {

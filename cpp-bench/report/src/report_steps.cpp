@@ -32,7 +32,7 @@ ReportSteps time_report_steps(const Series &series, unsigned n_repeats, Progress
     const std::vector<Entrant> entrants = {{&step_kind("deldrift/auto"), 1, all_timestamps(series, true)}};
     Checks checks;
     ReportSteps steps;
-    steps.deldrift = replay_report(series, entrants, {series.n_timestamps()}, n_repeats, checks, progress).front();
+    steps.deldrift = replay_in_turns(series, entrants, {series.n_timestamps()}, n_repeats, checks, progress).front();
     steps.cgal_reading_seconds = cgal_reading_seconds(series, progress);
     return steps;
 }

@@ -2,6 +2,7 @@
 #include "report_input.hpp"
 
 #include "npy.hpp"
+#include "report_scenarios.hpp"
 #include "scenarios.hpp"
 #include "report_statistics.hpp"
 
@@ -56,7 +57,7 @@ std::vector<double> walk_displacements(unsigned dimension, std::size_t n_points,
 Body load_body(const std::string &folder) {
     const std::string path = folder + "/man.off";
     if (std::filesystem::exists(path)) return Body::load(path);
-    std::cerr << "man: " << path << " is missing (cpp-bench/fetch_man gets it from Debian's libcgal-demo); a "
+    std::cerr << "man: " << path << " is missing (cpp-bench/report/fetch_man gets it from Debian's libcgal-demo); a "
               << "generated body takes its place\n";
     return Body::generate();
 }

@@ -2,7 +2,7 @@
 #include "ball_cell.hpp"
 #include "record.hpp"
 #include "report_space.hpp"
-#include "scenarios.hpp"
+#include "report_scenarios.hpp"
 #include "solid.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures small inputs, makes the page and opens it in headless Chromium.
 
-    cpp-bench/report_page/test_page.py [PAGE]
+    cpp-bench/report/page/test_page.py [PAGE]
 
 With the path of a page, only that page is looked at. Without a Chromium, and only then, the browser's part
 is skipped.
@@ -74,7 +74,7 @@ class Failures:
 
 def measure(folder):
     """The smallest run that has every input and every algorithm."""
-    run = os.path.join(HERE, "..", "run")
+    run = os.path.join(HERE, "..", "..", "run")
     done = subprocess.run(
         [run, "--report", "--preset", "smoke", "--results", folder],
         check=False,
@@ -92,7 +92,7 @@ def measure(folder):
 def check_continued(failures, folder):
     """A second run finds everything there."""
     done = subprocess.run(
-        [os.path.join(HERE, "..", "run"), "--report", "--preset", "smoke", "--results", folder],
+        [os.path.join(HERE, "..", "..", "run"), "--report", "--preset", "smoke", "--results", folder],
         check=True,
         capture_output=True,
         text=True,

@@ -7,9 +7,10 @@
 #include "engine.hpp"
 #include "random.hpp"
 #include "record.hpp"
-#include "report_replay.hpp"
+#include "replay_in_turns.hpp"
 #include "report_statistics.hpp"
 #include "report_tolerance.hpp"
+#include "report_scenarios.hpp"
 #include "scenarios.hpp"
 #include "solid.hpp"
 #include "tests.hpp"
@@ -293,7 +294,7 @@ TEST_CASE("replay") {
         for (const EngineKind &kind : engine_kinds()) entrants.push_back({&kind, 1, all});
         Checks checks;
         CAPTURE(series.name);
-        const std::vector<UpdateTimes> times = replay_report(series, entrants, all, 1, checks, progress);
+        const std::vector<UpdateTimes> times = replay_in_turns(series, entrants, all, 1, checks, progress);
         CHECK(times.size() == entrants.size());
         CHECK(times.at(3).size() == all.size());
         CHECK(checks.n_comparisons == all.size() * entrants.size());

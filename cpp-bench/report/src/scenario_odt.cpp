@@ -4,7 +4,7 @@
 #include "body.hpp"
 #include "record.hpp"
 #include "report_space.hpp"
-#include "scenarios.hpp"
+#include "report_scenarios.hpp"
 #include "spiral.hpp"
 
 #include <algorithm>
