@@ -104,9 +104,14 @@ fn table(functions: &[Function]) -> String {
     );
     let (tests, examples) =
         (paths(&["ffi-tests/c"]), paths(&["examples", "ffi-tests/consumers", "cpp-bench"]));
+    // Programs for comparisons are no examples of what others need.
+    let is_of_research = |path: &String| text_of(path).contains("#include <deldrift/research.h>");
+    let (of_research, examples): (Vec<String>, Vec<String>) = examples.into_iter().partition(is_of_research);
     for function in functions {
+        let is_for_use = !function.name.starts_with("deldrift_research_");
+        let examples = if is_for_use { &examples } else { &of_research };
         let test = most_calls(&tests, function).map_or("-".into(), |path| link(&path));
-        let example = most_calls(&examples, function).map_or("-".into(), |path| link(&path));
+        let example = most_calls(examples, function).map_or("-".into(), |path| link(&path));
         let _ = writeln!(text, "| `{}` | {} | {test} | {example} |", function.name, function.summary);
     }
     text

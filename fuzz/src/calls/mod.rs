@@ -105,6 +105,8 @@ struct History<'a> {
     /// The cells of a fresh build, sorted, unless positions have changed since.
     fresh: Option<Vec<Row>>,
     carried: Carried,
+    /// How many vertices have been within their safe region.
+    within: u64,
     /// Whether cells are compared with the definition at the end.
     proves: bool,
 }
@@ -206,6 +208,7 @@ impl<'a> History<'a> {
             cancel_after: None,
             fresh: None,
             carried: Carried::default(),
+            within: 0,
             proves: flags & 0x3e == 0 && n < 60,
         };
         for _ in 0..n {
