@@ -8,8 +8,8 @@
 //! triangulation. *Sweep*, *repair* and *mending* are commits by repair in which all vertices move, by up to half of a
 //! billionth, a thousandth and a fiftieth of a spacing along each axis: in the first every certificate is checked and
 //! nothing mended, in the last most of the time goes into flips. *Leaps* are placements of one vertex in a hundred,
-//! anywhere, in ns per vertex that moves, and *later* the same after twenty commits of them, which leave cells where
-//! there is room. *Jumps* are those of one vertex in 33, up to half a spacing away; they are done by one thread.
+//! anywhere, in ns per vertex that moves, and *jumps* those of one vertex in 33, up to half a spacing away; both are done
+//! by one thread.
 //! *Rebuilding* moves no vertex, and triangulates all again. Thread counts take turns, so that whatever else the
 //! machine does falls upon all alike; printed are the median of all rounds, the least, and how many times faster the
 //! medians and the least are than with the first thread count.
@@ -22,8 +22,7 @@ use deldrift::{Dimension, Plane, Space, VertexId};
 use std::time::Instant;
 
 const ROUNDS: usize = 7;
-const STEPS: [&str; 8] = ["build", "sweep", "repair", "mending", "leaps", "later", "jumps", "rebuilding"];
-const LEAPS: usize = 20;
+const STEPS: [&str; 7] = ["build", "sweep", "repair", "mending", "leaps", "jumps", "rebuilding"];
 
 /// Moves each coordinate by up to half of `size` either way.
 fn shake<G: Dimension>(points: &mut [G::Point], size: f64, random: &mut Rng) {
@@ -94,10 +93,6 @@ fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] 
     // Once before, as long walks make landmarks for those that follow.
     commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
     let leaps = commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
-    for _ in 1..LEAPS {
-        commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
-    }
-    let later = commit_few::<G>(&mut t, &mut points, 100, f64::INFINITY, &mut random);
     let jumps = commit_few::<G>(&mut t, &mut points, 33, 1.0, &mut random);
     t.move_all(&points).expect("finite positions");
     t.set_algorithm(Algorithm::Rebuilding);
@@ -105,7 +100,7 @@ fn round<G: Dimension>(points: &[G::Point], threads: u32) -> [f64; STEPS.len()] 
     if points.len() <= 100_000 {
         t.validate(Level::Delaunay).expect("a Delaunay triangulation");
     }
-    [build, sweep, repair, mending, leaps, later, jumps, rebuilding]
+    [build, sweep, repair, mending, leaps, jumps, rebuilding]
 }
 
 fn print<G: Dimension>(n: usize, threads: &[u32]) {

@@ -200,7 +200,7 @@ fn repair_in_space() {
     histories::<Space>(Algorithm::Repair);
 }
 
-/// Some vertices go to other ones or near them, which threads do side by side; others tremble.
+/// Some vertices go to other ones or near them; others tremble.
 fn leaps<G: Dimension>(n: usize) {
     for seed in seeds(2) {
         for kind in [Kind::Random, Kind::Lattice] {

@@ -249,7 +249,7 @@ const std::vector<std::string> &target_names() {
         "tenth_sphere",   "tenth_circle", "shear_grid",     "shear_face_centred", "shear_layers",
         "shear_sphere",   "shear_circle",   "leaping_0.001",  "leaping_0.001_creeping",
         "leaping_0.001_moving", "leaping_0.01", "leaping_0.01_creeping", "leaping_0.01_moving", "leaping_0.1",
-        "leaping_0.1_creeping", "leaping_0.1_moving", "threads_leaping"};
+        "leaping_0.1_creeping", "leaping_0.1_moving"};
     return names;
 }
 

@@ -63,9 +63,6 @@ constexpr struct {
     const char *suffix;
     double step;
 } others_of_leaping[] = {{"", 0}, {"_creeping", 1e-5}, {"_moving", 1e-3}};
-constexpr double threads_leaping_share = 0.01;
-/// What is at the border of two threads' cells, or on the hull, is left to one.
-constexpr double wanted_of_leaping_threads = 1.4;
 
 /// From where points go to a random place close by.
 enum class From { where_they_began, where_they_were };
@@ -253,7 +250,6 @@ public:
                 if (set.dimension == dimension && is_left(set))
                     for (const char *way : {"tenth", "shear"})
                         if (sizes_.has(left_name(way, set))) leave(set, way);
-            if (sizes_.has("threads_leaping")) leap_on_threads(dimension);
             if (sizes_.has("threads_build")) build_anew(dimension);
             append(step_targets(dimension, sizes_, seed_, checks_, progress_));
             if (sizes_.has("loop")) append(loop_targets(dimension, sizes_, seed_, checks_, progress_));
@@ -353,15 +349,6 @@ private:
         add(name.c_str(), series, done[0], done[1], wanted);
         // Threads rebuild faster than they mend.
         add(name.c_str(), series, done[2], done[3], wanted_of_rebuilding);
-    }
-
-    void leap_on_threads(unsigned dimension) {
-        const Series series =
-            leaping_points("threads_leaping", dimension, sizes_.n_committed, threads_leaping_share, 0, seed_);
-        const std::size_t last = n_warm + n_left;
-        const auto done = replay(series, {entrant("deldrift/repair", 1, last), entrant("deldrift/repair", 2, last)},
-                                 1, checks_of(series), progress_);
-        add("threads_leaping", series, done[0], done[1], wanted_of_leaping_threads);
     }
 
     void leave(const PointSet &set, const std::string &way) {

@@ -59,8 +59,7 @@ pub struct deldrift_options {
     pub algorithm: AlgorithmCode,
     /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. As many are
     /// used as pay, and no more than the system runs at the same time: one for each 5,000 vertices in 2D or 2,500
-    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair, and to move
-    /// many vertices far away. All
+    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
     /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number,
     /// their order and the counts in reports may. Callbacks come from the calling thread only.
     pub threads: u32,

@@ -14,7 +14,7 @@
 
 mod levels;
 
-pub(crate) use levels::WORD;
+pub(super) use levels::WORD;
 
 use crate::error::Result;
 use crate::ids::Slot;
@@ -100,9 +100,7 @@ pub(super) struct FreeRange<'c> {
     first: usize,
     /// Bits of those of the range, without upper levels where there are other ranges beside it.
     levels: Levels<'c>,
-    /// Bits of further slots of the range, from slot 0 on, below the first.
-    head: Levels<'c>,
-    n: &'c mut usize,
+    pub(super) n: &'c mut usize,
     /// The slots in hand, if the range is all slots.
     in_hand: Option<&'c mut InHand>,
 }
@@ -206,8 +204,7 @@ impl FreeSlots {
     #[inline(always)]
     pub(super) fn whole(&mut self) -> FreeRange<'_> {
         let (words, in_hand, n) = self.words_mut();
-        let head = Levels([&mut [], &mut [], &mut []]);
-        FreeRange { first: 0, levels: Levels(words), head, n, in_hand: Some(in_hand) }
+        FreeRange { first: 0, levels: Levels(words), n, in_hand: Some(in_hand) }
     }
 
     /// Enters whether a slot is free.
@@ -260,26 +257,21 @@ impl FreeSlots {
         slots.for_each(|slot| self.set(slot, false));
     }
 
-    /// The ranges that begin at these slots, all of them multiples of [`WORD`], the last one with the slots before the
-    /// first one as well; `numbers` is memory for how many are free in each. What has been put and taken there has to
-    /// be [counted](Self::count) before anything else.
+    /// The ranges that begin at these slots, all of them multiples of [`WORD`] and the first one 0; `numbers` is memory
+    /// for how many are free in each. What has been put and taken there has to be [counted](Self::count) before anything
+    /// else.
     pub(super) fn ranges<'c>(
         &'c mut self,
         starts: &'c [Slot],
         numbers: &'c mut [usize],
     ) -> impl Iterator<Item = FreeRange<'c>> {
         self.lay_down();
-        let [lowest, ..] = self.words_mut().0;
-        let (head, mut rest) = lowest.split_at_mut(starts[0].index() / WORD);
-        let mut head = Some(head);
+        let [mut rest, ..] = self.words_mut().0;
         starts.iter().zip(numbers).enumerate().map(move |(k, (start, n))| {
             let n_words = starts.get(k + 1).map_or(rest.len(), |end| (end.index() - start.index()) / WORD);
             let words = rest.split_off_mut(..n_words).expect("the slots of a range are covered");
-            let is_last = k + 1 == starts.len();
-            let head = if is_last { head.take().unwrap_or_default() } else { &mut [] };
-            *n = words.iter().chain(&*head).map(|word| word.count_ones() as usize).sum();
-            let alone = |words| Levels([words, &mut [], &mut []]);
-            FreeRange { first: start.index(), levels: alone(words), head: alone(head), n, in_hand: None }
+            *n = words.iter().map(|word| word.count_ones() as usize).sum();
+            FreeRange { first: start.index(), levels: Levels([words, &mut [], &mut []]), n, in_hand: None }
         })
     }
 
@@ -310,11 +302,6 @@ impl FreeSlots {
 }
 
 impl FreeRange<'_> {
-    #[inline(always)]
-    pub(super) fn len(&self) -> usize {
-        *self.n
-    }
-
     /// Enters a free slot, which was not.
     #[inline(always)]
     pub(super) fn put(&mut self, slot: Slot) {
@@ -331,10 +318,7 @@ impl FreeRange<'_> {
 
     #[inline(always)]
     fn set_bit(&mut self, slot: Slot) {
-        match slot.index().checked_sub(self.first) {
-            Some(at) => self.levels.set(at),
-            None => self.head.set(slot.index()),
-        }
+        self.levels.set(slot.index() - self.first);
     }
 
     /// Takes out a free slot, if there is any in the range: near this one, or from the hand.
@@ -346,30 +330,14 @@ impl FreeRange<'_> {
         {
             return Some(slot);
         }
-        let found = match near.index().checked_sub(self.first) {
-            Some(at) => self.take_behind(at).or_else(|| self.take_from_head(0)),
-            None => self.take_from_head(near.index()).or_else(|| self.take_behind(0)),
-        };
-        // Otherwise there are none but those in hand, which are not near.
-        found.map(Slot::at).or_else(|| {
-            let in_hand = self.in_hand.as_mut()?;
-            in_hand.n -= 1;
-            Some(in_hand.slots[in_hand.n])
-        })
-    }
-
-    #[inline(always)]
-    fn take_behind(&mut self, at: usize) -> Option<usize> {
-        let found = self.levels.near(at)?;
-        self.levels.unset(found);
-        Some(self.first + found)
-    }
-
-    #[inline(always)]
-    fn take_from_head(&mut self, at: usize) -> Option<usize> {
-        let found = self.head.near(at)?;
-        self.head.unset(found);
-        Some(found)
+        if let Some(found) = self.levels.near(near.index().saturating_sub(self.first)) {
+            self.levels.unset(found);
+            return Some(Slot::at(self.first + found));
+        }
+        // There are none but those in hand, which are not near.
+        let in_hand = self.in_hand.as_mut()?;
+        in_hand.n -= 1;
+        Some(in_hand.slots[in_hand.n])
     }
 }
 

@@ -32,7 +32,6 @@ mod sorting;
 pub use cell::{Cell, Facet};
 pub use corners::{Corners, Entry};
 pub(crate) use flips::{NewCell, outer_of_three, outer_of_two};
-pub(crate) use free::WORD;
 pub(crate) use ranges::starts_of_ranges;
 pub use ranges::{CellRange, Obstacle};
 pub use record::Row;

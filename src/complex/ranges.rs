@@ -1,7 +1,7 @@
 //! Changes of the cells by several threads: each has a range of them, with the free slots there, and changes no others.
 
 use super::free::{FreeRange, WORD};
-use super::{Cell, Complex, Corners, Facet, Row};
+use super::{Cell, Complex, Corners, Facet};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -32,12 +32,11 @@ impl From<Error> for Obstacle {
 /// Cells from which it follows where ranges begin.
 const SAMPLE: usize = 1 << 10;
 
-/// Where ranges begin, at most this number of them, that have about as many of some cells each: at multiples of `unit`,
-/// which is one of [`WORD`].
+/// Where ranges begin, at most this number of them, that have about as many of some cells each: at multiples of [`WORD`],
+/// the first one at slot 0.
 pub(crate) fn starts_of_ranges(
     cells: impl ExactSizeIterator<Item = Slot>,
     n_ranges: usize,
-    unit: usize,
 ) -> Result<Vec<Slot>> {
     let (mut sample, mut starts) = (Vec::new(), Vec::new());
     let step = (cells.len() / SAMPLE).max(1);
@@ -47,7 +46,7 @@ pub(crate) fn starts_of_ranges(
     sample.sort_unstable();
     starts.extend((0..n_ranges).map(|k| {
         let quantile: Slot = sample[sample.len() * k / n_ranges];
-        Slot::at(quantile.index() / unit * unit)
+        Slot::at(quantile.index() / WORD * WORD)
     }));
     starts[0] = Slot::new(0);
     starts.dedup();
@@ -61,8 +60,6 @@ pub struct CellRange<'c, C: Corners> {
     /// Slot of the first one.
     first: Slot,
     cells: &'c mut [Cell<C>],
-    /// Further cells of the range, from slot 0 on.
-    head: &'c mut [Cell<C>],
     /// The free slots of the range.
     pub(super) free: FreeRange<'c>,
 }
@@ -70,36 +67,32 @@ pub struct CellRange<'c, C: Corners> {
 impl<C: Corners> Complex<C> {
     /// All cells.
     pub(crate) fn whole(&mut self) -> CellRange<'_, C> {
-        CellRange { first: Slot::new(0), cells: &mut self.cells, head: &mut [], free: self.free.whole() }
+        CellRange { first: Slot::new(0), cells: &mut self.cells, free: self.free.whole() }
     }
 
-    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`], each on a thread of its own
-    /// and with its own one of `parts`. The last range has the slots before the first one as well. After an error
-    /// nothing has changed.
+    /// Works on the ranges that begin at these slots, all of them multiples of [`WORD`] and the first one 0, each on a
+    /// thread of its own and with its own one of `parts`. After an error nothing has changed.
     pub(crate) fn divided<P: Send>(
         &mut self,
         starts: &[Slot],
         parts: &mut [P],
-        work: impl Fn(usize, &mut CellRange<C>, &mut P) + Sync,
+        work: impl Fn(&mut CellRange<C>, &mut P) + Sync,
     ) -> Result<()> {
         debug_assert!(starts.iter().all(|start| start.index().is_multiple_of(WORD)));
         let (mut numbers, mut all) = (Vec::new(), Vec::new());
         memory::lengthen(&mut numbers, starts.len(), 0)?;
         memory::reserve_exact(&mut all, starts.len())?;
-        let (head, mut rest) = self.cells.split_at_mut(starts[0].index());
-        let mut head = Some(head);
+        let mut rest = &mut self.cells[..];
         let free = self.free.ranges(starts, &mut numbers);
         for (k, (free, part)) in free.zip(parts).enumerate() {
             let n = starts.get(k + 1).map_or(rest.len(), |end| end.index() - starts[k].index());
             let cells;
             (cells, rest) = rest.split_at_mut(n);
-            let is_last = k + 1 == starts.len();
-            let head = if is_last { head.take().unwrap_or_default() } else { &mut [] };
-            all.push(Mutex::new((CellRange { first: starts[k], cells, head, free }, part)));
+            all.push(Mutex::new((CellRange { first: starts[k], cells, free }, part)));
         }
         threads::for_each(0..starts.len(), &|k| {
             let (range, part) = &mut *all[k].lock().expect("each is locked once");
-            work(k, range, part);
+            work(range, part);
         });
         drop(all);
         self.free.count();
@@ -128,7 +121,7 @@ impl<C: Corners> Complex<C> {
 }
 
 impl<C: Corners> CellRange<'_, C> {
-    /// Position in the range; beyond its end for a cell that is not of it, or of the head.
+    /// Position in the range; beyond its end for a cell that is not of it.
     #[inline(always)]
     fn position(&self, cell: Slot) -> usize {
         cell.get().wrapping_sub(self.first.get()) as usize
@@ -137,26 +130,19 @@ impl<C: Corners> CellRange<'_, C> {
     /// Whether a cell is of the range.
     #[inline(always)]
     pub(crate) fn has(&self, cell: Slot) -> bool {
-        self.position(cell) < self.cells.len() || cell.index() < self.head.len()
+        self.position(cell) < self.cells.len()
     }
 
     /// A cell of the range.
     #[inline(always)]
     pub(crate) fn cell(&self, cell: Slot) -> Result<&Cell<C>, Obstacle> {
-        match self.cells.get(self.position(cell)) {
-            Some(found) => Ok(found),
-            None => self.head.get(cell.index()).ok_or(Obstacle::OtherRange),
-        }
+        self.cells.get(self.position(cell)).ok_or(Obstacle::OtherRange)
     }
 
     /// Asks for a cell, which may be none of the range.
     #[inline(always)]
     pub(crate) fn prefetch(&self, cell: Slot) {
-        if cell.index() < self.head.len() {
-            prefetch(self.head, cell.index());
-        } else {
-            prefetch(self.cells, self.position(cell));
-        }
+        prefetch(self.cells, self.position(cell));
     }
 
     /// The corner opposite a facet of a cell of the range.
@@ -168,7 +154,7 @@ impl<C: Corners> CellRange<'_, C> {
     #[inline(always)]
     pub(super) fn cell_mut(&mut self, cell: Slot) -> &mut Cell<C> {
         let at = self.position(cell);
-        if at < self.cells.len() { &mut self.cells[at] } else { &mut self.head[cell.index()] }
+        &mut self.cells[at]
     }
 
     /// An error if one of these cells is not of the range.
@@ -184,46 +170,5 @@ impl<C: Corners> CellRange<'_, C> {
         for (i, out) in neighbours.as_ref().iter().enumerate() {
             self.cell_mut(out.cell()).neighbours[out.index()] = Facet::new(cell, i);
         }
-    }
-
-    /// Chooses slots for `n` cells in the place of some: those of the old ones first, then free ones near them. The
-    /// others of the old ones are freed. Enters the rows before. After an obstacle nothing has changed.
-    pub(crate) fn take_slots(
-        &mut self,
-        old: &[Slot],
-        n: usize,
-        slots: &mut Vec<Slot>,
-        journal: &mut Vec<Row<C>>,
-    ) -> Result<(), Obstacle> {
-        let missing = n.saturating_sub(old.len());
-        if self.free.len() < missing {
-            return Err(Obstacle::Full);
-        }
-        slots.clear();
-        memory::reserve(slots, n)?;
-        memory::reserve(journal, n.max(old.len()))?;
-        let (kept, freed) = old.split_at(n.min(old.len()));
-        slots.extend_from_slice(kept);
-        slots.extend((0..missing).map(|_| self.free.take_near(old[0]).expect("they have been counted")));
-        for &slot in slots.iter().chain(freed) {
-            journal.push(Row::of(slot, self.cell_mut(slot)));
-        }
-        for &slot in freed {
-            *self.cell_mut(slot) = Cell::free();
-            self.free.put(slot);
-        }
-        Ok(())
-    }
-
-    /// Puts a cell, and its side of all gluings.
-    #[inline(always)]
-    pub(crate) fn put(&mut self, cell: Slot, corners: C, neighbours: C::Of<Facet>) {
-        *self.cell_mut(cell) = Cell { alignment: [], corners, neighbours };
-    }
-
-    /// Sets one side of a gluing.
-    #[inline(always)]
-    pub(crate) fn set_neighbour(&mut self, of: Facet, neighbour: Facet) {
-        self.cell_mut(of.cell()).neighbours[of.index()] = neighbour;
     }
 }

@@ -25,7 +25,7 @@ use untangle::Untangling;
 
 use super::site::Sites;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, Row, WORD, starts_of_ranges};
+use crate::complex::{Corners, Facet, Row, starts_of_ranges};
 use crate::error::{Error, Result};
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
@@ -219,7 +219,7 @@ impl<G: Dimension> Delaunay<G> {
     /// Flips as far as several threads can, each in a range of the cells.
     fn flip_side_by_side(&mut self, flips: &mut AllFlips<G>, n_threads: usize) -> Result<()> {
         let AllFlips { own: Flips { suspects, .. }, parts, .. } = flips;
-        let starts = starts_of_ranges(suspects.iter().map(|facet| facet.cell()), n_threads, WORD)?;
+        let starts = starts_of_ranges(suspects.iter().map(|facet| facet.cell()), n_threads)?;
         let missing = starts.len().saturating_sub(parts.len());
         memory::reserve_exact(parts, missing)?;
         parts.resize_with(parts.len() + missing, Flips::default);
@@ -230,7 +230,7 @@ impl<G: Dimension> Delaunay<G> {
             }
         }
         let (sites, filter, are_sites_far) = (Sites::new(&self.sites), &self.filter, self.is_far());
-        self.complex.divided(&starts, parts, |_, cells, part| {
+        self.complex.divided(&starts, parts, |cells, part| {
             Flipper { filter, sites, cells, are_sites_far }.flip_all(part);
         })?;
         suspects.clear();

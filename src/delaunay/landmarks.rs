@@ -45,9 +45,6 @@ const SHORT_IN_SHORTEST_EDGES: f64 = 16.0;
 /// A place more than this number of edges from a site is away from it: some fifty sites are nearer in the plane.
 const AWAY_IN_EDGES: f64 = 4.0;
 
-/// A tree is made for one goal among this number of sites.
-const SITES_PER_GOAL: usize = 128;
-
 /// Fewer sites need no landmarks.
 const MIN_SITES: usize = 256;
 
@@ -123,23 +120,15 @@ impl Tree {
     /// The leaf of a place.
     #[inline(always)]
     fn leaf<G: Dimension>(&self, q: &G::Point) -> usize {
-        self.leaves_of::<G, 1>([q])[0]
-    }
-
-    /// The leaves of several places: none waits for what is read for another.
-    #[inline(always)]
-    fn leaves_of<G: Dimension, const N: usize>(&self, places: [&G::Point; N]) -> [usize; N] {
         let n = self.splits.len();
-        let mut nodes = [1; N];
-        while nodes[0] < n {
-            for (node, q) in nodes.iter_mut().zip(places) {
-                let split = self.splits[*node];
-                // The remainder spares a check of the bounds.
-                let axis = (split.to_bits() & 3) as usize % G::D;
-                *node = 2 * *node + usize::from(q[axis] >= split);
-            }
+        let mut node = 1;
+        while node < n {
+            let split = self.splits[node];
+            // The remainder spares a check of the bounds.
+            let axis = (split.to_bits() & 3) as usize % G::D;
+            node = 2 * node + usize::from(q[axis] >= split);
         }
-        nodes.map(|node| node - n)
+        node - n
     }
 }
 
@@ -209,37 +198,8 @@ impl Landmarks {
     /// A site that was near `q` once; [`SiteId::NONE`] if no tree has been made, or one is being made.
     #[inline(always)]
     fn near<G: Dimension>(&self, q: &G::Point) -> SiteId {
-        self.near_each::<G, 1>([q])[0][0]
-    }
-
-    /// For each of several places a site that was near it once, and another one, should the first be far away now;
-    /// [`SiteId::NONE`] if no tree has been made, or one is being made.
-    #[inline(always)]
-    pub(super) fn near_each<G: Dimension, const N: usize>(&self, places: [&G::Point; N]) -> [[SiteId; 2]; N] {
-        let none = [[SiteId::NONE; 2]; N];
-        let Ok(tree) = self.tree.try_read() else {
-            return none;
-        };
-        let Some(tree) = tree.as_ref() else {
-            return none;
-        };
-        let site = |leaf: usize| SiteId::new(tree.leaves[leaf].load(Relaxed));
-        tree.leaves_of::<G, N>(places).map(|leaf| [site(leaf), site(leaf ^ 1)])
-    }
-
-    /// Enters a walk of `steps` steps to `q`, which has ended in a finite cell of these corners, while other threads
-    /// walk, too: they would wait for a new tree.
-    #[inline(always)]
-    pub(super) fn follow_beside_others<G: Dimension>(
-        &self,
-        sites: Sites<'_, G>,
-        q: &G::Point,
-        corners: &G::Corners,
-        steps: u64,
-    ) {
-        if steps > SHORT_WALK {
-            self.replace::<G>(q, nearest::<G>(sites, corners.as_ref(), q));
-        }
+        let Ok(tree) = self.tree.try_read() else { return SiteId::NONE };
+        tree.as_ref().map_or(SiteId::NONE, |tree| SiteId::new(tree.leaves[tree.leaf::<G>(q)].load(Relaxed)))
     }
 
     /// The site `s` is the landmark near `q` from now on.
@@ -249,40 +209,6 @@ impl Landmarks {
         {
             tree.leaves[tree.leaf::<G>(q)].store(s.get(), Relaxed);
         }
-    }
-
-    /// These sites leave their places, where the `others` stay: where one was a landmark, the other is one from now on.
-    pub(super) fn leave<G: Dimension, const N: usize>(
-        &self,
-        places: [&G::Point; N],
-        sites: [SiteId; N],
-        others: [SiteId; N],
-    ) {
-        if let Ok(tree) = self.tree.try_read()
-            && let Some(tree) = tree.as_ref()
-        {
-            for ((leaf, s), other) in tree.leaves_of::<G, N>(places).into_iter().zip(sites).zip(others) {
-                let leaf = &tree.leaves[leaf];
-                if leaf.load(Relaxed) == s.get() {
-                    leaf.store(other.get(), Relaxed);
-                }
-            }
-        }
-    }
-
-    /// Whether there is a tree, or this number of places to look for makes one worth while.
-    pub(super) fn are_made_by(&self, n: usize, n_sites: usize) -> bool {
-        n_sites >= MIN_SITES
-            && (n * SITES_PER_GOAL >= n_sites || self.tree.try_read().is_ok_and(|tree| tree.is_some()))
-    }
-
-    /// Makes a tree unless there is one.
-    pub(super) fn make<G: Dimension>(&mut self, sites: &[Site<G>]) -> Result<()> {
-        let Ok(tree) = self.tree.get_mut() else { return Ok(()) };
-        if tree.is_none() {
-            *tree = Tree::new(sites)?;
-        }
-        Ok(())
     }
 
     /// Enters a long walk of `steps` steps to `q`, near the site `s`.

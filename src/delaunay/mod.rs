@@ -16,7 +16,6 @@
 //! | `remove`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
-//! | `side_by_side` | many sites to places far away, on several threads |
 //! | `flip` | flips, on several threads, and undoing them |
 //! | `undo` | undoing any change |
 //! | `changes` | a record of the cells made or moved |
@@ -63,7 +62,6 @@ mod remove;
 mod restoring;
 mod sample;
 mod set;
-mod side_by_side;
 pub mod site;
 mod space;
 mod spheres;
@@ -87,7 +85,6 @@ pub use relocate::{Relocation, Shortcut};
 pub(crate) use restoring::Rows;
 pub(crate) use sample::Joint;
 pub(crate) use set::IndexSet;
-pub(crate) use side_by_side::Goal;
 pub use site::Site;
 pub use validate::{Level, Violation};
 
@@ -104,7 +101,6 @@ use flat::Flat;
 use flip::AllFlips;
 use parts::Parts;
 use remove::Hole;
-use side_by_side::SideBySide;
 use wrapping::Wrapping;
 
 /// What the ghost vertex has for an id.
@@ -142,7 +138,6 @@ pub struct Delaunay<G: Dimension> {
     around: Option<Box<IndexSet<Slot>>>,
     /// The latest flips, once there were any.
     flips: Option<Box<AllFlips<G>>>,
-    side_by_side: Option<Box<SideBySide<G>>>,
     log: undo::Log<G>,
     /// Cells made, or moved, since [`record_changes`](Delaunay::record_changes); `None` if no record is kept.
     changed: Option<Vec<Slot>>,
@@ -197,7 +192,6 @@ impl<G: Dimension> Delaunay<G> {
             wrapping: None,
             around: None,
             flips: None,
-            side_by_side: None,
             log: undo::Log::default(),
             changed: None,
             certificates: 0,
@@ -437,7 +431,6 @@ impl<G: Dimension> Delaunay<G> {
             + memory::bytes_of_made(&self.wrapping, |_| 0)
             + memory::bytes_of_made(&self.around, IndexSet::memory_bytes)
             + memory::bytes_of_made(&self.flips, AllFlips::memory_bytes)
-            + memory::bytes_of_made(&self.side_by_side, SideBySide::memory_bytes)
             + self.log.memory_bytes()
             + self.changed.as_ref().map_or(0, memory::bytes_of)
             + self.pace.memory_bytes()

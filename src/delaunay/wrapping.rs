@@ -31,13 +31,13 @@ use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
-use crate::predicates::{StaticFilter, cross, dot, minus};
+use crate::predicates::{cross, dot, minus};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
 /// Most sites of a link.
-pub(super) const MOST_SITES: usize = 32;
+const MOST_SITES: usize = 32;
 /// Most new cells.
-pub(super) const MOST_CELLS: usize = 64;
+const MOST_CELLS: usize = 64;
 /// Most facets of the frontier at a time: a byte holds the number of one, or that there is none.
 const MOST_OPEN: usize = 255;
 /// Sets of three sites, of which facets have two or three.
@@ -110,9 +110,7 @@ impl<G: Dimension> Delaunay<G> {
                 (hole, &mut *wrapping),
                 s,
                 #[inline(always)]
-                |(avx2, t), (hole, wrapping), s| {
-                    wrapping.find(avx2, (&t.filter, t.view()), |facet| t.complex.apex(facet), hole, s)
-                },
+                |(avx2, t), (hole, wrapping), s| wrapping.find(avx2, t, hole, s),
             );
             wrapping.follow(is_found);
             is_found
@@ -136,19 +134,11 @@ impl Wrapping {
     }
 
     /// Finds the cells that fill the hole of `s`, whose link has no more than [`MOST_SITES`] sites, none of them the
-    /// ghost vertex; there is room for [`MOST_CELLS`] cells. `apex` tells what is opposite a facet of the link. Whether
-    /// it has.
+    /// ghost vertex; there is room for [`MOST_CELLS`] cells. Whether it has.
     #[inline(always)]
-    pub(super) fn find<G: Dimension>(
-        &mut self,
-        avx2: Avx2,
-        (filter, sites): (&StaticFilter, Sites<G>),
-        apex: impl Fn(Facet) -> SiteId,
-        hole: &mut Hole<G>,
-        s: SiteId,
-    ) -> bool {
+    fn find<G: Dimension>(&mut self, avx2: Avx2, t: &Delaunay<G>, hole: &mut Hole<G>, s: SiteId) -> bool {
         hole.made.clear();
-        self.see(sites, &hole.sites, s);
+        self.see(t.view(), &hole.sites, s);
         let is_found = self.open_link(hole) && self.wrap(avx2, hole);
         if !is_found {
             for open in &self.open[..self.n_open] {
@@ -157,7 +147,7 @@ impl Wrapping {
                 }
             }
         }
-        is_found && are_certain(avx2, (filter, sites), apex, hole)
+        is_found && are_certain(avx2, t, hole)
     }
 
     #[inline(always)]
@@ -391,12 +381,8 @@ const fn below(of: usize) -> [u16; MOST_SITES] {
 
 /// Whether all certificates of the new cells surely hold.
 #[inline(always)]
-fn are_certain<G: Dimension>(
-    avx2: Avx2,
-    (filter, sites): (&StaticFilter, Sites<G>),
-    apex_of: impl Fn(Facet) -> SiteId,
-    hole: &Hole<G>,
-) -> bool {
+fn are_certain<G: Dimension>(avx2: Avx2, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
+    let (filter, sites) = (&t.filter, t.view());
     let last = hole.made.len() - 1;
     let mut first = 0;
     while first <= last {
@@ -409,7 +395,7 @@ fn are_certain<G: Dimension>(
             for (apex, (_, neighbours)) in apexes.iter_mut().zip(cells) {
                 *apex = match new_of(neighbours[i]) {
                     Some(new) => hole.made[new].0[neighbours[i].index()],
-                    None => apex_of(neighbours[i]),
+                    None => t.complex.apex(neighbours[i]),
                 };
             }
         }

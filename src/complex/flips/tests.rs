@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::complex::INFINITE;
-use crate::complex::WORD;
+use crate::complex::free::WORD;
 use crate::ids::{SiteId, Slot};
 use std::collections::BTreeSet;
 
@@ -257,20 +257,20 @@ fn flips_need_all_their_cells() {
             .expect("a facet between finite cells");
         // The six ghosts and two cells are all concerned.
         for start in (1..n).map(|c| Slot::at(WORD * c)) {
-            let mut tried = [None; 2];
+            let mut tried = [(0, None), (1, None)];
             complex
-                .divided(&[Slot::new(0), start], &mut tried, |k, range, tried| {
-                    assert_eq!(range.free.len(), k * n_free);
+                .divided(&[Slot::new(0), start], &mut tried, |range, (k, tried)| {
+                    assert_eq!(*range.free.n, *k * n_free);
                     *tried = range.flip_2_3(facet, &mut Vec::new()).err();
                 })
                 .unwrap();
-            assert_eq!(tried, [Some(Obstacle::OtherRange); 2]);
+            assert_eq!(tried.map(|(_, tried)| tried), [Some(Obstacle::OtherRange); 2]);
             assert_eq!((cells(&complex), complex.n_free()), (before.clone(), n_free));
         }
         // The first range has all cells.
         let mut tried = [None];
         complex
-            .divided(&[Slot::new(0)], &mut tried, |_, range, tried| {
+            .divided(&[Slot::new(0)], &mut tried, |range, tried| {
                 *tried = range.flip_2_3(facet, &mut Vec::new()).err()
             })
             .unwrap();

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 pub(super) const LEVELS: usize = 3;
 /// Bits of a word; ranges of slots begin at a multiple of it.
-pub(crate) const WORD: usize = u64::BITS as usize;
+pub(in crate::complex) const WORD: usize = u64::BITS as usize;
 
 /// Bits, and above them a bit for each word of the level below that is not 0. The upper levels may be empty: then no
 /// bit is kept there, and more words have to be looked at.
