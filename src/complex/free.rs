@@ -9,8 +9,7 @@
 //! waits for no memory. Where cells are in no order, as they are while one thread does all, they are taken first;
 //! otherwise only if they are near.
 //!
-//! Cost: mostly one word, and a few at each level if the nearest one is far away. A slot takes an eighth of a byte; the
-//! first 64 of them take no memory of their own.
+//! Cost: mostly one word, and a few at each level if the nearest one is far away. A slot takes an eighth of a byte.
 
 mod levels;
 
@@ -32,11 +31,8 @@ const HALF: usize = MOST / 2;
 /// The free ones of all slots for which there is memory.
 #[derive(Debug, Default)]
 pub(super) struct FreeSlots {
-    /// Bits of those that are not in hand; empty while all slots are in [`first_words`](Self::first_words).
+    /// Bits of those that are not in hand.
     levels: [Vec<u64>; LEVELS],
-    /// Bits of few slots that are not in hand, one word at each level, so that a set of a few points needs fewer
-    /// arrays.
-    first_words: [u64; LEVELS],
     in_hand: InHand,
     /// How many slots are free, in hand or not.
     n: usize,
@@ -107,53 +103,13 @@ pub(super) struct FreeRange<'c> {
 
 impl FreeSlots {
     /// Has bits for this number of slots.
-    #[inline(always)]
     pub(super) fn cover(&mut self, n_slots: usize) -> Result<()> {
-        if n_slots <= WORD { Ok(()) } else { self.cover_many(n_slots) }
-    }
-
-    #[inline(never)]
-    fn cover_many(&mut self, n_slots: usize) -> Result<()> {
-        let had_few = self.has_few();
         let mut n = n_slots;
         for level in &mut self.levels {
             n = n.div_ceil(WORD);
-            if level.len() < n {
-                memory::lengthen(level, n, 0)?;
-            }
-        }
-        if had_few {
-            for (level, word) in self.levels.iter_mut().zip(&mut self.first_words) {
-                level[0] = std::mem::take(word);
-            }
+            memory::lengthen(level, n, 0)?;
         }
         Ok(())
-    }
-
-    /// Whether the first words are in use: until there is memory for all levels, of which the last one is made last.
-    #[inline(always)]
-    fn has_few(&self) -> bool {
-        self.levels[LEVELS - 1].is_empty()
-    }
-
-    /// The words of each level.
-    fn words(&self) -> [&[u64]; LEVELS] {
-        if self.has_few() {
-            self.first_words.each_ref().map(std::slice::from_ref)
-        } else {
-            self.levels.each_ref().map(|level| &level[..])
-        }
-    }
-
-    /// The words of each level, to be changed; the slots in hand; and the number of free slots.
-    #[inline(always)]
-    fn words_mut(&mut self) -> ([&mut [u64]; LEVELS], &mut InHand, &mut usize) {
-        let words = if self.has_few() {
-            self.first_words.each_mut().map(std::slice::from_mut)
-        } else {
-            self.levels.each_mut().map(|level| &mut level[..])
-        };
-        (words, &mut self.in_hand, &mut self.n)
     }
 
     /// Number of free slots.
@@ -164,7 +120,7 @@ impl FreeSlots {
 
     /// All free slots.
     pub(super) fn iter(&self) -> impl Iterator<Item = Slot> + '_ {
-        let listed = self.words()[0].iter().enumerate().flat_map(|(k, &word)| {
+        let listed = self.levels[0].iter().enumerate().flat_map(|(k, &word)| {
             let lowest = std::iter::successors(Some(word), |left| Some(left & left.wrapping_sub(1)));
             let bits = lowest.take_while(|&left| left != 0).map(u64::trailing_zeros);
             bits.map(move |bit| Slot::at(WORD * k + bit as usize))
@@ -203,8 +159,13 @@ impl FreeSlots {
 
     #[inline(always)]
     pub(super) fn whole(&mut self) -> FreeRange<'_> {
-        let (words, in_hand, n) = self.words_mut();
-        FreeRange { first: 0, levels: Levels(words), n, in_hand: Some(in_hand) }
+        let FreeSlots { levels, in_hand, n } = self;
+        FreeRange {
+            first: 0,
+            levels: Levels(levels.each_mut().map(|level| &mut level[..])),
+            n,
+            in_hand: Some(in_hand),
+        }
     }
 
     /// Enters whether a slot is free.
@@ -241,7 +202,7 @@ impl FreeSlots {
     }
 
     pub(super) fn clear(&mut self) {
-        self.words_mut().0.into_iter().for_each(|level| level.fill(0));
+        self.levels.iter_mut().for_each(|level| level.fill(0));
         (self.n, self.in_hand) = (0, InHand::default());
     }
 
@@ -266,7 +227,7 @@ impl FreeSlots {
         numbers: &'c mut [usize],
     ) -> impl Iterator<Item = FreeRange<'c>> {
         self.lay_down();
-        let [mut rest, ..] = self.words_mut().0;
+        let mut rest = &mut self.levels[0][..];
         starts.iter().zip(numbers).enumerate().map(move |(k, (start, n))| {
             let n_words = starts.get(k + 1).map_or(rest.len(), |end| (end.index() - start.index()) / WORD);
             let words = rest.split_off_mut(..n_words).expect("the slots of a range are covered");
@@ -277,10 +238,9 @@ impl FreeSlots {
 
     /// Makes the upper levels by the lowest one.
     pub(super) fn count(&mut self) {
-        let (mut words, _, n) = self.words_mut();
-        *n = words[0].iter().map(|word| word.count_ones() as usize).sum();
+        self.n = self.levels[0].iter().map(|word| word.count_ones() as usize).sum();
         for k in 1..LEVELS {
-            let (lower, upper) = words.split_at_mut(k);
+            let (lower, upper) = self.levels.split_at_mut(k);
             for (word, below) in upper[0].iter_mut().zip(lower[k - 1].chunks(WORD)) {
                 *word = below.iter().rev().fold(0, |word, &below| word << 1 | u64::from(below != 0));
             }
@@ -288,12 +248,9 @@ impl FreeSlots {
     }
 
     pub(super) fn copied(&self) -> Result<Self> {
-        let (first_words, in_hand) = (self.first_words, self.in_hand.clone());
-        let mut copy = FreeSlots { first_words, in_hand, n: self.n, ..FreeSlots::default() };
-        for (copied, level) in copy.levels.iter_mut().zip(&self.levels) {
-            *copied = memory::copy_of(level)?;
-        }
-        Ok(copy)
+        let [a, b, c] = &self.levels;
+        let levels = [memory::copy_of(a)?, memory::copy_of(b)?, memory::copy_of(c)?];
+        Ok(FreeSlots { levels, in_hand: self.in_hand.clone(), n: self.n })
     }
 
     pub(super) fn memory_bytes(&self) -> usize {

@@ -5,7 +5,7 @@
 //! motions spoil little; the mean distance of sites that are next to each other in storage tells when to sort again.
 
 use super::cavity::{Cavity, Insert};
-use super::order::{SHORT_RUN, in_rounds};
+use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE};
 use crate::error::{Error, Result};
@@ -35,9 +35,6 @@ const SAMPLED_PAIRS: usize = 64;
 /// The static bound decides little where it exceeds this share of the determinant of a cell as large as the spacing.
 const WEAK_SHARE: f64 = 1.0 / 256.0;
 
-/// Up to this number of sites a build in space prepares nothing for later insertions: there are not enough of them.
-const MAX_UNPREPARED: usize = 16;
-
 /// From this number on, cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
 
@@ -62,12 +59,6 @@ impl<G: Dimension> Delaunay<G> {
             }
             Site::new(point, VertexId::new(item))
         };
-        // So few are not sorted: they keep their order.
-        if n <= SHORT_RUN {
-            self.begin_sites(n)?;
-            self.sites.extend((0..n as u32).map(site));
-            return Ok(());
-        }
         let (parts, sorted) = self.in_parts(0..n as u32, n, |i| &points[i as usize])?;
         self.begin_sites(n)?;
         for keyed in &sorted {
@@ -193,21 +184,19 @@ impl<G: Dimension> Delaunay<G> {
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<(SiteId, SiteId)>> {
         debug_assert!(!self.complex.is_recording());
-        if G::D == 3 && order.len() <= MAX_UNPREPARED {
-            return self.insert_each::<false>(order, monitor);
-        }
         let is_weak = self.is_filter_weak(order);
         self.cavity.scratch.begin_build(self.complex.n_cells_reserved(), is_weak)?;
-        let inserted = self.insert_each::<true>(order, monitor);
-        self.cavity.scratch.end_build();
+        let mut cavity = std::mem::take(&mut self.cavity);
+        let inserted = self.insert_each(&mut cavity, order, monitor);
+        cavity.scratch.end_build();
+        self.cavity = cavity;
         inserted
     }
 
     /// Whether the static bound is of the order of in-sphere determinants, and so decides little: that of clusters, of
-    /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells;
-    /// with a few sites it would take longer than it saves.
+    /// which it spans the whole, or of graded points. A sample of pairs of sites next to each other in `order` tells.
     fn is_filter_weak(&self, order: &[SiteId]) -> bool {
-        if self.filter.is_exact || order.len() <= SHORT_RUN {
+        if self.filter.is_exact {
             return false;
         }
         let step = (order.len() / SAMPLED_PAIRS).max(1);
@@ -222,19 +211,7 @@ impl<G: Dimension> Delaunay<G> {
         2 * n_weak > n_pairs
     }
 
-    fn insert_each<const BUILD: bool>(
-        &mut self,
-        order: &[SiteId],
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<(SiteId, SiteId)>> {
-        let mut cavity = std::mem::take(&mut self.cavity);
-        let inserted = self.insert_with::<BUILD>(&mut cavity, order, monitor);
-        self.cavity = cavity;
-        inserted
-    }
-
-    #[inline(always)]
-    fn insert_with<const BUILD: bool>(
+    fn insert_each(
         &mut self,
         cavity: &mut Cavity<G>,
         order: &[SiteId],
@@ -250,14 +227,14 @@ impl<G: Dimension> Delaunay<G> {
                     return Err(Error::Cancelled);
                 }
             }
-            if BUILD && done % MONITORED == 0 {
+            if done % MONITORED == 0 {
                 cavity.scratch.adapt();
             }
             let steps = cavity.steps;
             if self.site(s).cell != Slot::NONE {
                 continue;
             }
-            match self.insert_into_cells::<BUILD>(cavity, s, self.recent)? {
+            match self.insert_into_cells::<true>(cavity, s, self.recent)? {
                 Insertion::New => {
                     work += cavity.scratch.made().len() as u64;
                     self.record(cavity.scratch.made());
@@ -394,13 +371,9 @@ impl<G: Dimension> Delaunay<G> {
         Ok((t, index))
     }
 
-    /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve. Zero
-    /// where there are too few sites to be sorted along one.
+    /// Mean distance of sites from the next ones in storage, of a sample: small while storage follows a curve.
     pub(crate) fn mean_stride(&self) -> f64 {
         let sites = &self.sites[1..];
-        if sites.len() <= SHORT_RUN {
-            return 0.0;
-        }
         let step = (sites.len() / STRIDES).max(1);
         let (mut sum, mut n) = (0.0, 0.0);
         let mut rest = sites;

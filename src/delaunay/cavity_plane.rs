@@ -190,8 +190,7 @@ fn make_room(scratch: &mut Scratch, n_cells: usize) -> Result<()> {
 #[cold]
 #[inline(never)]
 fn grow(Scratch { turns, rows, .. }: &mut Scratch, n_cells: usize) -> Result<()> {
-    // Little at first, as the first insertion of all has to write it.
-    let room = 2 * n_cells + 6;
+    let room = 2 * n_cells + 64;
     let facet = Facet::new(Slot::new(0), 0);
     let seen = Lifted::new(&[0.0; 2], &[0.0; 2]);
     memory::lengthen(turns, room, Edge { out: facet, start: INFINITE, right: seen, left: seen, cross: 0.0 })?;

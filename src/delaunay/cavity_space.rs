@@ -10,8 +10,8 @@
 #![allow(unsafe_code)]
 
 use super::cavity::Insert;
-use super::meetings::{FEW_RIM, Meetings, Ridge, Row, SMALL_RIM};
-use super::spheres::{Spheres, Table};
+use super::meetings::{Meetings, Ridge, Row, SMALL_RIM};
+use super::spheres::{IN_ZONE, Spheres, Table};
 use super::{Delaunay, Space};
 use crate::complex::Facet;
 use crate::error::Result;
@@ -19,12 +19,6 @@ use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
 use crate::predicates::StaticFilter;
 use crate::simd::{Avx2, LANES};
-
-/// Mark of a cell that has been found in conflict with the site; of all others it is 0.
-pub(super) const IN_ZONE: u8 = 1;
-
-/// Rows at first: those of an insertion into a few cells.
-const FIRST_ROOM: usize = 12;
 
 /// Scratch memory.
 #[derive(Debug, Default)]
@@ -230,14 +224,9 @@ fn make_room(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<(
 #[cold]
 #[inline(never)]
 fn grow(rows: &mut Vec<Row>, meetings: &mut Meetings, n: usize) -> Result<()> {
-    // Little at first, as the first insertion of all has to write it.
-    let enough = [FIRST_ROOM, FEW_RIM].into_iter().find(|&room| n + 4 <= room);
-    let room = enough.unwrap_or(2 * n + 64);
-    if room > FEW_RIM {
-        // Room for the meetings first: where there is room for such a rim, there has to be room for these.
-        meetings.make_room()?;
-    }
-    memory::lengthen(rows, room, Row::blank())
+    // Room for the meetings first: where there is room for a rim, there has to be room for these.
+    meetings.make_room()?;
+    memory::lengthen(rows, 2 * n + 64, Row::blank())
 }
 
 /// Makes the new cells and glues them.

@@ -77,10 +77,7 @@ impl<G: Dimension> Flat<G> {
 
     #[inline(always)]
     pub(super) fn clear(&mut self) {
-        // Otherwise there is no memory to give up; a new map would draw random numbers.
-        if self.places.capacity() > 0 {
-            self.places = HashMap::new();
-        }
+        self.places = HashMap::new();
         self.basis.n = 0;
     }
 

@@ -1,9 +1,7 @@
 //! The gluing of the cells that join a site to the rim of its zone in space.
 //!
 //! Each edge of the rim is seen once in each direction: the facet that sees it as `kl` meets the one that sees it as
-//! `lk`. The meeting place is a square table over local labels of the rim's sites (a small one on the stack until the
-//! first rim that is too large for it: triangulations of few sites would spend half their time to clear the large one);
-//! a label is kept in the site's `cell` field, which the insertion overwrites anyway, and is greater than any slot.
+//! `lk`. The meeting place is a square table over local labels of the rim's sites; a label is kept in the site's `cell` field, which the insertion overwrites anyway, and is greater than any slot.
 //! Whether there is one cannot be predicted, so both ways are written and one is kept.
 
 use std::hint::select_unpredictable;
@@ -21,13 +19,6 @@ const TABLE: usize = MAX_LABELS * MAX_LABELS;
 
 /// The first label: all are greater than any slot.
 const FIRST_LABEL: u32 = MAX_CELLS.next_power_of_two() as u32;
-
-/// Rims up to this size go through a smaller table, which takes no memory of its own, until there is a larger one.
-const FEW_LABELS: usize = 16;
-pub(super) const FEW_RIM: usize = 2 * (FEW_LABELS - 2);
-
-/// Up to this number of sites, the ghost vertex included, each is its own label.
-const FEW_SITES: usize = 8;
 
 /// A facet of the rim, the cell that joins it to the site, and beside it, where that is no matter of the facet, a cell
 /// of the zone.
@@ -53,43 +44,30 @@ impl Row {
     }
 }
 
-/// Where the two facets of a ridge meet; without room until a rim is larger than [`FEW_RIM`].
+/// Where the two facets of a ridge meet: the facet that sees the edge from label `k` to label `l` is at
+/// `k * MAX_LABELS + l`.
 #[derive(Debug, Default)]
-pub(super) struct Meetings(Option<Box<Room>>);
-
-/// The facet that sees the edge from label `k` to label `l`, at `k * MAX_LABELS + l`.
-#[derive(Debug)]
-struct Room([Facet; TABLE]);
-
-impl Default for Room {
-    #[inline(always)]
-    fn default() -> Self {
-        Room([Facet::new(Slot::new(0), 0); TABLE])
-    }
-}
+pub(super) struct Meetings(Vec<Facet>);
 
 impl Meetings {
     pub(super) fn memory_bytes(&self) -> usize {
-        memory::bytes_of_made(&self.0, |_| 0)
+        memory::bytes_of(&self.0)
     }
 
-    /// Makes room for rims of up to [`SMALL_RIM`] facets.
+    /// Makes room for rims of up to [`SMALL_RIM`] facets, unless there is.
     pub(super) fn make_room(&mut self) -> Result<()> {
-        memory::made(&mut self.0).map(|_| ())
+        memory::lengthen(&mut self.0, TABLE, Facet::new(Slot::new(0), 0))
     }
 
-    /// Puts the new cells of a rim, which have their slots, and glues them. There must be room for all ridges of a rim
-    /// that is larger than [`SMALL_RIM`].
+    /// Puts the new cells of a rim, which have their slots, and glues them. Room has been [made](Self::make_room), and
+    /// for all ridges of a rim that is larger than [`SMALL_RIM`].
     #[inline(always)]
     pub(super) fn glue(&mut self, t: &mut Delaunay<Space>, rim: &mut [Row], ridges: Vec<Ridge>) {
         if rim.len() > SMALL_RIM {
             return glue_sorted(t, rim, ridges);
         }
-        match &mut self.0 {
-            Some(room) => glue_by_table::<MAX_LABELS, _>(t, rim, &mut room.0, labels()),
-            None if t.sites.len() <= FEW_SITES => glue_by_sites(t, rim),
-            None => glue_few(t, rim),
-        }
+        let (tables, _) = self.0.as_chunks_mut::<TABLE>();
+        glue_by_table(t, rim, &mut tables[0], labels());
     }
 }
 
@@ -112,29 +90,12 @@ fn labels() -> impl FnMut(&mut Delaunay<Space>, SiteId) -> usize {
     }
 }
 
-/// Puts and glues the new cells of a rim by a small table on the stack, where there are [`FEW_SITES`] sites at most,
-/// each its own label.
-#[cold]
-#[inline(never)]
-fn glue_by_sites(t: &mut Delaunay<Space>, rim: &mut [Row]) {
-    let mut table = [Facet::new(Slot::new(0), 0); FEW_SITES * FEW_SITES];
-    glue_by_table::<FEW_SITES, _>(t, rim, &mut table, |_, v| v.index());
-}
-
-/// Puts and glues the new cells of a rim of [`FEW_RIM`] facets at most, by a small table on the stack.
-#[cold]
-#[inline(never)]
-fn glue_few(t: &mut Delaunay<Space>, rim: &mut [Row]) {
-    let mut table = [Facet::new(Slot::new(0), 0); FEW_LABELS * FEW_LABELS];
-    glue_by_table::<FEW_LABELS, _>(t, rim, &mut table, labels());
-}
-
-/// Puts and glues the new cells of a rim by a table of `LABELS` times `LABELS` entries.
+/// Puts and glues the new cells of a rim by the table.
 #[inline(always)]
-fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
+fn glue_by_table(
     t: &mut Delaunay<Space>,
     rim: &mut [Row],
-    table: &mut [Facet; ENTRIES],
+    table: &mut [Facet; TABLE],
     mut label: impl FnMut(&mut Delaunay<Space>, SiteId) -> usize,
 ) {
     for row in rim.iter_mut() {
@@ -142,13 +103,13 @@ fn glue_by_table<const LABELS: usize, const ENTRIES: usize>(
         let [_, k, l, m] = row.corners;
         let (k, l, m) = (label(t, k), label(t, l), label(t, m));
         row.local = [0, k as u8, l as u8, m as u8];
-        table[(l * LABELS + m) % ENTRIES] = Facet::new(cell, 1);
-        table[(m * LABELS + k) % ENTRIES] = Facet::new(cell, 2);
-        table[(k * LABELS + l) % ENTRIES] = Facet::new(cell, 3);
+        table[(l * MAX_LABELS + m) % TABLE] = Facet::new(cell, 1);
+        table[(m * MAX_LABELS + k) % TABLE] = Facet::new(cell, 2);
+        table[(k * MAX_LABELS + l) % TABLE] = Facet::new(cell, 3);
     }
     for row in rim.iter() {
         let (cell, [_, k, l, m]) = (row.cell, row.local.map(usize::from));
-        let at = |from: usize, to: usize| table[(from * LABELS + to) % ENTRIES];
+        let at = |from: usize, to: usize| table[(from * MAX_LABELS + to) % TABLE];
         t.complex.put_glued(cell, row.corners, [row.out, at(m, l), at(k, m), at(l, k)]);
         for i in 1..4 {
             t.corner_mut(row.corners[i]).cell = cell;

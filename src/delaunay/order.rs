@@ -9,8 +9,6 @@
 //! uneven densities have, are sorted again in their own bounding box, so that clusters within clusters are still
 //! visited along a curve.
 
-use std::ops::Deref;
-
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::SiteId;
@@ -73,7 +71,7 @@ pub fn hilbert_order<'p, G: Dimension>(
 }
 
 /// This number of items, and runs of one key up to this length, stay unsorted: a walk through them is short anyway.
-pub const SHORT_RUN: usize = 8;
+const SHORT_RUN: usize = 8;
 
 /// Extents below this are [scaled up](UP) first.
 const SMALL: f64 = 1e-100;
@@ -295,33 +293,14 @@ fn spread_3(x: u32) -> u32 {
     (x | x << 2) & 0x0924_9249
 }
 
-/// Sites in the order of their insertion; of a [short run](SHORT_RUN) without memory of its own.
-pub struct Rounds {
-    few: [SiteId; SHORT_RUN],
-    n_few: usize,
-    many: Vec<SiteId>,
-}
-
-impl Deref for Rounds {
-    type Target = [SiteId];
-
-    fn deref(&self) -> &[SiteId] {
-        if self.many.is_empty() { &self.few[..self.n_few] } else { &self.many }
-    }
-}
-
 /// Splits `sites`, which is in storage order, into rounds, each `2^D` times as large as the one before in the mean;
-/// the order within a round stays. A short run is a single round.
-pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> Result<Rounds> {
+/// the order within a round stays. A [short run](SHORT_RUN) is a single round.
+pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> Result<Vec<SiteId>> {
     const ROUNDS: usize = 16;
-    let mut rounds = Rounds { few: [SiteId::NONE; SHORT_RUN], n_few: 0, many: Vec::new() };
-    let mut rest = sites.clone();
-    for (few, s) in rounds.few.iter_mut().zip(&mut rest) {
-        *few = s;
-        rounds.n_few += 1;
-    }
-    if rounds.n_few < SHORT_RUN || rest.next().is_none() {
-        return Ok(rounds);
+    let mut order = Vec::new();
+    if sites.clone().nth(SHORT_RUN).is_none() {
+        memory::collect(&mut order, sites)?;
+        return Ok(order);
     }
     let round = |s: SiteId| {
         let hash = u64::from(s.get()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -336,15 +315,14 @@ pub fn in_rounds<G: Dimension>(sites: impl Iterator<Item = SiteId> + Clone) -> R
     for r in 0..ROUNDS {
         starts[r + 1] += starts[r];
     }
-    let order = &mut rounds.many;
-    memory::reserve_exact(order, starts[ROUNDS])?;
+    memory::reserve_exact(&mut order, starts[ROUNDS])?;
     order.resize(starts[ROUNDS], SiteId::NONE);
     for s in sites {
         let at = &mut starts[round(s)];
         order[*at] = s;
         *at += 1;
     }
-    Ok(rounds)
+    Ok(order)
 }
 
 #[cfg(test)]

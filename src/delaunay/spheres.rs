@@ -16,7 +16,6 @@
 
 #![allow(unsafe_code)]
 
-use super::cavity_space::IN_ZONE;
 use super::{Delaunay, Space};
 use crate::complex::INFINITE;
 use crate::error::Result;
@@ -24,6 +23,9 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::predicates::{self, Sphere, StaticFilter};
 use crate::simd::{Avx2, LANES, rows};
+
+/// Mark of a cell that has been found in conflict with the site; of all others it is 0.
+pub(super) const IN_ZONE: u8 = 1;
 
 /// Entries of the table at most: 256 KiB, a part of a core's own cache. Sixteen times as many are no faster.
 const MOST_ENTRIES: usize = 1 << 12;

@@ -1,8 +1,4 @@
-//! Arrays of entries that are aligned to more than a number is.
-//!
-//! A vector of such entries asks the system for memory that is aligned like them, which takes several times as long as
-//! asking for any memory: a tenth of the time to build five points. So this asks for a few bytes more than it needs,
-//! and skips those before the first entry.
+//! Arrays of which several threads fill a part each.
 //!
 //! An array may be [divided](Aligned::divide): its room at the end becomes another array's, which another thread can
 //! fill where the entries are going to be, and which is then [taken back](Aligned::rejoin). The memory is gone when the
@@ -21,16 +17,11 @@ use super::memory;
 use super::shared::Share;
 use crate::error::{Error, Result};
 
-/// What any memory is aligned to.
-const GIVEN: usize = align_of::<u128>();
-
 /// A growing array.
 pub(crate) struct Aligned<T: Copy> {
     start: NonNull<T>,
     n: usize,
     capacity: usize,
-    /// Bytes before the start.
-    skipped: usize,
     /// If the memory is not its own alone.
     share: Option<Share>,
     entries: PhantomData<T>,
@@ -42,20 +33,10 @@ unsafe impl<T: Copy + Send> Send for Aligned<T> {}
 unsafe impl<T: Copy + Sync> Sync for Aligned<T> {}
 
 impl<T: Copy> Aligned<T> {
-    /// How many bytes may have to be skipped.
-    const MORE: usize = align_of::<T>().saturating_sub(GIVEN);
-
     /// An empty array.
     #[inline(always)]
     pub(crate) const fn new() -> Self {
-        Aligned {
-            start: NonNull::dangling(),
-            n: 0,
-            capacity: 0,
-            skipped: 0,
-            share: None,
-            entries: PhantomData,
-        }
+        Aligned { start: NonNull::dangling(), n: 0, capacity: 0, share: None, entries: PhantomData }
     }
 
     /// For how many entries there is memory.
@@ -64,15 +45,9 @@ impl<T: Copy> Aligned<T> {
         self.capacity
     }
 
-    /// Bytes of its memory, those skipped and those behind the last entry included.
+    /// Bytes of its memory, those behind the last entry included.
     pub(crate) fn memory_bytes(&self) -> usize {
-        if self.capacity > 0 { self.capacity * size_of::<T>() + Self::MORE } else { 0 }
-    }
-
-    /// The memory for so many entries, which are not none.
-    fn layout(capacity: usize) -> Option<Layout> {
-        let bytes = capacity.checked_mul(size_of::<T>())?.checked_add(Self::MORE)?;
-        Layout::from_size_align(bytes, align_of::<T>().min(GIVEN)).ok()
+        self.capacity * size_of::<T>()
     }
 
     /// Makes room for exactly `more` more entries, unless there is.
@@ -83,39 +58,24 @@ impl<T: Copy> Aligned<T> {
         }
         let no_room = Error::OutOfMemory { bytes: more.saturating_mul(size_of::<T>()) };
         let Some(capacity) = self.n.checked_add(more) else { return Err(no_room) };
-        let Some(layout) = Self::layout(capacity) else { return Err(no_room) };
-        let own = Self::layout(self.capacity).filter(|_| self.capacity > 0 && self.share.is_none());
+        let Ok(layout) = Layout::array::<T>(capacity) else { return Err(no_room) };
+        let own =
+            Layout::array::<T>(self.capacity).ok().filter(|_| self.capacity > 0 && self.share.is_none());
         // SAFETY: the layout is not empty, as neither `more` nor an entry is; what there is was asked for like that.
         let memory = unsafe {
             match own {
-                Some(old) => realloc(self.memory(), old, layout.size()),
+                Some(old) => realloc(self.start.as_ptr().cast(), old, layout.size()),
                 None => alloc(layout),
             }
         };
-        if memory.is_null() {
-            return Err(no_room);
+        let Some(start) = NonNull::new(memory.cast::<T>()) else { return Err(no_room) };
+        if own.is_none() {
+            // SAFETY: there is room for all entries there are, which are elsewhere.
+            unsafe { ptr::copy_nonoverlapping(self.start.as_ptr(), start.as_ptr(), self.n) };
         }
-        let skipped = memory.align_offset(align_of::<T>());
-        debug_assert!(skipped <= Self::MORE);
-        // SAFETY: there are that many bytes before the entries, for all of which there is room behind them. What was
-        // there has been moved with the memory, and is as far from its beginning as it was; or it is elsewhere still.
-        let start = unsafe {
-            let start = memory.add(skipped).cast::<T>();
-            if own.is_none() {
-                ptr::copy_nonoverlapping(self.start.as_ptr(), start, self.n);
-            } else if skipped != self.skipped {
-                ptr::copy(memory.add(self.skipped), start.cast(), self.n * size_of::<T>());
-            }
-            NonNull::new_unchecked(start)
-        };
-        (self.start, self.capacity, self.skipped, self.share) = (start, capacity, skipped, None);
-        memory::advise_if_large(start.as_ptr().cast(), capacity * size_of::<T>());
+        (self.start, self.capacity, self.share) = (start, capacity, None);
+        memory::advise_if_large(memory, capacity * size_of::<T>());
         Ok(())
-    }
-
-    /// Where the memory begins.
-    fn memory(&self) -> *mut u8 {
-        self.start.as_ptr().cast::<u8>().wrapping_sub(self.skipped)
     }
 
     /// Appends an entry, for which there must be room.
@@ -149,9 +109,9 @@ impl<T: Copy> Aligned<T> {
         let share = match &self.share {
             Some(share) => share.another(),
             None => {
-                let layout = Self::layout(self.capacity).expect("it was asked for like that");
+                let layout = Layout::array::<T>(self.capacity).expect("it was asked for like that");
                 // SAFETY: this was allocated like that, and an array with a share frees nothing itself.
-                let own = unsafe { Share::new(self.memory(), layout, self.capacity)? };
+                let own = unsafe { Share::new(self.start.as_ptr().cast(), layout, self.capacity)? };
                 let share = own.another();
                 self.share = Some(own);
                 share
@@ -160,7 +120,7 @@ impl<T: Copy> Aligned<T> {
         self.capacity = kept;
         // SAFETY: this is in the same memory.
         let start = unsafe { self.start.add(kept) };
-        Ok(Aligned { start, n: 0, capacity: room, skipped: 0, share: Some(share), entries: PhantomData })
+        Ok(Aligned { start, n: 0, capacity: room, share: Some(share), entries: PhantomData })
     }
 
     /// Whether another array has the room behind the end of this one's.
@@ -180,8 +140,8 @@ impl<T: Copy> Aligned<T> {
 
     /// Has all room that it had before it was divided, if the other arrays are gone.
     pub(crate) fn reclaim(&mut self) {
-        let memory = self.memory();
-        if let Some(share) = self.share.take_if(|share| share.is_last_of(memory)) {
+        let start = self.start.as_ptr().cast();
+        if let Some(share) = self.share.take_if(|share| share.is_last_of(start)) {
             self.capacity = share.keep();
         }
     }
@@ -221,10 +181,10 @@ impl<T: Copy> Drop for Aligned<T> {
     fn drop(&mut self) {
         if self.capacity > 0
             && self.share.is_none()
-            && let Some(layout) = Self::layout(self.capacity)
+            && let Ok(layout) = Layout::array::<T>(self.capacity)
         {
             // SAFETY: this is where the memory begins, and its layout.
-            unsafe { dealloc(self.memory(), layout) };
+            unsafe { dealloc(self.start.as_ptr().cast(), layout) };
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes. The
 //! compiler proves that there are no data races; no `unsafe` is involved but in the [pool](super::pool) of threads, to
-//! take over what several threads have written side by side (here and in [`memory`]), to give several arrays a part each
+//! take over what several threads have written side by side (here and in [`memory`](super::memory)), to give several arrays a part each
 //! of the same memory ([`aligned`](super::aligned)), and to move sites of which no two threads have the same one
 //! (`motion::moving`). Results are put together in the order of the work, so that they do not
 //! depend on which thread was faster.
@@ -28,8 +28,8 @@ use std::thread;
 use super::environment;
 #[cfg(unix)]
 use super::pool::{self, beside};
-use super::{memory, processors, tally};
-use crate::error::Result;
+use super::{processors, tally};
+use crate::error::{Error, Result};
 
 /// Ranges for each thread.
 const RANGES: usize = 8;
@@ -241,7 +241,8 @@ pub(crate) fn for_ranges<R: Send>(
 ) -> Result<Vec<R>> {
     let n_ranges = RANGES * n_threads;
     let mut results = Vec::new();
-    memory::reserve_exact(&mut results, n_ranges)?;
+    let no_room = |_| Error::OutOfMemory { bytes: n_ranges * size_of::<R>() };
+    results.try_reserve_exact(n_ranges).map_err(no_room)?;
     let slots = Slots(results.as_mut_ptr());
     let next = AtomicUsize::new(0);
     for_each(0..n_threads, &|_| {

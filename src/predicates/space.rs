@@ -8,6 +8,7 @@ use super::filter::{
     StaticFilter, extents, insphere_bound, insphere_bound_of_terms, is_certain, largest, orient3d_bound,
 };
 use super::integer::{Limbs, LongScaled, Modular, Scaled, Short, Wide, with_sign};
+use super::plane::{sign_of_incircle, sign_of_orient2d};
 use super::two_heights::{insphere_at_two_heights, orient3d_at_two_heights};
 use super::vectors::{dot, minor, minus};
 use crate::machine::tally;
@@ -51,7 +52,7 @@ fn orient3d_uncertain(det: f64, points: [&[f64; 3]; 4]) -> f64 {
         return det;
     }
     tally::count();
-    if let Some(sign) = orient3d_at_two_heights(points) {
+    if let Some(sign) = orient3d_at_two_heights(points, sign_of_orient2d) {
         return with_sign(det, sign);
     }
     if let Some(sign) = orient3d_sign(points, largest(extents)) {
@@ -73,7 +74,7 @@ fn insphere_uncertain(det: f64, points: [&[f64; 3]; 5]) -> f64 {
     if is_certain(det, bound, extents) {
         return det;
     }
-    if let Some(sign) = insphere_at_two_heights(points) {
+    if let Some(sign) = insphere_at_two_heights(points, sign_of_incircle) {
         tally::count();
         return with_sign(det, sign);
     }

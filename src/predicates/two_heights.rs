@@ -21,7 +21,6 @@
 //!
 //! Comparisons alone in the plane and for the corners of boxes; a sign of the plane otherwise.
 
-use super::plane::{sign_of_incircle, sign_of_orient2d};
 use std::array::from_fn;
 use std::cmp::Ordering;
 
@@ -47,8 +46,12 @@ pub(super) fn is_rectangle([a, b, c, d]: [&[f64; 2]; 4]) -> bool {
     (x0 & (y1 | y2)) | (x1 & (y0 | y2)) | (x2 & (y0 | y1))
 }
 
-/// The sign of the in-sphere determinant, if the points are at two heights and one term is left at most.
-pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering> {
+/// The sign of the in-sphere determinant, if the points are at two heights and one term is left at most, which has the
+/// sign of an in-circle determinant.
+pub(super) fn insphere_at_two_heights(
+    points: [&[f64; 3]; 5],
+    sign_of_incircle: impl Fn([&[f64; 2]; 4]) -> Ordering,
+) -> Option<Ordering> {
     (0..3).find_map(|axis| {
         let flat = points.map(|p| without(p, axis));
         let term = |k| sign_of_incircle(all_but(k, &flat.each_ref()));
@@ -57,8 +60,12 @@ pub(super) fn insphere_at_two_heights(points: [&[f64; 3]; 5]) -> Option<Ordering
     })
 }
 
-/// The sign of the orientation of four points of space, if they are at two heights and one term is left at most.
-pub(super) fn orient3d_at_two_heights(points: [&[f64; 3]; 4]) -> Option<Ordering> {
+/// The sign of the orientation of four points of space, if they are at two heights and one term is left at most, which
+/// has the sign of an orientation of the plane.
+pub(super) fn orient3d_at_two_heights(
+    points: [&[f64; 3]; 4],
+    sign_of_orient2d: impl Fn([&[f64; 2]; 3]) -> Ordering,
+) -> Option<Ordering> {
     (0..3).find_map(|axis| {
         let flat = points.map(|p| without(p, axis));
         let term = |k| sign_of_orient2d(all_but(k, &flat.each_ref()));
@@ -124,6 +131,7 @@ fn all_but<T: Copy, const N: usize, const M: usize>(k: usize, items: &[T; N]) ->
 #[cfg(test)]
 mod tests {
     use super::super::big;
+    use super::super::plane::{sign_of_incircle, sign_of_orient2d};
     use super::*;
     use crate::random::Rng;
     use std::collections::BTreeSet;
@@ -194,12 +202,18 @@ mod tests {
 
     #[test]
     fn signs_of_spheres_are_exact() {
-        check(insphere_at_two_heights, |points| sign(big::insphere(1.0, points)));
+        check(
+            |points| insphere_at_two_heights(points, sign_of_incircle),
+            |points| sign(big::insphere(1.0, points)),
+        );
     }
 
     #[test]
     fn signs_of_volumes_are_exact() {
-        check(orient3d_at_two_heights, |points| sign(big::orient3d(1.0, points)));
+        check(
+            |points| orient3d_at_two_heights(points, sign_of_orient2d),
+            |points| sign(big::orient3d(1.0, points)),
+        );
     }
 
     /// Any five corners of a box are a tie that needs no arithmetic, whatever the lengths of its edges.
@@ -211,7 +225,8 @@ mod tests {
         for set in 0u32..256 {
             let corners: Vec<_> = (0..8).filter(|bit| set >> bit & 1 == 1).map(corner).collect();
             if let [a, b, c, d, e] = &corners[..] {
-                assert_eq!(insphere_at_two_heights([a, b, c, d, e]), Some(Ordering::Equal), "{corners:?}");
+                let sign = insphere_at_two_heights([a, b, c, d, e], sign_of_incircle);
+                assert_eq!(sign, Some(Ordering::Equal), "{corners:?}");
                 n += 1;
             }
         }
