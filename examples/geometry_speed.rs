@@ -5,7 +5,7 @@ mod common;
 
 use common::{Rng, in_cube};
 use deldrift::motion::{Interpolation, MovingTriangulation, NO_CELL, Options, VertexValues};
-use deldrift::{CellId, Dimension, Plane, Space, VertexId};
+use deldrift::{CellId, Dimension, Plane, Shape, Space, VertexId};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -199,7 +199,7 @@ fn of_places<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
 }
 
 /// Circumcentre and squared circumradius.
-type Sphere<G> = (<G as Dimension>::Point, f64);
+type Sphere<G> = (<G as Shape>::Point, f64);
 
 /// Circumspheres kept beside the cells.
 struct Kept<G: Dimension> {

@@ -51,7 +51,7 @@ mod random;
 mod simd;
 
 pub use damage::{Damage, LoadError};
-pub use delaunay::{Dimension, Plane, Space};
+pub use delaunay::{Dimension, Plane, Shape, Space};
 pub use either::{AnyTriangulation, points_of};
 pub use error::{Error, Result, StagedEdit};
 pub use ids::{CellId, VertexId};

@@ -12,7 +12,7 @@ use deldrift::Error;
 use deldrift::internals::{Delaunay, Insertion, Shortcut, SiteId, Slot};
 use deldrift::motion::Level;
 use deldrift::motion::{Algorithm, MovingTriangulation, Options, Saved};
-use deldrift::{Dimension, Plane, Space, VertexId};
+use deldrift::{Dimension, Plane, Shape, Space, VertexId};
 use random::Rng;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -288,7 +288,7 @@ fn triangulations_of_space_are_left_alone() {
     answers::<Space>();
 }
 
-type Call<G> = fn(&mut MovingTriangulation<G>, &<G as Dimension>::Point) -> Result<(), Error>;
+type Call<G> = fn(&mut MovingTriangulation<G>, &<G as Shape>::Point) -> Result<(), Error>;
 
 /// A vertex goes next to another one, one comes, one goes, each without every allocation in turn: positions and cells
 /// are as they were.

@@ -14,7 +14,7 @@ use deldrift::Error;
 use deldrift::motion::{
     Algorithm, CoincidencePolicy, CommitReport, Commits, Level, Monitor, MovingTriangulation, Options,
 };
-use deldrift::{Dimension, Plane, Space, VertexId};
+use deldrift::{Dimension, Plane, Shape, Space, VertexId};
 
 /// Those that keep something, and those that move all vertices at once. Each has its own histories, and turns up now
 /// and then in those of the others.
@@ -26,7 +26,7 @@ fn lasting_algorithms() -> Vec<Algorithm> {
     Algorithm::ALL.into_iter().filter(lasts).collect()
 }
 
-type Point<G> = <G as Dimension>::Point;
+type Point<G> = <G as Shape>::Point;
 
 /// Extent of the inputs, and about how far apart points are.
 const EXTENT: f64 = 8.0;

@@ -4,12 +4,12 @@
 use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells};
 use crate::histories;
 use deldrift::motion::{Algorithm, Level, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space};
+use deldrift::{Dimension, Plane, Shape, Space};
 
 const COMMITS: usize = 10_000;
 
 /// How the vertices go on, all at once.
-type Motion<G> = fn(&mut Vec<<G as Dimension>::Point>, &mut Rng);
+type Motion<G> = fn(&mut Vec<<G as Shape>::Point>, &mut Rng);
 
 /// A step so long that nearly all tolerances have to be computed in each commit.
 fn shake<G: Dimension>(points: &mut Vec<G::Point>, rng: &mut Rng) {

@@ -7,11 +7,11 @@
 use crate::common::inputs::{on_spheres_within_each_other, on_unit_sphere};
 use crate::common::{Rng, assert_same_cells, cell_set, fresh_cells, point, seeds, vertex};
 use deldrift::motion::{Algorithm, CommitReport, Commits, Level, Location, MovingTriangulation, Options};
-use deldrift::{Dimension, Plane, Space, VertexId};
+use deldrift::{Dimension, Plane, Shape, Space, VertexId};
 
 /// A motion of all positions; it gets the positions of the beginning and those of now.
 type Motion<G> = fn(&[Point<G>], &mut [Point<G>], &mut Rng);
-type Point<G> = <G as Dimension>::Point;
+type Point<G> = <G as Shape>::Point;
 
 /// Extent of the inputs.
 const EXTENT: f64 = 8.0;

@@ -4,7 +4,8 @@
 //! before it to a cell that is in conflict with it. Rebuilding keeps the storage order of the sites, which small
 //! motions spoil little; the mean distance of sites that are next to each other in storage tells when to sort again.
 
-use super::cavity::{Cavity, Insert};
+use super::cavity::Cavity;
+use super::dimension::Insert;
 use super::order::in_rounds;
 use super::{Delaunay, Dimension, Insertion, Site};
 use crate::complex::{Corners, INFINITE};

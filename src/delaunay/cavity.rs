@@ -9,13 +9,11 @@
 //! Cost: in expectation 6 cells made and 4 deleted in the plane, about 27 and 20 in space, with one in-sphere test
 //! for each deleted cell and each rim facet.
 
-use std::fmt::Debug;
-
+use super::dimension::Insert;
 use super::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;
-use crate::predicates::StaticFilter;
 
 /// What an insertion found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,38 +24,6 @@ pub enum Insertion {
     Coincident(SiteId),
     /// There were no cells, and with the site there would be: a kernel has to be built. Nothing has changed.
     Spans,
-}
-
-/// How a dimension inserts, and the scratch memory for that.
-pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
-    /// Gets ready to insert very many sites, which will have `n_cells` cells: after that, and until
-    /// [`end_build`](Self::end_build), `BUILD` is true. The complex keeps no record meanwhile. `is_weak` if the static
-    /// filter is.
-    fn begin_build(&mut self, _n_cells: usize, _is_weak: bool) -> Result<()> {
-        Ok(())
-    }
-
-    /// Between insertions of a build, now and then: looks what tests have needed, for those to come.
-    fn adapt(&mut self) {}
-
-    /// Frees what [`begin_build`](Self::begin_build) made.
-    fn end_build(&mut self) {}
-
-    /// Whether the point is certainly in the sphere of a cell, as far as that is known.
-    #[inline(always)]
-    fn is_inside(&self, _filter: &StaticFilter, _cell: Slot, _q: &G::Point) -> bool {
-        false
-    }
-
-    /// Bytes held.
-    fn memory_bytes(&self) -> usize;
-
-    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site.
-    /// Returns one of the new cells. After an error nothing has changed.
-    fn insert<const BUILD: bool>(&mut self, t: &mut Delaunay<G>, start: Slot, s: SiteId) -> Result<Slot>;
-
-    /// The cells made by the last insertion.
-    fn made(&self) -> impl ExactSizeIterator<Item = Slot> + '_;
 }
 
 /// Insertions, and the scratch memory for them.

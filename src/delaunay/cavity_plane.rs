@@ -10,8 +10,8 @@
 
 #![allow(unsafe_code)]
 
-use super::cavity::Insert;
-use super::kernel::Kernel;
+use super::dimension::Insert;
+use super::signs::Signs;
 use super::{Delaunay, Plane};
 use crate::complex::{Facet, INFINITE};
 use crate::error::Result;

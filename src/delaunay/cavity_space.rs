@@ -9,7 +9,7 @@
 
 #![allow(unsafe_code)]
 
-use super::cavity::Insert;
+use super::dimension::Insert;
 use super::meetings::{Meetings, Ridge, Row, SMALL_RIM};
 use super::spheres::{IN_ZONE, Spheres, Table};
 use super::{Delaunay, Space};

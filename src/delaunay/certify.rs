@@ -176,14 +176,19 @@ impl<G: Dimension> Delaunay<G> {
     #[inline(always)]
     pub(super) fn star_surely_holds(&self, star: &[(Slot, u8)]) -> bool {
         let Some(avx2) = Avx2::new() else {
-            return star.iter().all(|&(c, _)| !self.complex.cell(c).is_ghost() && G::cell_holds(self, c));
+            return star.iter().all(|&(c, _)| {
+                !self.complex.cell(c).is_ghost() && G::cell_holds(&self.filter, self.view(), &self.complex, c)
+            });
         };
         avx2.run_with(
             avx2,
             self,
             star,
             #[inline(always)]
-            |avx2, t, star| G::star_holds(avx2, t, star),
+            |avx2, t, star| {
+                G::star_holds(avx2, &t.filter, t.view(), &t.complex, star)
+                    .unwrap_or_else(|| t.star_holds_in_lanes(avx2, star))
+            },
         )
     }
 
@@ -195,7 +200,9 @@ impl<G: Dimension> Delaunay<G> {
     ) {
         cells.all(|c| {
             let is_ghost = self.complex.cell(c).is_ghost();
-            self.complex.is_free(c) || !is_ghost && G::cell_holds(self, c) || visit(c, Doubts::ALL)
+            self.complex.is_free(c)
+                || !is_ghost && G::cell_holds(&self.filter, self.view(), &self.complex, c)
+                || visit(c, Doubts::ALL)
         });
     }
 
@@ -245,7 +252,7 @@ impl<G: Dimension> Delaunay<G> {
         let across = self.complex.cell(facet.cell()).neighbour(facet.index());
         match [facet, across].map(|side| self.complex.cell(side.cell()).is_ghost()) {
             [false, false] => {
-                if G::bicell_holds(self, facet) {
+                if G::bicell_holds(&self.filter, self.view(), &self.complex, facet) {
                     return Ok(true);
                 }
                 self.check_bicell_exactly(facet, before, failures)
@@ -293,7 +300,7 @@ impl<G: Dimension> Delaunay<G> {
             facets[n..].fill(any);
             let hold = avx2.run(
                 #[inline(always)]
-                || G::facets_hold(avx2, self, facets),
+                || G::facets_hold(avx2, &self.filter, self.view(), &self.complex, facets),
             );
             for (k, &facet) in facets[..n].iter().enumerate() {
                 if hold >> k & 1 == 0 {

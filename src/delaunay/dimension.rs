@@ -1,46 +1,48 @@
-//! The two dimensions in which deldrift works, as types.
+//! A dimension: all that differs between the plane and space.
 
 use std::fmt::Debug;
 
-use super::kernel::Kernel;
-use crate::complex::Corners;
-use crate::ids::{CellId, SiteId, VertexId};
-use crate::predicates::Coordinates;
+use super::Delaunay;
+use super::exchange::Exchange;
+use super::flipper::Flip;
+use crate::error::Result;
+use crate::ids::{SiteId, Slot};
+use crate::predicates::StaticFilter;
 
-/// A dimension: [`Plane`] or [`Space`].
-pub trait Dimension: Kernel<Self> + Copy + Debug + Default + Send + Sync + 'static {
-    /// Number of coordinates.
-    const D: usize;
-    /// `[f64; D]`.
-    type Point: Coordinates;
-    /// `[SiteId; D + 1]`: the corners of a cell in the kernel.
-    type Corners: Corners;
-    /// `[VertexId; D + 1]`: the vertices of a cell.
-    type Vertices: Corners<VertexId>;
-    /// `[CellId; D + 1]`: the neighbours of a cell, opposite its vertices.
-    type Neighbours: Corners<CellId>;
+/// A dimension: [`Plane`](super::Plane) or [`Space`](super::Space).
+pub trait Dimension: Flip + Exchange {
+    /// Scratch memory of insertions.
+    type Scratch: Insert<Self>;
 }
 
-/// Two dimensions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Plane;
+/// How a dimension inserts, and the scratch memory for that.
+pub trait Insert<G: Dimension>: Debug + Default + Send + Sync {
+    /// Gets ready to insert very many sites, which will have `n_cells` cells: after that, and until
+    /// [`end_build`](Self::end_build), `BUILD` is true. The complex keeps no record meanwhile. `is_weak` if the static
+    /// filter is.
+    fn begin_build(&mut self, _n_cells: usize, _is_weak: bool) -> Result<()> {
+        Ok(())
+    }
 
-/// Three dimensions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Space;
+    /// Between insertions of a build, now and then: looks what tests have needed, for those to come.
+    fn adapt(&mut self) {}
 
-impl Dimension for Plane {
-    const D: usize = 2;
-    type Point = [f64; 2];
-    type Corners = [SiteId; 3];
-    type Vertices = [VertexId; 3];
-    type Neighbours = [CellId; 3];
-}
+    /// Frees what [`begin_build`](Self::begin_build) made.
+    fn end_build(&mut self) {}
 
-impl Dimension for Space {
-    const D: usize = 3;
-    type Point = [f64; 3];
-    type Corners = [SiteId; 4];
-    type Vertices = [VertexId; 4];
-    type Neighbours = [CellId; 4];
+    /// Whether the point is certainly in the sphere of a cell, as far as that is known.
+    #[inline(always)]
+    fn is_inside(&self, _filter: &StaticFilter, _cell: Slot, _q: &G::Point) -> bool {
+        false
+    }
+
+    /// Bytes held.
+    fn memory_bytes(&self) -> usize;
+
+    /// Finds the conflict zone of the site `s`, of which the cell `start` is one, and joins its rim to the site.
+    /// Returns one of the new cells. After an error nothing has changed.
+    fn insert<const BUILD: bool>(&mut self, t: &mut Delaunay<G>, start: Slot, s: SiteId) -> Result<Slot>;
+
+    /// The cells made by the last insertion.
+    fn made(&self) -> impl ExactSizeIterator<Item = Slot> + '_;
 }

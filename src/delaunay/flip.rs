@@ -16,13 +16,11 @@
 //! Invariant: a facet whose cells have changed since it was found to hold is a suspect, or listed as stuck or as one
 //! for later. Sites keep their old cells until no flip will be taken back.
 
-pub use flipper::Flipper;
-pub(crate) use flips::CERTIFICATES_PER_EXACT;
-pub use flips::Flips;
-
 use islands::Island;
 use untangle::Untangling;
 
+use super::flipper::Flipper;
+use super::flips::Flips;
 use super::site::Sites;
 use super::{Delaunay, Dimension};
 use crate::complex::{Corners, Facet, Row, starts_of_ranges};
@@ -310,8 +308,6 @@ fn key<C: Corners>(corners: &C, i: usize) -> [SiteId; 3] {
     key
 }
 
-mod flipper;
-mod flips;
 mod islands;
 mod peel;
 #[cfg(test)]

@@ -7,7 +7,7 @@
 
 use super::facets::{ByCorners, facet_of};
 use super::remove::{Gap, Hole};
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Dimension, Shape};
 use crate::complex::{Corners, Facet, INFINITE};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -171,7 +171,7 @@ impl<G: Dimension> Delaunay<G> {
 }
 
 /// Of each facet of a cell.
-type Of<G> = <<G as Dimension>::Corners as Corners>::Of<Across>;
+type Of<G> = <<G as Shape>::Corners as Corners>::Of<Across>;
 
 fn map_corners<C: Corners>(mut corners: C, f: impl Fn(SiteId) -> SiteId) -> C {
     for s in corners.as_mut() {

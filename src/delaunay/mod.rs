@@ -6,8 +6,9 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `dimension` | the two dimensions, as types |
-//! | `kernel`, `plane`, `space` | predicates of sites, and what else differs between the dimensions |
+//! | `shape` | the two dimensions, as types, and the arrays that have a length for each |
+//! | `signs`, `lane_tests`, `exchange`, `dimension` | what differs between them, by what it is for |
+//! | `plane`, `space` | how they do it |
 //! | `order` | Hilbert curve and insertion rounds |
 //! | `build` | all sites at once |
 //! | `parts`, `parallel`, `unite` | the same on several threads |
@@ -16,7 +17,7 @@
 //! | `remove`, `wrapping` | removal: fill the star by gift wrapping, in lanes where that is certain |
 //! | `high_degree` | removal of a vertex of high degree |
 //! | `relocate` | one site to a new place |
-//! | `flip` | flips, on several threads, and undoing them |
+//! | `flip`, `flipper`, `flips` | flips, on several threads, and undoing them |
 //! | `undo` | undoing any change |
 //! | `changes` | a record of the cells made or moved |
 //! | `successor` | a kernel to be built beside another one |
@@ -44,13 +45,16 @@ mod changes;
 mod copying;
 mod covering;
 mod dimension;
+mod exchange;
 mod facets;
 mod failures;
 mod flat;
 mod flip;
+mod flipper;
+mod flips;
 mod high_degree;
-mod kernel;
 mod landmarks;
+mod lane_tests;
 mod locate;
 mod meetings;
 pub mod order;
@@ -62,6 +66,8 @@ mod remove;
 mod restoring;
 mod sample;
 mod set;
+mod shape;
+mod signs;
 pub mod site;
 mod space;
 mod spheres;
@@ -77,14 +83,15 @@ mod wrapping;
 pub use build::Merge;
 pub use cavity::Insertion;
 pub(crate) use certify::Waiting;
-pub use dimension::{Dimension, Plane, Space};
+pub use dimension::Dimension;
 pub use failures::Failures;
-pub(crate) use flip::CERTIFICATES_PER_EXACT;
+pub(crate) use flips::CERTIFICATES_PER_EXACT;
 pub use locate::Place;
 pub use relocate::{Relocation, Shortcut};
 pub(crate) use restoring::Rows;
 pub(crate) use sample::Joint;
 pub(crate) use set::IndexSet;
+pub use shape::{Plane, Shape, Space};
 pub use site::Site;
 pub use validate::{Level, Violation};
 
@@ -96,7 +103,8 @@ use crate::machine::pace::Pace;
 use crate::machine::prefetch::prefetch;
 use crate::machine::threads::Threads;
 use crate::predicates::StaticFilter;
-use cavity::{Cavity, Insert};
+use cavity::Cavity;
+use dimension::Insert;
 use flat::Flat;
 use flip::AllFlips;
 use parts::Parts;

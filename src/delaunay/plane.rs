@@ -1,22 +1,20 @@
-//! The kernel's steps in the plane.
+//! What the plane does on its own.
 
-use super::dimension::Plane;
-use super::flip::{Flipper, Flips};
-use super::kernel::Kernel;
+use super::cavity_plane;
+use super::dimension::Dimension;
+use super::flipper::{Flip, Flipper};
+use super::flips::Flips;
+use super::lane_tests::{Held, LaneTests, Ray, apexes_beyond, corners_at};
 use super::locate::{next_of_three, previous_of_three};
-use super::site::{Site, Sites};
-use super::uncertain::{Held, apexes_beyond, corners_at};
-use super::winding::Ray;
-use super::{Delaunay, cavity_plane};
-use crate::complex::{Facet, INFINITE, Obstacle};
+use super::shape::Plane;
+use super::signs::Signs;
+use super::site::Sites;
+use crate::complex::{Complex, Facet, INFINITE, Obstacle};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::{self, OwnBounds2d, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
-impl Kernel<Plane> for Plane {
-    const BUILT_AT_LEAST: usize = 5_000;
-    type Scratch = cavity_plane::Scratch;
-
+impl Signs for Plane {
     fn filter(lower: &[f64; 2], upper: &[f64; 2]) -> StaticFilter {
         StaticFilter::plane(*lower, *upper)
     }
@@ -70,19 +68,21 @@ impl Kernel<Plane> for Plane {
         let triangle = |p: &[_]| <[_; 3]>::try_from(p).expect("three corners");
         predicates::stays_positive2d(triangle(old), triangle(new))
     }
+}
 
+impl LaneTests for Plane {
     #[inline(always)]
-    fn cell_holds(t: &Delaunay<Plane>, c: Slot) -> bool {
-        let cell = t.complex.cell(c);
-        let [a, b, d] = cell.corners.map(|s| t.view().point(s));
+    fn cell_holds(f: &StaticFilter, sites: Sites<Plane>, cells: &Complex<[SiteId; 3]>, c: Slot) -> bool {
+        let cell = cells.cell(c);
+        let [a, b, d] = cell.corners.map(|s| sites.point(s));
         let circle = predicates::circle(a, b, d);
         let side = |i| {
-            let apex = t.complex.apex(cell.neighbour(i));
-            let side = predicates::side_of_circle(&circle, a, t.view().point(apex));
+            let apex = cells.apex(cell.neighbour(i));
+            let side = predicates::side_of_circle(&circle, a, sites.point(apex));
             if apex == INFINITE { f64::NEG_INFINITY } else { side }
         };
         let greatest = Real::max(Real::max(side(0), side(1)), side(2));
-        circle[2] > t.filter.orient && greatest < -t.filter.prepared
+        circle[2] > f.orient && greatest < -f.prepared
     }
 
     #[inline(always)]
@@ -115,19 +115,24 @@ impl Kernel<Plane> for Plane {
     }
 
     #[inline(always)]
-    fn star_holds(avx2: Avx2, t: &Delaunay<Plane>, star: &[(Slot, u8)]) -> bool {
-        let (f, sites) = (&t.filter, t.view());
+    fn star_holds(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Plane>,
+        cells: &Complex<[SiteId; 3]>,
+        star: &[(Slot, u8)],
+    ) -> Option<bool> {
         // The cells have the site in common: the others are its neighbours.
-        let Some(&(c, at)) = star.first() else { return true };
-        let &[x, y] = sites.point(t.complex.cell(c).corners[usize::from(at)]);
+        let Some(&(c, at)) = star.first() else { return Some(true) };
+        let &[x, y] = sites.point(cells.cell(c).corners[usize::from(at)]);
         let center = [avx2.splat(x), avx2.splat(y)];
         for four in star.chunks(LANES) {
             let rows = [0, 1, 2, 3].map(|k| {
                 // Any cells fill the last lanes.
                 let (c, at) = four[k.min(four.len() - 1)];
-                let (cell, at) = (t.complex.cell(c), usize::from(at));
+                let (cell, at) = (cells.cell(c), usize::from(at));
                 let (next, previous) = (next_of_three(at), previous_of_three(at));
-                let [across, beside] = [at, next].map(|i| t.complex.apex(cell.neighbour(i)));
+                let [across, beside] = [at, next].map(|i| cells.apex(cell.neighbour(i)));
                 [cell.corners[next], cell.corners[previous], across, beside]
             });
             let [next, previous, across, beside] = [0, 1, 2, 3].map(|i| rows.map(|row| row[i]));
@@ -143,10 +148,10 @@ impl Kernel<Plane> for Plane {
                 & (across_side.is_less(bound) | is_none)
                 & beside_side.is_less(bound);
             if are_ghosts || hold.bits() != ALL {
-                return false;
+                return Some(false);
             }
         }
-        true
+        Some(true)
     }
 
     #[inline(always)]
@@ -193,72 +198,65 @@ impl Kernel<Plane> for Plane {
     }
 
     #[inline(always)]
-    fn bicell_holds(t: &Delaunay<Plane>, edge: Facet) -> bool {
-        let cell = t.complex.cell(edge.cell());
+    fn bicell_holds(
+        f: &StaticFilter,
+        sites: Sites<Plane>,
+        cells: &Complex<[SiteId; 3]>,
+        edge: Facet,
+    ) -> bool {
+        let cell = cells.cell(edge.cell());
         let across = cell.neighbour(edge.index());
-        let corners = t.complex.cell(across.cell()).corners;
-        let [a, b, d] = cell.corners.map(|s| t.view().point(s));
+        let corners = cells.cell(across.cell()).corners;
+        let [a, b, d] = cell.corners.map(|s| sites.point(s));
         let circle = predicates::circle(a, b, d);
-        let side = predicates::side_of_circle(&circle, a, t.view().point(corners[across.index()]));
-        let [a, b, d] = corners.map(|s| t.view().point(s));
+        let side = predicates::side_of_circle(&circle, a, sites.point(corners[across.index()]));
+        let [a, b, d] = corners.map(|s| sites.point(s));
         let beyond = predicates::circle(a, b, d);
-        circle[2] > t.filter.orient && beyond[2] > t.filter.orient && side < -t.filter.prepared
+        circle[2] > f.orient && beyond[2] > f.orient && side < -f.prepared
     }
 
     #[inline(always)]
-    fn facets_hold(avx2: Avx2, t: &Delaunay<Plane>, edges: &[Facet; LANES]) -> u32 {
+    fn facets_hold(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Plane>,
+        cells: &Complex<[SiteId; 3]>,
+        edges: &[Facet; LANES],
+    ) -> u32 {
         let [k, l, m, n] = [
-            corners_at(t, edges[0]),
-            corners_at(t, edges[1]),
-            corners_at(t, edges[2]),
-            corners_at(t, edges[3]),
+            corners_at(cells, edges[0]),
+            corners_at(cells, edges[1]),
+            corners_at(cells, edges[2]),
+            corners_at(cells, edges[3]),
         ];
         let bicells = [
-            places(avx2, t.view(), [k[0], l[0], m[0], n[0]]),
-            places(avx2, t.view(), [k[1], l[1], m[1], n[1]]),
-            places(avx2, t.view(), [k[2], l[2], m[2], n[2]]),
-            places(avx2, t.view(), apexes_beyond(t, edges)),
+            places(avx2, sites, [k[0], l[0], m[0], n[0]]),
+            places(avx2, sites, [k[1], l[1], m[1], n[1]]),
+            places(avx2, sites, [k[2], l[2], m[2], n[2]]),
+            places(avx2, sites, apexes_beyond(cells, edges)),
         ];
-        let hold = predicates::bicells_surely_hold2d(&t.filter, &bicells).bits();
+        let hold = predicates::bicells_surely_hold2d(f, &bicells).bits();
         if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size2d(&bicells).bits() }
     }
 
     #[inline(always)]
-    fn drop_outside(_: &Delaunay<Plane>, _: &[SiteId; 3], _: &[SiteId], set: u64) -> u64 {
+    fn drop_outside(_: &StaticFilter, _: Sites<Plane>, _: &[SiteId; 3], _: &[SiteId], set: u64) -> u64 {
         // They are few.
         set
     }
+}
 
+impl Flip for Plane {
     #[inline(always)]
     fn flip(flipper: &mut Flipper<Plane>, edge: Facet, flips: &mut Flips<Plane>) -> Result<(), Obstacle> {
         let outer = flipper.cells.flip_2_2(edge, &mut flips.journal)?;
         flips.enter(outer);
         Ok(())
     }
+}
 
-    #[inline(always)]
-    fn exchange(
-        avx2: Avx2,
-        places: &mut [[f64; 2]; LANES],
-        [s, t, u, v]: [&mut Site<Plane>; LANES],
-        [lower, upper]: &mut [Lanes; 2],
-    ) -> u64 {
-        /// How many of the two pairs of bits of a number are not both set.
-        const N_PAIRS: [u8; 1 << LANES] = [2, 2, 2, 1, 2, 2, 2, 1, 2, 2, 2, 1, 1, 1, 1, 0];
-        let (first, last) = halves(places);
-        let new = [avx2.load(first), avx2.load(last)];
-        let old = [avx2.two_pairs(&s.point, &t.point), avx2.two_pairs(&u.point, &v.point)];
-        new[0].store_low_to(&mut s.point);
-        new[0].store_high_to(&mut t.point);
-        new[1].store_low_to(&mut u.point);
-        new[1].store_high_to(&mut v.point);
-        old[0].store_to(first);
-        old[1].store_to(last);
-        *lower = lower.min(new[0].min(new[1]));
-        *upper = upper.max(new[0].max(new[1]));
-        let [first, last] = [0, 1].map(|k| N_PAIRS[new[k].are_same(old[k]).bits() as usize]);
-        u64::from(first + last)
-    }
+impl Dimension for Plane {
+    type Scratch = cavity_plane::Scratch;
 }
 
 /// The places of the corners of cells, by corner.
@@ -274,11 +272,4 @@ fn corners(avx2: Avx2, all: Sites<Plane>, [k, l, m, n]: [&[SiteId; 3]; LANES]) -
 #[inline(always)]
 fn places(avx2: Avx2, all: Sites<Plane>, sites: [SiteId; LANES]) -> [Lanes; 2] {
     avx2.pairs(sites.map(|s| all.point(s)))
-}
-
-#[inline(always)]
-fn halves(places: &mut [[f64; 2]; LANES]) -> (&mut [f64; LANES], &mut [f64; LANES]) {
-    let halves = places.as_flattened_mut().as_chunks_mut().0;
-    let [first, last] = halves else { unreachable!("four pairs") };
-    (first, last)
 }

@@ -14,7 +14,7 @@
 //!
 //! Invariant: the complex is not touched before the whole filling is known.
 
-use super::{Delaunay, Dimension};
+use super::{Delaunay, Dimension, Shape};
 use crate::complex::{Corners, Facet, INFINITE, MAX_CELLS};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
@@ -76,10 +76,10 @@ impl<G: Dimension> Hole<G> {
 }
 
 /// The facets of a cell, seen from its neighbours.
-type FacetsOf<G> = <<G as Dimension>::Corners as Corners>::Of<Facet>;
+type FacetsOf<G> = <<G as Shape>::Corners as Corners>::Of<Facet>;
 
 /// For each corner of a cell, a label.
-pub(super) type LabelsOf<G> = <<G as Dimension>::Corners as Corners>::Of<u8>;
+pub(super) type LabelsOf<G> = <<G as Shape>::Corners as Corners>::Of<u8>;
 
 /// Slots from here on stand for the cells of `made`, which are not in the complex yet.
 pub(super) const NEW: usize = MAX_CELLS;
@@ -309,7 +309,7 @@ impl<G: Dimension> Delaunay<G> {
             {
                 best = x;
                 cell[gap.at] = x;
-                left = G::drop_outside(self, &cell, link, left);
+                left = G::drop_outside(&self.filter, self.view(), &cell, link, left);
             }
         }
         best

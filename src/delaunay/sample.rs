@@ -87,7 +87,7 @@ impl<G: Dimension> Delaunay<G> {
                 self.certificates += 1;
                 let is_joined = match joint {
                     Joint::Failing => !self.is_locally_delaunay(facet),
-                    Joint::Uncertain => !G::bicell_holds(self, facet),
+                    Joint::Uncertain => !G::bicell_holds(&self.filter, self.view(), &self.complex, facet),
                 };
                 if is_joined {
                     cells[n] = next;

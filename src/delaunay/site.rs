@@ -5,14 +5,14 @@
 
 #![allow(unsafe_code)]
 
-use crate::delaunay::{Dimension, Space};
+use super::shape::{Shape, Space};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::prefetch::prefetch;
 
 /// A place and the vertex that represents it. Index 0 is a placeholder for the ghost vertex.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct Site<G: Dimension> {
+pub struct Site<G: Shape> {
     /// The place.
     pub point: G::Point,
     /// A cell that has the site as a corner; [`Slot::NONE`] while there is none.
@@ -22,7 +22,7 @@ pub struct Site<G: Dimension> {
     pub id: VertexId,
 }
 
-impl<G: Dimension> Site<G> {
+impl<G: Shape> Site<G> {
     /// A site that is in no cell yet.
     pub fn new(point: G::Point, id: VertexId) -> Self {
         Site { point, cell: Slot::NONE, id }
@@ -37,9 +37,9 @@ impl<G: Dimension> Site<G> {
 
 /// The sites of a triangulation, for its own corners.
 #[derive(Clone, Copy, Debug)]
-pub struct Sites<'s, G: Dimension>(&'s [Site<G>]);
+pub struct Sites<'s, G: Shape>(&'s [Site<G>]);
 
-impl<'s, G: Dimension> Sites<'s, G> {
+impl<'s, G: Shape> Sites<'s, G> {
     /// The caller passes only corners of cells of the triangulation whose sites these are, and such sites themselves.
     pub(super) fn new(sites: &'s [Site<G>]) -> Self {
         Sites(sites)

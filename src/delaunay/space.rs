@@ -1,21 +1,19 @@
-//! The kernel's steps in space.
+//! What space does on its own.
 
-use super::dimension::Space;
-use super::flip::{Flipper, Flips};
-use super::kernel::Kernel;
-use super::site::{Site, Sites};
-use super::uncertain::{Held, apexes_beyond, corners_at};
-use super::winding::Ray;
-use super::{Delaunay, cavity_space};
-use crate::complex::{Facet, INFINITE, Obstacle, outer_of_three, outer_of_two};
+use super::cavity_space;
+use super::dimension::Dimension;
+use super::flipper::{Flip, Flipper};
+use super::flips::Flips;
+use super::lane_tests::{Held, LaneTests, Ray, apexes_beyond, corners_at};
+use super::shape::Space;
+use super::signs::Signs;
+use super::site::Sites;
+use crate::complex::{Complex, Facet, INFINITE, Obstacle, outer_of_three, outer_of_two};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::predicates::{self, OwnBounds3d, StaticFilter};
 use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
 
-impl Kernel<Space> for Space {
-    const BUILT_AT_LEAST: usize = 2_500;
-    type Scratch = cavity_space::Scratch;
-
+impl Signs for Space {
     fn filter(lower: &[f64; 3], upper: &[f64; 3]) -> StaticFilter {
         StaticFilter::space(*lower, *upper)
     }
@@ -70,19 +68,21 @@ impl Kernel<Space> for Space {
         let tetrahedron = |p: &[_]| <[_; 4]>::try_from(p).expect("four corners");
         predicates::stays_positive3d(tetrahedron(old), tetrahedron(new))
     }
+}
 
+impl LaneTests for Space {
     #[inline(always)]
-    fn cell_holds(t: &Delaunay<Space>, c: Slot) -> bool {
-        let cell = t.complex.cell(c);
-        let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
+    fn cell_holds(f: &StaticFilter, sites: Sites<Space>, cells: &Complex<[SiteId; 4]>, c: Slot) -> bool {
+        let cell = cells.cell(c);
+        let [a, b, d, e] = cell.corners.map(|s| sites.point(s));
         let sphere = predicates::sphere(a, b, d, e);
         let side = |i| {
-            let apex = t.complex.apex(cell.neighbour(i));
-            let side = predicates::side_of_sphere(&sphere, a, t.view().point(apex));
+            let apex = cells.apex(cell.neighbour(i));
+            let side = predicates::side_of_sphere(&sphere, a, sites.point(apex));
             if apex == INFINITE { f64::NEG_INFINITY } else { side }
         };
         let greatest = Real::max(Real::max(side(0), side(1)), Real::max(side(2), side(3)));
-        sphere[3] > t.filter.orient && greatest < -t.filter.prepared
+        sphere[3] > f.orient && greatest < -f.prepared
     }
 
     #[inline(always)]
@@ -112,11 +112,6 @@ impl Kernel<Space> for Space {
             };
         }
         Held { positive: are_positive, facets, by_static_bounds: hold_for_all }
-    }
-
-    #[inline(always)]
-    fn star_holds(avx2: Avx2, t: &Delaunay<Space>, star: &[(Slot, u8)]) -> bool {
-        t.star_holds_in_lanes(avx2, star)
     }
 
     #[inline(always)]
@@ -162,49 +157,68 @@ impl Kernel<Space> for Space {
     }
 
     #[inline(always)]
-    fn bicell_holds(t: &Delaunay<Space>, facet: Facet) -> bool {
-        let cell = t.complex.cell(facet.cell());
+    fn bicell_holds(
+        f: &StaticFilter,
+        sites: Sites<Space>,
+        cells: &Complex<[SiteId; 4]>,
+        facet: Facet,
+    ) -> bool {
+        let cell = cells.cell(facet.cell());
         let across = cell.neighbour(facet.index());
-        let corners = t.complex.cell(across.cell()).corners;
-        let [a, b, d, e] = cell.corners.map(|s| t.view().point(s));
+        let corners = cells.cell(across.cell()).corners;
+        let [a, b, d, e] = cell.corners.map(|s| sites.point(s));
         let sphere = predicates::sphere(a, b, d, e);
-        let side = predicates::side_of_sphere(&sphere, a, t.view().point(corners[across.index()]));
-        let beyond = corners.map(|s| t.view().point(s));
+        let side = predicates::side_of_sphere(&sphere, a, sites.point(corners[across.index()]));
+        let beyond = corners.map(|s| sites.point(s));
         let volume = predicates::sphere(beyond[0], beyond[1], beyond[2], beyond[3])[3];
-        sphere[3] > t.filter.orient && volume > t.filter.orient && side < -t.filter.prepared
+        sphere[3] > f.orient && volume > f.orient && side < -f.prepared
     }
 
     #[inline(always)]
-    fn facets_hold(avx2: Avx2, t: &Delaunay<Space>, faces: &[Facet; LANES]) -> u32 {
+    fn facets_hold(
+        avx2: Avx2,
+        f: &StaticFilter,
+        sites: Sites<Space>,
+        cells: &Complex<[SiteId; 4]>,
+        faces: &[Facet; LANES],
+    ) -> u32 {
         let [k, l, m, n] = [
-            corners_at(t, faces[0]),
-            corners_at(t, faces[1]),
-            corners_at(t, faces[2]),
-            corners_at(t, faces[3]),
+            corners_at(cells, faces[0]),
+            corners_at(cells, faces[1]),
+            corners_at(cells, faces[2]),
+            corners_at(cells, faces[3]),
         ];
         let bicells = [
-            places(avx2, t.view(), [k[0], l[0], m[0], n[0]]),
-            places(avx2, t.view(), [k[1], l[1], m[1], n[1]]),
-            places(avx2, t.view(), [k[2], l[2], m[2], n[2]]),
-            places(avx2, t.view(), [k[3], l[3], m[3], n[3]]),
-            places(avx2, t.view(), apexes_beyond(t, faces)),
+            places(avx2, sites, [k[0], l[0], m[0], n[0]]),
+            places(avx2, sites, [k[1], l[1], m[1], n[1]]),
+            places(avx2, sites, [k[2], l[2], m[2], n[2]]),
+            places(avx2, sites, [k[3], l[3], m[3], n[3]]),
+            places(avx2, sites, apexes_beyond(cells, faces)),
         ];
-        let hold = predicates::bicells_surely_hold3d(&t.filter, &bicells).bits();
+        let hold = predicates::bicells_surely_hold3d(f, &bicells).bits();
         if hold == ALL { ALL } else { hold | predicates::bicells_hold_for_their_size3d(&bicells).bits() }
     }
 
     #[inline(always)]
-    fn drop_outside(t: &Delaunay<Space>, cell: &[SiteId; 4], sites: &[SiteId], set: u64) -> u64 {
+    fn drop_outside(
+        f: &StaticFilter,
+        sites: Sites<Space>,
+        cell: &[SiteId; 4],
+        listed: &[SiteId],
+        set: u64,
+    ) -> u64 {
         let Some(avx2) = Avx2::new() else { return set };
         avx2.run_with(
-            (t, cell),
-            sites,
+            (f, sites),
+            (cell, listed),
             set,
             #[inline(always)]
-            |(t, cell), sites, set| drop_outside_sphere(avx2, t, cell, sites, set),
+            |(f, sites), (cell, listed), set| drop_outside_sphere(avx2, f, sites, cell, listed, set),
         )
     }
+}
 
+impl Flip for Space {
     /// Flips if that makes positive cells.
     fn flip(
         Flipper { filter, sites, cells, .. }: &mut Flipper<Space>,
@@ -239,43 +253,10 @@ impl Kernel<Space> for Space {
         }
         Ok(())
     }
+}
 
-    #[inline(always)]
-    fn exchange(
-        avx2: Avx2,
-        places: &mut [[f64; 3]; LANES],
-        [s, t, u, v]: [&mut Site<Space>; LANES],
-        [lower, upper]: &mut [Lanes; 2],
-    ) -> u64 {
-        let places = places.as_flattened_mut();
-        let new = [
-            avx2.load(from(places, 0)),
-            avx2.load(from(places, 3)),
-            avx2.load(from(places, 6)),
-            avx2.load(from(places, 8)).rotated(),
-        ];
-        let old =
-            [avx2.load(s.padded()), avx2.load(t.padded()), avx2.load(u.padded()), avx2.load(v.padded())];
-        *lower = lower.min(new[0].min(new[1]).min(new[2].min(new[3])));
-        *upper = upper.max(new[0].max(new[1]).max(new[2].max(new[3])));
-        // What is behind a site's point stays.
-        let new = [
-            new[0].with_last_of(old[0]),
-            new[1].with_last_of(old[1]),
-            new[2].with_last_of(old[2]),
-            new[3].with_last_of(old[3]),
-        ];
-        new[0].store_to(s.padded_mut());
-        new[1].store_to(t.padded_mut());
-        new[2].store_to(u.padded_mut());
-        new[3].store_to(v.padded_mut());
-        // Each has one number too many, which the next one mends.
-        old[0].store_to(from(places, 0));
-        old[1].store_to(from(places, 3));
-        old[2].store_to(from(places, 6));
-        old[3].store_three_to(from(places, 9));
-        (0..LANES).map(|k| u64::from(new[k].are_same(old[k]).bits() != ALL)).sum()
-    }
+impl Dimension for Space {
+    type Scratch = cavity_space::Scratch;
 }
 
 /// The places of the corners of cells, by corner.
@@ -299,28 +280,24 @@ fn places(avx2: Avx2, all: Sites<Space>, sites: [SiteId; LANES]) -> [Lanes; 3] {
 #[inline(always)]
 fn drop_outside_sphere(
     avx2: Avx2,
-    t: &Delaunay<Space>,
+    f: &StaticFilter,
+    sites: Sites<Space>,
     cell: &[SiteId; 4],
-    sites: &[SiteId],
+    listed: &[SiteId],
     mut set: u64,
 ) -> u64 {
-    let [a, b, c, d] = cell.map(|s| t.view().point(s));
+    let [a, b, c, d] = cell.map(|s| sites.point(s));
     let [x, y, z, volume] = predicates::sphere(a, b, c, d);
     let sphere = [avx2.splat(x), avx2.splat(y), avx2.splat(z), avx2.splat(volume)];
     let a = [avx2.splat(a[0]), avx2.splat(a[1]), avx2.splat(a[2])];
-    for k in (0..sites.len()).step_by(LANES) {
+    for k in (0..listed.len()).step_by(LANES) {
         if (set >> k) as u32 & ALL == 0 {
             continue;
         }
         // The last one fills the last lanes.
-        let four = std::array::from_fn(|lane| sites[(k + lane).min(sites.len() - 1)]);
-        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, t.view(), four));
-        set &= !(u64::from(side.is_less(avx2.splat(-t.filter.prepared)).bits()) << k);
+        let four = std::array::from_fn(|lane| listed[(k + lane).min(listed.len() - 1)]);
+        let side = predicates::side_of_sphere(&sphere, &a, &places(avx2, sites, four));
+        set &= !(u64::from(side.is_less(avx2.splat(-f.prepared)).bits()) << k);
     }
     set
-}
-
-#[inline(always)]
-fn from<const N: usize>(numbers: &mut [f64], first: usize) -> &mut [f64; N] {
-    numbers[first..].first_chunk_mut().expect("all are there")
 }

@@ -3,14 +3,15 @@
 //! Nearly all cells hold after a motion. They are taken in blocks: first the sites beyond the facets of all
 //! cells of a block are looked up, then the certificates of four cells are evaluated together. The loads of
 //! the first step do not depend on each other, so that the processor waits for many at once. All facets are
-//! tested, from both sides, as in [`cell_holds`](super::kernel::Kernel::cell_holds).
+//! tested, from both sides, as in [`cell_holds`](super::lane_tests::LaneTests::cell_holds).
 //!
 //! The static bound is that of the whole triangulation, and says nothing of cells that are much smaller than others
 //! are. Where it has said nothing of nearly all cells of a block, the next block is evaluated with bounds of its cells'
 //! own, which takes a seventh longer, until the static bound would do for most of a block.
 
+use super::lane_tests::Held;
 use super::{Delaunay, Dimension};
-use crate::complex::{Corners, Facet, INFINITE};
+use crate::complex::{Corners, INFINITE};
 use crate::ids::{SiteId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::simd::{ALL, Avx2, LANES, Lanes};
@@ -20,33 +21,6 @@ const MANY: usize = 64 / LANES;
 /// Most cells of a block for a star, by lane: as many as most stars in space have.
 const STAR: usize = 32 / LANES;
 
-/// What surely holds of some cells, by bounds of the cells' own if they have these.
-#[derive(Clone, Copy)]
-pub struct Held {
-    /// The cells are positively oriented.
-    pub positive: Lanes,
-    /// The site beyond the facet opposite a corner is outside the sphere; anything of corners that are not there.
-    pub facets: [Lanes; 4],
-    /// All of this holds by the static bounds, too, which are looser.
-    pub by_static_bounds: Lanes,
-}
-
-impl Held {
-    /// The cells of which all holds, one bit each.
-    #[inline(always)]
-    pub(super) fn all<G: Dimension>(&self) -> u32 {
-        self.facets[..G::Corners::N].iter().fold(self.positive, |all, &facet| all & facet).bits()
-    }
-
-    /// What does not surely hold of one of them.
-    #[inline(always)]
-    fn doubts(&self, lane: u32) -> Doubts {
-        let doubt = |of: Lanes, at: usize| ((!of.bits() >> lane & 1) as u8) << at;
-        let facets = self.facets.iter().enumerate().map(|(i, &facet)| doubt(facet, i));
-        Doubts(doubt(self.positive, Doubts::ORIENTATION) | facets.sum::<u8>())
-    }
-}
-
 /// Certificates of a cell that do not surely hold.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubts(u8);
@@ -55,6 +29,14 @@ impl Doubts {
     const ORIENTATION: usize = 4;
     /// Nothing is known.
     pub(super) const ALL: Doubts = Doubts(0x1f);
+
+    /// What does not surely hold of the cell in a lane.
+    #[inline(always)]
+    fn of(held: &Held, lane: u32) -> Doubts {
+        let doubt = |of: Lanes, at: usize| ((!of.bits() >> lane & 1) as u8) << at;
+        let facets = held.facets.iter().enumerate().map(|(i, &facet)| doubt(facet, i));
+        Doubts(doubt(held.positive, Doubts::ORIENTATION) | facets.sum::<u8>())
+    }
 
     /// Whether the cell may not be positively oriented.
     #[inline(always)]
@@ -168,7 +150,7 @@ impl<G: Dimension> Delaunay<G> {
                 let mut open = !held.all::<G>() & (ALL >> (LANES - n));
                 while open != 0 {
                     let lane = open.trailing_zeros();
-                    if !visit(block.cells[k][lane as usize], held.doubts(lane)) {
+                    if !visit(block.cells[k][lane as usize], Doubts::of(&held, lane)) {
                         return;
                     }
                     open &= open - 1;
@@ -179,26 +161,11 @@ impl<G: Dimension> Delaunay<G> {
     }
 }
 
-/// The corners of the cell of a facet, those of the facet first.
-#[inline(always)]
-pub(super) fn corners_at<G: Dimension>(t: &Delaunay<G>, facet: Facet) -> G::Corners {
-    t.complex.cell(facet.cell()).corners.rotated_to_last(facet.index())
-}
-
-/// The sites beyond facets.
-#[inline(always)]
-pub(super) fn apexes_beyond<G: Dimension>(t: &Delaunay<G>, facets: &[Facet; LANES]) -> [SiteId; LANES] {
-    let mut apexes = [INFINITE; LANES];
-    for (apex, facet) in apexes.iter_mut().zip(facets) {
-        *apex = t.complex.apex(t.complex.cell(facet.cell()).neighbour(facet.index()));
-    }
-    apexes
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::delaunay::kernel::Kernel;
+    use crate::complex::Facet;
+    use crate::delaunay::lane_tests::LaneTests;
     use crate::delaunay::{Failures, Plane, Space};
     use crate::predicates;
     use crate::random::Rng;
@@ -345,7 +312,7 @@ mod tests {
         let interior: Vec<Facet> = facets.filter(|&f| !is_ghost(f) && !is_ghost(across(f))).collect();
         let mut n = [0; 2];
         for four in interior.as_chunks::<LANES>().0 {
-            let certain = avx2.run(|| G::facets_hold(avx2, t, four));
+            let certain = avx2.run(|| G::facets_hold(avx2, &t.filter, t.view(), &t.complex, four));
             for (k, &facet) in four.iter().enumerate() {
                 let are_positive = t.is_positive(facet.cell()) && t.is_positive(across(facet).cell());
                 let holds = are_positive && t.is_locally_delaunay(facet);
@@ -411,7 +378,7 @@ mod tests {
                 let corners = t.complex.cell(c).corners;
                 let any = (rng.unit() * 2f64.powi(53)) as u64 * 2048 + (rng.unit() * 2048.0) as u64;
                 let set = any & (u64::MAX >> (64 - sites.len()));
-                let left = Space::drop_outside(&t, &corners, &sites, set);
+                let left = Space::drop_outside(&t.filter, t.view(), &corners, &sites, set);
                 assert_eq!(left & !set, 0);
                 for (k, &s) in sites.iter().enumerate().filter(|&(k, _)| set >> k & 1 == 1) {
                     let site = t.site(s);

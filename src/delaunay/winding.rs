@@ -21,45 +21,12 @@
 //! Cost: `D + 1` orientations a facet, which have all differences and half of their minors in common; exactly, `D + 1`
 //! times as many at most. Nothing is asked for.
 
-use super::kernel::Kernel;
+use super::signs::Signs;
 use super::{Delaunay, Dimension, Plane};
 use crate::complex::Corners;
 use crate::ids::Slot;
 use crate::predicates::{self, StaticFilter};
-use crate::simd::{ALL, Avx2, LANES, Lanes, Real};
-
-/// Where a ray from a point goes, past facets or through them: bits by facet of what is certain.
-#[derive(Clone, Copy)]
-pub struct Ray {
-    /// The point is on the inner side.
-    pub inside: u32,
-    /// The ray crosses the facet, if the point is on the inner side.
-    pub crossing: u32,
-    /// It passes the facet, likewise.
-    pub passing: u32,
-}
-
-impl Ray {
-    /// By orientations of facets with the point, and with the point and the aim in place of each corner.
-    #[inline(always)]
-    pub(super) fn of<const N: usize>(avx2: Avx2, f: &StaticFilter, orientations: [Lanes; N]) -> Ray {
-        let (positive, negative) = (avx2.splat(f.orient), avx2.splat(-f.orient));
-        // The facet of a ghost is oriented as seen from outside: negative, with a point on the inner side.
-        let is_negative = orientations.map(
-            #[inline(always)]
-            |x| x.is_less(negative).bits(),
-        );
-        let is_positive = orientations.map(
-            #[inline(always)]
-            |x| positive.is_less(x).bits(),
-        );
-        Ray {
-            inside: is_negative[0],
-            crossing: is_negative[1..].iter().fold(ALL, |all, bits| all & bits),
-            passing: is_positive[1..].iter().fold(0, |any, bits| any | bits),
-        }
-    }
-}
+use crate::simd::{ALL, Avx2, LANES};
 
 /// A point of a box, drawn by a fixed rule.
 fn aim_in<G: Dimension>(lower: &G::Point, upper: &G::Point) -> G::Point {

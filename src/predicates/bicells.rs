@@ -15,7 +15,7 @@ use crate::simd::{Avx2, LANES, Real};
 
 /// Tolerances of cells and bi-cells. A bi-cell is given by its `D + 2` corners, the opposing vertices first and last;
 /// the vertices of the facet and then the first of all are in the order of a positive orientation.
-pub trait Tolerances: Sized {
+pub trait BiCellTolerances: Sized {
     /// Bi-cells that are looked at together.
     type BiCells: Debug + Default;
     /// Standard delimiter.
@@ -32,7 +32,7 @@ pub trait Tolerances: Sized {
     fn orientation_tolerance(cell: &[&Self]) -> f64;
 }
 
-impl Tolerances for [f64; 2] {
+impl BiCellTolerances for [f64; 2] {
     type BiCells = BiCells<2, 4>;
 
     #[inline(always)]
@@ -74,7 +74,7 @@ impl Tolerances for [f64; 2] {
     }
 }
 
-impl Tolerances for [f64; 3] {
+impl BiCellTolerances for [f64; 3] {
     type BiCells = BiCells<3, 5>;
 
     #[inline(always)]

@@ -3,10 +3,9 @@
 use std::fmt::Debug;
 use std::ops::{Index, IndexMut};
 
-use super::bicells::Tolerances;
-use super::integer::two_difference;
+use super::array::Array;
+use super::bicells::BiCellTolerances;
 use super::measures::Measures;
-use crate::simd::{Avx2, LANES, Lanes};
 
 /// Coordinates of one point: `[f64; D]`.
 pub trait Coordinates:
@@ -18,7 +17,7 @@ pub trait Coordinates:
     + IndexMut<usize>
     + AsRef<[f64]>
     + Array
-    + Tolerances
+    + BiCellTolerances
     + Measures
     + Send
     + Sync
@@ -26,43 +25,3 @@ pub trait Coordinates:
 }
 impl Coordinates for [f64; 2] {}
 impl Coordinates for [f64; 3] {}
-
-/// Points as arrays, whatever their length: written once, but only where that is known.
-pub trait Array: Sized {
-    /// The coordinates of points, one after the other.
-    fn flattened(points: &[Self]) -> &[f64];
-    /// The coordinates of points, one after the other, to write.
-    fn flattened_mut(points: &mut [Self]) -> &mut [f64];
-    /// The points of which the coordinates are given one after the other, and the coordinates left over.
-    fn of_flattened(coordinates: &[f64]) -> (&[Self], &[f64]);
-    /// Each coordinate of several points, in lanes.
-    fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]>;
-    /// The vector to this point from another, if no coordinate of it is rounded; of points that are not finite none is
-    /// known.
-    fn exact_difference(&self, other: &Self) -> Option<Self>;
-}
-
-impl<const D: usize> Array for [f64; D] {
-    fn flattened(points: &[Self]) -> &[f64] {
-        points.as_flattened()
-    }
-
-    fn flattened_mut(points: &mut [Self]) -> &mut [f64] {
-        points.as_flattened_mut()
-    }
-
-    fn of_flattened(coordinates: &[f64]) -> (&[Self], &[f64]) {
-        coordinates.as_chunks()
-    }
-
-    #[inline(always)]
-    fn in_lanes(avx2: Avx2, points: [&Self; LANES]) -> impl AsRef<[Lanes]> {
-        avx2.points(points)
-    }
-
-    #[inline(always)]
-    fn exact_difference(&self, other: &Self) -> Option<Self> {
-        let parts: [_; D] = std::array::from_fn(|axis| two_difference(self[axis], other[axis]));
-        parts.iter().all(|&(_, tail)| tail == 0.0).then(|| parts.map(|(rounded, _)| rounded))
-    }
-}

@@ -77,6 +77,7 @@
 //!
 //! `cargo bench --bench predicates` measures them. A *short tie* is one whose differences have few bits.
 
+mod array;
 mod bicells;
 mod big;
 mod coordinates;
@@ -107,12 +108,13 @@ mod vectors;
 
 pub use crate::machine::tally::exact_calls;
 pub use crate::simd::LANES;
-pub use bicells::Tolerances;
+pub use array::Array;
+pub use bicells::BiCellTolerances;
 pub(crate) use bicells::{
     bicells_hold_for_their_size2d, bicells_hold_for_their_size3d, bicells_surely_hold2d,
     bicells_surely_hold3d,
 };
-pub use coordinates::{Array, Coordinates};
+pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
 pub use distance::{compare_distance, is_collinear3};
 pub use filter::StaticFilter;

@@ -105,7 +105,7 @@
 //! [`separator3d`]: super::separator3d
 //! [`tolerances3d`]: super::tolerances3d
 
-use super::coordinates::Array;
+use super::array::Array;
 use super::filter::{extents, largest};
 use super::lanes::BiCells;
 use super::vectors::{cross, dot, minor, minus, plus};

@@ -132,7 +132,7 @@ pub fn in_space(s: &mut Source) {
 }
 
 /// Whether a bi-cell, in each lane, surely is as it should be.
-fn holds<P: Tolerances>(f: &StaticFilter, bicell: &[&P]) -> bool {
+fn holds<P: BiCellTolerances>(f: &StaticFilter, bicell: &[&P]) -> bool {
     let mut bicells = P::BiCells::default();
     (0..LANES).for_each(|lane| P::set_bicell(&mut bicells, lane, bicell));
     let holds = P::bicells_hold(f, &bicells);

@@ -12,9 +12,11 @@
 //! Cost: an in-sphere test for each pair of a facet and a vertex, some hundreds for an island. What it spares is to
 //! take all flips back and a vertex with them, and to flip again.
 
-use super::{Delaunay, Dimension, Flips, key};
+use super::key;
 use crate::complex::{Corners, Facet, NewCell};
+use crate::delaunay::flips::Flips;
 use crate::delaunay::site::Sites;
+use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;

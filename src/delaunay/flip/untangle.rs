@@ -31,9 +31,10 @@
 //! lattice of 10,648 vertices, sheared by 0.001 in each timestamp, `deldrift_bench --targets --target shear_grid` has
 //! 1.2 microseconds a vertex for repairs; 5.4 without it, and 2.4 for rebuilding.)
 
-use super::{Delaunay, Dimension, Flips};
 use crate::complex::{Corners, Facet};
 use crate::delaunay::Failures;
+use crate::delaunay::flips::Flips;
+use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
 use crate::machine::memory;

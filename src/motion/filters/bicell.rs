@@ -4,7 +4,7 @@ use crate::complex::{Corners, Facet, INFINITE};
 use crate::delaunay::{Delaunay, Dimension};
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::prefetch::CACHE_BYTES;
-use crate::predicates::{Delimiter, Tolerances};
+use crate::predicates::{BiCellTolerances, Delimiter};
 
 /// The corners of a bi-cell that are not the ghost vertex.
 #[derive(Clone, Copy, Debug)]

@@ -83,11 +83,6 @@ impl<G: Dimension> Origins<G> {
         self.known == Known::All
     }
 
-    /// The vertices that have moved one by one.
-    pub(in crate::motion) fn listed(&self) -> &[VertexId] {
-        &self.listed
-    }
-
     /// By vertex id, where the vertices were that have moved in this change, or in one before.
     #[inline(always)]
     pub(in crate::motion) fn positions(&self) -> &[G::Point] {

@@ -3,7 +3,7 @@
 use crate::complex::Facet;
 use crate::delaunay::{Delaunay, Dimension, Failures};
 use crate::error::Result;
-use crate::predicates::{LANES, Tolerances};
+use crate::predicates::{BiCellTolerances, LANES};
 
 /// Whether bi-cells that are computed are checked before.
 pub(super) enum Check<'c, G: Dimension> {
@@ -17,7 +17,7 @@ pub(super) enum Check<'c, G: Dimension> {
 /// One pass over bi-cells, some of which wait to be computed together.
 pub(super) struct Pass<'c, G: Dimension> {
     check: Check<'c, G>,
-    bicells: <G::Point as Tolerances>::BiCells,
+    bicells: <G::Point as BiCellTolerances>::BiCells,
     facets: [[Facet; 2]; LANES],
     n: usize,
 }

@@ -19,7 +19,7 @@
 //! Memory: as many bytes for a cell, and 2 for a site.
 
 use crate::complex::{Complex, Corners, Facet};
-use crate::delaunay::{Delaunay, Dimension, Failures};
+use crate::delaunay::{Delaunay, Dimension, Failures, Shape};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
@@ -32,7 +32,7 @@ use crate::motion::filters::store::{Steps, Store};
 use crate::predicates::distance_above;
 
 /// A number for each corner of a cell.
-type EntriesOf<G> = <<G as Dimension>::Corners as Corners>::Of<u32>;
+type EntriesOf<G> = <<G as Shape>::Corners as Corners>::Of<u32>;
 
 /// Greatest slack, in units.
 const LIMIT: u16 = 1 << 14;

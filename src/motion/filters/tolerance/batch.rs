@@ -3,12 +3,12 @@
 use crate::complex::Facet;
 use crate::delaunay::Dimension;
 use crate::ids::VertexId;
-use crate::predicates::{LANES, Tolerances};
+use crate::predicates::{BiCellTolerances, LANES};
 
 /// A few bi-cells.
 #[derive(Debug)]
 pub(super) struct Batch<G: Dimension> {
-    bicells: <G::Point as Tolerances>::BiCells,
+    bicells: <G::Point as BiCellTolerances>::BiCells,
     facets: [[Facet; 2]; LANES],
     vertices: [[VertexId; 5]; LANES],
     n: usize,

@@ -1,6 +1,6 @@
 //! Stars in the order in which one goes around a vertex of the plane.
 
-use crate::delaunay::{Dimension, Plane};
+use crate::delaunay::{Plane, Shape};
 use crate::error::Result;
 use crate::ids::{CellId, SiteId, VertexId};
 use crate::motion::state::cells::NO_CELL;
@@ -9,8 +9,8 @@ use crate::motion::triangulation::MovingTriangulation;
 /// The cells around a vertex, counter-clockwise.
 #[derive(Clone, Debug)]
 pub struct OrderedStar<'t> {
-    corners: &'t [<Plane as Dimension>::Vertices],
-    neighbours: &'t [<Plane as Dimension>::Neighbours],
+    corners: &'t [<Plane as Shape>::Vertices],
+    neighbours: &'t [<Plane as Shape>::Neighbours],
     vertex: VertexId,
     first: CellId,
     next: CellId,

@@ -61,7 +61,7 @@ impl<G: Dimension> Moved<G> {
         *greatest = if upper > *greatest { upper } else { *greatest };
     }
 
-    /// Holds a box in lanes, as [`exchange`](crate::delaunay::kernel::Kernel::exchange) has them.
+    /// Holds a box in lanes, as exchanges of positions have them.
     fn hold_lanes(&mut self, [lower, upper]: [Lanes; 2]) {
         for (lane, (lower, upper)) in lower.store().into_iter().zip(upper.store()).enumerate() {
             let axis = lane % G::D.next_power_of_two();

@@ -2,23 +2,29 @@
 
 use std::ops::ControlFlow;
 
-use super::Flips;
+use super::flips::Flips;
+use super::lane_tests::LaneTests;
+use super::site::Sites;
 use crate::complex::{CellRange, Corners, Facet, INFINITE, Obstacle};
-use crate::delaunay::Dimension;
-use crate::delaunay::site::Sites;
 use crate::predicates::{StaticFilter, exact_calls};
 use crate::simd::{Avx2, LANES};
 
-/// Flips cells of a range.
-pub struct Flipper<'t, 's, G: Dimension> {
-    pub(in crate::delaunay) filter: &'t StaticFilter,
-    pub(in crate::delaunay) sites: Sites<'t, G>,
-    pub(in crate::delaunay) cells: &'t mut CellRange<'s, G::Corners>,
-    /// Whether the sites, too, are to be asked for in advance.
-    pub(in crate::delaunay) are_sites_far: bool,
+/// The step that differs between the dimensions.
+pub trait Flip: LaneTests {
+    /// Flips a facet between finite cells that fails the empty-sphere test, and enters that.
+    fn flip(flipper: &mut Flipper<Self>, facet: Facet, flips: &mut Flips<Self>) -> Result<(), Obstacle>;
 }
 
-impl<G: Dimension> Flipper<'_, '_, G> {
+/// Flips cells of a range.
+pub struct Flipper<'t, 's, G: Flip> {
+    pub(super) filter: &'t StaticFilter,
+    pub(super) sites: Sites<'t, G>,
+    pub(super) cells: &'t mut CellRange<'s, G::Corners>,
+    /// Whether the sites, too, are to be asked for in advance.
+    pub(super) are_sites_far: bool,
+}
+
+impl<G: Flip> Flipper<'_, '_, G> {
     /// Flips until no suspect is left, or none but those that are stuck or for later.
     pub(super) fn flip_all(&mut self, flips: &mut Flips<G>) {
         let mut before = flips.n_flips;

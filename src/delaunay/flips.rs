@@ -1,7 +1,7 @@
 //! What a thread has flipped, and what it is to flip, with room for what a flip enters.
 
+use super::shape::Shape;
 use crate::complex::{Facet, Obstacle, Row};
-use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::Slot;
 use crate::machine::memory;
@@ -13,7 +13,7 @@ pub(crate) const CERTIFICATES_PER_EXACT: u64 = 4;
 
 /// What has been flipped, and what is to be.
 #[derive(Debug)]
-pub struct Flips<G: Dimension> {
+pub struct Flips<G: Shape> {
     /// Facets that may fail.
     pub(super) suspects: Vec<Facet>,
     /// Facets that fail and cannot be flipped.
@@ -23,9 +23,9 @@ pub struct Flips<G: Dimension> {
     /// Two cells of each flip that have all its sites as corners.
     pub(super) changed: Vec<Slot>,
     /// The third cell of flips that have made one.
-    pub(in crate::delaunay) made: Vec<Slot>,
+    pub(super) made: Vec<Slot>,
     /// For undoing: the rows that each flip has changed.
-    pub(in crate::delaunay) journal: Vec<Row<G::Corners>>,
+    pub(super) journal: Vec<Row<G::Corners>>,
     pub(super) n_flips: u64,
     pub(super) certificates: u64,
     /// How many of the certificates evaluated took exact arithmetic.
@@ -38,7 +38,7 @@ pub struct Flips<G: Dimension> {
     pub(super) has_failed: bool,
 }
 
-impl<G: Dimension> Default for Flips<G> {
+impl<G: Shape> Default for Flips<G> {
     fn default() -> Self {
         Flips {
             suspects: Vec::new(),
@@ -57,7 +57,7 @@ impl<G: Dimension> Default for Flips<G> {
     }
 }
 
-impl<G: Dimension> Flips<G> {
+impl<G: Shape> Flips<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.suspects)
             + memory::bytes_of(&self.stuck)
@@ -110,7 +110,7 @@ impl<G: Dimension> Flips<G> {
 
     /// Enters a flip that is in the journal: facets on its boundary, of two cells that have all its sites.
     #[inline(always)]
-    pub(in crate::delaunay) fn enter<const N: usize>(&mut self, outer: [Facet; N]) {
+    pub(super) fn enter<const N: usize>(&mut self, outer: [Facet; N]) {
         self.changed.push(outer[0].cell());
         self.changed.push(outer[N / 2].cell());
         // One by one: an array of them would be written first, and then read wider than that, which waits.
