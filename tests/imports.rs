@@ -3,15 +3,29 @@
 //! The rooms of a folder are its files and folders; a file `x.rs` and the folder `x` are one room. An arrow from one
 //! room to another says that a file of the first imports an item that a file of the second defines, directly or through
 //! a `pub use`. A folder's `mod.rs` is its door and no room: it declares what is inside, and its own items belong to no
-//! room. Tests are not read. `cargo test --test library imports:: -- --nocapture` prints the graph.
+//! room. Tests are not read.
+//!
+//! Methods of the two types that have them in many files, the triangulation and its mesh, are called without an import:
+//! such calls are arrows, too. `cargo test --test library imports:: -- --nocapture` prints the graph.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
 /// The layers of src, from the top: each uses only those after it.
-const LAYERS: [&str; 11] = [
-    "lib", "capi", "motion", "delaunay", "complex", "predicates", "machine", "simd", "damage", "error", "ids",
+const LAYERS: [&str; 12] = [
+    "lib",
+    "capi",
+    "either",
+    "motion",
+    "delaunay",
+    "complex",
+    "predicates",
+    "machine",
+    "simd",
+    "damage",
+    "error",
+    "ids",
 ];
 
 /// The floors of motion, from the top.
@@ -33,6 +47,10 @@ const FLOORS: [&str; 12] = [
 /// A module's path below the crate.
 type Module = Vec<String>;
 
+/// Types with methods in many files, and how other code gets at one.
+const SPREAD: [(&str, &[&str]); 2] =
+    [("MovingTriangulation", &["self.", "Self::"]), ("Mesh", &["self.", "self.mesh."])];
+
 /// What a file imports.
 #[derive(Default)]
 struct Source {
@@ -40,6 +58,9 @@ struct Source {
     imports: Vec<Module>,
     /// Names that it hands on, and from where.
     handed_on: BTreeMap<String, Module>,
+    /// Methods of the types of [`SPREAD`] that it defines, and those that it calls, each with the type.
+    defined: BTreeSet<(&'static str, String)>,
+    called: BTreeSet<(&'static str, String)>,
 }
 
 /// Every module that has a file of its own.
@@ -72,7 +93,8 @@ impl Sources {
         let mut path = path.clone();
         // As many steps as there are doors, at most.
         for _ in 0..10 {
-            let module = (0..=path.len()).rev().map(|n| path[..n].to_vec()).find(|m| self.0.contains_key(m))?;
+            let module =
+                (0..=path.len()).rev().map(|n| path[..n].to_vec()).find(|m| self.0.contains_key(m))?;
             let Some(name) = path.get(module.len()) else { return Some(module) };
             match self.0[&module].handed_on.get(name) {
                 Some(next) => path = [next.as_slice(), &path[module.len() + 1..]].concat(),
@@ -96,6 +118,31 @@ impl Sources {
         arrows
     }
 
+    /// The arrows between the rooms of a folder that calls of methods are, each with the files and the method.
+    fn calls(&self, folder: &[String]) -> BTreeMap<(String, String), BTreeSet<String>> {
+        let mut definers = BTreeMap::new();
+        for (module, source) in &self.0 {
+            for method in &source.defined {
+                assert_eq!(definers.insert(method, module), None, "{method:?} is defined twice");
+            }
+        }
+        let mut arrows: BTreeMap<_, BTreeSet<String>> = BTreeMap::new();
+        let n = folder.len();
+        for (from, source) in self.0.iter().filter(|(m, _)| m.starts_with(folder) && m.len() > n) {
+            for method in &source.called {
+                let Some(to) = definers.get(method).filter(|to| to.starts_with(folder) && to.len() > n)
+                else {
+                    continue;
+                };
+                if to[n] != from[n] {
+                    let ends = format!("{} -> {}: {}", from[n..].join("/"), to[n..].join("/"), method.1);
+                    arrows.entry((from[n].clone(), to[n].clone())).or_default().insert(ends);
+                }
+            }
+        }
+        arrows
+    }
+
     /// Every folder that has rooms.
     fn folders(&self) -> BTreeSet<Module> {
         self.0.keys().filter(|m| !m.is_empty()).map(|m| m[..m.len() - 1].to_vec()).collect()
@@ -105,7 +152,19 @@ impl Sources {
 impl Source {
     fn of(text: &str, module: &Module) -> Self {
         let mut source = Source::default();
-        for (is_handed_on, tree) in use_trees(&code_of(text)) {
+        let code = code_of(text);
+        for (name, ways) in SPREAD {
+            let head = format!("\nimpl<G: Dimension> {name}<G> {{");
+            for block in code.split(&head).skip(1).map(|rest| rest.split("\n}").next().unwrap_or_default()) {
+                source.defined.extend(names_after(block, "fn ").map(|method| (name, method)));
+                // Within a method `self` is of this type; by another way it is the other one's part.
+                source.called.extend(names_after(block, ways[0]).map(|method| (name, method)));
+                for (other, ways) in SPREAD {
+                    source.called.extend(names_after(block, ways[1]).map(|method| (other, method)));
+                }
+            }
+        }
+        for (is_handed_on, tree) in use_trees(&code) {
             for path in leaves(&tree) {
                 let Some(absolute) = absolute(&path, module) else { continue };
                 let name = path.last().expect("a path has a name").clone();
@@ -125,15 +184,28 @@ fn code_of(text: &str) -> String {
     code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
 }
 
+/// The names that follow a text, and are called or declared.
+fn names_after<'c>(code: &'c str, text: &'c str) -> impl Iterator<Item = String> + 'c {
+    code.split(text).skip(1).filter_map(|rest| {
+        let n = rest.find(|c: char| !c.is_alphanumeric() && c != '_')?;
+        let is_called =
+            rest[n..].starts_with('(') || rest[n..].starts_with("::<") || rest[n..].starts_with('<');
+        is_called.then(|| rest[..n].to_owned())
+    })
+}
+
 /// The trees of the `use` declarations, and whether they are handed on.
 fn use_trees(code: &str) -> Vec<(bool, String)> {
     let mut trees = Vec::new();
     for declaration in code.split(';').filter_map(|part| part.split("\n\n").last()) {
         let words: Vec<&str> = declaration.split_whitespace().collect();
         if let Some(at) = words.iter().position(|&word| word == "use")
-            && words[..at].iter().all(|word| word.starts_with("pub") || word.ends_with(')') || word.starts_with("#["))
+            && words[..at]
+                .iter()
+                .all(|word| word.starts_with("pub") || word.ends_with(')') || word.starts_with("#["))
         {
-            trees.push((at > 0 && words[..at].iter().any(|w| w.starts_with("pub")), words[at + 1..].concat()));
+            trees
+                .push((at > 0 && words[..at].iter().any(|w| w.starts_with("pub")), words[at + 1..].concat()));
         }
     }
     trees
@@ -154,7 +226,9 @@ fn leaves(tree: &str) -> Vec<Module> {
             '}' => depth -= 1,
             ',' if depth == 0 => {
                 if start < k {
-                    paths.extend(leaves(&inner[start..k]).into_iter().map(|path| [prefix.clone(), path].concat()));
+                    paths.extend(
+                        leaves(&inner[start..k]).into_iter().map(|path| [prefix.clone(), path].concat()),
+                    );
                 }
                 start = k + 1;
             }
@@ -183,7 +257,8 @@ fn in_order(rooms: BTreeSet<&str>, arrows: &BTreeSet<(&str, &str)>) -> Result<Ve
     let mut left = rooms;
     let mut order = Vec::new();
     while !left.is_empty() {
-        let is_used = |room: &str| arrows.iter().any(|&(from, to)| to == room && from != room && left.contains(from));
+        let is_used =
+            |room: &str| arrows.iter().any(|&(from, to)| to == room && from != room && left.contains(from));
         let Some(next) = left.iter().copied().find(|room| !is_used(room)) else {
             // Those that are only used from a circle are on none.
             while let Some(end) = left.iter().copied().find(|&room| !uses(room, arrows, &left)) {
@@ -203,12 +278,11 @@ fn uses(room: &str, arrows: &BTreeSet<(&str, &str)>, left: &BTreeSet<&str>) -> b
 }
 
 /// Arrows that run to an earlier one of these rooms; every room with an arrow is among them.
-fn upward(sources: &Sources, folder: &[String], rooms: &[&str]) -> Vec<String> {
+fn upward(arrows: &BTreeMap<(String, String), BTreeSet<String>>, rooms: &[&str]) -> Vec<String> {
     let at = |room: &str| {
         let at = rooms.iter().position(|r| *r == room);
-        at.unwrap_or_else(|| panic!("{folder:?} has no floor for {room}"))
+        at.unwrap_or_else(|| panic!("there is no floor for {room}"))
     };
-    let arrows = sources.arrows(folder);
     arrows.iter().filter(|((from, to), _)| at(from) > at(to)).flat_map(|(_, ends)| ends.clone()).collect()
 }
 
@@ -216,8 +290,12 @@ fn upward(sources: &Sources, folder: &[String], rooms: &[&str]) -> Vec<String> {
 fn layers_and_floors_use_only_those_below() {
     let sources = Sources::read();
     assert!(sources.0.len() > 100, "there are {} files", sources.0.len());
-    assert_eq!(upward(&sources, &[], &LAYERS), Vec::<String>::new());
-    assert_eq!(upward(&sources, &["motion".to_owned()], &FLOORS), Vec::<String>::new());
+    let motion = ["motion".to_owned()];
+    assert_eq!(upward(&sources.arrows(&[]), &LAYERS), Vec::<String>::new());
+    assert_eq!(upward(&sources.arrows(&motion), &FLOORS), Vec::<String>::new());
+    let calls = sources.calls(&motion);
+    assert!(calls.len() > 3, "calls are found");
+    assert_eq!(upward(&calls, &FLOORS), Vec::<String>::new());
 }
 
 #[test]
@@ -225,14 +303,18 @@ fn no_folder_has_a_circle() {
     let sources = Sources::read();
     let mut circles = Vec::new();
     for folder in sources.folders() {
-        let arrows = sources.arrows(&folder);
+        let mut arrows = sources.arrows(&folder);
+        for (pair, ends) in sources.calls(&folder) {
+            arrows.entry(pair).or_default().extend(ends);
+        }
         let pairs: BTreeSet<_> = arrows.keys().map(|(from, to)| (from.as_str(), to.as_str())).collect();
         let rooms = pairs.iter().flat_map(|&(from, to)| [from, to]).collect();
         let name = if folder.is_empty() { "src".to_owned() } else { folder.join("/") };
         match in_order(rooms, &pairs) {
             Ok(order) => println!("{name}: {} arrows; {}", pairs.len(), order.join(" > ")),
             Err(rooms) => {
-                let between = |(pair, _): &(&(String, String), _)| rooms.contains(&pair.0) && rooms.contains(&pair.1);
+                let between =
+                    |(pair, _): &(&(String, String), _)| rooms.contains(&pair.0) && rooms.contains(&pair.1);
                 let ends = arrows.iter().filter(between).flat_map(|(_, ends)| ends.iter().cloned());
                 circles.push(format!("{name}:\n  {}", ends.collect::<Vec<_>>().join("\n  ")));
             }
@@ -259,7 +341,17 @@ fn imports_are_read_as_they_are_meant() {
     ];
     assert_eq!(imports, expected);
     assert_eq!(source.handed_on.keys().collect::<Vec<_>>(), ["Pass", "Slacks"]);
+    let text = "\nimpl<G: Dimension> MovingTriangulation<G> {\n    fn f(&self) {\n        self.g::<2>(self.mesh.h(), self.n);\n \
+                   }\n}\n\nfn apart() { self.i() }\n";
+    let source = Source::of(text, &module);
+    assert_eq!(source.defined, BTreeSet::from([("MovingTriangulation", "f".to_owned())]));
+    let called =
+        [("MovingTriangulation", "g"), ("Mesh", "h")].map(|(name, method)| (name, method.to_owned()));
+    assert_eq!(source.called, BTreeSet::from(called));
     let rooms = || BTreeSet::from(["a", "b", "c"]);
-    assert_eq!(in_order(rooms(), &BTreeSet::from([("a", "b"), ("b", "c")])), Ok(["a", "b", "c"].map(Into::into).to_vec()));
+    assert_eq!(
+        in_order(rooms(), &BTreeSet::from([("a", "b"), ("b", "c")])),
+        Ok(["a", "b", "c"].map(Into::into).to_vec())
+    );
     assert!(in_order(rooms(), &BTreeSet::from([("a", "b"), ("b", "c"), ("c", "b")])).is_err());
 }

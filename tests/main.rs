@@ -13,6 +13,7 @@ mod format;
 mod geometry;
 #[path = "../soak/histories/mod.rs"]
 mod histories;
+mod imports;
 mod lasting;
 mod location;
 mod long_runs;

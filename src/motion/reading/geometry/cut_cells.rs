@@ -21,7 +21,8 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::reading::geometry::clipping::{Clip, Vector};
 use crate::motion::reading::geometry::incidence::Neighbours;
-use crate::motion::reading::geometry::voronoi::{Progress, Voronoi};
+use crate::motion::reading::geometry::progress::Progress;
+use crate::motion::reading::geometry::voronoi::Voronoi;
 use crate::predicates::compare_distance;
 
 /// A corner of a box, and which of the faces at it are high, a bit for each axis.

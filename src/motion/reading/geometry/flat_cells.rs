@@ -17,8 +17,8 @@ use crate::motion::reading::geometry::clipping::{Clip, Vector, greatest, in_spac
 use crate::motion::reading::geometry::cut_cells::BoxCorner;
 use crate::motion::reading::geometry::cut_facets::{Centres, CutFacet};
 use crate::motion::reading::geometry::incidence::Neighbours;
+use crate::motion::reading::geometry::progress::Progress;
 use crate::motion::reading::geometry::rings::Ring;
-use crate::motion::reading::geometry::voronoi::Progress;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::sign_of_cross;
 

@@ -9,10 +9,10 @@
 //! | `incidence` | edges, neighbours and cells of vertices, mirror indices |
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
-//! | `voronoi` | Voronoi cells and facets |
+//! | `voronoi`, `voronoi_cells`, `progress` | Voronoi cells and facets |
 //! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
-//! | `interpolation`, `natural` | values between vertices: linear, or of natural neighbours |
+//! | `interpolation`, `linear`, `natural` | values between vertices: linear, or of natural neighbours |
 //!
 //! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much.
 //! They are computed the same way on every processor.
@@ -28,9 +28,11 @@ mod interpolation;
 mod linear;
 mod measures;
 mod natural;
+mod progress;
 mod rings;
 mod star;
 mod voronoi;
+mod voronoi_cells;
 
 pub use boundary::BoundaryFacet;
 pub use incidence::Rows;

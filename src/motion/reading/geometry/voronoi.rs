@@ -4,67 +4,26 @@
 //! the box it is their polygon (in the plane a segment), and the cells of both vertices have a pyramid of it; otherwise
 //! it is cut (`cut_facets.rs`), and so are both cells (`cut_cells.rs`). Which circumcentres are in the box is exact.
 //!
-//! While all vertices are in one hyperplane there are no cells, but in a box there still are Voronoi cells
-//! (`flat_cells.rs`).
-//!
 //! # Cost
 //!
 //! In proportion to the cells: those around all edges are three times as many as there are in the plane, and six times
 //! in space, and what is cut is visited twice more.
 
 use crate::delaunay::Dimension;
-use crate::error::{Error, Result};
-use crate::ids::{CellId, SiteId, VertexId};
+use crate::error::Result;
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{
     Clip, Vector, cross, dot, greatest, in_space, length_by, minus,
 };
 use crate::motion::reading::geometry::cut_facets::{Centres, CutFacet};
-use crate::motion::reading::geometry::incidence::Neighbours;
 use crate::motion::reading::geometry::rings::Ring;
 use crate::motion::state::cells::Cells;
-use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// A circumcentre is used where its radius is at most so many times the size of the box; one in the box, of a cell of
 /// which a vertex is there, too, has less than half of that.
 const LARGEST_RADIUS: f64 = 4.0;
-
-/// How much is done between two calls of a monitor, in cells visited.
-const WORK: usize = 1 << 15;
-
-/// Tells a monitor how far the work is.
-pub(super) struct Progress<'m> {
-    monitor: &'m mut dyn FnMut(f64) -> bool,
-    done: usize,
-    asked_at: usize,
-    expected: usize,
-}
-
-impl<'m> Progress<'m> {
-    fn new(monitor: &'m mut dyn FnMut(f64) -> bool, expected: usize) -> Self {
-        Progress { monitor, done: 0, asked_at: 0, expected }
-    }
-
-    /// Expects another amount of work in all.
-    pub(super) fn expect(&mut self, expected: usize) {
-        self.expected = expected.max(1);
-    }
-
-    /// Some more has been done.
-    #[inline(always)]
-    pub(super) fn advance(&mut self, n: usize) -> Result<()> {
-        self.done += n;
-        if self.done - self.asked_at < WORK { Ok(()) } else { self.ask() }
-    }
-
-    #[cold]
-    fn ask(&mut self) -> Result<()> {
-        self.asked_at = self.done;
-        let fraction = (self.done as f64 / self.expected as f64).min(1.0);
-        if (self.monitor)(fraction) { Ok(()) } else { Err(Error::Cancelled) }
-    }
-}
 
 /// Computes Voronoi facets.
 pub(super) struct Voronoi<'t, G: Dimension> {
@@ -78,14 +37,14 @@ pub(super) struct Voronoi<'t, G: Dimension> {
 }
 
 /// What of a Voronoi facet is in the box.
-enum Part {
+pub(super) enum Part {
     All,
     /// Some of it, or none.
     Cut,
 }
 
 impl<'t, G: Dimension> Voronoi<'t, G> {
-    fn new(t: &'t MovingTriangulation<G>, clip: Option<&Clip>) -> Result<Self> {
+    pub(super) fn new(t: &'t MovingTriangulation<G>, clip: Option<&Clip>) -> Result<Self> {
         let cells = t.cell_arrays()?;
         let n_cells = cells.corners().len();
         let (mut centres, mut sides) = (Vec::new(), Vec::new());
@@ -112,7 +71,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
 
     /// How much of the facet of the ring is in the box, if there is a box.
     #[inline(always)]
-    fn part(&self) -> Part {
+    pub(super) fn part(&self) -> Part {
         let is_inside = |cell: &CellId| self.sides[cell.index()] == 0 && self.centres[*cell][0].is_finite();
         if self.ring.is_closed && self.ring.cells.iter().all(is_inside) { Part::All } else { Part::Cut }
     }
@@ -145,7 +104,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
 
     /// Length or area of the polygon of the circumcentres around an edge, and the length of that.
     #[inline(always)]
-    fn polygon(&self, [v, w]: [VertexId; 2]) -> [f64; 2] {
+    pub(super) fn polygon(&self, [v, w]: [VertexId; 2]) -> [f64; 2] {
         let along = minus(&self.place(w), &self.place(v));
         let (square, rounded) = (dot(&along, &along), self.rounded_measure(&along));
         let is_safe = (square > LEAST_SQUARE) & (square < MOST_SQUARE) & (rounded < MOST);
@@ -211,7 +170,7 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
     }
 
     /// Length or area of the facet of an edge of which `first` is a cell.
-    fn measure(&mut self, edge: [VertexId; 2], first: CellId, clip: Option<&Clip>) -> Result<f64> {
+    pub(super) fn measure(&mut self, edge: [VertexId; 2], first: CellId, clip: Option<&Clip>) -> Result<f64> {
         let Some(clip) = clip else {
             self.ring.go_around(self.cells, edge, first)?;
             return Ok(if self.ring.is_closed { self.polygon(edge)[0] } else { f64::INFINITY });
@@ -240,182 +199,15 @@ fn infinite<G: Dimension>() -> G::Point {
 }
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Areas or volumes of the Voronoi cells of all ids, within the box from `low` to `high` if these are given.
-    /// Without a box that of a vertex of the convex hull is infinite, and so are all while there are no cells. NaN for
-    /// removed vertices, 0 for hidden ones.
-    ///
-    /// Rounded: let h be 10⁻⁸ times the greatest extent of the box and 10⁻¹⁵ times the greatest magnitude of its
-    /// coordinates; without a box, 10⁻⁸ times the greatest circumradius around the vertex and 10⁻¹⁵ times the greatest
-    /// magnitude of coordinates of the circumcentres. A corner of a cell is off by at most h, and so the area or volume
-    /// by h times the length or area of the surface of the cell; by a few last bits in place of 10⁻⁸, unless there are
-    /// cells that are nearly flat. In the box, no corner is left out and none is too many.
-    ///
-    /// ```
-    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
-    ///
-    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// let (low, high) = ([0.0, 0.0], [1.0, 1.0]);
-    /// let areas = t.voronoi_volumes(Some([&low, &high]))?;
-    /// assert!(areas.iter().all(|area| (area - 0.25).abs() < 1e-6));
-    /// assert!(t.voronoi_volumes(None)?.iter().all(|area| area.is_infinite())); // all are on the hull
-    /// # Ok::<(), deldrift::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`] and [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
-    pub fn voronoi_volumes(&self, clip: Option<[&G::Point; 2]>) -> Result<Vec<f64>> {
-        self.voronoi_volumes_monitored(clip, &mut |_| true)
-    }
-
-    /// As [`voronoi_volumes`](Self::voronoi_volumes). `monitor` is called now and then with the fraction done.
-    ///
-    /// # Errors
-    /// As [`voronoi_volumes`](Self::voronoi_volumes), and [`Error::Cancelled`] if `monitor` returns `false`.
-    pub fn voronoi_volumes_monitored(
-        &self,
-        clip: Option<[&G::Point; 2]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<f64>> {
-        let clip = clip.map(checked::<G>).transpose()?;
-        let mut volumes = Vec::new();
-        memory::reserve_exact(&mut volumes, self.id_count())?;
-        volumes.extend(self.mesh.site_of.iter().map(|&s| if s == SiteId::NONE { f64::NAN } else { 0.0 }));
-        let progress = &mut Progress::new(monitor, self.expected_work(clip.is_some()));
-        match clip {
-            None if self.cell_count() == 0 => {
-                self.mesh
-                    .kernel
-                    .live_sites()
-                    .for_each(|s| volumes[self.mesh.kernel.site(s).id.index()] = f64::INFINITY);
-            }
-            None => self.whole_volumes(&mut volumes, progress)?,
-            Some(clip) if self.cell_count() == 0 => self.flat_volumes(&clip, &mut volumes, progress)?,
-            Some(clip) => self.volumes_in(&clip, &mut volumes, progress)?,
-        }
-        Ok(volumes)
-    }
-
     /// The place of a vertex, in the plane at height 0.
     pub(super) fn place_in_space(&self, v: VertexId) -> Vector {
         in_space::<G>(&self.mesh.kernel.site(self.mesh.site_of[v]).point)
-    }
-
-    /// The number of cells around edges that are visited, at most.
-    fn expected_work(&self, is_cut: bool) -> usize {
-        let once = self.cell_count() * if G::D == 2 { 3 } else { 6 };
-        if is_cut { 3 * once } else { once }
-    }
-
-    fn whole_volumes(&self, volumes: &mut [f64], progress: &mut Progress) -> Result<()> {
-        let mut voronoi = Voronoi::new(self, None)?;
-        // In the order of storage, as their sums have none.
-        let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
-        self.for_edges(vertices, |edge, first| {
-            voronoi.ring.go_around(voronoi.cells, edge, first)?;
-            let pyramid =
-                if voronoi.ring.is_closed { pyramid::<G>(voronoi.polygon(edge)) } else { f64::INFINITY };
-            edge.into_iter().for_each(|v| volumes[v.index()] += pyramid);
-            progress.advance(voronoi.ring.cells.len())
-        })
-        .map(drop)
-    }
-
-    fn volumes_in(&self, clip: &Clip, volumes: &mut [f64], progress: &mut Progress) -> Result<()> {
-        let mut voronoi = Voronoi::new(self, Some(clip))?;
-        let mut is_cut = Vec::new();
-        memory::lengthen(&mut is_cut, self.id_count(), false)?;
-        let vertices = self.mesh.kernel.live_sites().map(|s| self.mesh.kernel.site(s).id);
-        let neighbours = self.for_edges(vertices, |edge, first| {
-            if edge.into_iter().all(|v| is_cut[v.index()]) {
-                return progress.advance(1);
-            }
-            voronoi.ring.go_around(voronoi.cells, edge, first)?;
-            if let Part::All = voronoi.part() {
-                let pyramid = pyramid::<G>(voronoi.polygon(edge));
-                edge.into_iter().for_each(|v| volumes[v.index()] += pyramid);
-            } else {
-                edge.into_iter().for_each(|v| is_cut[v.index()] = true);
-            }
-            progress.advance(voronoi.ring.cells.len())
-        })?;
-        let cut = VertexId::range(0..self.id_count()).filter(|v| is_cut[v.index()]);
-        voronoi.cut_volumes(clip, neighbours, cut, volumes, progress)
-    }
-
-    /// Lengths or areas of the Voronoi facets between the ends of all edges, in the order of [`edges`](Self::edges),
-    /// within the box from `low` to `high` if these are given. Without a box that of an edge on the convex hull is
-    /// infinite.
-    ///
-    /// Rounded: with h as for [`voronoi_volumes`](Self::voronoi_volumes), a length is off by at most 2 h, an area by h
-    /// times the perimeter of the facet.
-    ///
-    /// # Errors
-    /// As [`voronoi_volumes`](Self::voronoi_volumes).
-    pub fn voronoi_facets(&self, clip: Option<[&G::Point; 2]>) -> Result<Vec<f64>> {
-        self.voronoi_facets_monitored(clip, &mut |_| true)
-    }
-
-    /// As [`voronoi_facets`](Self::voronoi_facets). `monitor` is called now and then with the fraction done.
-    ///
-    /// # Errors
-    /// As [`voronoi_facets`](Self::voronoi_facets), and [`Error::Cancelled`] if `monitor` returns `false`.
-    pub fn voronoi_facets_monitored(
-        &self,
-        clip: Option<[&G::Point; 2]>,
-        monitor: &mut dyn FnMut(f64) -> bool,
-    ) -> Result<Vec<f64>> {
-        let clip = clip.map(checked::<G>).transpose()?;
-        let mut measures = Vec::new();
-        memory::reserve_exact(&mut measures, self.edge_count())?;
-        let progress = &mut Progress::new(monitor, self.expected_work(false));
-        let mut voronoi = Voronoi::new(self, clip.as_ref())?;
-        self.for_edges(VertexId::range(0..self.id_count()), |edge, first| {
-            measures.push(voronoi.measure(edge, first, clip.as_ref())?);
-            progress.advance(voronoi.ring.cells.len())
-        })?;
-        Ok(measures)
-    }
-
-    /// Whether `high` is above `low` in every coordinate, and both are good.
-    pub(crate) fn check_clip(&self, clip: [&G::Point; 2]) -> Result<()> {
-        checked::<G>(clip).map(drop)
-    }
-
-    /// Visits all edges with a cell of each, in the order of their lower ids in `vertices`.
-    #[inline(always)]
-    fn for_edges(
-        &self,
-        vertices: impl Iterator<Item = VertexId>,
-        mut visit: impl FnMut([VertexId; 2], CellId) -> Result<()>,
-    ) -> Result<Neighbours<'_, G>> {
-        let mut neighbours = Neighbours::new(self.cell_arrays()?, self.id_count())?;
-        let mut list = Vec::new();
-        for v in vertices {
-            neighbours.list(v, v, &mut list, |w, cell| (w, cell))?;
-            for &(w, cell) in &list {
-                visit([v, w], cell)?;
-            }
-        }
-        Ok(neighbours)
     }
 }
 
 /// Area or volume of the pyramid from a vertex to a Voronoi facet, by the measure of that and the length of the edge.
 #[inline(always)]
-fn pyramid<G: Dimension>([measure, length]: [f64; 2]) -> f64 {
+pub(super) fn pyramid<G: Dimension>([measure, length]: [f64; 2]) -> f64 {
     // Half of the least length is zero.
     if measure == f64::INFINITY { measure } else { 0.5 * length * measure / G::D as f64 }
-}
-
-/// A box that is one.
-fn checked<G: Dimension>([low, high]: [&G::Point; 2]) -> Result<Clip> {
-    let (low, high) = (check_position::<G>("low", 0, low)?, check_position::<G>("high", 0, high)?);
-    for axis in 0..G::D {
-        if low[axis] >= high[axis] {
-            let wanted = "above low";
-            return Err(Error::InvalidValue { argument: "high", index: axis, value: high[axis], wanted });
-        }
-    }
-    Ok(Clip::new::<G>(&low, &high))
 }

@@ -30,7 +30,7 @@
 
 use crate::delaunay::{CERTIFICATES_PER_EXACT, Delaunay, Dimension};
 use crate::error::{Error, Result};
-use crate::ids::{SiteId, VertexId};
+use crate::ids::SiteId;
 use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::plan::budget::REPAIRED_ALONE;
@@ -271,12 +271,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         let winds_once = self.mesh.kernel.winds_once(&failures.ghosts);
         failures.ghosts.clear();
         Ok(winds_once)
-    }
-
-    pub(super) fn check_ridges(&self, repair: &mut Repair) -> Result<()> {
-        let (at, origins) = (&repair.places.at, self.mesh.transaction.origins());
-        let before = |id: VertexId| matches!(at[id], At::New | At::Listed).then(|| origins.of(id));
-        self.mesh.kernel.check_ridges(&mut repair.failures, before)
     }
 
     /// Whether a convex hull winds once.

@@ -3,7 +3,7 @@
 use crate::complex::{Corners, INFINITE};
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::{SiteId, Slot};
+use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::state::places::At;
@@ -110,6 +110,13 @@ impl<G: Dimension> MovingTriangulation<G> {
                 }
             }
         }
+    }
+
+    /// Lists the ridges of the hull that are not convex.
+    pub(super) fn check_ridges(&self, repair: &mut Repair) -> Result<()> {
+        let (at, origins) = (&repair.places.at, self.mesh.transaction.origins());
+        let before = |id: VertexId| matches!(at[id], At::New | At::Listed).then(|| origins.of(id));
+        self.mesh.kernel.check_ridges(&mut repair.failures, before)
     }
 
     /// Lists a vertex of each facet where flips are stuck.

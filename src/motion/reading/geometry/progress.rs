@@ -1,0 +1,39 @@
+//! How far computations of Voronoi cells are, for the monitor that a program gives them.
+
+use crate::error::{Error, Result};
+
+/// How much is done between two calls of a monitor, in cells visited.
+const WORK: usize = 1 << 15;
+
+/// Tells a monitor how far the work is.
+pub(super) struct Progress<'m> {
+    monitor: &'m mut dyn FnMut(f64) -> bool,
+    done: usize,
+    asked_at: usize,
+    expected: usize,
+}
+
+impl<'m> Progress<'m> {
+    pub(super) fn new(monitor: &'m mut dyn FnMut(f64) -> bool, expected: usize) -> Self {
+        Progress { monitor, done: 0, asked_at: 0, expected }
+    }
+
+    /// Expects another amount of work in all.
+    pub(super) fn expect(&mut self, expected: usize) {
+        self.expected = expected.max(1);
+    }
+
+    /// Some more has been done.
+    #[inline(always)]
+    pub(super) fn advance(&mut self, n: usize) -> Result<()> {
+        self.done += n;
+        if self.done - self.asked_at < WORK { Ok(()) } else { self.ask() }
+    }
+
+    #[cold]
+    fn ask(&mut self) -> Result<()> {
+        self.asked_at = self.done;
+        let fraction = (self.done as f64 / self.expected as f64).min(1.0);
+        if (self.monitor)(fraction) { Ok(()) } else { Err(Error::Cancelled) }
+    }
+}
