@@ -4,7 +4,7 @@
 //! rows; the tables of README.md and docs/ARCHITECTURE.md and the list of CHANGELOG.md are checked against them
 //! (ffi-tests/algorithms.rs). So an algorithm needs a file with its commit, a row here, and its documentation.
 
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 
 /// What an algorithm is there for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,13 +50,13 @@ pub struct AlgorithmRow {
 pub(super) enum Immediate {
     /// By no regions: the algorithm keeps none, or none that serve one vertex at a time.
     None,
-    /// By the regions of this filter, which are computed if they are not kept.
-    By(Filter),
-    /// By the regions of this filter, which are computed if they are not kept, once *rebuilding + tolerance* has
+    /// By regions of this kind, which are computed if they are not kept.
+    By(RegionKind),
+    /// By regions of this kind, which are computed if they are not kept, once *rebuilding + tolerance* has
     /// switched.
-    OnceSwitched(Filter),
-    /// By the regions of this filter, while they are kept.
-    WhileKept(Filter),
+    OnceSwitched(RegionKind),
+    /// By regions of this kind, while they are kept.
+    WhileKept(RegionKind),
 }
 
 /// Hands the table on to a macro. A row: documentation, variant and C code, what [`AlgorithmRow`] has, what filters
@@ -149,7 +149,7 @@ macro_rules! for_algorithms {
             commits: OneByOne,
             keeps: "delimiters per facet",
             immediate: By(SafeRegion),
-            by: commit_by_safe_region(Filter::SafeRegion),
+            by: commit_by_safe_region(RegionKind::SafeRegion),
         }
 
         /// For comparison: the safe region is tested only where the tolerance test fails. As many vertices stay within
@@ -161,7 +161,7 @@ macro_rules! for_algorithms {
             commits: OneByOne,
             keeps: "tolerances per vertex, delimiters per facet",
             immediate: By(Both),
-            by: commit_by_safe_region(Filter::Both),
+            by: commit_by_safe_region(RegionKind::Both),
         }
 
         /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good, by
@@ -256,7 +256,7 @@ macro_rules! algorithm_enum {
             #[inline(always)]
             pub(super) const fn immediate(self) -> Immediate {
                 match self {
-                    $(Algorithm::$variant => Immediate::$immediate$((Filter::$filter))?,)+
+                    $(Algorithm::$variant => Immediate::$immediate$((RegionKind::$filter))?,)+
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 /// Which regions let a vertex pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Filter {
+pub(super) enum RegionKind {
     /// Algorithm 1, T.
     Tolerance,
     /// Algorithm 2, S.

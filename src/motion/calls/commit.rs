@@ -4,7 +4,7 @@ use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::algorithms::{Algorithm, for_algorithms};
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;

@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 use crate::motion::algorithms::{Algorithm, Immediate};
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::checking::{check_position, differ};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
@@ -175,7 +175,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         };
         let is_auto = self.options.algorithm == Algorithm::Auto;
         let may_move = self.mesh.kernel.has_cells()
-            && self.filters_by_kept(Filter::Tolerance)
+            && self.filters_by_kept(RegionKind::Tolerance)
             && fixed.holds(&q)
             && !self.staging.is_staged(vertex)
             && (self.mesh.hidden.count() == 0 || s != SiteId::NONE && !self.mesh.is_shared(s))
@@ -195,7 +195,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         true
     }
 
-    /// Moves one vertex at once, by the filter in force if there is one.
+    /// Moves one vertex at once, by the regions in force if there are any.
     fn relocate_filtered(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
         let Some(filter) = self.immediate_filter().filter(|_| self.mesh.kernel.has_cells()) else {
             self.regions.invalidate();
@@ -212,7 +212,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Moves one vertex at once, without a filter.
+    /// Moves one vertex at once, without regions.
     fn relocate_alone(&mut self, vertex: VertexId, q: &G::Point, report: &mut CommitReport) -> Result<()> {
         if !self.mesh.kernel.has_cells() {
             return self.rebuild_with(vertex, q, report);
@@ -223,9 +223,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Whether immediate relocations are filtered by the regions of this filter, which are kept.
+    /// Whether immediate relocations are filtered by regions of this kind, which are kept.
     #[inline(always)]
-    fn filters_by_kept(&self, kept: Filter) -> bool {
+    fn filters_by_kept(&self, kept: RegionKind) -> bool {
         match self.options.algorithm.immediate() {
             Immediate::None => false,
             Immediate::By(filter) | Immediate::WhileKept(filter) => filter == kept,
@@ -234,7 +234,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The filter in force for immediate relocations.
-    fn immediate_filter(&self) -> Option<Filter> {
+    fn immediate_filter(&self) -> Option<RegionKind> {
         match self.options.algorithm.immediate() {
             Immediate::None => None,
             Immediate::By(filter) => Some(filter),

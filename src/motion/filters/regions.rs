@@ -30,7 +30,7 @@ use crate::motion::filters::slack::Slacks;
 use crate::motion::filters::store::{Steps, Store};
 use crate::motion::filters::tolerance::{Fixed, Tolerances};
 use crate::motion::filters::watching::Watching;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 
 /// With more than this share of the cells changed, all bi-cells are computed again.
 const MAX_SHARE_FOLLOWED: f64 = 1.0 / 3.0;
@@ -45,14 +45,14 @@ pub(in crate::motion) enum Kept<G: Dimension> {
 }
 
 impl<G: Dimension> Kept<G> {
-    /// Nothing yet for a filter.
-    fn empty(filter: Filter) -> Self {
-        match filter {
-            Filter::Tolerance => Kept::Tolerance(Tolerances::default()),
-            Filter::SafeRegion => Kept::SafeRegion(SafeRegions::new(false)),
-            Filter::Both => Kept::SafeRegion(SafeRegions::new(true)),
-            Filter::Watch => Kept::Watching(Watching::default()),
-            Filter::Slack => Kept::Slack(Slacks::default()),
+    /// Nothing yet of a kind.
+    fn empty(kind: RegionKind) -> Self {
+        match kind {
+            RegionKind::Tolerance => Kept::Tolerance(Tolerances::default()),
+            RegionKind::SafeRegion => Kept::SafeRegion(SafeRegions::new(false)),
+            RegionKind::Both => Kept::SafeRegion(SafeRegions::new(true)),
+            RegionKind::Watch => Kept::Watching(Watching::default()),
+            RegionKind::Slack => Kept::Slack(Slacks::default()),
         }
     }
 
@@ -65,15 +65,15 @@ impl<G: Dimension> Kept<G> {
         })
     }
 
-    /// The filter that they are for.
+    /// What they are of.
     #[inline(always)]
-    fn filter(&self) -> Filter {
+    fn kind(&self) -> RegionKind {
         match self {
-            Kept::Tolerance(_) => Filter::Tolerance,
-            Kept::SafeRegion(regions) if regions.tests_tolerance() => Filter::Both,
-            Kept::SafeRegion(_) => Filter::SafeRegion,
-            Kept::Watching(_) => Filter::Watch,
-            Kept::Slack(_) => Filter::Slack,
+            Kept::Tolerance(_) => RegionKind::Tolerance,
+            Kept::SafeRegion(regions) if regions.tests_tolerance() => RegionKind::Both,
+            Kept::SafeRegion(_) => RegionKind::SafeRegion,
+            Kept::Watching(_) => RegionKind::Watch,
+            Kept::Slack(_) => RegionKind::Slack,
         }
     }
 
@@ -96,11 +96,11 @@ impl<G: Dimension> Kept<G> {
     }
 }
 
-/// The regions of one filter, if any are kept.
+/// The regions of one kind, if any are kept.
 #[derive(Debug)]
 pub(in crate::motion) struct Regions<G: Dimension> {
     kept: Option<Box<Kept<G>>>,
-    /// Regions that are no longer valid: their memory serves the next ones for the same filter.
+    /// Regions that are no longer valid: their memory serves the next ones of that kind.
     spare: Option<Box<Kept<G>>>,
     /// The kernel's record of changed cells, or its memory.
     changed: Vec<Slot>,
@@ -121,24 +121,24 @@ impl<G: Dimension> Regions<G> {
         Ok(Regions { kept, ..Regions::default() })
     }
 
-    /// The filter that regions are kept for.
+    /// The kind of the regions that are kept.
     #[inline(always)]
-    pub(in crate::motion) fn kept_for(&self) -> Option<Filter> {
-        self.kept.as_deref().map(Kept::filter)
+    pub(in crate::motion) fn kept_for(&self) -> Option<RegionKind> {
+        self.kept.as_deref().map(Kept::kind)
     }
 
-    /// The report's pre-computations, for a filter; returns the number of bi-cells computed. `steps` as for a
+    /// The report's pre-computations, for a kind; returns the number of bi-cells computed. `steps` as for a
     /// [`Store`].
     pub(in crate::motion) fn prepare(
         &mut self,
-        filter: Filter,
+        kind: RegionKind,
         kernel: &mut Delaunay<G>,
         n_ids: usize,
         steps: Steps<'_, G>,
     ) -> Result<u64> {
         self.invalidate();
-        let spare = self.spare.take().filter(|spare| spare.filter() == filter);
-        let mut kept = spare.map_or_else(|| memory::boxed(Kept::empty(filter)), Ok)?;
+        let spare = self.spare.take().filter(|spare| spare.kind() == kind);
+        let mut kept = spare.map_or_else(|| memory::boxed(Kept::empty(kind)), Ok)?;
         let n = kept.store_mut().prepare(kernel, n_ids, steps)?;
         self.kept = Some(kept);
         Ok(n)

@@ -40,7 +40,7 @@ use crate::motion::algorithms::Algorithm;
 use crate::motion::options::SwitchingRule;
 use crate::motion::plan::auto::{Round, Scope};
 use crate::motion::plan::budget::REPAIRED_ALONE;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
@@ -70,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.rebuild(moves, report);
         }
         if is_of_few {
-            return if self.regions.kept_for() == Some(Filter::Tolerance) {
+            return if self.regions.kept_for() == Some(RegionKind::Tolerance) {
                 self.commit_by_tolerance(moves, report)
             } else {
                 self.commit_by_placement_or_rebuilding(moves, report)
@@ -114,8 +114,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn keeps_for_scope(&self) -> bool {
         let wanted = match self.auto.scope() {
             Scope::All => return false,
-            Scope::Slack => Filter::Slack,
-            Scope::Watched => Filter::Watch,
+            Scope::Slack => RegionKind::Slack,
+            Scope::Watched => RegionKind::Watch,
         };
         self.regions.kept_for() == Some(wanted)
     }
@@ -168,7 +168,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(ended);
         }
         if self.auto.scope() == Scope::Watched {
-            let is_kept = self.regions.kept_for() == Some(Filter::Watch);
+            let is_kept = self.regions.kept_for() == Some(RegionKind::Watch);
             if (is_kept || self.auto.take_due() || self.is_sample_within(moves)?)
                 && self.commit_by_watching(moves, report)? == Attempt::Committed
             {
@@ -185,7 +185,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.auto.give_up(self.mesh.constants, self.mesh.n_present, true);
         }
         if self.auto.scope() == Scope::Slack {
-            let was_kept = self.regions.kept_for() == Some(Filter::Slack);
+            let was_kept = self.regions.kept_for() == Some(RegionKind::Slack);
             ended = self.commit_by_slack(moves, report)?;
             if ended == Attempt::Committed {
                 if was_kept {
@@ -204,7 +204,7 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// All tolerances are going to be forgotten, though not for anything that the vertices do.
     pub(in crate::motion) fn note_tolerances_dropped(&mut self) {
-        if self.regions.kept_for() == Some(Filter::Watch) {
+        if self.regions.kept_for() == Some(RegionKind::Watch) {
             self.auto.note_tolerances_dropped();
         }
     }
@@ -243,12 +243,12 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Counts relocations, and decides after a round of them whether tolerances are to be kept.
     pub(in crate::motion) fn follow_relocations(&mut self, done: &CommitReport) {
-        let is_kept = self.regions.kept_for() == Some(Filter::Tolerance);
+        let is_kept = self.regions.kept_for() == Some(RegionKind::Tolerance);
         let round = self.round(is_kept);
         if let Some(ended) = self.auto.count_relocations(round, done) {
             self.follow_round(is_kept, ended);
         }
-        if self.regions.kept_for() == Some(Filter::Tolerance) {
+        if self.regions.kept_for() == Some(RegionKind::Tolerance) {
             self.auto.grant(self.round(true));
         }
     }
@@ -262,7 +262,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         } else if self.auto.has_waited() && ended.are_most_unchanged {
             // Without the memory for them all goes on as it did.
-            let _ = self.prepare_regions(Filter::Tolerance, &[], &mut CommitReport::default());
+            let _ = self.prepare_regions(RegionKind::Tolerance, &[], &mut CommitReport::default());
         }
     }
 }
@@ -272,7 +272,7 @@ mod tests {
     use super::REPLACED_TO_SORT_FIRST;
     use crate::delaunay::{Level, Space};
     use crate::motion::options::Options;
-    use crate::motion::region_kind::Filter;
+    use crate::motion::region_kind::RegionKind;
     use crate::motion::triangulation::MovingTriangulation;
     use crate::random::Rng;
 
@@ -302,7 +302,7 @@ mod tests {
                 let rebuilds = t.commit_positions(&now).expect("room").rebuilds;
                 n_sorted += u32::from(rebuilds == 0 && was_disordered && !t.mesh.kernel.is_disordered(first));
             }
-            assert_eq!(t.regions.kept_for() == Some(Filter::Slack), is_slack);
+            assert_eq!(t.regions.kept_for() == Some(RegionKind::Slack), is_slack);
             assert!(if is_slack { n_sorted == 1 } else { n_sorted > 1 }, "{n_sorted} of {n_commits}");
             assert_eq!(t.validate(Level::Delaunay), Ok(()));
             while is_slack && !t.mesh.kernel.is_disordered(first) {
@@ -332,7 +332,7 @@ mod tests {
             t.commit_positions(&now).expect("room");
         }
         assert_eq!(t.validate(Level::Delaunay), Ok(()));
-        (t.regions.kept_for() == Some(Filter::Watch), n_before, t.regions.n_watched())
+        (t.regions.kept_for() == Some(RegionKind::Watch), n_before, t.regions.n_watched())
     }
 
     /// Where few vertices leap, the others stay watched, and hardly more bi-cells are; where many do, the leaps cost

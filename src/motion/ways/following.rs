@@ -5,25 +5,25 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::motion::filters::safe_regions::Admission;
 use crate::motion::filters::store::Steps;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Goals;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::placement::Placed;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The pre-computations for a filter, unless what the last commit has kept is valid. `other_positions` are those
+    /// The pre-computations for a kind of regions, unless what the last commit has kept is valid. `other_positions` are those
     /// of [`Steps`].
     pub(in crate::motion) fn prepare_regions(
         &mut self,
-        filter: Filter,
+        kind: RegionKind,
         other_positions: &[G::Point],
         report: &mut CommitReport,
     ) -> Result<()> {
-        if self.regions.kept_for() != Some(filter) {
+        if self.regions.kept_for() != Some(kind) {
             let steps = Steps { other_positions, watched_share: self.mesh.constants.watched_share };
             let (kernel, n_ids) = (&mut self.mesh.kernel, self.mesh.site_of.len());
-            report.tolerances += self.regions.prepare(filter, kernel, n_ids, steps)?;
+            report.tolerances += self.regions.prepare(kind, kernel, n_ids, steps)?;
         }
         Ok(())
     }

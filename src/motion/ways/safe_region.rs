@@ -19,16 +19,16 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// Algorithm 2, with a filter that has safe regions.
+    /// Algorithm 2, with regions of a kind that has safe regions.
     pub(in crate::motion) fn commit_by_safe_region(
         &mut self,
-        filter: Filter,
+        kind: RegionKind,
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
@@ -36,7 +36,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             return self.rebuild(moves, report);
         }
         let goals = moves.checked()?;
-        self.prepare_regions(filter, goals.positions(), report)?;
+        self.prepare_regions(kind, goals.positions(), report)?;
         let mut queue = self.queue_of(moves)?;
         self.accept_queued(&mut queue, goals, report)?;
         self.place_queued(queue, goals, report)

@@ -22,7 +22,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::machine::memory;
 use crate::motion::filters::slack::Expired;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
@@ -57,10 +57,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
-        if self.regions.kept_for() != Some(Filter::Slack) {
+        if self.regions.kept_for() != Some(RegionKind::Slack) {
             let goals = moves.checked()?;
             self.mesh.sort_cells(REPLACED_TO_SORT_FIRST)?;
-            self.prepare_regions(Filter::Slack, goals.positions(), report)?;
+            self.prepare_regions(RegionKind::Slack, goals.positions(), report)?;
         }
         let mut repair = memory::take_made(&mut self.repair)?;
         let done = self.move_check_and_mend(&mut repair, moves, report);

@@ -33,7 +33,7 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;
@@ -50,9 +50,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         if !self.mesh.kernel.has_cells() {
             return self.rebuild(moves, report);
         }
-        if self.regions.kept_for() != Some(Filter::Tolerance) {
+        if self.regions.kept_for() != Some(RegionKind::Tolerance) {
             let goals = moves.checked()?;
-            self.prepare_regions(Filter::Tolerance, goals.positions(), report)?;
+            self.prepare_regions(RegionKind::Tolerance, goals.positions(), report)?;
         }
         let queue = if moves.are_of_all() && self.mesh.hidden.count() == 0 {
             self.accept_all(moves, report)?

@@ -43,7 +43,7 @@ use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::filters::store::Steps;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
@@ -81,10 +81,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<Attempt> {
-        if self.regions.kept_for() != Some(Filter::Watch) {
+        if self.regions.kept_for() != Some(RegionKind::Watch) {
             let goals = moves.checked()?;
             self.mesh.sort_cells(REPLACED_TO_SORT_FIRST)?;
-            self.prepare_regions(Filter::Watch, goals.positions(), report)?;
+            self.prepare_regions(RegionKind::Watch, goals.positions(), report)?;
         }
         let most = (self.mesh.n_present as f64 * MAX_SHARE_BEYOND) as usize;
         let mut queue = std::mem::take(&mut self.queue);

@@ -7,7 +7,7 @@ use crate::ids::VertexId;
 use crate::motion::algorithms::Algorithm;
 use crate::motion::filters::store::Steps;
 use crate::motion::options::Options;
-use crate::motion::region_kind::Filter;
+use crate::motion::region_kind::RegionKind;
 use crate::motion::state::goals::Movers;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::random::Rng;
@@ -31,7 +31,7 @@ fn steps<G: Dimension>(other_positions: &[G::Point]) -> Steps<'_, G> {
 /// coordinate that stays, some far away. Returns these places and which are beyond tolerance.
 fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<G::Point>, Vec<VertexId>) {
     let mut t = MovingTriangulation::<G>::new(&points::<G>(n, rng), Options::default()).expect("room");
-    t.regions.prepare(Filter::Tolerance, &mut t.mesh.kernel, n, steps(&[])).expect("room");
+    t.regions.prepare(RegionKind::Tolerance, &mut t.mesh.kernel, n, steps(&[])).expect("room");
     let mut places = positions(&t);
     let far = points::<G>(n, rng);
     for (p, far) in places.iter_mut().zip(far) {
@@ -118,7 +118,7 @@ fn agree<G: Dimension>() {
             } else {
                 let other_positions = vec![G::Point::default(); n];
                 let computed =
-                    t.regions.prepare(Filter::Slack, &mut t.mesh.kernel, n, steps(&other_positions));
+                    t.regions.prepare(RegionKind::Slack, &mut t.mesh.kernel, n, steps(&other_positions));
                 computed.expect("room");
                 let slacks = t.regions.slacks().expect("they are computed");
                 assert_eq!(t.mesh.move_all_on_record(moves, slacks).expect("good places").moved, n_moved);
