@@ -1,5 +1,6 @@
-# The libraries in FROM, without debug information, to TO. The static one becomes a single object in which only what
-# the headers in the folder HEADERS declare is global: the rest is of no use to programs, and could clash with another library written in Rust.
+# The libraries in FROM, without debug information, to TO. The static one becomes a single object in which only what the
+# headers in the folder HEADERS declare is global: the rest is of no use to programs, and could clash with another
+# library written in Rust.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
   if(result)

@@ -1,5 +1,6 @@
-// For comparisons with the research report RR-6750: the same motion by each of its algorithms, the cells of which must be
-// those of DELDRIFT_AUTO, and how wide the margins are within which nothing changes. No program needs this to triangulate.
+// For comparisons with the research report RR-6750: the same motion by each of its algorithms, the cells of which must
+// be those of DELDRIFT_AUTO, and how wide the margins are within which nothing changes. No program needs this to
+// triangulate.
 #include <deldrift/research.h>
 #include <math.h>
 #include <stdio.h>
@@ -47,7 +48,8 @@ static void tell_margins(const deldrift_triangulation *t) {
     check(deldrift_research_annulus_widths(t, widths, 3 * MOST, &count));
     for (size_t i = 0; i < count; i++) {
         double centre[2], radius, tolerance;
-        check(deldrift_research_standard_delimiter(t, (uint32_t)(i / 3), (uint32_t)(i % 3), centre, &radius, &tolerance));
+        const uint32_t cell = (uint32_t)(i / 3), corner = (uint32_t)(i % 3);
+        check(deldrift_research_standard_delimiter(t, cell, corner, centre, &radius, &tolerance));
         if (isnan(radius)) continue;  // on the hull
         least = fmin(least, tolerance / widths[i]);
         greatest = fmax(greatest, tolerance / widths[i]);

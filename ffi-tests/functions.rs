@@ -97,7 +97,8 @@ fn functions() -> Vec<Function> {
 /// For each function the test and the example that call it most often.
 fn table(functions: &[Function]) -> String {
     let mut text = String::from(
-        "# Functions\n\nEvery function of [deldrift.h](../include/deldrift.h), with a test and an example that\ncall it; \
+        "# Functions\n\nEvery function of [deldrift.h](../include/deldrift.h), with a test and an example \
+         that\ncall it; \
          those that begin with `deldrift_research_` are in [deldrift/research.h](../include/deldrift/research.h), for \
          comparisons.\nTests compare this table with the headers and with the programs; `make header` writes it.\n\n\
          | function | what it does | test | example |\n|---|---|---|---|\n",

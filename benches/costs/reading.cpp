@@ -176,8 +176,9 @@ std::vector<Call> reading_calls() {
          }},
         {"deldrift_research_annulus_widths", "", [](Context &c) {
              const std::size_t n = c.cells() * c.corners();
-             fill<double>(c, n, double(c.n + c.cells()),
-                          [&](double *to, std::size_t *count) { return deldrift_research_annulus_widths(c.t, to, n, count); });
+             fill<double>(c, n, double(c.n + c.cells()), [&](double *to, std::size_t *count) {
+                 return deldrift_research_annulus_widths(c.t, to, n, count);
+             });
          }},
         {"deldrift_research_standard_delimiter", "one facet of each cell", [](Context &c) {
              double centre[3], radius, tolerance;

@@ -4,9 +4,8 @@
 #define HARNESS_H
 
 #define _POSIX_C_SOURCE 200809L
+#include "research_options.h"
 #include "state.h"
-
-#include <deldrift/research.h>
 
 #include <malloc.h>
 #include <pthread.h>
@@ -48,7 +47,6 @@ static uint32_t ids[3];
 static uint8_t mask[ROOM], saved[BYTES];
 static size_t saved_size;
 static deldrift_options options;
-static const deldrift_research_options research = {.struct_size = sizeof research};
 static deldrift_location near_by[8];
 static deldrift_field field;
 static char path[300], path_saved[320];
@@ -108,12 +106,6 @@ static deldrift_options *bad_options(size_t size, deldrift_algorithm algorithm) 
     made = options;
     made.struct_size = size;
     made.algorithm = algorithm;
-    return &made;
-}
-
-static deldrift_research_options *bad_research(size_t size, double share) {
-    static deldrift_research_options made;
-    made = (deldrift_research_options){.struct_size = size, .switch_share = share};
     return &made;
 }
 

@@ -108,7 +108,8 @@ static void is_what_it_says(deldrift_algorithm algorithm, sums near) {
     if (!may_turn_to_it) CHECK((near.within_tolerance > 0) == by_tolerance);
     CHECK((near.within_safe_region > 0) == by_safe_region);
     if (algorithm == DELDRIFT_REBUILDING) CHECK(near.rebuilds == 6);
-    if (algorithm != DELDRIFT_REBUILDING && algorithm != DELDRIFT_RESEARCH_REBUILDING_TOLERANCE) CHECK(near.rebuilds < 6);
+    bool may_rebuild = algorithm == DELDRIFT_REBUILDING || algorithm == DELDRIFT_RESEARCH_REBUILDING_TOLERANCE;
+    if (!may_rebuild) CHECK(near.rebuilds < 6);
     if (by_tolerance || by_safe_region) CHECK(near.rebuilds == 0 && near.placements > 0);
 }
 

@@ -78,8 +78,8 @@ static inline size_t cell_count(const deldrift_triangulation *t) {
     return count;
 }
 
-// ALL_ALGORITHMS, for an array, and BY_WATCHING and so on for those that have no name in a header, come from the command
-// line: see ffi-tests/algorithms.rs.
+// ALL_ALGORITHMS, for an array, and BY_WATCHING and so on for those that have no name in a header, come from the
+// command line: see ffi-tests/algorithms.rs.
 
 // The corners of a quadrilateral, and of a tetrahedron, with a vertex inside: four cells, without ties.
 static const double SQUARE[] = {0, 0, 4, 0, 5, 5, 0, 4, 1, 2};

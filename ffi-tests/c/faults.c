@@ -216,8 +216,8 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     end_scene(&s);
 }
 
-// The first cells of a flat set are created in the change list, or, without the memory for that, are not in it: when fewer
-// cells are there at the next call, only these are listed.
+// The first cells of a flat set are created in the change list, or, without the memory for that, are not in it: when
+// fewer cells are there at the next call, only these are listed.
 static void first_cells_are_listed_once(void) {
     enum { COUNT = 40 };
     deldrift_options options;
@@ -277,7 +277,8 @@ int main(void) {
                     }
                 } else {
                     for (int goal = 0; goal < (is_of_one ? 3 : 1); goal++) {
-                        deldrift_algorithm algorithm = is_of_one ? DELDRIFT_RESEARCH_SAFE_REGION_TOLERANCE : DELDRIFT_AUTO;
+                        deldrift_algorithm algorithm =
+                            is_of_one ? DELDRIFT_RESEARCH_SAFE_REGION_TOLERANCE : DELDRIFT_AUTO;
                         faults_of(dimension, (call){k, algorithm, goal}, which, factor, turn++);
                     }
                 }

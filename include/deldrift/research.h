@@ -1,12 +1,12 @@
 /*
- * deldrift, for research: the algorithms and certificates of the research report RR-6750 that are there to compare with.
+ * deldrift, for research: algorithms and certificates of the research report RR-6750, there to compare with.
  *
  * Made by `make header` from src/capi/research.rs and, for the algorithms, src/motion/algorithms.rs: change it there.
  *
- * No program needs this to triangulate: deldrift.h has the algorithms for use, and in the recorded report each of these is
- * slower than one of those in most or all rows. What is here is for comparisons with the report, as cpp-bench makes them.
- * It is in the same library, and works on the triangulations of deldrift.h, whose first page holds here as well. It may
- * change with every version: compile a program with the header of the library that it runs with.
+ * No program needs this to triangulate: deldrift.h has the algorithms for use, and in the recorded report each of these
+ * is slower than one of those in most or all rows. What is here is for comparisons with the report, as cpp-bench makes
+ * them. It is in the same library, and works on the triangulations of deldrift.h, whose first page holds here as well. It
+ * may change with every version: compile a program with the header of the library that it runs with.
  *
  *     #include <deldrift/research.h>
  *
@@ -20,8 +20,8 @@
 
 #include "../deldrift.h"
 
-/// Algorithms of RR-6750 to compare with, not for use: for deldrift_research_set_algorithm. Each gives exactly the cells
-/// that the algorithms of deldrift.h give.
+/// Algorithms of RR-6750 to compare with, not for use: for deldrift_research_set_algorithm. Each gives exactly the
+/// cells that the algorithms of deldrift.h give.
 ///
 /// In the recorded report each is slower than another algorithm in most or all rows. The recorded report is
 /// cpp-bench/results/report.csv, in which the experiments of RR-6750 are repeated: 74 rows, each an input or a part of
@@ -47,9 +47,9 @@ enum
     /// than DELDRIFT_TOLERANCE in 68 of 74 rows.
     DELDRIFT_RESEARCH_SAFE_REGION_TOLERANCE = 18,
     /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good, by
-    /// the rule of deldrift_research_options (RR-6750, section 5.2). A sample costs the tolerances of a few vertices.
-    /// To choose another algorithm and this one again starts over. In the recorded report slower than DELDRIFT_AUTO
-    /// in 71 of 74 rows.
+    /// the rule of deldrift_research_options (RR-6750, section 5.2). A sample costs the tolerances of a few
+    /// vertices. To choose another algorithm and this one again starts over. In the recorded report slower than
+    /// DELDRIFT_AUTO in 71 of 74 rows.
     DELDRIFT_RESEARCH_REBUILDING_TOLERANCE = 19,
 };
 #ifndef __cplusplus
@@ -138,8 +138,8 @@ deldrift_status deldrift_research_annulus_widths(const deldrift_triangulation *t
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY. After a
-/// change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY. After
+/// a change the first call also does what the first deldrift_cells does.
 deldrift_status deldrift_research_standard_delimiter(const deldrift_triangulation *t,
                                                      uint32_t cell,
                                                      uint32_t corner,

@@ -11,8 +11,8 @@ use crate::ids::CellId;
 use crate::in_its_dimension;
 use crate::motion::{Algorithm, MovingTriangulation, Purpose, SwitchingRule};
 
-/// Algorithms of RR-6750 to compare with, not for use: for deldrift_research_set_algorithm. Each gives exactly the cells
-/// that the algorithms of deldrift.h give.
+/// Algorithms of RR-6750 to compare with, not for use: for deldrift_research_set_algorithm. Each gives exactly the
+/// cells that the algorithms of deldrift.h give.
 ///
 /// In the recorded report each is slower than another algorithm in most or all rows. The recorded report is
 /// cpp-bench/results/report.csv, in which the experiments of RR-6750 are repeated: 74 rows, each an input or a part of
@@ -184,8 +184,8 @@ pub unsafe extern "C" fn deldrift_research_annulus_widths(
 ///
 /// Cost: constant.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY. After a
-/// change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY. After
+/// a change the first call also does what the first deldrift_cells does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_research_standard_delimiter(
     t: *const deldrift_triangulation,

@@ -165,9 +165,9 @@ macro_rules! for_algorithms {
         }
 
         /// For comparison: rebuilds until a sample of the vertices stays within tolerance, then tolerance for good, by
-        /// the rule of deldrift_research_options (RR-6750, section 5.2). A sample costs the tolerances of a few vertices.
-        /// To choose another algorithm and this one again starts over. In the recorded report slower than DELDRIFT_AUTO
-        /// in 71 of 74 rows.
+        /// the rule of deldrift_research_options (RR-6750, section 5.2). A sample costs the tolerances of a few
+        /// vertices. To choose another algorithm and this one again starts over. In the recorded report slower than
+        /// DELDRIFT_AUTO in 71 of 74 rows.
         RebuildingTolerance = 19 {
             name: "rebuilding_tolerance",
             purpose: Comparison,

@@ -66,8 +66,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(f64::from(within) / f64::from(rule.sample.max(1)))
     }
 
-    /// The rule of [`Algorithm::RebuildingTolerance`](crate::motion::Algorithm::RebuildingTolerance), from the next commit
-    /// on; until this is called it is the default one.
+    /// The rule of [`Algorithm::RebuildingTolerance`](crate::motion::Algorithm::RebuildingTolerance), from the next
+    /// commit on; until this is called it is the default one.
     pub fn set_switching_rule(&mut self, rule: SwitchingRule) {
         self.switching.set_rule(rule);
     }
