@@ -139,3 +139,32 @@ macro_rules! in_its_dimension {
         $crate::in_its_dimension!($t, $t => $body)
     };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dimensions_are_kept_and_others_refused() {
+        let made = |dimension, coordinates: &[f64]| {
+            AnyTriangulation::new(dimension, coordinates, Options::default())
+        };
+        for (dimension, n_coordinates) in [(2, 6), (3, 12)] {
+            let coordinates: Vec<f64> = (0..n_coordinates).map(|i| f64::from(i * i % 7)).collect();
+            let t = made(dimension, &coordinates).expect("there are enough");
+            let bytes = in_its_dimension!(&t => t.saved()).expect("there is memory");
+            let saved = Saved::of(&bytes).expect("they are whole");
+            let loaded = AnyTriangulation::load(&saved, Options::default()).expect("they are right");
+            let copy = t.try_clone(None).expect("there is memory");
+            assert_eq!([&t, &loaded, &copy].map(AnyTriangulation::dimension), [dimension; 3]);
+            assert_eq!(in_its_dimension!(&copy => copy.saved()).expect("there is memory"), bytes);
+            let incomplete = made(dimension, &coordinates[1..]).err();
+            let (given, wanted) = (coordinates.len() - 1, coordinates.len());
+            assert_eq!(
+                incomplete,
+                Some(Error::WrongCount { argument: "coordinates", given, wanted, coming: 0 })
+            );
+        }
+        assert_eq!(made(4, &[]).err(), Some(Error::InvalidDimension { given: 4 }));
+    }
+}

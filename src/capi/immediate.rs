@@ -29,7 +29,7 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
         given!(t: Changing, position: Point);
         t.change_shortly(|t| {
             in_its_dimension!(t => {
-                position.of(t).is_ok_and(|p| t.relocate_within_tolerance(VertexId::new(vertex), p))
+                position.of("position", t).is_ok_and(|p| t.relocate_within_tolerance(VertexId::new(vertex), p))
             })
         })
     };
@@ -48,7 +48,7 @@ unsafe fn relocate_in_guard(
     position: *const f64,
 ) -> deldrift_status {
     given!(t: Changing, position: Point);
-    t.change(|t| in_its_dimension!(t => Ok(t.relocate_vertex(VertexId::new(vertex), position.of(t)?)?)))
+    t.change(|t| in_its_dimension!(t => Ok(t.relocate_vertex(VertexId::new(vertex), position.of("position", t)?)?)))
 }
 
 /// Inserts a vertex at once. Ends all views.
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn deldrift_insert_vertex(
     given!(t: Changing, position: Point, out_vertex: Output);
     t.change(|t| {
         let out_vertex = out_vertex.place()?;
-        out_vertex.write(in_its_dimension!(t => t.insert_vertex(position.of(t)?))?.get());
+        out_vertex.write(in_its_dimension!(t => t.insert_vertex(position.of("position", t)?))?.get());
         Ok(())
     })
 }

@@ -64,7 +64,7 @@ pub unsafe extern "C" fn deldrift_locate(
     location: *mut deldrift_location,
 ) -> deldrift_status {
     given!(t: Reading, position: Point, location: Output);
-    tell!(t, location => t.locate(position.of(t)?)?.into())
+    tell!(t, location => t.locate(position.of("position", t)?)?.into())
 }
 
 /// Where count points lie, exactly, to locations, which has room for count: as count calls of deldrift_locate,
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn deldrift_nearest_vertex(
     vertex: *mut u32,
 ) -> deldrift_status {
     given!(t: Reading, position: Point, vertex: Output);
-    tell!(t, vertex => t.nearest_vertex(position.of(t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
+    tell!(t, vertex => t.nearest_vertex(position.of("position", t)?)?.map_or(DELDRIFT_NONE, VertexId::get))
 }
 
 /// The lowest id among the vertices at the place of this one, to *representative: the one that is a

@@ -87,7 +87,7 @@ pub unsafe extern "C" fn deldrift_move_vertex(
     given!(t: Changing, position: Point);
     t.change(|t| {
         in_its_dimension!(t => {
-            let position = position.of(t)?;
+            let position = position.of("position", t)?;
             t.move_vertices(&[VertexId::new(vertex)], slice::from_ref(position)).map_err(of_one)?;
         });
         Ok(())

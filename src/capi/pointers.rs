@@ -142,29 +142,35 @@ impl<'a> Text<'a> {
     }
 }
 
-/// A point that is read: as many numbers as the triangulation of the call has dimensions.
+/// A point that is read: as many numbers as the triangulation of the call has dimensions. It is told its name when it is
+/// used: calls that take one are short, and a name that is kept would be carried through all of them.
 #[derive(Clone, Copy)]
-pub(super) struct Point<'a>(Input<'a, f64>);
+pub(super) struct Point<'a> {
+    pointer: *const f64,
+    lives: PhantomData<&'a [f64]>,
+}
 
 impl<'a> Point<'a> {
     /// # Safety
     /// `pointer` is NULL, misaligned, or to a point in the dimension of the triangulation of the call.
     #[inline(always)]
-    pub(super) unsafe fn new(argument: &'static str, pointer: *const f64) -> Self {
-        // SAFETY: the caller's promise: a point begins with a number.
-        Point(unsafe { Input::new(argument, pointer) })
+    pub(super) unsafe fn new(_argument: &'static str, pointer: *const f64) -> Self {
+        Point { pointer, lives: PhantomData }
     }
 
     pub(super) fn is_null(&self) -> bool {
-        self.0.pointer.is_null()
+        self.pointer.is_null()
     }
 
     /// The point, which must be there; `t` is the triangulation of the call.
     #[inline(always)]
-    pub(super) fn of<G: Dimension>(self, _t: &MovingTriangulation<G>) -> Result<&'a G::Point, Failure> {
-        let Point(Input { argument, pointer, .. }) = self;
+    pub(super) fn of<G: Dimension>(
+        self,
+        argument: &'static str,
+        _t: &MovingTriangulation<G>,
+    ) -> Result<&'a G::Point, Failure> {
         // SAFETY: promised to `new`: so many numbers are a point.
-        unsafe { Input::new(argument, pointer.cast()) }.get()
+        unsafe { Input::new(argument, self.pointer.cast()) }.get()
     }
 }
 
@@ -241,7 +247,6 @@ impl<'a, T> Buffer<'a, T> {
 
     /// Fills the buffer with `needed` values, if it is there and has the room, and tells their number. No value is made
     /// before the buffer is in order.
-    #[inline(always)]
     pub(super) fn fill<I: IntoIterator<Item = T>>(
         self,
         count: Output<'_, usize>,
@@ -255,7 +260,6 @@ impl<'a, T> Buffer<'a, T> {
     }
 
     /// Has the `needed` entries of the buffer written, if it is there and has the room, and tells their number.
-    #[inline(always)]
     pub(super) fn fill_by(
         self,
         count: Output<'_, usize>,
@@ -289,7 +293,6 @@ impl Offer {
 
 /// Has buffers of the same capacity filled with `needed` entries each, if there are any and they have the room, and
 /// tells the number.
-#[inline(always)]
 pub(super) fn fill_all<const N: usize>(
     count: Output<'_, usize>,
     needed: usize,
@@ -323,7 +326,6 @@ impl Fitting<'_> {
 /// Compares what is needed with the capacity of the caller's buffers. If that is too small, the number that is needed
 /// is told at once, so that the caller can provide greater ones. Without a buffer the capacity must be 0: then the
 /// number alone is asked for.
-#[inline(always)]
 pub(super) fn fit<'a>(
     count: Output<'a, usize>,
     needed: usize,

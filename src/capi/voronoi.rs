@@ -112,7 +112,7 @@ fn clip_for<'a, G: Dimension>(
     if low.is_null() && high.is_null() {
         return Ok(None);
     }
-    let clip = [low.of(t)?, high.of(t)?];
+    let clip = [low.of("low", t)?, high.of("high", t)?];
     t.check_clip(clip)?;
     Ok(Some(clip))
 }
