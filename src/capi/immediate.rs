@@ -25,30 +25,20 @@ pub unsafe extern "C" fn deldrift_relocate_vertex(
     vertex: u32,
     position: *const f64,
 ) -> deldrift_status {
-    let is_done = {
-        given!(t: Changing, position: Point);
-        t.change_shortly(|t| {
-            in_its_dimension!(t => {
-                position.of("position", t).is_ok_and(|p| t.relocate_within_tolerance(VertexId::new(vertex), p))
-            })
+    given!(t: Changing, position: Point);
+    let vertex = VertexId::new(vertex);
+    let is_done = t.change_shortly(|t| {
+        in_its_dimension!(t => {
+            position.of("position", t).is_ok_and(|position| t.relocate_within_tolerance(vertex, position))
         })
-    };
-    // SAFETY: the header's conditions on pointers.
-    if is_done { deldrift_status::DELDRIFT_OK } else { unsafe { relocate_in_guard(t, vertex, position) } }
+    });
+    if is_done { deldrift_status::DELDRIFT_OK } else { relocate_in_guard(t, vertex, position) }
 }
 
 /// The long way of [`deldrift_relocate_vertex`], kept out of the short one's registers.
-///
-/// # Safety
-/// The header's conditions on pointers.
 #[inline(never)]
-unsafe fn relocate_in_guard(
-    t: *mut deldrift_triangulation,
-    vertex: u32,
-    position: *const f64,
-) -> deldrift_status {
-    given!(t: Changing, position: Point);
-    t.change(|t| in_its_dimension!(t => Ok(t.relocate_vertex(VertexId::new(vertex), position.of("position", t)?)?)))
+fn relocate_in_guard(t: Changing<'_>, vertex: VertexId, position: Point<'_>) -> deldrift_status {
+    t.change(|t| in_its_dimension!(t => Ok(t.relocate_vertex(vertex, position.of("position", t)?)?)))
 }
 
 /// Inserts a vertex at once. Ends all views.
