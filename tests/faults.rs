@@ -191,8 +191,6 @@ struct Setting {
     reads: bool,
     takes: bool,
     edits: bool,
-    /// Vertices that are moved go to the places of others, which do not move; the cells are sorted.
-    leaps: bool,
     /// Insertions, and half as many removals, that are staged with the moves of a commit.
     stages: usize,
     /// Commits before.
@@ -206,12 +204,11 @@ const COLD: Setting = Setting {
     reads: false,
     takes: false,
     edits: false,
-    leaps: false,
     stages: 0,
     warm: 0,
 };
 
-const SETTINGS: [Setting; 11] = [
+const SETTINGS: [Setting; 10] = [
     COLD,
     Setting { stages: 7, ..COLD },
     Setting { reads: true, warm: 2, ..COLD },
@@ -221,7 +218,6 @@ const SETTINGS: [Setting; 11] = [
     Setting { hides: true, takes: true, stages: 16, ..COLD },
     Setting { hides: true, reads: true, takes: true, edits: true, warm: 1, ..COLD },
     Setting { n: 800, threads: 3, ..COLD },
-    Setting { n: 800, threads: 3, leaps: true, takes: true, warm: 2, ..COLD },
     Setting { n: 800, threads: 3, hides: true, reads: true, takes: true, warm: 1, ..COLD },
 ];
 
@@ -377,12 +373,7 @@ impl<G: Dimension> Scene<G> {
                 (points[20], points[30], points[40]) = (points[10], points[10], points[11]);
             }
             t.move_all(&points).expect("moves");
-            if setting.leaps {
-                // It sorts the cells.
-                t.set_algorithm(Algorithm::Repair);
-            }
             t.commit_timestamp().expect("a commit");
-            t.set_algorithm(call.algorithm());
         }
         let mut carried = setting.takes.then(Carried::default);
         if let Some(carried) = &mut carried {
@@ -404,12 +395,7 @@ impl<G: Dimension> Scene<G> {
             }
         }
         let mut places = points.clone();
-        if setting.leaps {
-            places.rotate_left(100);
-        }
-        // Of those that leap, some go exactly where others are.
-        let nudged = if setting.leaps { setting.n / 2 } else { places.len() };
-        nudge::<G>(&mut places[..nudged], 0.3 * spacing, rng);
+        nudge::<G>(&mut places, 0.3 * spacing, rng);
         let present: Vec<VertexId> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
         match call {
             Call::Commit(_, true) if present.len() == places.len() => t.move_all(&places).expect("moves"),
@@ -785,9 +771,7 @@ fn calls_without_memory_leave_all_as_it_was() {
     for call in Call::all() {
         for setting in &SETTINGS {
             let is_whole = matches!(call, Call::MoveAll | Call::StageInsertions | Call::StageRemovals);
-            if setting.edits && is_whole
-                || (setting.stages > 0 || setting.leaps) && !matches!(call, Call::Commit(..))
-            {
+            if setting.edits && is_whole || setting.stages > 0 && !matches!(call, Call::Commit(..)) {
                 continue;
             }
             faults.of_call::<Plane>(call, setting);

@@ -39,12 +39,13 @@ const WEAK_SHARE: f64 = 1.0 / 256.0;
 /// From this number on, cells do not fit in a core's own cache.
 const LARGE: usize = 1 << 15;
 
-/// Cells between free ones where several threads will flip and place.
+/// Cells between free ones where several threads will flip.
 const GAP_AFTER: usize = 63;
 
-/// After how many cells there is a free one, for this number of threads: each needs free cells of its own, everywhere.
-fn gap_after(n_threads: usize) -> usize {
-    if n_threads > 1 { GAP_AFTER } else { usize::MAX }
+/// After how many cells there is a free one, for this number of threads: each that flips in space needs free cells of
+/// its own.
+fn gap_after<G: Dimension>(n_threads: usize) -> usize {
+    if G::D == 3 && n_threads > 1 { GAP_AFTER } else { usize::MAX }
 }
 
 impl<G: Dimension> Delaunay<G> {
@@ -304,7 +305,7 @@ impl<G: Dimension> Delaunay<G> {
         if self.is_sorted && !self.is_disordered(replaced) || n_slots < LARGE && n_threads == 1 {
             return Ok(None);
         }
-        let index = self.complex.sort(self.sites.len(), gap_after(n_threads))?;
+        let index = self.complex.sort(self.sites.len(), gap_after::<G>(n_threads))?;
         for site in &mut self.sites {
             if site.cell != Slot::NONE {
                 site.cell = index[site.cell];
@@ -342,7 +343,7 @@ impl<G: Dimension> Delaunay<G> {
             names[k.item() as usize] = name;
         }
         let n_cells = self.complex.n_finite() + self.complex.n_ghosts();
-        let gap_after = gap_after(self.flipping_threads(n_cells));
+        let gap_after = gap_after::<G>(self.flipping_threads(n_cells));
         let (complex, index) = self.complex.compacted(n + 1, gap_after, &names)?;
         let flat = self.flat.renamed(&names)?;
         // Without cells the ghost vertex may still name one.

@@ -394,12 +394,8 @@ mod tests {
     }
 
     #[test]
-    fn walks_become_short_in_the_plane() {
+    fn walks_become_short_in_both_dimensions() {
         walks_become_short::<Plane>(&[Kind::Even, Kind::Clustered, Kind::OnLines]);
-    }
-
-    #[test]
-    fn walks_become_short_in_space() {
         walks_become_short::<Space>(&[Kind::Even]);
     }
 }

@@ -118,9 +118,6 @@ fn sort_in_box<'p, G: Dimension>(
 /// Up to this number, items are sorted by comparisons: about as fast as by digits, and without spare memory.
 const MAX_COMPARED: usize = 256;
 
-/// Up to this number of items digits have at most 8 bits: counting by more takes longer than another pass.
-const MAX_BY_SHORT_DIGITS: usize = 1 << 12;
-
 /// Sorts items by their keys, which have `bits` bits; items of the same key keep their order.
 ///
 /// By digits from the lowest on, with `spare` to write to, as a sort that makes its own room could not tell that there
@@ -128,21 +125,17 @@ const MAX_BY_SHORT_DIGITS: usize = 1 << 12;
 fn sort_by_key(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
     if keyed.len() <= MAX_COMPARED {
         keyed.sort_unstable_by_key(|k| k.0);
-    } else if keyed.len() <= MAX_BY_SHORT_DIGITS {
-        sort_by_digits::<{ 1 << 8 }, 4>(keyed, spare, bits);
     } else {
-        // Longer ones would be more places to write to than the processor keeps at hand.
-        sort_by_digits::<{ 1 << 11 }, 3>(keyed, spare, bits);
+        sort_by_digits(keyed, spare, bits);
     }
 }
 
-/// Sorts items by their keys, which have `bits` bits, by digits that have `PLACES` values at most; `DIGITS` of these
-/// make up 32 bits.
-fn sort_by_digits<const PLACES: usize, const DIGITS: usize>(
-    keyed: &mut [Keyed],
-    spare: &mut [Keyed],
-    bits: u32,
-) {
+/// Sorts items by their keys, which have `bits` bits, by digits.
+fn sort_by_digits(keyed: &mut [Keyed], spare: &mut [Keyed], bits: u32) {
+    /// Values of a digit: more would be more places to write to than the processor keeps at hand.
+    const PLACES: usize = 1 << 11;
+    /// Digits that make up 32 bits.
+    const DIGITS: usize = 3;
     let n_digits = bits.div_ceil(PLACES.ilog2());
     // Digits of like lengths.
     let digit = bits.div_ceil(n_digits);

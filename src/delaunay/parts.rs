@@ -1,9 +1,8 @@
 //! Parts of the sites, for a build on several threads.
 //!
 //! Hyperplanes orthogonal to the axes divide space, each part of it in two (Bentley's k-d tree, 10.1145/361002.361007).
-//! The sites of each part follow each other in memory, along a Hilbert curve of their own, forwards in one part and
-//! backwards in the next. The planes are those of a sample, and stay when sites move: before the next build, sites that
-//! have crossed one change places.
+//! The sites of each part follow each other in memory, along a Hilbert curve of their own. The planes are those of a
+//! sample, and stay when sites move: before the next build, sites that have crossed one change places.
 
 use super::order::{Keyed, bounding_box, hilbert_order};
 use super::{Delaunay, Dimension, Site};
@@ -211,13 +210,7 @@ impl<G: Dimension> Delaunay<G> {
         let mut done = Vec::new();
         memory::lengthen(&mut done, n_parts, Ok(Vec::new()))?;
         threads::fill(&mut done, &|part| {
-            let mut own = hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)?;
-            // A curve ends beside where it begins. So what is on both sides of the plane between two parts comes about
-            // as long before the end of the first curve as after the start of the second, backwards.
-            if part % 2 == 1 {
-                own.reverse();
-            }
-            Ok(own)
+            hilbert_order::<G>(parts.items_in::<G>(part, items.clone(), n, point)?, point)
         });
         for (sorted, done) in sorted.iter_mut().zip(done) {
             *sorted = done?;

@@ -246,12 +246,8 @@ mod tests {
     }
 
     #[test]
-    fn stars_in_the_plane_hold_surely() {
+    fn stars_that_hold_surely_hold() {
         stars_hold_surely::<Plane>();
-    }
-
-    #[test]
-    fn stars_in_space_hold_surely() {
         stars_hold_surely::<Space>();
     }
 }

@@ -39,9 +39,6 @@ pub(super) struct Hole<G: Dimension> {
     pub(super) link: Vec<Gap<G::Corners>>,
     /// Sites of the link, the ghost vertex included.
     pub(super) sites: Vec<SiteId>,
-    /// The positions of its corners among these, for each facet of the link; 0 opposite it. Where there are more than
-    /// 256 sites they mean nothing.
-    pub(super) labels: Vec<LabelsOf<G>>,
     open: Vec<(u64, Gap<G::Corners>)>,
     open_ghost: Vec<(u64, Facet)>,
     /// New cells, and the gluing of their facets: a facet whose slot counts from `NEW` is that of one of them.
@@ -54,7 +51,6 @@ impl<G: Dimension> Default for Hole<G> {
         Hole {
             link: Vec::new(),
             sites: Vec::new(),
-            labels: Vec::new(),
             open: Vec::new(),
             open_ghost: Vec::new(),
             made: Vec::new(),
@@ -67,7 +63,6 @@ impl<G: Dimension> Hole<G> {
     pub(super) fn memory_bytes(&self) -> usize {
         memory::bytes_of(&self.link)
             + memory::bytes_of(&self.sites)
-            + memory::bytes_of(&self.labels)
             + memory::bytes_of(&self.open)
             + memory::bytes_of(&self.open_ghost)
             + memory::bytes_of(&self.made)
@@ -77,9 +72,6 @@ impl<G: Dimension> Hole<G> {
 
 /// The facets of a cell, seen from its neighbours.
 type FacetsOf<G> = <<G as Shape>::Corners as Corners>::Of<Facet>;
-
-/// For each corner of a cell, a label.
-pub(super) type LabelsOf<G> = <<G as Shape>::Corners as Corners>::Of<u8>;
 
 /// Slots from here on stand for the cells of `made`, which are not in the complex yet.
 pub(super) const NEW: usize = MAX_CELLS;
@@ -101,12 +93,9 @@ impl<G: Dimension> Delaunay<G> {
             Gap { corners: cell.corners, at, out: cell.neighbour(at) }
         }));
         hole.sites.clear();
-        hole.labels.clear();
         // The link is a sphere: in the plane it has as many sites as facets, in space two more than half as many.
         memory::reserve(&mut hole.sites, hole.link.len())?;
-        memory::reserve(&mut hole.labels, hole.link.len())?;
         for gap in &hole.link {
-            let mut labels = LabelsOf::<G>::filled(0);
             for i in (0..G::Corners::N).filter(|&i| i != gap.at) {
                 let site = self.corner_mut(gap.corners[i]);
                 let l = site.cell.index();
@@ -114,9 +103,7 @@ impl<G: Dimension> Delaunay<G> {
                     site.cell = Slot::at(hole.sites.len());
                     hole.sites.push(gap.corners[i]);
                 }
-                labels[i] = site.cell.get() as u8;
             }
-            hole.labels.push(labels);
         }
         Ok(())
     }

@@ -108,7 +108,7 @@ impl<I: Id> IndexSet<I> {
 
     /// Whether an index has been [entered](Self::insert).
     #[inline(always)]
-    pub(crate) fn contains(&self, index: I) -> bool {
+    fn contains(&self, index: I) -> bool {
         if self.n > INLINE_CAPACITY {
             return self.table[self.find(index)] != 0;
         }

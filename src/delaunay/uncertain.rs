@@ -279,12 +279,8 @@ mod tests {
     }
 
     #[test]
-    fn uncertain_triangles_agree() {
+    fn uncertain_cells_agree() {
         all_agree::<Plane>();
-    }
-
-    #[test]
-    fn uncertain_tetrahedra_agree() {
         all_agree::<Space>();
     }
 
@@ -351,12 +347,8 @@ mod tests {
     }
 
     #[test]
-    fn edges_are_certain() {
+    fn certain_facets_hold() {
         facets_are_certain::<Plane>();
-    }
-
-    #[test]
-    fn faces_are_certain() {
         facets_are_certain::<Space>();
     }
 

@@ -139,7 +139,7 @@ impl Wrapping {
     fn find<G: Dimension>(&mut self, avx2: Avx2, t: &Delaunay<G>, hole: &mut Hole<G>, s: SiteId) -> bool {
         hole.made.clear();
         self.see(t.view(), &hole.sites, s);
-        let is_found = self.open_link(hole) && self.wrap(avx2, hole);
+        let is_found = self.open_link(t, hole) && self.wrap(avx2, hole);
         if !is_found {
             for open in &self.open[..self.n_open] {
                 if open.set != CLOSED {
@@ -167,12 +167,14 @@ impl Wrapping {
 
     /// The frontier at first.
     #[inline(always)]
-    fn open_link<G: Dimension>(&mut self, hole: &Hole<G>) -> bool {
+    fn open_link<G: Dimension>(&mut self, t: &Delaunay<G>, hole: &Hole<G>) -> bool {
         self.n_open = 0;
-        for (gap, all) in hole.link.iter().zip(&hole.labels) {
-            let all = all.rotated_to_last(gap.at);
+        for gap in &hole.link {
+            let corners = gap.corners.rotated_to_last(gap.at);
             let mut labels = [0; 3];
-            labels[..G::D].copy_from_slice(&all.as_ref()[..G::D]);
+            for i in 0..G::D {
+                labels[i] = t.site(corners[i]).cell.get() as u8;
+            }
             let (set, is_odd) = set_of::<G>(labels);
             if self.by_set[set] != 0 || !self.open(Open { labels, is_odd, set: set as u16, out: gap.out }) {
                 return false;

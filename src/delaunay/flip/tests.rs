@@ -71,12 +71,8 @@ fn threads_flip<G: Dimension>(size: f64) {
 }
 
 #[test]
-fn threads_flip_in_the_plane() {
+fn threads_flip_in_both_dimensions() {
     threads_flip::<Plane>(2e-3);
-}
-
-#[test]
-fn threads_flip_in_space() {
     threads_flip::<Space>(2e-3);
 }
 

@@ -122,11 +122,7 @@ fn all_agree<G: Dimension>() {
 }
 
 #[test]
-fn rays_in_the_plane_agree() {
+fn rays_agree_in_both_dimensions() {
     all_agree::<Plane>();
-}
-
-#[test]
-fn rays_in_space_agree() {
     all_agree::<Space>();
 }

@@ -98,12 +98,8 @@ fn all_agree<G: Dimension>() {
 }
 
 #[test]
-fn what_is_found_in_the_plane_is_so() {
+fn what_is_found_in_lanes_is_so() {
     all_agree::<Plane>();
-}
-
-#[test]
-fn what_is_found_in_space_is_so() {
     all_agree::<Space>();
 }
 

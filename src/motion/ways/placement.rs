@@ -221,13 +221,13 @@ impl<G: Dimension> Mesh<G> {
         }
     }
 
-    /// Whether there are more than a few of these vertices, and many of them go far away, which shows in a sample.
+    /// Whether there are enough of these vertices for a sample, and many of them go far away, which shows in a sample.
     fn goals_are_away(&self, queue: &[VertexId], goals: Goals<'_, G>) -> bool {
         if !self.kernel.has_cells() || queue.len() < SAMPLE {
             return false;
         }
         let is_away = |&&v: &&VertexId| self.kernel.is_away(self.site_of[v], &goals.of(v));
-        let sample = queue.iter().step_by((queue.len() / SAMPLE).max(1));
+        let sample = queue.iter().step_by(queue.len() / SAMPLE);
         sample.clone().filter(is_away).count() * AWAY_SHARE >= sample.len()
     }
 

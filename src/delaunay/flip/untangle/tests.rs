@@ -116,13 +116,9 @@ fn sheared_lattices<G: Dimension>(side: usize, n_steps: usize) -> [usize; 2] {
 }
 
 #[test]
-fn sheared_squares_are_untangled() {
+fn sheared_lattices_are_untangled() {
     let [cells, dents] = sheared_lattices::<Plane>(30, 40);
     assert!(cells > 10 && dents > 2, "{cells} and {dents}");
-}
-
-#[test]
-fn sheared_cubes_are_untangled() {
     let [cells, dents] = sheared_lattices::<Space>(9, 40);
     assert!(cells > 3 && dents > 3, "{cells} and {dents}");
 }
@@ -155,12 +151,8 @@ fn random_points<G: Dimension>(n: usize, sizes: [f64; 2]) {
 }
 
 #[test]
-fn triangles_are_untangled() {
+fn random_cells_are_untangled() {
     random_points::<Plane>(300, [0.003, 0.5]);
-}
-
-#[test]
-fn tetrahedra_are_untangled() {
     random_points::<Space>(300, [0.003, 0.5]);
 }
 
@@ -234,12 +226,8 @@ fn vertices_are_taken_back<G: Dimension>(n: usize, size: f64) {
 }
 
 #[test]
-fn vertices_of_triangles_are_taken_back() {
+fn vertices_of_cells_are_taken_back() {
     vertices_are_taken_back::<Plane>(300, 0.02);
-}
-
-#[test]
-fn vertices_of_tetrahedra_are_taken_back() {
     vertices_are_taken_back::<Space>(300, 0.04);
 }
 
