@@ -219,8 +219,8 @@ impl FreeSlots {
     }
 
     /// The ranges that begin at these slots, all of them multiples of [`WORD`] and the first one 0; `numbers` is memory
-    /// for how many are free in each. What has been put and taken there has to be [counted](Self::count) before anything
-    /// else.
+    /// for how many are free in each. What has been put and taken there has to be [counted](Self::count) before
+    /// anything else.
     pub(super) fn ranges<'c>(
         &'c mut self,
         starts: &'c [Slot],

@@ -32,8 +32,8 @@ impl From<Error> for Obstacle {
 /// Cells from which it follows where ranges begin.
 const SAMPLE: usize = 1 << 10;
 
-/// Where ranges begin, at most this number of them, that have about as many of some cells each: at multiples of [`WORD`],
-/// the first one at slot 0.
+/// Where ranges begin, at most this number of them, that have about as many of some cells each: at multiples of
+/// [`WORD`], the first one at slot 0.
 pub(crate) fn starts_of_ranges(
     cells: impl ExactSizeIterator<Item = Slot>,
     n_ranges: usize,
