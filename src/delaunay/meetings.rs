@@ -1,8 +1,9 @@
 //! The gluing of the cells that join a site to the rim of its zone in space.
 //!
 //! Each edge of the rim is seen once in each direction: the facet that sees it as `kl` meets the one that sees it as
-//! `lk`. The meeting place is a square table over local labels of the rim's sites; a label is kept in the site's `cell` field, which the insertion overwrites anyway, and is greater than any slot.
-//! Whether there is one cannot be predicted, so both ways are written and one is kept.
+//! `lk`. The meeting place is a square table over local labels of the rim's sites; a label is kept in the site's `cell`
+//! field, which the insertion overwrites anyway, and is greater than any slot. Whether there is one cannot be
+//! predicted, so both ways are written and one is kept.
 
 use std::hint::select_unpredictable;
 

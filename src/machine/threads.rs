@@ -2,10 +2,10 @@
 //!
 //! All of it is divided by [`join`]: scoped threads, each with memory of its own or reading what none writes. The
 //! compiler proves that there are no data races; no `unsafe` is involved but in the [pool](super::pool) of threads, to
-//! take over what several threads have written side by side (here and in [`memory`](super::memory)), to give several arrays a part each
-//! of the same memory ([`aligned`](super::aligned)), and to move sites of which no two threads have the same one
-//! (`motion::moving`). Results are put together in the order of the work, so that they do not
-//! depend on which thread was faster.
+//! take over what several threads have written side by side (here and in [`memory`](super::memory)), to give several
+//! arrays a part each of the same memory ([`aligned`](super::aligned)), and to move sites of which no two threads have
+//! the same one (`motion::moving`). Results are put together in the order of the work, so that they do not depend on
+//! which thread was faster.
 //!
 //! How many threads there are follows the work: as many as pay, no more than the system runs at the same time, and no
 //! more than the caller allows. Where the system has none to give, or all are at work, the calling thread does the work

@@ -62,12 +62,11 @@ pub enum CoincidencePolicy {
 pub struct Options {
     /// Algorithm of [`commit_timestamp`](super::MovingTriangulation::commit_timestamp).
     pub algorithm: Algorithm,
-    /// Greatest number of threads for building, and for the moves, the sweep and the flips of [`Algorithm::Repair`]; the
-    /// rest of the work is done by the calling thread alone. 0, the default, is no
-    /// limit. As many are used as pay, and no more than the system runs at the same time (asked once): one for each
-    /// 5,000 vertices of a build in the plane or 2,500 in space, for each 16,384 cells of a sweep, and for each 500
-    /// facets from which to flip. All triangulations share them. They are kept, and
-    /// sleep between calls.
+    /// Greatest number of threads for building, and for the moves, the sweep and the flips of [`Algorithm::Repair`];
+    /// the rest of the work is done by the calling thread alone. 0, the default, is no limit. As many are used as pay,
+    /// and no more than the system runs at the same time (asked once): one for each 5,000 vertices of a build in the
+    /// plane or 2,500 in space, for each 16,384 cells of a sweep, and for each 500 facets from which to flip. All
+    /// triangulations share them. They are kept, and sleep between calls.
     ///
     /// The cells do not depend on it. Their order does, and so do the counts of flips, placements and exact
     /// signs, as those depend on the order.
