@@ -34,12 +34,18 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help test soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
+.PHONY: help quick test soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
 .PHONY: examples
 .PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
+
+quick: ## two minutes after a change of one line: format, clippy, unit tests, small oracles, the header's freshness
+	cargo fmt --check
+	cargo clippy --lib --tests -- -D warnings
+	cargo test --profile quick --lib --test quick
+	cargo test --profile quick --test ffi -- header:: functions:: algorithms::
 
 test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
 	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) $(EXAMPLE_NEEDS) pkg-config valgrind dpkg-dev

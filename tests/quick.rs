@@ -1,0 +1,5 @@
+//! The small oracles alone, for `make quick`: against fresh builds and against the definition. tests/main.rs has them, too.
+
+mod brute_force;
+mod common;
+mod small;
