@@ -22,9 +22,6 @@ EXAMPLE_NEEDS := cmake g++ libeigen3-dev
 # ... and the page of the report.
 PAGE_NEEDS := python3-jinja2 python3-matplotlib
 
-# Tests of code that uses AVX2: they also run without it.
-SCALAR_TOO := maintenance oracle repair threads tolerances work
-
 # Where cargo builds, and all others look for the library: one absolute path, CARGO_TARGET_DIR if that is set.
 override CARGO_TARGET_DIR := $(or $(CARGO_TARGET_DIR),target)
 override CARGO_TARGET_DIR := $(if $(filter /%,$(CARGO_TARGET_DIR)),,$(CURDIR)/)$(CARGO_TARGET_DIR)
@@ -47,21 +44,12 @@ quick: ## two minutes after a change of one line: format, clippy, unit tests, sm
 	cargo test --profile quick --lib --test quick
 	cargo test --profile quick --test ffi -- header:: functions:: algorithms::
 
-test: ## all tests: Rust; C and C++, also under valgrind and sanitizers; installation; the benchmark's own
+test: ## all tests, two steps at a time: Rust; C, C++, valgrind, sanitizers; installation; the benchmark's own
 	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) $(EXAMPLE_NEEDS) pkg-config valgrind dpkg-dev
 	-@.ci/packages chromium
 	-@.ci/packages libtet1.5-dev
 	-@.ci/packages clang lld mold
-	cargo test --tests
-	cargo test --doc
-	DELDRIFT_SCALAR=1 cargo test --lib
-	DELDRIFT_SCALAR=1 cargo test --test library -- $(addsuffix ::,$(SCALAR_TOO))
-	cargo test --test ffi -- --ignored
-	$(MAKE) benchmark
-	ctest --test-dir cpp-bench/build --output-on-failure
-	$(MAKE) compat
-	ctest --test-dir build/compat --output-on-failure
-	cpp-bench/report/page/test_page.py
+	tests/run
 
 soak: ## random histories against fresh builds, on two threads: cpp-bench/results/soak.csv (HOURS=1, or ARGS="--seed 7")
 	cargo bench --bench soak -- $(or $(ARGS),--hours $(HOURS) --csv cpp-bench/results/soak.csv)
@@ -114,7 +102,7 @@ coverage: ## lines and branches that the tests run: tests/results/coverage.csv (
 	tests/coverage $(ARGS)
 	.ci/records write tests/results/environment_coverage.txt "$(strip make coverage $(if $(ARGS),ARGS='$(ARGS)'))"
 
-table: ## fill in the tables and sentences of README.md that have figures, from the records
+table: ## fill in the tables and sentences with figures of README.md and docs, from the records
 	cpp-bench/readme_table
 	.ci/figures --write
 

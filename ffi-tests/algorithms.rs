@@ -74,7 +74,7 @@ fn section<'a>(text: &'a str, heading: &str) -> &'a str {
 #[test]
 fn pages_have_a_row_for_every_algorithm_with_a_name_in_c() {
     for (page, heading, purpose) in
-        [("README.md", "Algorithms", Purpose::Use), (COMPARISON, "For comparison", Purpose::Comparison)]
+        [(COMPARISON, "Algorithms", Purpose::Use), (COMPARISON, "For comparison", Purpose::Comparison)]
     {
         let text = text_of(page);
         let rows = rows(section(&text, heading));

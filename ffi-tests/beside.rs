@@ -6,7 +6,7 @@ use std::process::Command;
 use std::{env, fs};
 
 use crate::installation::{install, library_files};
-use crate::support::{SYSTEM_LIBRARIES, command, compiler, fresh_folder, repository, succeed};
+use crate::support::{SYSTEM_LIBRARIES, command, compiler, fresh_folder, repository, skipped, succeed};
 
 const LINKERS: [&str; 4] = ["bfd", "gold", "lld", "mold"];
 
@@ -50,7 +50,7 @@ fn is_there(linker: &str) -> bool {
     let path = env::var_os("PATH").expect("there is a search path");
     let found = env::split_paths(&path).any(|folder| folder.join(format!("ld.{linker}")).exists());
     if !found {
-        println!("skipped: ld.{linker} is not installed");
+        skipped(&format!("beside, with {linker}"), &format!("ld.{linker} is not installed"));
     }
     found
 }

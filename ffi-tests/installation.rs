@@ -20,7 +20,7 @@ fn installed_library_is_found() {
     let moved = folder.join("moved");
     fs::rename(&prefix, &moved).expect("a folder can be moved");
     let libraries = library_files(&moved);
-    commands_of_the_readme_find_it(&folder, &libraries);
+    commands_of_the_page_find_it(&folder, &libraries);
     only_the_header_is_exported(&libraries);
     compat_is_found(&folder, &libraries);
 }
@@ -179,7 +179,7 @@ fn package_for_debian_is_whole() {
         assert!(root.join("usr/share/doc").join(documents).join("copyright").is_file());
     }
     let libraries = library_files(&root.join("usr"));
-    commands_of_the_readme_find_it(&folder, &libraries);
+    commands_of_the_page_find_it(&folder, &libraries);
     only_the_header_is_exported(&libraries);
     compat_is_found(&folder, &libraries);
 }
@@ -275,13 +275,13 @@ fn only_the_project_is_installed(build: &Path, prefix: &Path) {
     assert_eq!(installed, "./bin/c_program\n");
 }
 
-/// The commands with pkg-config, as the README has them.
-fn commands_of_the_readme_find_it(folder: &Path, libraries: &Path) {
+/// The commands with pkg-config, as docs/BUILDING.md has them.
+fn commands_of_the_page_find_it(folder: &Path, libraries: &Path) {
     let solver = folder.join("solver");
     let source = folder.join("solver.c");
     fs::copy(repository("ffi-tests/c/readme_example.c"), source).expect("a file can be copied");
-    let readme = text_of("README.md");
-    let commands: Vec<&str> = readme.lines().filter(|line| line.starts_with("cc solver.c")).collect();
+    let page = text_of("docs/BUILDING.md");
+    let commands: Vec<&str> = page.lines().filter(|line| line.starts_with("cc solver.c")).collect();
     assert!(commands.len() == 2 && commands[1].contains("--static"), "{commands:?}");
     for (line, is_static) in commands.into_iter().zip([false, true]) {
         let mut shell = command("sh");

@@ -1,6 +1,7 @@
 //! Compiling and running programs.
 
 use std::ffi::OsStr;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
@@ -153,6 +154,13 @@ pub fn command(program: impl AsRef<OsStr>) -> Command {
     let mut command = Command::new(program);
     command.env_remove("LD_LIBRARY_PATH").env("DELDRIFT_ALL_THREADS", "1");
     command
+}
+
+/// Says what cannot be tested here, and why: `make test` repeats such lines at its end. Not by a macro, whose text is not
+/// shown where the test passes.
+pub fn skipped(what: &str, reason: &str) {
+    let text = format!("SKIPPED {what}: {reason}\n");
+    io::stderr().write_all(text.as_bytes()).expect("it can be told");
 }
 
 /// Runs a command that must end with exit code 0; its standard output. Everything it says is shown

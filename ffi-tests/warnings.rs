@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::support::{command, fresh_folder, repository, sources, succeed};
+use crate::support::{command, fresh_folder, repository, skipped, sources, succeed};
 
 /// Beyond what `support::compiler` always asks for.
 const GCC: [&str; 12] = [
@@ -128,7 +128,7 @@ fn compiler(is_clang: bool, is_c: bool) -> Option<Command> {
         (false, false) => "g++",
     };
     if command(name).arg("--version").output().is_err() {
-        println!("skipped: {name} is not installed");
+        skipped(&format!("warnings, by {name}"), "it is not installed");
         return None;
     }
     let mut compiler = command(name);

@@ -3,12 +3,11 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 
 use crate::common::inputs::{KINDS, Kind, draw};
-use crate::common::{Rng, vertex};
+use crate::common::{Rng, skipped, vertex};
 use deldrift::motion::{Field, MovingTriangulation, Options};
 use deldrift::{Dimension, Error, Plane, Space, VertexId};
 
@@ -321,9 +320,7 @@ fn files_are_read_by_meshio_vtk_and_gmsh() {
         }
         let having: Vec<&str> = pythons.iter().copied().filter(|python| imports(python)).collect();
         if having.is_empty() {
-            // Not by a macro, whose text is not shown where the test passes.
-            let text = format!("skipped: the package {package} of Python is not there\n");
-            std::io::stderr().write_all(text.as_bytes()).expect("it can be told");
+            skipped("exporting", &format!("the package {package} of Python is not there"));
         }
         for python in having {
             files_are_read_by::<Plane>(python, reader, &folder);

@@ -3,6 +3,7 @@
 //! They are looked for in the directory that the environment variable `DELDRIFT_SHARED` names, else in
 //! `shared` beside this package; without them the test is skipped.
 
+use crate::common::skipped;
 use deldrift::internals::predicates::*;
 use std::env;
 use std::fs;
@@ -26,7 +27,7 @@ fn check<const D: usize, const N: usize>(
         .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared")), PathBuf::from);
     let path = shared.join("data/suites").join(format!("robust-predicates_{name}.txt"));
     let Ok(suite) = fs::read_to_string(&path) else {
-        println!("skipped: there is no {}", path.display());
+        skipped("predicates_suites", &format!("there is no {}", path.display()));
         return;
     };
     let mut n_cases = 0;

@@ -1,5 +1,6 @@
 //! Readers for the real inputs that may lie beside this package: JSON and NumPy arrays.
 
+use super::skipped;
 use std::fs;
 use std::path::PathBuf;
 
@@ -9,7 +10,7 @@ fn path_of(name: &str) -> Option<PathBuf> {
         .map_or_else(|| PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../shared")), PathBuf::from);
     let path = shared.join("data").join(name);
     if !path.is_file() {
-        println!("skipped: there is no {}", path.display());
+        skipped(name, &format!("there is no {}", path.display()));
         return None;
     }
     Some(path)

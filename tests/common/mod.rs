@@ -12,12 +12,20 @@ use deldrift::motion::{Level, MovingTriangulation, NO_CELL, Options};
 use deldrift::{CellId, Dimension, VertexId};
 pub use random::Rng;
 use std::collections::BTreeSet;
+use std::io::{self, Write};
 
 /// How many seeds a test takes: `n` times what the environment variable `DELDRIFT_SOAK` says, if anything.
 pub fn seeds(n: u64) -> std::ops::Range<u64> {
     let factor =
         std::env::var("DELDRIFT_SOAK").map_or(1, |soak| soak.parse().expect("DELDRIFT_SOAK is a number"));
     0..n * factor
+}
+
+/// Says what cannot be tested here, and why: `make test` repeats such lines at its end. Not by a macro, whose text is not
+/// shown where the test passes.
+pub fn skipped(what: &str, reason: &str) {
+    let text = format!("SKIPPED {what}: {reason}\n");
+    io::stderr().write_all(text.as_bytes()).expect("it can be told");
 }
 
 /// A point from coordinates.

@@ -175,8 +175,8 @@ def main():
                 check_page(failures, chromium, os.path.join(folder, "report", "index.html"))
             else:
                 print(
-                    "SKIPPED: no Chromium found (named by CHROMIUM, or chromium in the search path): "
-                    "the page was made, but not opened"
+                    "SKIPPED opening the page of the report: no Chromium found "
+                    "(named by CHROMIUM, or chromium in the search path)"
                 )
     for message in failures.messages:
         print(f"FAILED: {message}")
