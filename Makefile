@@ -31,7 +31,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help quick test soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
+.PHONY: help quick test counts soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
 .PHONY: examples
 .PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants coverage
 
@@ -50,6 +50,10 @@ test: ## all tests, two steps at a time: Rust; C, C++, valgrind, sanitizers; ins
 	-@.ci/packages libtet1.5-dev
 	-@.ci/packages clang lld mold
 	tests/run
+
+counts: ## what has changed in the counts of work since they were recorded, with AVX2 and without; RECORD=1 records them
+	$(if $(RECORD),DELDRIFT_RECORD=1) cargo test --profile quick --test library work:: -- --nocapture --test-threads 1
+	$(if $(RECORD),DELDRIFT_RECORD=1) DELDRIFT_SCALAR=1 cargo test --profile quick --test library work:: -- --nocapture --test-threads 1
 
 soak: ## random histories against fresh builds, on two threads: cpp-bench/results/soak.csv (HOURS=1, or ARGS="--seed 7")
 	cargo bench --bench soak -- $(or $(ARGS),--hours $(HOURS) --csv cpp-bench/results/soak.csv)
