@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use deldrift::motion::{Algorithm, Commits, Purpose};
 
-use crate::support::{repository, text_of};
+use crate::files::{repository, text_of};
 
 /// The list of the algorithms for the benchmark, and for its page of the report.
 pub const LIST: &str = "cpp-bench/src/algorithms.inc";

@@ -26,6 +26,7 @@ mod beside;
 mod checkers;
 mod coverage;
 mod examples;
+mod files;
 mod functions;
 mod header;
 mod installation;

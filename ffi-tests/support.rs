@@ -8,6 +8,7 @@ use std::sync::OnceLock;
 use std::{env, fs};
 
 use crate::algorithms;
+pub use crate::files::{repository, text_of};
 
 /// What the static library needs of the system, as `rustc --print native-static-libs` says.
 pub const SYSTEM_LIBRARIES: [&str; 6] = ["-lgcc_s", "-lutil", "-lrt", "-lpthread", "-lm", "-ldl"];
@@ -27,16 +28,6 @@ const REPLACED: [&str; 9] = [
     "write",
     "writev",
 ];
-
-/// A file of the repository.
-pub fn repository(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
-
-/// The text of a file of the repository.
-pub fn text_of(path: &str) -> String {
-    fs::read_to_string(repository(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
 
 /// The texts of the headers for C, one after the other.
 pub fn headers() -> String {

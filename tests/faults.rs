@@ -197,16 +197,8 @@ struct Setting {
     warm: usize,
 }
 
-const COLD: Setting = Setting {
-    n: 60,
-    threads: 1,
-    hides: false,
-    reads: false,
-    takes: false,
-    edits: false,
-    stages: 0,
-    warm: 0,
-};
+const COLD: Setting =
+    Setting { n: 60, threads: 1, hides: false, reads: false, takes: false, edits: false, stages: 0, warm: 0 };
 
 const SETTINGS: [Setting; 10] = [
     COLD,

@@ -1,6 +1,6 @@
 //! The constants, and how each is tried.
 
-use crate::trials::Trial;
+use crate::trial::Trial;
 use deldrift::internals::constants::{Constants, Costs};
 use deldrift::motion::SwitchingRule;
 

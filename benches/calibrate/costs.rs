@@ -3,7 +3,7 @@
 use crate::common::Rng;
 use crate::inputs::{Size, lattice, turned};
 use crate::recording::{beside, points};
-use crate::trials::{Trial, in_force};
+use crate::trial::{Trial, in_force};
 use deldrift::internals::constants::{Constants, Costs};
 use deldrift::motion::{Algorithm, CommitReport, MovingTriangulation, Options};
 use deldrift::{Dimension, VertexId};

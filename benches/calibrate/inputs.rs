@@ -1,8 +1,8 @@
 //! The recorded motions.
 
 use crate::common::Rng;
-use crate::recording::{Frame, Recording, Step, beside, flow, points, side_of, walk};
-use crate::trials::{Trial, counts};
+use crate::recording::{Frame, Recording, Step, beside, counts, flow, points, side_of, walk};
+use crate::trial::Trial;
 use deldrift::motion::{Algorithm, CommitReport, MovingTriangulation, NO_CELL, Options, SwitchingRule};
 use deldrift::{Dimension, Plane, VertexId};
 
@@ -42,6 +42,14 @@ pub struct Input {
     pub counts: Vec<CommitReport>,
 }
 
+impl Input {
+    /// Replays the motion with these values of the constants.
+    pub fn replayed_with(&self, trial: &Trial) -> Vec<Step> {
+        trial.put_in_force();
+        (self.replay)(trial.rule)
+    }
+}
+
 /// Inputs of one dimension, by name.
 struct Inputs<'s, G: Dimension> {
     size: &'s Size,
@@ -67,7 +75,7 @@ impl<G: Dimension> Inputs<'_, G> {
     fn add(&mut self, name: impl Into<String>, recording: Recording<G>) {
         let replay = Box::new(move |rule| recording.replay(rule));
         let mut input = Input { name: name.into(), dimension: G::D, replay, counts: Vec::new() };
-        input.counts = counts(&Trial::as_is().replay(&input));
+        input.counts = counts(&input.replayed_with(&Trial::as_is()));
         self.inputs.push(input);
     }
 

@@ -1,7 +1,7 @@
 //! Motions on record, and their replay.
 
 use crate::common::{Rng, in_ball, in_cube};
-use crate::trials::in_force;
+use crate::trial::in_force;
 use deldrift::motion::{Algorithm, CommitReport, MovingTriangulation, Options, SwitchingRule};
 use deldrift::{Dimension, VertexId};
 use std::time::Instant;
@@ -18,7 +18,7 @@ pub enum Frame<G: Dimension> {
     Edited(Vec<VertexId>, Vec<G::Point>),
 }
 
-/// A motion, and who follows it.
+/// A motion, and the way in which a triangulation follows it.
 pub struct Recording<G: Dimension> {
     pub start: Vec<G::Point>,
     pub frames: Vec<Frame<G>>,
@@ -30,6 +30,11 @@ pub struct Recording<G: Dimension> {
 pub struct Step {
     pub seconds: f64,
     pub counts: CommitReport,
+}
+
+/// What the steps of a replay count.
+pub fn counts(steps: &[Step]) -> Vec<CommitReport> {
+    steps.iter().map(|step| step.counts).collect()
 }
 
 impl<G: Dimension> Recording<G> {

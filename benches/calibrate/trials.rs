@@ -2,57 +2,15 @@
 
 use crate::constants::Constant;
 use crate::inputs::Input;
-use crate::recording::Step;
-use deldrift::internals::constants::{TABLE, Table};
-use deldrift::motion::{CommitReport, SwitchingRule};
-use std::cell::Cell;
+use crate::recording::{Step, counts};
+use crate::trial::Trial;
 use std::fmt;
-
-thread_local! {
-    static IN_FORCE: Cell<&'static Table> = const { Cell::new(&TABLE) };
-}
-
-/// The constants by which triangulations are to decide that are made now.
-pub fn in_force() -> &'static Table {
-    IN_FORCE.get()
-}
-
-/// Values of all constants.
-#[derive(Clone, Copy)]
-pub struct Trial {
-    pub table: Table,
-    pub rule: SwitchingRule,
-}
-
-impl Trial {
-    /// The values as they are.
-    pub fn as_is() -> Self {
-        Trial { table: TABLE, rule: SwitchingRule::default() }
-    }
-
-    /// From now on triangulations are made that decide by these.
-    pub fn put_in_force(&self) {
-        // There are a few thousand of them, of less than a kilobyte.
-        IN_FORCE.set(Box::leak(Box::new(self.table)));
-    }
-
-    /// Replays a motion with these.
-    pub fn replay(&self, input: &Input) -> Vec<Step> {
-        self.put_in_force();
-        (input.replay)(self.rule)
-    }
-}
 
 /// Of several replays, the sum of the least time of each step: all do the same work, and what else the machine does
 /// only adds to it.
 fn seconds(replays: &[Vec<Step>]) -> f64 {
     let step = |k: usize| replays.iter().map(|steps| steps[k].seconds).fold(f64::INFINITY, f64::min);
     (0..replays[0].len()).map(step).sum()
-}
-
-/// What the steps of a replay count.
-pub fn counts(steps: &[Step]) -> Vec<CommitReport> {
-    steps.iter().map(|step| step.counts).collect()
 }
 
 /// An input, and what is replayed with each value, in units of the time with the constant as it is.
@@ -64,7 +22,7 @@ struct Compared<'i> {
 
 /// Compares trials with the first of them; `None` if all count the same.
 fn compare<'i>(input: &'i Input, trials: &[Trial], rounds: usize) -> Option<Compared<'i>> {
-    let differ = |trial: &&Trial| counts(&trial.replay(input)) != input.counts;
+    let differ = |trial: &&Trial| counts(&input.replayed_with(trial)) != input.counts;
     let others: Vec<Option<&Trial>> = trials[1..].iter().map(|trial| Some(trial).filter(differ)).collect();
     if others.iter().all(Option::is_none) {
         return None;
@@ -77,7 +35,7 @@ fn compare<'i>(input: &'i Input, trials: &[Trial], rounds: usize) -> Option<Comp
     for _ in 0..rounds {
         for (replays, taker) in replays.iter_mut().zip(&takers) {
             if let Some(trial) = taker {
-                replays.push(trial.replay(input));
+                replays.push(input.replayed_with(trial));
             }
         }
     }
