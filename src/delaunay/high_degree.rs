@@ -141,7 +141,7 @@ impl<G: Dimension> Delaunay<G> {
         Ok((local, globals))
     }
 
-    /// The same for a link in one hyperplane: each finite facet of it is on the new hull.
+    /// Cells that fill a hole whose link is in one hyperplane: each finite facet of the link is on the new hull.
     fn flat_filling(&self, link: &[Gap<G::Corners>]) -> Result<Filling<G::Corners>> {
         let (mut open, mut filling) = (ByCorners::<G::Corners, Across>::default(), Vec::new());
         memory::reserve_map(&mut open, G::Corners::N * link.len())?;

@@ -123,7 +123,7 @@ pub struct Ray {
     pub inside: u32,
     /// The ray crosses the facet, if the point is on the inner side.
     pub crossing: u32,
-    /// It passes the facet, likewise.
+    /// The ray passes the facet, if the point is on the inner side.
     pub passing: u32,
 }
 

@@ -126,7 +126,7 @@ impl<G: Dimension> Delaunay<G> {
         o.is_behind(&facet[..G::D])
     }
 
-    /// As [`exactly_winds_once`](Self::exactly_winds_once), with a point inside a cell, if static bounds show it.
+    /// Whether static bounds show that the hull winds once around `o`, a point inside a cell.
     fn surely_winds_once(&self, ghosts: &[Slot], o: &G::Point) -> bool {
         let aim = aim_in::<G>(&self.lower, &self.upper);
         let Some(avx2) = Avx2::new().filter(|_| self.is_covered(&aim)) else { return false };

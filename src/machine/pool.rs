@@ -3,8 +3,8 @@
 //! Work is *offered*: it lies on the stack of the thread that has it, and in a list of all offers. A worker takes the
 //! oldest offer, does the work, and sleeps when there is none. A thread that needs work done that it has offered takes
 //! it back and does it itself, unless a worker has taken it; only then it waits. So all work is done whether or not
-//! there are workers, and there is no deadlock, however many threads of the program have work: who waits waits for one
-//! that runs.
+//! there are workers, and there is no deadlock, however many threads of the program have work: a thread that waits
+//! waits for one that runs.
 //!
 //! Nothing here needs memory of the process's: offers and what workers tell of themselves are on stacks, and the rest
 //! is static. So nothing fails where there is none; the system's threads can be refused, unlike those of the standard
@@ -177,7 +177,7 @@ pub(super) fn beside<A>(work: &mut (dyn FnMut() + Send), a: impl FnOnce() -> A) 
     let work = unsafe { transmute::<&mut (dyn FnMut() + Send), *mut (dyn FnMut() + Send + 'static)>(work) };
     let offer =
         Offer { work, stage: Cell::new(Stage::Offered), next: Cell::new(None), done: Condition::new() };
-    // SAFETY: likewise, as this is dropped below, or by a panic of `a`, before the offer is.
+    // SAFETY: the two differ in a lifetime; `offered` is dropped below, or by a panic of `a`, before the offer is.
     let offered = Offered::new(unsafe { transmute::<&Offer, &'static Offer>(&offer) });
     let a = a();
     drop(offered);

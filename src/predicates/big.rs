@@ -171,8 +171,8 @@ impl Room {
         Room { limbs: UnsafeCell::new([MaybeUninit::uninit(); LIMBS]), n: Cell::new(0) }
     }
 
-    /// So many limbs that are zero.
-    #[allow(clippy::mut_from_ref)] // They are other ones each time.
+    /// Takes `n` limbs, and sets them to zero.
+    #[allow(clippy::mut_from_ref)] // Each call gives other limbs.
     fn zeros(&self, n: usize) -> &mut [u64] {
         let first = self.n.get();
         assert!(n <= LIMBS - first, "room for a determinant");
