@@ -1,4 +1,4 @@
-//! Draws the second picture of the README: Lloyd's iterations in a disk, each vertex coloured by how far it
+//! Draws the picture of docs/WHICH_ALGORITHM.md: Lloyd's iterations in a disk, each vertex coloured by how far it
 //! is about to move, in units of its tolerance.
 //!
 //! ```sh

@@ -136,7 +136,9 @@ fn all_agree<G: Dimension>() {
     let together = Algorithm::ALL.into_iter().filter(|a| a.row().commits == Commits::Together);
     for algorithm in together.chain([Algorithm::Auto]) {
         let (mut flips, mut placements, mut rebuilds, mut within) = (0, 0, 0, 0);
-        for seed in seeds(1000) {
+        let seeds = seeds(1000);
+        let n = seeds.end;
+        for seed in seeds {
             let sums = agree::<G>(algorithm, seed);
             flips += sums.flips;
             placements += sums.placements;
@@ -144,8 +146,8 @@ fn all_agree<G: Dimension>() {
             within += sums.within_tolerance;
         }
         let taken = [flips, placements, rebuilds];
-        assert!(taken.iter().all(|&times| times > 500), "{algorithm:?}: a way was hardly taken: {taken:?}");
-        assert!(algorithm != Algorithm::Watching || within > 10_000, "tolerances were hardly used: {within}");
+        assert!(taken.iter().all(|&times| times > n / 2), "{algorithm:?}: a way was hardly taken: {taken:?}");
+        assert!(algorithm != Algorithm::Watching || within > 10 * n, "tolerances were hardly used: {within}");
     }
 }
 
@@ -191,7 +193,9 @@ fn relocations_by_auto_match_fresh_builds() {
 #[test]
 fn walks_begin_in_a_cell_after_flips() {
     let mut flips = 0;
-    for seed in seeds(2000) {
+    let seeds = seeds(2000);
+    let n = seeds.end;
+    for seed in seeds {
         let mut rng = Rng::new(seed);
         let mut now: Vec<_> = (0..20).map(|_| point::<Space>(|_| EXTENT * rng.unit())).collect();
         let options = Options { algorithm: Algorithm::Repair, ..Options::default() };
@@ -205,7 +209,7 @@ fn walks_begin_in_a_cell_after_flips() {
         t.validate(Level::Delaunay).unwrap_or_else(|v| panic!("seed {seed}: {v}"));
         assert_eq!(t.locate(&now[20]), Ok(Location::Vertex(vertex(20))), "seed {seed}");
     }
-    assert!(flips > 4000, "there were hardly any flips: {flips}");
+    assert!(flips > 2 * n, "there were hardly any flips: {flips}");
 }
 
 /// Where all cells change at once flips would be quadratic in their number: a repair gives up in time, in proportion to

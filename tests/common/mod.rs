@@ -14,11 +14,12 @@ pub use random::Rng;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-/// How many seeds a test takes: `n` times what the environment variable `DELDRIFT_SOAK` says, if anything.
+/// How many seeds a test takes: `n` times what the environment variable `DELDRIFT_SOAK` says, if anything, and at least
+/// one.
 pub fn seeds(n: u64) -> std::ops::Range<u64> {
-    let factor =
-        std::env::var("DELDRIFT_SOAK").map_or(1, |soak| soak.parse().expect("DELDRIFT_SOAK is a number"));
-    0..n * factor
+    let factor: f64 =
+        std::env::var("DELDRIFT_SOAK").map_or(1.0, |soak| soak.parse().expect("DELDRIFT_SOAK is a number"));
+    0..((n as f64 * factor).ceil() as u64).max(1)
 }
 
 /// Says what cannot be tested here, and why: `make test` repeats such lines at its end. Not by a macro, whose text is not
