@@ -297,10 +297,10 @@ typedef struct deldrift_triangulation deldrift_triangulation;
 ///
 /// The callbacks are called from inside deldrift_create, deldrift_commit_timestamp and deldrift_commit_positions, and
 /// from inside deldrift_relocate_vertex, deldrift_insert_vertex and deldrift_remove_vertex where one of these takes
-/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not after
-/// deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that is
-/// being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What user_data points to
-/// must live as long as the triangulation.
+/// long, as with a vertex that has thousands of neighbours; on the thread that called these, one at a time, and not
+/// after deldrift_destroy. They must return normally (no exception, no longjmp) and must not use the triangulation that
+/// is being created or changed: such calls are turned away with DELDRIFT_BUSY. Other triangulations may be used. What
+/// user_data points to must live as long as the triangulation.
 ///
 /// They are also called from inside deldrift_voronoi_volumes and deldrift_voronoi_facets, by each thread that
 /// makes such a call; then they may read the triangulation, and calls that change it are turned away with
@@ -312,8 +312,7 @@ typedef struct deldrift_options {
     deldrift_algorithm algorithm;
     /// Greatest number of threads a call may use, the calling one included; 0, the default, is no limit. As many are
     /// used as pay, and no more than the system runs at the same time: one for each 5,000 vertices in 2D or 2,500
-    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair, and to move
-    /// many vertices far away. All
+    /// in 3D to build and rebuild, and likewise to move all, check all certificates and flip in repair. All
     /// triangulations of the process share them, and they sleep between calls. The cells do not depend on the number,
     /// their order and the counts in reports may. Callbacks come from the calling thread only.
     uint32_t threads;
@@ -480,9 +479,9 @@ const char *deldrift_version(void);
 ///
 /// dimension: 2 or 3. positions: count points one after the other, dimension numbers each (x, y or
 /// x, y, z), in any unit; read during the call only; may be NULL if count is 0. Vertex i is the i-th of
-/// them until the triangulation is destroyed, or deldrift_compact gives new ids. Any set is legal, the empty one, coincident points and points
-/// on one line or plane included; where the points do not span the dimension there are no cells. Every
-/// finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
+/// them until the triangulation is destroyed, or deldrift_compact gives new ids. Any set is legal, the empty one,
+/// coincident points and points on one line or plane included; where the points do not span the dimension there are no
+/// cells. Every finite coordinate from -1e57 to 1e57 is accepted, however close to zero. options: NULL for the
 /// defaults; read during the call only.
 ///
 /// out: receives the triangulation, which the caller has to hand to deldrift_destroy. It is written on
@@ -578,8 +577,8 @@ deldrift_status deldrift_move_vertices(deldrift_triangulation *t,
 /// The ids count in deldrift_id_count from now on, but until the commit the vertices are not present
 /// (deldrift_is_present): functions that take an id return DELDRIFT_STAGED_VERTEX for them. Where they will be is told
 /// by deldrift_copy_positions, and changed by deldrift_move_vertices without a list of ids and by
-/// deldrift_commit_positions. deldrift_discard_moves forgets the insertions; ids are given again then if none higher has
-/// been given since.
+/// deldrift_commit_positions. deldrift_discard_moves forgets the insertions; ids are given again then if none higher
+/// has been given since.
 ///
 /// Cost: count, in the mean over many calls.
 ///
@@ -599,8 +598,8 @@ deldrift_status deldrift_stage_insertions(deldrift_triangulation *t,
 ///
 /// vertices: count ids, each at most once, read during the call only; may be NULL if count is 0.
 ///
-/// The commit removes them one by one, or rebuilds where that takes less: where many go, or those with 64 neighbours and
-/// more that go have more neighbours in all than there are vertices.
+/// The commit removes them one by one, or rebuilds where that takes less: where many go, or those with 64 neighbours
+/// and more that go have more neighbours in all than there are vertices.
 ///
 /// Cost: count, in the mean over many calls.
 ///
@@ -641,7 +640,8 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 ///
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
-/// removal is staged, are not read. Read during the call only. report: as for deldrift_commit_timestamp. Ends all views.
+/// removal is staged, are not read. Read during the call only. report: receives what was done; may be NULL. Ends all
+/// views.
 ///
 /// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///
@@ -660,14 +660,14 @@ deldrift_status deldrift_commit_positions(deldrift_triangulation *t,
 ///
 /// position: 2 or 3 numbers, read during the call only.
 ///
-/// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be many.
-/// While there are no cells, that of deldrift_create.
+/// Cost: that of a removal and an insertion at most, of the cells around the vertex before and after, which can be
+/// many. While there are no cells, that of deldrift_create.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of this
-/// vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
-/// on t.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_DUPLICATE_MOVE if a move of
+/// this vertex is staged, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it),
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
+/// call on t.
 deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
                                          uint32_t vertex,
                                          const double *position);
@@ -681,8 +681,8 @@ deldrift_status deldrift_relocate_vertex(deldrift_triangulation *t,
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_COINCIDENT (if the options reject it), DELDRIFT_TOO_MANY_VERTICES,
-/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
-/// on t.
+/// DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other
+/// call on t.
 deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
                                        const double *position,
                                        uint32_t *out_vertex);
@@ -690,13 +690,13 @@ deldrift_status deldrift_insert_vertex(deldrift_triangulation *t,
 /// Removes a vertex at once, with the move or the removal staged for it, if any. Its id is not given again before a
 /// deldrift_compact, nor is all of its memory. Ends all views.
 ///
-/// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D that
-/// may have as many cells as half the square of their number, as where all points are on the moment curve; each ten to
-/// twenty thousand of them the callbacks are called.
+/// Cost: up to 64 neighbours at most the square of their number, beyond that a build of the neighbours alone. In 3D
+/// that may have as many cells as half the square of their number, as where all points are on the moment curve; each
+/// ten to twenty thousand of them the callbacks are called.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its
-/// insertion is staged, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the same time as any other call
-/// on t.
+/// insertion is staged, DELDRIFT_TOO_MANY_CELLS, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. Not to be called at the
+/// same time as any other call on t.
 deldrift_status deldrift_remove_vertex(deldrift_triangulation *t,
                                        uint32_t vertex);
 
@@ -768,8 +768,8 @@ deldrift_status deldrift_cell_count(const deldrift_triangulation *t, size_t *cou
 deldrift_status deldrift_staged_count(const deldrift_triangulation *t, size_t *count);
 
 /// How many bytes of memory the triangulation holds, to *bytes: what its views show and what it keeps as room
-/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any call
-/// on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
+/// for later calls included, and without what the system's allocator adds to each of its arrays. It may grow in any
+/// call on the triangulation, also in one that fails, and in one that takes it as const (deldrift_cells makes arrays);
 /// deldrift_compact makes it as small as that of a fresh one, but for arrays that are made again when asked for.
 ///
 /// Cost: constant.
@@ -814,9 +814,9 @@ deldrift_status deldrift_position(const deldrift_triangulation *t,
                                   uint32_t vertex,
                                   double *position);
 
-/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp, of
-/// vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can be
-/// changed and handed to deldrift_commit_positions.
+/// The positions of all ids, in their order, 2 or 3 numbers each: of present vertices those of the current timestamp,
+/// of vertices whose insertion is staged those where they will be inserted, of removed vertices NaN. So the array can
+/// be changed and handed to deldrift_commit_positions.
 ///
 /// positions: a buffer with room for capacity points. count: receives the number of ids, which is also
 /// written when the buffer is too small. NULL with capacity 0 asks for the count alone.
@@ -865,12 +865,11 @@ deldrift_status deldrift_copy_cells(const deldrift_triangulation *t,
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written
 /// when the buffer is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the cells of the star.
+/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does. Where there
+/// are more vertices than a cache holds, stars are read fastest in the order of the ids.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does; else the cost is that of the star. Where there are more vertices
-/// than a cache holds, stars are read fastest in the order of the ids.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX,
+/// DELDRIFT_STAGED_VERTEX if its insertion is staged, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_star(const deldrift_triangulation *t,
                               uint32_t vertex,
                               uint32_t *cells,
@@ -892,16 +891,27 @@ deldrift_status deldrift_tolerance(const deldrift_triangulation *t,
                                    uint32_t vertex,
                                    double *out);
 
+/// Checks the triangulation exactly, in time proportional to its size.
+///
+/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
+/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
+///
+/// Cost: n + m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
+/// deldrift_last_error then gives the first violation.
+deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t level);
+
 /// Where a point lies, exactly, to *location.
 ///
 /// position: 2 or 3 numbers.
 ///
 /// Cost: the cells that a walk crosses from where an earlier one ended, or from a vertex that is near: a few for most
-/// sets, m at most. While there are no cells, constant.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// sets, m at most. While there are no cells, constant. After a change the first call also does what the first
 /// deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_locate(const deldrift_triangulation *t,
                                 const double *position,
                                 deldrift_location *location);
@@ -913,11 +923,11 @@ deldrift_status deldrift_locate(const deldrift_triangulation *t,
 /// for the first point, for example the last answer of the call before; NULL if nothing is known. It only
 /// matters for speed: it may be far away, from before a change, or name nothing. It may be one of locations.
 ///
-/// Cost: count times that of deldrift_locate.
+/// Cost: count times that of deldrift_locate. After a change the first call also does what the first deldrift_cells
+/// does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also
-/// does what the first deldrift_cells does.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
 deldrift_status deldrift_locate_points(const deldrift_triangulation *t,
                                        const double *positions,
                                        size_t count,
@@ -949,17 +959,6 @@ deldrift_status deldrift_coincident_representative(const deldrift_triangulation 
                                                    uint32_t vertex,
                                                    uint32_t *representative);
 
-/// Checks the triangulation exactly, in time proportional to its size.
-///
-/// level: 1 checks indices and adjacency; 2 also the orientation of the cells, and that the hull is
-/// convex and winds once; 3 also that no sphere through the vertices of a cell contains a vertex.
-///
-/// Cost: n + m.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_INVALID_LEVEL, DELDRIFT_INVALID if something is wrong:
-/// deldrift_last_error then gives the first violation.
-deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t level);
-
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
 /// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. One
@@ -972,8 +971,7 @@ deldrift_status deldrift_validate(const deldrift_triangulation *t, uint32_t leve
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_circumcentres(const deldrift_triangulation *t,
                                        double *centres,
                                        double *squared_radii,
@@ -991,8 +989,7 @@ deldrift_status deldrift_circumcentres(const deldrift_triangulation *t,
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_volumes(const deldrift_triangulation *t,
                                  double *volumes,
                                  size_t capacity,
@@ -1011,9 +1008,8 @@ deldrift_status deldrift_volumes(const deldrift_triangulation *t,
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that
-/// is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a squared radius that is
+/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mask_by_circumradius(const deldrift_triangulation *t,
                                               double squared_radius,
                                               uint8_t *mask,
@@ -1035,9 +1031,8 @@ deldrift_status deldrift_mask_by_circumradius(const deldrift_triangulation *t,
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mask_boundary(const deldrift_triangulation *t,
                                        const uint8_t *mask,
                                        size_t mask_count,
@@ -1047,14 +1042,20 @@ deldrift_status deldrift_mask_boundary(const deldrift_triangulation *t,
                                        size_t capacity,
                                        size_t *count);
 
-/// The facets of the convex hull, as deldrift_mask_boundary gives them if all cells are in the mask.
+/// The facets of the convex hull, in ascending order of cell and then of corner.
 ///
-/// facets, cells, corners, capacity, count: as there. One pass over the cells; constant time for the count alone.
+/// facets: a buffer with room for capacity rows of 2 (2D) or 3 (3D) vertex ids. Facets are seen from outside: in 2D the
+/// cell is on the left of the edge from the first vertex to the second; in 3D the vertices are in counter-clockwise
+/// order as seen from the side away from the cell. cells, corners: buffers with room for capacity numbers, which
+/// receive the cell and which of its corners (0, 1, ...) is opposite the facet. One of the three that is NULL is not
+/// filled. count: receives the number of facets, which is also written when the buffers are too small. NULL for all
+/// three with capacity 0 asks for the count alone.
+///
+/// Exact. One pass over the cells; constant time for the count alone.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
                                      uint32_t *facets,
                                      uint32_t *cells,
@@ -1070,10 +1071,9 @@ deldrift_status deldrift_hull_facets(const deldrift_triangulation *t,
 ///
 /// Takes some passes over the cells, and memory for the cells of each vertex while it runs.
 ///
-/// Cost: n + m.
+/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_edges(const deldrift_triangulation *t,
                                uint32_t *edges,
                                size_t capacity,
@@ -1090,11 +1090,11 @@ deldrift_status deldrift_edges(const deldrift_triangulation *t,
 ///
 /// Takes some passes over the cells, and while it runs memory for the lists and for the cells of each vertex.
 ///
-/// Cost: n + m, and d log d for the d neighbours of each vertex.
-///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
+/// Cost: n + m, and d log d for the d neighbours of each vertex. After a change the first call also does what the first
 /// deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
                                            uint32_t *offsets,
                                            size_t offset_count,
@@ -1113,11 +1113,10 @@ deldrift_status deldrift_vertex_neighbours(const deldrift_triangulation *t,
 ///
 /// Takes two passes over the cells, and memory for the lists while it runs.
 ///
-/// Cost: n + m.
+/// Cost: n + m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_WRONG_COUNT, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_vertex_cells(const deldrift_triangulation *t,
                                       uint32_t *offsets,
                                       size_t offset_count,
@@ -1134,9 +1133,7 @@ deldrift_status deldrift_vertex_cells(const deldrift_triangulation *t,
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL,
-/// DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first deldrift_cells does. One pass over
-/// the cells.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mirror_indices(const deldrift_triangulation *t,
                                         uint8_t *mirrors,
                                         size_t capacity,
@@ -1147,10 +1144,9 @@ deldrift_status deldrift_mirror_indices(const deldrift_triangulation *t,
 ///
 /// cell, corner: the facet opposite this corner (0, 1, ...) of this cell, an index into deldrift_cells.
 ///
-/// Cost: constant.
+/// Cost: constant. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NO_SUCH_FACET, DELDRIFT_OUT_OF_MEMORY.
-/// After a change the first call also does what the first deldrift_cells does; else constant time.
 deldrift_status deldrift_mirror_index(const deldrift_triangulation *t,
                                       uint32_t cell,
                                       uint32_t corner,
@@ -1165,11 +1161,11 @@ deldrift_status deldrift_mirror_index(const deldrift_triangulation *t,
 /// cells: a buffer with room for capacity indices. count: receives their number, which is also written when the buffer
 /// is too small. NULL with capacity 0 asks for the count alone.
 ///
-/// Cost: the cells of the star.
+/// Cost: the cells of the star. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
-/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a
-/// change the first call also does what the first deldrift_cells does; else the cost is that of the star.
+/// DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
                                       uint32_t vertex,
                                       uint32_t *cells,
@@ -1188,12 +1184,11 @@ deldrift_status deldrift_ordered_star(const deldrift_triangulation *t,
 /// are all whose shape has changed: with the functions that follow, a program that keeps an array for all cells updates
 /// those entries alone.
 ///
-/// Cost: the cells of the stars, and k log k for the k of them; m at most.
+/// Cost: the cells of the stars, and k log k for the k of them; m at most. After a change the first call also does what
+/// the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX,
-/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does; else the cost is that of the stars, and for many vertices at most that of a pass
-/// over the cells.
+/// DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_cells_around(const deldrift_triangulation *t,
                                       const uint32_t *vertices,
                                       size_t vertex_count,
@@ -1215,11 +1210,10 @@ deldrift_status deldrift_cells_around(const deldrift_triangulation *t,
 /// which the library keeps its corners. It pays while fewer than a tenth of the vertices move, or a third if they are
 /// neighbours; beyond that the pass of deldrift_circumcentres is faster.
 ///
-/// Cost: cell_count.
+/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does; else the cost is that of the cells listed.
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_update_circumcentres(const deldrift_triangulation *t,
                                               const uint32_t *cells,
                                               size_t cell_count,
@@ -1230,14 +1224,17 @@ deldrift_status deldrift_update_circumcentres(const deldrift_triangulation *t,
 /// Computes the areas (2D) or volumes (3D) of some cells again, in an array that deldrift_volumes has filled: for each
 /// index in cells, the entry of this index becomes that of the cell. Other entries are not touched.
 ///
-/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update and its
-/// accuracy. volumes: an array with room for capacity numbers.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
+/// volumes: an array with room for capacity numbers. capacity: at least deldrift_cell_count.
 ///
-/// Cost: cell_count.
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
+/// pays. The values are then those of deldrift_volumes, with its accuracy; last bits may be others where a cell was
+/// removed and created again.
+///
+/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_FACET for an
-/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does
-/// what the first deldrift_cells does; else the cost is that of the cells listed.
+/// index that is no cell's, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_update_volumes(const deldrift_triangulation *t,
                                         const uint32_t *cells,
                                         size_t cell_count,
@@ -1248,17 +1245,20 @@ deldrift_status deldrift_update_volumes(const deldrift_triangulation *t,
 /// deldrift_mask_by_circumradius has filled for the same one: for each index in cells, the entry of this index becomes
 /// that of the cell. Other entries are not touched.
 ///
-/// cells, cell_count, capacity: as for deldrift_update_circumcentres, and so are the steps of an update.
-/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes.
+/// cells: cell_count indices into deldrift_cells, in any order, some maybe more than once. NULL if cell_count is 0.
+/// squared_radius: 0 or more; infinity is all cells. mask: an array with room for capacity bytes. capacity: at least
+/// deldrift_cell_count.
+///
+/// deldrift_update_circumcentres has the steps by which an array for all cells is brought up to date, and when that
+/// pays.
 ///
 /// Exact: a mask that is kept up to date is that of a full pass, byte by byte.
 ///
-/// Cost: cell_count.
+/// Cost: cell_count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// squared radius that is negative or NaN, DELDRIFT_NO_SUCH_FACET for an index that is no cell's,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY. After a change the first call also does what the first
-/// deldrift_cells does; else the cost is that of the cells listed.
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulation *t,
                                                      const uint32_t *cells,
                                                      size_t cell_count,
@@ -1291,12 +1291,12 @@ deldrift_status deldrift_update_mask_by_circumradius(const deldrift_triangulatio
 /// for circumcentres and for the cells of each vertex while it runs. For vertices in one hyperplane, in a box, it takes
 /// the time and the memory of creating a triangulation of these. Calls the callbacks of the options.
 ///
-/// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create.
+/// Cost: n + m; in a box, for vertices in one hyperplane, that of deldrift_create. After a change the first call also
+/// does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
 /// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE if high is not above low in every coordinate,
-/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED. After a change the first call also does what
-/// the first deldrift_cells does.
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
                                          const double *low,
                                          const double *high,
@@ -1307,9 +1307,11 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// The lengths (2D) or areas (3D) of the Voronoi facets of all edges, in the order of deldrift_edges, within a box.
 /// The Voronoi facet of an edge is what the Voronoi cells of its two vertices share.
 ///
-/// low, high: as for deldrift_voronoi_volumes. Without a box, the Voronoi facets of the edges on the convex hull are
-/// infinite. measures: a buffer with room for capacity numbers. count: receives the number of edges, which is also
-/// written when the buffer is too small. NULL for measures with capacity 0 asks for the count alone.
+/// low, high: the corners of the box with the least and the greatest coordinates, 2 or 3 numbers each, read during the
+/// call only; vertices may be outside of it. NULL for both is no box. Without a box, the Voronoi facets of the edges on
+/// the convex hull are infinite. measures: a buffer with room for capacity numbers. count: receives the number of
+/// edges, which is also written when the buffer is too small. NULL for measures with capacity 0 asks for the count
+/// alone.
 ///
 /// There is one number for each edge of the triangulation, so vertices in one hyperplane have none; each is the measure
 /// of what both cells share, whichever of the two it is seen from. It is never NaN, and infinite where a corner is
@@ -1317,20 +1319,20 @@ deldrift_status deldrift_voronoi_volumes(const deldrift_triangulation *t,
 /// id: their Voronoi facet is a point, or in space may be a segment, and has 0 but for rounding; others, which have no
 /// edge, share no more than that. A facet outside the box has 0. One that is in a face of the box counts as inside.
 ///
-/// Rounded: with h as for deldrift_voronoi_volumes, of the cells around the edge, a length is off by at most 2 h, an
-/// area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
+/// Rounded: with the h that deldrift_voronoi_volumes has, of the cells around the edge, a length is off by at most 2 h,
+/// an area by at most h times the perimeter of the facet, however near to each other vertices are. Never negative. The
 /// facets of a vertex whose Voronoi cell is in the box, times the lengths of its edges and divided by 4 (2D) or 6 (3D),
 /// add up to its area or volume but for rounding.
 ///
 /// Takes time in proportion to the number of cells, and memory for circumcentres and for the cells of each vertex while
-/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as for deldrift_voronoi_volumes. Calls
+/// it runs. What is cut by the box, and is nearly in a face of it, takes as long as in deldrift_voronoi_volumes. Calls
 /// the callbacks of the options.
 ///
 /// Cost: n + m.
 ///
-/// Errors: as deldrift_voronoi_volumes: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY,
-/// DELDRIFT_CANCELLED.
+/// Errors: DELDRIFT_NULL_ARGUMENT (also if one of low and high is NULL), DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE, DELDRIFT_INVALID_VALUE, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY, DELDRIFT_CANCELLED.
 deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
                                         const double *low,
                                         const double *high,
@@ -1353,12 +1355,11 @@ deldrift_status deldrift_voronoi_facets(const deldrift_triangulation *t,
 /// takes as long as deldrift_locate_points, and with natural neighbours some microseconds more.
 ///
 /// Cost: count times that of deldrift_locate and n_values; with natural neighbours also the cells whose circle or
-/// sphere has the position inside.
+/// sphere has the position inside. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for a
 /// method that this version does not have, DELDRIFT_WRONG_COUNT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE (of
-/// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written. After a change the first call also does what the first
-/// deldrift_cells does.
+/// positions), DELDRIFT_OUT_OF_MEMORY; then nothing is written.
 deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
                                      deldrift_interpolation method,
                                      const double *values,
@@ -1416,12 +1417,12 @@ deldrift_status deldrift_save(const deldrift_triangulation *t,
 /// deldrift_take_changes lists all cells as created. Like one
 /// whose cells have been read, it keeps the arrays of deldrift_cells.
 ///
-/// data: size bytes, with any alignment, read during the call only. options: as for deldrift_create. They are not
+/// data: size bytes, with any alignment, read during the call only. options: they are not
 /// saved; NULL stands for the defaults, whatever those of the triangulation that was saved. The callbacks are called.
 ///
-/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16 times
-/// as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused, even if
-/// the checksum is right.
+/// Nothing is triangulated: takes a sort of the vertices and a few passes over the data, and memory for at most 16
+/// times as many bytes. This holds whatever the data are: what is not a Delaunay triangulation, exactly, is refused,
+/// even if the checksum is right.
 ///
 /// Cost: n log n + m, whatever the data are.
 ///
@@ -1470,8 +1471,8 @@ deldrift_status deldrift_load_file(const char *path,
 /// Writes a file for ParaView and VTK: an unstructured grid of the cells, in VTK's XML format (.vtu).
 ///
 /// Its points are the vertices that are present, hidden ones included, ascending by id; their ids are the point data
-/// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: as for
-/// deldrift_save_file.
+/// "vertex". In 2D the third coordinate is 0. Its cells are those of deldrift_cells, in that order. path: of a file
+/// that is made, or replaced once the new one is complete, with what deldrift_save_file says of it.
 ///
 /// vertex_fields, cell_fields: numbers to be written along as point data and cell data, vertex_field_count and
 /// cell_field_count of them; NULL if the count is 0. All of it is read during the call only.
@@ -1493,7 +1494,8 @@ deldrift_status deldrift_write_vtu(const deldrift_triangulation *t,
 ///
 /// Its vertices are those that are present, hidden ones included, ascending by id and numbered from 1; the reference
 /// of each is its id. Its triangles or tetrahedra are the cells, in the order of deldrift_cells, with the reference 1.
-/// Reading the numbers gives the same doubles. path: as for deldrift_save_file.
+/// Reading the numbers gives the same doubles. path: of a file that is made, or replaced once the new one is complete,
+/// with what deldrift_save_file says of it.
 ///
 /// Does what deldrift_cells does.
 ///
