@@ -19,7 +19,7 @@ pub struct deldrift_triangulation {
     // What the triangulation calls, for those that are made from it.
     callbacks: Callbacks,
     // Written only by calls that change the triangulation, which exclude all others by contract. They are
-    // atomic so that a caller who breaks the contract reads a flag and not garbage; nothing is ordered.
+    // atomic so that a caller that breaks the contract reads a flag and not garbage; nothing is ordered.
     is_changing: AtomicBool,
     is_poisoned: AtomicBool,
     // How many calls that only read it may be calling its callbacks.
@@ -249,7 +249,7 @@ impl<'a> Changing<'a> {
         if self.pointer.is_null() {
             return;
         }
-        // There is no one to give the status to; the message is there for who looks for it.
+        // There is nowhere to give the status to; the message is there to be read.
         let _ = guard::enter(|| {
             self.handle()?.check_unused()?;
             // SAFETY: it came from a Box, and nothing uses it: no call below this one on the stack, as has been

@@ -142,8 +142,8 @@ impl<'a> Text<'a> {
     }
 }
 
-/// A point that is read: as many numbers as the triangulation of the call has dimensions. It is told its name when it is
-/// used: calls that take one are short, and a name that is kept would be carried through all of them.
+/// A point that is read: as many numbers as the triangulation of the call has dimensions. It is told its name when it
+/// is used: calls that take one are short, and a name that is kept would be carried through all of them.
 #[derive(Clone, Copy)]
 pub(super) struct Point<'a> {
     pointer: *const f64,

@@ -27,17 +27,11 @@ pub enum Insertion {
 }
 
 /// Insertions, and the scratch memory for them.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Cavity<G: Dimension> {
     pub(super) scratch: G::Scratch,
     /// Cells crossed by the walks so far.
     pub(super) steps: u64,
-}
-
-impl<G: Dimension> Default for Cavity<G> {
-    fn default() -> Self {
-        Cavity { scratch: G::Scratch::default(), steps: 0 }
-    }
 }
 
 impl<G: Dimension> Delaunay<G> {

@@ -1,11 +1,11 @@
 //! Landmarks: sites, a sample of all, near one of which a walk begins if nothing else is known of its goal (*jump and
 //! walk*: Mücke, Saias, Zhu, 10.1016/S0925-7721(98)00035-2).
 //!
-//! They are the leaves of a tree of half-spaces, some six sites to a leaf wherever these are dense, so that a walk is as
-//! short in a cluster as elsewhere. All of it is hints: half-spaces are never checked, and a leaf may hold
-//! any site. So points may move, come and go without a word to the tree. A walk that was long leaves a site near its
-//! goal behind, for the next one that comes to this leaf. When walks together have been longer than that explains,
-//! there is a new tree.
+//! They are the leaves of a tree of half-spaces, some six sites to a leaf wherever these are dense, so that a walk is
+//! as short in a cluster as elsewhere. All of it is hints: half-spaces are never checked, and a leaf may hold any site.
+//! So points may move, come and go without a word to the tree. A walk that was long leaves a site near its goal behind,
+//! for the next one that comes to this leaf. When walks together have been longer than that explains, there is a new
+//! tree.
 //!
 //! Invariant: a tree is used only to choose where to begin; what a walk finds does not depend on it.
 //!
@@ -255,8 +255,8 @@ impl<G: Dimension> Delaunay<G> {
         self.sites.get(s.index()).filter(|site| is_in_cells(site)).map(|_| s)
     }
 
-    /// The square of the shortest edge of a cell, or of the facet of a ghost cell, at its first corner or its second one.
-    /// In space there is another one, but a cell that is much longer than wide has a short edge among these.
+    /// The square of the shortest edge of a cell, or of the facet of a ghost cell, at its first corner or its second
+    /// one. In space there is another one, but a cell that is much longer than wide has a short edge among these.
     #[inline(always)]
     fn shortest_edge(&self, cell: Slot) -> f64 {
         let corners = &self.complex.cell(cell).corners;

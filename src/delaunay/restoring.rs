@@ -45,8 +45,8 @@ impl<G: Dimension> Delaunay<G> {
     /// The triangulation of these cells: cell k is in slot k. `positions` are by vertex id, and all are in range;
     /// `is_site` tells which vertices stand for their places. Also the site of each of these.
     ///
-    /// The rows may hold anything. What is returned is the Delaunay triangulation of the sites. `monitor` is called with
-    /// the fraction done; if it returns `false`, this ends in [`Error::Cancelled`].
+    /// The rows may hold anything. What is returned is the Delaunay triangulation of the sites. `monitor` is called
+    /// with the fraction done; if it returns `false`, this ends in [`Error::Cancelled`].
     pub(crate) fn of_rows(
         positions: &[G::Point],
         is_site: impl Fn(VertexId) -> bool + Copy + Sync,

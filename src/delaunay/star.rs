@@ -1,9 +1,9 @@
 //! The star of a site, gathered for what is going to change it.
 //!
 //! In space each cell of a star is beside three others, so most of what is reached is known. Where marks stay in a
-//! cache, what is listed is marked, and a relocation takes a tenth less time than with a [set](super::set), which is for
-//! questions: those may not write marks. Of a large triangulation, marks are more to wait for. Whether a cell is new is
-//! hard to foresee, so no branch is on it.
+//! cache, what is listed is marked, and a relocation takes a tenth less time than with a [set](super::set), which is
+//! for questions: those may not write marks. Of a large triangulation, marks are more to wait for. Whether a cell is
+//! new is hard to foresee, so no branch is on it.
 //!
 //! Invariant: all marks are 0 before and after.
 //!

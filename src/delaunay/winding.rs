@@ -1,8 +1,8 @@
 //! How often the hull winds around a point inside.
 //!
-//! A hull that is convex at every ridge is the boundary of convex sets, but may have several parts, or cover one more than
-//! once. Let a point strictly inside a cell be on the inner side of every facet. Seen from there facets that share a
-//! ridge are on different sides of it, so each part of the hull covers the directions of all rays, and nearly all of
+//! A hull that is convex at every ridge is the boundary of convex sets, but may have several parts, or cover one more
+//! than once. Let a point strictly inside a cell be on the inner side of every facet. Seen from there facets that share
+//! a ridge are on different sides of it, so each part of the hull covers the directions of all rays, and nearly all of
 //! them equally often: a ray that meets no ridge crosses as many facets as the parts wind in all. If it crosses one,
 //! there is one part, and it winds once.
 //!
@@ -15,8 +15,8 @@
 //!
 //! which is inside, however thin the cell. An orientation with it is a sum of those with the corners in its place, with
 //! weights 1, ε, ε², ... up to smaller ones, so its sign is that of the first which is not zero. The ray goes along the
-//! last axis. It meets no ridge, unless that is parallel to it and so behind facets that have no breadth: seen along the
-//! axis the corners are not all on the line of a ridge.
+//! last axis. It meets no ridge, unless that is parallel to it and so behind facets that have no breadth: seen along
+//! the axis the corners are not all on the line of a ridge.
 //!
 //! Cost: `D + 1` orientations a facet, which have all differences and half of their minors in common; exactly, `D + 1`
 //! times as many at most. Nothing is asked for.
@@ -86,8 +86,8 @@ impl<G: Dimension> Delaunay<G> {
         is_inside.then_some(o)
     }
 
-    /// Whether the hull, which is convex at every ridge, is in one part and winds once around a point inside a cell; not
-    /// if these are not all ghost cells. All finite cells must be positive.
+    /// Whether the hull, which is convex at every ridge, is in one part and winds once around a point inside a cell;
+    /// not if these are not all ghost cells. All finite cells must be positive.
     pub(crate) fn winds_once(&self, ghosts: &[Slot]) -> bool {
         let are_all = ghosts.len() == self.complex.n_ghosts();
         are_all

@@ -1,13 +1,13 @@
-//! The floating-point environment of a thread: how numbers are rounded, which exceptions trap, whether numbers near zero
-//! count as zero, and the flags of exceptions that stay set.
+//! The floating-point environment of a thread: how numbers are rounded, which exceptions trap, whether numbers near
+//! zero count as zero, and the flags of exceptions that stay set.
 //!
-//! Arithmetic here, and all that the compiler makes of it, is meant for the *default* environment: to the nearest number,
-//! without traps, with numbers near zero as they are. A program may have another one, which a thread that it starts
-//! inherits. [`in_default`] puts the default one in force for a piece of work, and what was there back.
+//! Arithmetic here, and all that the compiler makes of it, is meant for the *default* environment: to the nearest
+//! number, without traps, with numbers near zero as they are. A program may have another one, which a thread that it
+//! starts inherits. [`in_default`] puts the default one in force for a piece of work, and what was there back.
 //!
-//! Known are those of x86-64 (MXCSR, by which all arithmetic of Rust goes; nothing uses the x87 unit, whose environment is
-//! thus left alone) and of 64-bit ARM (FPCR and FPSR). On other processors an [`Environment`] tells nothing and changes
-//! nothing.
+//! Known are those of x86-64 (MXCSR, by which all arithmetic of Rust goes; nothing uses the x87 unit, whose environment
+//! is thus left alone) and of 64-bit ARM (FPCR and FPSR). On other processors an [`Environment`] tells nothing and
+//! changes nothing.
 
 #![allow(unsafe_code)]
 

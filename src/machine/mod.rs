@@ -1,5 +1,5 @@
-//! What the code asks of the machine: memory that may be refused, threads, the floating-point environment, and entries of
-//! arrays before they are used.
+//! What the code asks of the machine: memory that may be refused, threads, the floating-point environment, and entries
+//! of arrays before they are used.
 //!
 //! It uses [`simd`](crate::simd) and [`error`](crate::error) alone: all else is above.
 

@@ -1,7 +1,7 @@
 //! Who is asked, now and then, whether to go on.
 //!
-//! Work is counted in cells that are looked at or made, some tens of nanoseconds each, so that it depends on neither the
-//! machine nor the clock when that is.
+//! Work is counted in cells that are looked at or made, some tens of nanoseconds each, so that it depends on neither
+//! the machine nor the clock when that is.
 
 use std::fmt;
 

@@ -366,7 +366,7 @@ extern "C" fn in_new_process() {
         count.set(0);
     }
     pool.n_forks.set(pool.n_forks.get() + 1);
-    // SAFETY: nobody waits for it here. What it knows of those who did in the other process is not for this one.
+    // SAFETY: no thread waits for it here. What it knows of threads that did in the other process is not for this one.
     unsafe { pool.call.0.get().write(libc::PTHREAD_COND_INITIALIZER) };
 }
 

@@ -177,10 +177,10 @@ macro_rules! for_algorithms {
             by: commit_by_switching(),
         }
 
-        /// As repair, but only the certificates of vertices that leave their tolerance are checked, and those
-        /// that would make it too small. For displacements of up to about a thousandth of the spacing in 2D, and a
-        /// ten-thousandth in 3D. Commits that do not move all vertices at once, or while vertices share a place,
-        /// are those of repair.
+        /// All vertices move at once; of the certificates, those of vertices that leave their tolerance are checked,
+        /// and those that would make it too small; what fails is repaired by flips and placements. For displacements of
+        /// up to about a thousandth of the spacing in 2D, and a ten-thousandth in 3D. Commits that do not move all
+        /// vertices at once, or while vertices share a place, are those of repair.
         Watching = 1000 {
             name: "watching",
             purpose: Internal,
@@ -190,10 +190,10 @@ macro_rules! for_algorithms {
             by: watch_or_repair(),
         }
 
-        /// As repair, but only the certificates of those bi-cells are checked whose own tolerance is used up by
-        /// the ways that their vertices have gone. For displacements of up to a few ten-thousandths of the spacing
-        /// in 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that do not move all vertices at once, or
-        /// while vertices share a place, are those of repair.
+        /// All vertices move at once; the certificates of those bi-cells are checked whose own tolerance is used up by
+        /// the ways that their vertices have gone; what fails is repaired by flips and placements. For displacements of
+        /// up to a few ten-thousandths of the spacing in 3D. Keeps 16 bytes for each cell in 3D, 12 in 2D. Commits that
+        /// do not move all vertices at once, or while vertices share a place, are those of repair.
         Slack = 1001 {
             name: "slack",
             purpose: Internal,

@@ -134,10 +134,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         index: usize,
         vertex: VertexId,
     ) -> Result<SiteId> {
-        match self.mesh.site_of.get(vertex.index()) {
-            Some(&s) if s != SiteId::NONE => Ok(s),
-            _ => Err(self.absent(argument, index, vertex)),
-        }
+        self.mesh.site(vertex).ok_or_else(|| self.absent(argument, index, vertex))
     }
 
     /// Why a vertex is not there.

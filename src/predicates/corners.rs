@@ -4,18 +4,19 @@
 //!
 //! # Idea
 //!
-//! Let u be the differences from a vertex to others, b a place, h the difference from the vertex to b, and δ that from b
-//! to a corner on the bisectors of the vertex and the others. Each of these says 2 u · δ = u · (u − 2 h). A face of the
-//! box says that δ is zero along its axis. So as many others as there are axes left make a system of linear equations;
-//! Cramer's rule gives δ along an axis as a quotient N / M of polynomials in the differences, of degrees 4 and 3 at
-//! most. The sign of δ is the side of the corner on which a face of the box through b is.
+//! Let u be the differences from a vertex to others, b a place, h the difference from the vertex to b, and δ that from
+//! b to a corner on the bisectors of the vertex and the others. Each of these says 2 u · δ = u · (u − 2 h). A face of
+//! the box says that δ is zero along its axis. So as many others as there are axes left make a system of linear
+//! equations; Cramer's rule gives δ along an axis as a quotient N / M of polynomials in the differences, of degrees 4
+//! and 3 at most. The sign of δ is the side of the corner on which a face of the box through b is.
 //!
 //! # Accuracy
 //!
 //! N and M are sums of products of differences. They are evaluated with the sums of the magnitudes of these
-//! ([`Weighed`]), which bound their errors; where that does not leave a sign certain, or a value as accurate as it has to
-//! be, with bounds of each error on the way, none of which is added where numbers are exact, as on lattices
-//! ([`Bounded`]); then from integers of any length (`big.rs`): so the sign is exact, and the value within 2⁻⁴⁹ of itself.
+//! ([`Weighed`]), which bound their errors; where that does not leave a sign certain, or a value as accurate as it has
+//! to be, with bounds of each error on the way, none of which is added where numbers are exact, as on lattices
+//! ([`Bounded`]); then from integers of any length (`big.rs`): so the sign is exact, and the value within 2⁻⁴⁹ of
+//! itself.
 //!
 //! With coordinates of magnitude 2¹⁹⁰ at most, nothing overflows but quotients of corners that are too far away to be
 //! in any box.

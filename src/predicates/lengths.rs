@@ -15,8 +15,8 @@
 //! longest edge from the first corner, those that belong to s·n thus add up to 2/√3 · 3 L⁴ |s| at most, and those of
 //! |s|² V to 2/√3 · L³ |s|². Since 2 L |s| ≤ L² + |s|², all together are 2/√3 · L³ (5/2 |s|² + 3/2 L²) at most.
 //!
-//! Of the volume alone each product has been rounded 8 times: in three differences, twice in a minor, three times in the
-//! scalar product.
+//! Of the volume alone each product has been rounded 8 times: in three differences, twice in a minor, three times in
+//! the scalar product.
 //!
 //! # In the plane
 //!

@@ -24,8 +24,8 @@ fn ghosts<G: Dimension>(t: &Delaunay<G>) -> Vec<Slot> {
     t.complex.live().filter(|&c| t.complex.cell(c).is_ghost()).collect()
 }
 
-/// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side; `None` if
-/// it meets the boundary of the facet, or there is no ray.
+/// Whether the ray from `o` through `aim` crosses the facet of a ghost cell, of which `o` is on the inner side; `None`
+/// if it meets the boundary of the facet, or there is no ray.
 fn crosses<G: Dimension>(t: &Delaunay<G>, ghost: Slot, o: &G::Point, aim: &G::Point) -> Option<bool> {
     let mut crosses = Some(true);
     for i in 0..G::D {

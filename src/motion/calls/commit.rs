@@ -4,11 +4,12 @@ use crate::delaunay::{Dimension, Shortcut};
 use crate::error::{Error, Result};
 use crate::machine::memory;
 use crate::motion::algorithms::{Algorithm, for_algorithms};
+use crate::motion::calls::editing::Edited;
 use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::motion::ways::attempt::{Edited, Start};
+use crate::motion::ways::attempt::Start;
 use crate::motion::ways::outlook::Outlook;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -62,8 +63,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         Ok(report)
     }
 
-    /// Makes the positions given the next timestamp: as [`move_all`](Self::move_all) and
-    /// [`commit_timestamp`](Self::commit_timestamp). On an error no move is staged, and insertions are staged as before.
+    /// Makes the positions given the next timestamp, in one call for [`move_all`](Self::move_all) and
+    /// [`commit_timestamp`](Self::commit_timestamp), and without a copy of them. On an error no move is staged, and
+    /// insertions are staged as before.
     ///
     /// ```
     /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};

@@ -22,7 +22,8 @@ use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Numbers the present vertices from 0 on, in the order of their ids, and frees what memory serves removed ones
-    /// alone. Returns the new id of each old one, [`NO_VERTEX`](crate::motion::NO_VERTEX) for vertices that have been removed.
+    /// alone. Returns the new id of each old one, [`NO_VERTEX`](crate::motion::NO_VERTEX) for vertices that have been
+    /// removed.
     ///
     /// All else stays: positions, cells with their indices in [`cells`](Self::cells), what is staged, the timestamp.
     /// [`take_changes`](Self::take_changes) goes on as it would have, with vertices under their new ids.
@@ -69,7 +70,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let mut ids = Vec::new();
         memory::reserve_exact(&mut ids, self.mesh.site_of.len())?;
         let first = VertexId::new(0);
-        ids.extend(self.mesh.site_of.iter().map(|&s| if s == SiteId::NONE { VertexId::NONE } else { first }));
+        ids.extend(self.mesh.sites_of_ids().map(|(_, s)| s.map_or(VertexId::NONE, |_| first)));
         for k in 0..self.staged_edits().0 {
             ids[self.coming(k)] = first;
         }

@@ -2,7 +2,8 @@
 //!
 //! A staged insertion gets its id at once; the vertex is present from the commit on. The commit removes and inserts
 //! first, at the positions before, and then moves the vertices by the algorithm in force; where many vertices come or
-//! go, or those that go have more neighbours in all than there are vertices, it rebuilds. Either way all of it is one transaction.
+//! go, or those that go have more neighbours in all than there are vertices, it rebuilds. Either way all of it is one
+//! transaction.
 
 use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Delaunay, Dimension, Insertion};
@@ -13,8 +14,28 @@ use crate::motion::report::CommitReport;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::goals::{Goals, Movers, Moves};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
-use crate::motion::ways::attempt::{Edited, SingleEdits};
 use crate::motion::ways::rebuilding::move_to;
+
+/// What has become of the staged insertions and removals.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::motion) enum Edited {
+    /// There were none, or they have been made one by one; no vertex has moved.
+    WithoutMoves,
+    /// A kernel has been built with them, and with all vertices at their goals.
+    WithMoves,
+}
+
+/// What has become of edits that are made one by one.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SingleEdits {
+    /// All have been made.
+    Made,
+    /// A vertex has left the hyperplane of all others, or more takes longer than a build: a kernel has to be built.
+    /// Some have been made, and have to be undone.
+    NeedBuild,
+}
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// Stages the insertion of vertices, all of them or, on an error, none; returns the id of the first, which those

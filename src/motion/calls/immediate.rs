@@ -167,7 +167,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let Some(tolerances) = self.regions.tolerances() else {
             return false;
         };
-        let (Some(&s), Some(fixed)) = (self.mesh.site_of.get(v), tolerances.fixed().get(v)) else {
+        let (Some(s), Some(fixed)) = (self.mesh.site(vertex), tolerances.fixed().get(v)) else {
             return false;
         };
         let Ok(q) = check_position::<G>("position", 0, position) else {
@@ -178,10 +178,9 @@ impl<G: Dimension> MovingTriangulation<G> {
             && self.filters_by_kept(RegionKind::Tolerance)
             && fixed.holds(&q)
             && !self.staging.is_staged(vertex)
-            && (self.mesh.hidden.count() == 0 || s != SiteId::NONE && !self.mesh.is_shared(s))
+            && !self.mesh.is_shared(s)
             && self.mesh.kernel.is_covered(&q)
             && (!is_auto || self.may_count_within());
-        // A removed vertex has no site.
         let Some(site) = self.mesh.kernel.sites_mut().get_mut(s.index()).filter(|_| may_move) else {
             return false;
         };

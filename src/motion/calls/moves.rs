@@ -2,7 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::ids::{SiteId, VertexId};
+use crate::ids::VertexId;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -24,8 +24,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     ///
     /// # Errors
     /// [`Error::WrongCount`] if the lengths differ; [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
-    /// [`Error::StagedVertex`], [`Error::DuplicateMove`] if a move of the vertex is staged already, [`Error::NotFinite`],
-    /// [`Error::OutOfRange`], [`Error::OutOfMemory`].
+    /// [`Error::StagedVertex`], [`Error::DuplicateMove`] if a move of the vertex is staged already,
+    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::OutOfMemory`].
     pub fn move_vertices(&mut self, vertices: &[VertexId], positions: &[G::Point]) -> Result<()> {
         if vertices.len() != positions.len() {
             return Err(Error::WrongCount {
@@ -58,9 +58,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. One whose insertion is staged
-    /// will be inserted there. Entries of removed vertices are not read, nor are those of vertices whose removal is
-    /// staged.
+    /// Stages moves of the vertices with the first ids: vertex `i` goes to `positions[i]`. One whose insertion is
+    /// staged will be inserted there. Entries of removed vertices are not read, nor are those of vertices whose removal
+    /// is staged.
     ///
     /// # Errors
     /// [`Error::WrongCount`] if there are more `positions` than ids; otherwise as
@@ -80,7 +80,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let before = self.staging.n_listed();
         for (index, position) in positions.iter().enumerate() {
             let vertex = VertexId::at(index);
-            let staged = if self.mesh.site_of[vertex] != SiteId::NONE {
+            let staged = if self.mesh.is_present(vertex) {
                 if self.edits.is_leaving(vertex) {
                     continue;
                 }

@@ -107,8 +107,8 @@ pub(in crate::motion) fn for_bicells<G: Dimension>(
     n
 }
 
-/// The tolerance of the vertex of a site that no two share: the least of the bi-cells around it; 0 without the memory to
-/// look.
+/// The tolerance of the vertex of a site that no two share: the least of the bi-cells around it; 0 without the memory
+/// to look.
 pub(in crate::motion) fn tolerance_of_site<G: Dimension>(kernel: &mut Delaunay<G>, s: SiteId) -> f64 {
     if kernel.gather_star(s).is_err() {
         return 0.0;

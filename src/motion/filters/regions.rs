@@ -1,14 +1,13 @@
 //! Regions: what lets a vertex move without checking its certificates (report, sections 2.3, 2.4).
 //!
-//! | room | keeps |
+//! | store | keeps |
 //! |---|---|
 //! | [`tolerance`](super::tolerance) | a tolerance for each vertex |
 //! | [`safe_regions`](super::safe_regions) | a delimiter for each bi-cell, and tolerances |
 //! | [`watching`](super::watching) | tolerances, and the bi-cells that would make them too small |
 //! | [`slack`](super::slack) | a tolerance for each bi-cell |
 //!
-//! A room has a [`Store`], what it keeps, and a commit. Those of one room are kept at a time, and only while they are
-//! valid.
+//! Each is a [`Store`]. One is kept at a time, and only while it is valid.
 //!
 //! Invariant of what is kept: the ball around the fixed position of each vertex, of its tolerance, is inside all its
 //! safe regions, or, when watching, inside those of the bi-cells that are not watched.
@@ -97,7 +96,7 @@ impl<G: Dimension> Kept<G> {
 }
 
 /// The regions of one kind, if any are kept.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Regions<G: Dimension> {
     kept: Option<Box<Kept<G>>>,
     /// Regions that are no longer valid: their memory serves the next ones of that kind.
@@ -106,12 +105,6 @@ pub(in crate::motion) struct Regions<G: Dimension> {
     changed: Vec<Slot>,
     /// Vertices that have been relocated during the change under way.
     relocated: Vec<VertexId>,
-}
-
-impl<G: Dimension> Default for Regions<G> {
-    fn default() -> Self {
-        Regions { kept: None, spare: None, changed: Vec::new(), relocated: Vec::new() }
-    }
 }
 
 impl<G: Dimension> Regions<G> {

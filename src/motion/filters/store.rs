@@ -5,21 +5,13 @@ use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 
 /// How far vertices go in a timestamp.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(in crate::motion) struct Steps<'s, G: Dimension> {
     /// Positions of the vertices, by id, at the timestamp before or the next one; none if that does not matter.
     pub(in crate::motion) other_positions: &'s [G::Point],
     /// The constant of this name.
     pub(in crate::motion) watched_share: f64,
 }
-
-impl<G: Dimension> Clone for Steps<'_, G> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<G: Dimension> Copy for Steps<'_, G> {}
 
 /// Regions of one kind.
 pub(in crate::motion) trait Store<G: Dimension> {

@@ -5,8 +5,8 @@ use crate::motion::constants::Constants;
 use crate::motion::report::{CommitReport, Evaluations};
 use crate::motion::state::mesh::Mesh;
 
-/// With each doubling of what sites and cells take beyond [`NEAR_BYTES`] repair and placement take longer by this share of
-/// what they do where caches hold all, beside rebuilding, which reads them in order.
+/// With each doubling of what sites and cells take beyond [`NEAR_BYTES`] repair and placement take longer by this share
+/// of what they do where caches hold all, beside rebuilding, which reads them in order.
 const SLOWER_PER_DOUBLING: f64 = 0.11;
 
 /// Bytes of sites and cells below which that makes no difference.

@@ -2,7 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::Result;
-use crate::ids::{SiteId, VertexId};
+use crate::ids::VertexId;
 use crate::machine::memory;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::changes::{Changes, Taken};
@@ -64,7 +64,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let listed = self.list_visibilities(&mut taken);
         let taken = self.taken.insert(taken);
         listed?;
-        self.mesh.views.visibilities().truncate(0);
+        self.mesh.views.visibilities_mut().truncate(0);
         self.mesh.takes_changes = true;
         self.mesh.views.cells_mut(&self.mesh.kernel).expect("they are up to date").end_taking();
         Ok(taken.changes())
@@ -82,12 +82,10 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(());
         }
         taken.reserve_vertices(self.mesh.views.visibilities().len())?;
-        self.mesh.views.visibilities().keep_first();
+        self.mesh.views.visibilities_mut().keep_first();
         for (vertex, was_hidden) in self.mesh.views.visibilities().iter() {
-            let s = self.mesh.site_of[vertex];
-            if s != SiteId::NONE {
-                let is_hidden = self.mesh.kernel.site(s).id != vertex;
-                taken.list_vertex(vertex, was_hidden, is_hidden);
+            if self.mesh.is_present(vertex) {
+                taken.list_vertex(vertex, was_hidden, self.mesh.is_hidden(vertex));
             }
         }
         Ok(())

@@ -94,9 +94,9 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Where a vertex of this id is at the current timestamp, or where it will be inserted if that is staged.
     pub fn position_or_goal(&self, vertex: VertexId) -> Option<G::Point> {
-        match self.mesh.site_of.get(vertex.index()) {
-            Some(&s) if s != SiteId::NONE => Some(self.mesh.kernel.site(s).point),
-            _ => self.edits.insertion(vertex).copied(),
+        match self.mesh.site(vertex) {
+            Some(s) => Some(self.mesh.kernel.site(s).point),
+            None => self.edits.insertion(vertex).copied(),
         }
     }
 
@@ -358,8 +358,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn check_sites(&self) -> std::result::Result<(), Violation> {
         let violation = |message| Err(Violation { level: Level::Structure, message });
         let mut hidden = 0;
-        let vertices = VertexId::range(0..self.mesh.site_of.len()).zip(&self.mesh.site_of);
-        for (v, &s) in vertices.filter(|&(_, &s)| s != SiteId::NONE) {
+        for (v, s) in self.mesh.sites_of_ids().filter_map(|(v, s)| s.map(|s| (v, s))) {
             let site = self.mesh.kernel.site(s);
             if !site.is_live() || site.id > v {
                 let message = format_args!("vertex {v} is at a site of vertex {}", site.id);

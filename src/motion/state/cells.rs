@@ -107,21 +107,6 @@ impl<C: Corners<VertexId>> Scratch<C> {
     }
 }
 
-impl<G: Dimension> Default for Cells<G> {
-    fn default() -> Self {
-        Cells {
-            corners: Vec::new(),
-            neighbours: Vec::new(),
-            index_of: Vec::new(),
-            slots: Vec::new(),
-            orderings: Vec::new(),
-            is_settled: Bits::default(),
-            since_taken: None,
-            scratch: Scratch::default(),
-        }
-    }
-}
-
 /// The vertex ids of a slot's corners.
 #[inline(always)]
 fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> G::Vertices {
@@ -137,6 +122,21 @@ fn ids_of<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> G::Vertices {
 #[inline(always)]
 fn is_finite<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> bool {
     kernel.complex().is_live(slot) && !kernel.complex().cell(slot).is_ghost()
+}
+
+impl<G: Dimension> Default for Cells<G> {
+    fn default() -> Self {
+        Cells {
+            corners: Vec::new(),
+            neighbours: Vec::new(),
+            index_of: Vec::new(),
+            slots: Vec::new(),
+            orderings: Vec::new(),
+            is_settled: Bits::default(),
+            since_taken: None,
+            scratch: Scratch::default(),
+        }
+    }
 }
 
 impl<G: Dimension> Cells<G> {

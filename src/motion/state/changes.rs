@@ -248,8 +248,8 @@ pub struct Changes<'t, C> {
     /// Cells that existed and do not now: the index that each had.
     pub removed: &'t [CellId],
     /// The corners of the removed cells, in the order in which each listed them when the program last took the changes.
-    /// A vertex that was removed before a [compaction](crate::motion::MovingTriangulation::compact) has no id any more: it is
-    /// [`NO_VERTEX`].
+    /// A vertex that was removed before a [compaction](crate::motion::MovingTriangulation::compact) has no id any more:
+    /// it is [`NO_VERTEX`].
     pub removed_corners: &'t [C],
     /// Cells that existed and have another index now: the index that each had.
     pub renumbered_from: &'t [CellId],

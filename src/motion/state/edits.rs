@@ -6,18 +6,12 @@ use crate::ids::VertexId;
 use crate::machine::memory;
 
 /// What waits.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Edits<G: Dimension> {
     insertions: Vec<(VertexId, G::Point)>,
     removals: Vec<VertexId>,
     /// By vertex id, where among the removals it is, [`u32::MAX`] for those that stay; so do ids beyond the end.
     place: Vec<u32>,
-}
-
-impl<G: Dimension> Default for Edits<G> {
-    fn default() -> Self {
-        Edits { insertions: Vec::new(), removals: Vec::new(), place: Vec::new() }
-    }
 }
 
 /// The place among the removals of a vertex that stays.

@@ -13,7 +13,7 @@ use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
 use crate::delaunay::Dimension;
-use crate::ids::{SiteId, VertexId};
+use crate::ids::VertexId;
 use crate::machine::prefetch::CACHE_BYTES;
 use crate::motion::state::mesh::Mesh;
 
@@ -56,8 +56,9 @@ impl Foreseen {
 #[inline(never)]
 fn prefetch_stars_after<G: Dimension>(mesh: &Mesh<G>, vertex: VertexId) {
     for (step, ahead) in AHEAD.into_iter().enumerate() {
-        if let Some(&next) = mesh.site_of.get(vertex.index() + ahead)
-            && next != SiteId::NONE
+        let next = vertex.index() + ahead;
+        if next < mesh.site_of.len()
+            && let Some(next) = mesh.site(VertexId::at(next))
         {
             mesh.kernel.prefetch_star(next, step);
         }

@@ -81,19 +81,11 @@ impl<'p, G: Dimension> Moves<'p, G> {
 }
 
 /// Where the vertices of a commit go, each at a good place.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(in crate::motion) struct Goals<'p, G: Dimension> {
     positions: &'p [G::Point],
     n_movers: usize,
 }
-
-impl<G: Dimension> Clone for Goals<'_, G> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<G: Dimension> Copy for Goals<'_, G> {}
 
 impl<'p, G: Dimension> Goals<'p, G> {
     /// Where a vertex goes, with the sign of zeros made positive.

@@ -2,8 +2,8 @@
 //!
 //! The vertices at a place form a tree whose root, the one of lowest id, represents them. A vertex on level `k` has two
 //! branches: one for the ids below it whose bit `k`, from the lowest bit on, is 0, and one for those where it is 1. On
-//! top of each branch is the lowest of its ids. So the tree is a function of the ids alone, which makes undoing simple: a
-//! vertex is taken out that was put in, and the other way round. It has no more levels than ids have bits, and of ids
+//! top of each branch is the lowest of its ids. So the tree is a function of the ids alone, which makes undoing simple:
+//! a vertex is taken out that was put in, and the other way round. It has no more levels than ids have bits, and of ids
 //! that follow each other the logarithm of their number.
 //!
 //! Most vertices are alone at their place. So nothing is kept until the first vertex is hidden, and then 8 bytes for
@@ -260,8 +260,8 @@ mod tests {
         set
     }
 
-    /// Vertices come to a place and leave it in any order; a set is the oracle. Undone in the opposite order, all is bit
-    /// by bit as it was.
+    /// Vertices come to a place and leave it in any order; a set is the oracle. Undone in the opposite order, all is
+    /// bit by bit as it was.
     #[test]
     fn trees_have_what_sets_have() {
         let rng = &mut Rng::new(7);

@@ -10,27 +10,22 @@ use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
 /// Of whom origins are known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Known {
     /// Of the listed vertices.
+    #[default]
     Listed,
     /// Of every vertex.
     All,
 }
 
 /// Where the vertices of a change were when it began, by id: of those that have moved.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Origins<G: Dimension> {
     positions: Vec<G::Point>,
     /// Vertices that have moved one by one. One that has been taken back in between is listed twice.
     listed: Vec<VertexId>,
     known: Known,
-}
-
-impl<G: Dimension> Default for Origins<G> {
-    fn default() -> Self {
-        Origins { positions: Vec::new(), listed: Vec::new(), known: Known::Listed }
-    }
 }
 
 impl<G: Dimension> Origins<G> {

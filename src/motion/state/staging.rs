@@ -11,7 +11,7 @@ use crate::motion::state::goals::{Movers, Moves};
 ///
 /// Most callers stage all vertices at once. Such a staging is *whole*: it has neither list nor flags until something
 /// asks for them.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Staging<G: Dimension> {
     /// Where the vertices are to go that are staged.
     goals: Vec<G::Point>,
@@ -22,18 +22,6 @@ pub(in crate::motion) struct Staging<G: Dimension> {
     vertices: Vec<VertexId>,
     n_forgotten: usize,
     is_whole: bool,
-}
-
-impl<G: Dimension> Default for Staging<G> {
-    fn default() -> Self {
-        Staging {
-            goals: Vec::new(),
-            is_staged: Vec::new(),
-            vertices: Vec::new(),
-            n_forgotten: 0,
-            is_whole: false,
-        }
-    }
 }
 
 impl<G: Dimension> Staging<G> {

@@ -33,7 +33,7 @@ pub(in crate::motion) struct Counts {
 }
 
 /// What undoing needs beside the kernel's log.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Transaction<G: Dimension> {
     vertices: Vec<VertexBefore>,
     /// Where the vertices were that have moved.
@@ -43,18 +43,6 @@ pub(in crate::motion) struct Transaction<G: Dimension> {
     has_rebuilt: bool,
     /// Whether the cells are worth sorting when all is done.
     wants_order: bool,
-}
-
-impl<G: Dimension> Default for Transaction<G> {
-    fn default() -> Self {
-        Transaction {
-            vertices: Vec::new(),
-            origins: Origins::default(),
-            before: Counts::default(),
-            has_rebuilt: false,
-            wants_order: false,
-        }
-    }
 }
 
 impl<G: Dimension> Transaction<G> {

@@ -41,17 +41,11 @@ impl<G: Dimension> Default for Behind<G> {
 }
 
 /// The arrays, up to date or behind, and what else is kept for programs that read the cells.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Views<G: Dimension> {
     current: OnceLock<Box<Cells<G>>>,
     behind: Mutex<Behind<G>>,
     visibilities: Visibilities,
-}
-
-impl<G: Dimension> Default for Views<G> {
-    fn default() -> Self {
-        Views { current: OnceLock::new(), behind: Mutex::default(), visibilities: Visibilities::default() }
-    }
 }
 
 impl<G: Dimension> Views<G> {
@@ -218,7 +212,12 @@ impl<G: Dimension> Views<G> {
     }
 
     /// Vertices hidden or shown since the program last took the changes.
-    pub(in crate::motion) fn visibilities(&mut self) -> &mut Visibilities {
+    pub(in crate::motion) fn visibilities(&self) -> &Visibilities {
+        &self.visibilities
+    }
+
+    /// Vertices hidden or shown since the program last took the changes, to enter more or forget some.
+    pub(in crate::motion) fn visibilities_mut(&mut self) -> &mut Visibilities {
         &mut self.visibilities
     }
 

@@ -14,10 +14,10 @@
 //!
 //! **Checking everything or not.** Few flips in the last commits announce that most bi-cells have tolerance left. To
 //! compute that of all costs eight sweeps. What is recomputed after that, and watched, is counted and weighed by
-//! measured costs ([`constants`](crate::motion::constants)). When it has cost more than the expensive way would have, by a
-//! share of a computation of all tolerances, the expensive way is taken, and the cheaper one is tried more and more
-//! rarely. In space the way down is repair, slack, watching, without slack where almost nothing changes, and the way
-//! up the same, without slack where much has changed; in the plane a sweep is so cheap that slack would seldom pay.
+//! measured costs ([`constants`](crate::motion::constants)). When it has cost more than the expensive way would have,
+//! by a share of a computation of all tolerances, the expensive way is taken, and the cheaper one is tried more and
+//! more rarely. In space the way down is repair, slack, watching, without slack where almost nothing changes, and the
+//! way up the same, without slack where much has changed; in the plane a sweep is so cheap that slack would seldom pay.
 //! Before watching a sample of the vertices is checked. When what is watched or what is recomputed has cost more than
 //! the other by a share of a computation of all, all tolerances are computed again, so that what is watched follows
 //! from how far the vertices go now.
@@ -44,6 +44,7 @@ use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
+use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::attempt::{Attempt, Start};
 use crate::motion::ways::outlook::Outlook;
@@ -137,17 +138,14 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn move_sites_together(&mut self, moves: &mut Moves<'_, G>) -> Result<()> {
         let (goals, movers) = (moves.checked()?, self.queue_of(moves)?);
         let (mut lower, mut upper) = (self.mesh.kernel.lower(), self.mesh.kernel.upper());
-        let origins = self.mesh.transaction.origins_mut();
-        origins.make_room(self.mesh.site_of.len(), movers.len())?;
+        self.mesh.transaction.origins_mut().make_room(self.mesh.site_of.len(), movers.len())?;
         for &v in &movers {
-            let s = self.mesh.site_of[v];
-            let site = self.mesh.kernel.site(s);
-            if site.id == v {
+            if let Standing::Shown(s) = self.mesh.standing(v) {
                 let goal = goals.of(v);
                 for axis in 0..G::D {
                     (lower[axis], upper[axis]) = (lower[axis].min(goal[axis]), upper[axis].max(goal[axis]));
                 }
-                origins.note(v, site.point);
+                self.mesh.transaction.origins_mut().note(v, self.mesh.kernel.site(s).point);
                 self.mesh.kernel.set_point(s, goal);
             }
         }

@@ -12,8 +12,8 @@ use crate::motion::triangulation::MovingTriangulation;
 use crate::motion::ways::placement::Placed;
 
 impl<G: Dimension> MovingTriangulation<G> {
-    /// The pre-computations for a kind of regions, unless what the last commit has kept is valid. `other_positions` are those
-    /// of [`Steps`].
+    /// The pre-computations for a kind of regions, unless what the last commit has kept is valid. `other_positions` are
+    /// those of [`Steps`].
     pub(in crate::motion) fn prepare_regions(
         &mut self,
         kind: RegionKind,

@@ -1,9 +1,9 @@
 //! All vertices, moved in one loop.
 //!
 //! Block by block goals are checked and copied to where the origins are to be, in the cache next to the processor, and
-//! there exchanged with the positions of the sites. So goals are read once, and origins written once to memory. Vertices
-//! are taken in the order of their ids, and sites are stored in another one, so of a large triangulation they are asked
-//! for in advance.
+//! there exchanged with the positions of the sites. So goals are read once, and origins written once to memory.
+//! Vertices are taken in the order of their ids, and sites are stored in another one, so of a large triangulation they
+//! are asked for in advance.
 //!
 //! Every vertex must have a site of its own: none may be removed, and none hidden.
 //!
@@ -26,7 +26,6 @@ use crate::motion::filters::tolerance::Fixed;
 use crate::motion::state::checking::{copy_checked, differ};
 use crate::motion::state::goals::Moves;
 use crate::motion::state::mesh::Mesh;
-use crate::motion::ways::attempt::Advance;
 use crate::predicates::are_within;
 use crate::simd::{ALL, Avx2, LANES};
 pub(in crate::motion) use on_record::Motion;
@@ -41,6 +40,16 @@ fn exchange<G: Dimension>(point: &mut G::Point, p: &mut G::Point) -> bool {
 
 /// Vertices that are staged at a time: a few kilobytes, and whole lanes.
 const BLOCK: usize = 16 * LANES;
+
+/// What has become of all vertices when those beyond their tolerance are queued.
+#[must_use]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::motion) enum Advance {
+    /// They have moved, this number of them to another position; those beyond are queued.
+    Moved(u64),
+    /// Too many are beyond; none has moved, and none is queued.
+    TooManyBeyond,
+}
 
 /// Tolerances by vertex id, and those vertices that leave theirs, of which there may be `most`.
 pub(in crate::motion) struct Beyond<'b, G: Dimension> {

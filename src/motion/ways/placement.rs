@@ -5,9 +5,7 @@
 //! curve, so that what an insertion reads has been read by the one before. (One in twenty of a million vertices that go
 //! anywhere take half the time so in the plane, and three quarters in space.) In between, some vertices are at their
 //! new and some at their old positions: two may meet that are never at the same place at a timestamp; they share a site
-//! for that while.
-//!
-//! Vertices are placed on one thread.
+//! for that while. All is done by one thread.
 
 use crate::delaunay::order::{Keyed, hilbert_order};
 use crate::delaunay::{Dimension, Insertion, Relocation, Shortcut};

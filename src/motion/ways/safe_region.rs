@@ -11,8 +11,9 @@
 //!     compute and store c_B and r_B
 //! ```
 //!
-//! As in the [tolerance algorithm](crate::motion::ways::tolerance) vertices are placed at the moving positions, and none is
-//! queued twice. With tolerances, the safe region is tested only where the tolerance test fails.
+//! Vertices are placed at the moving positions, and none is queued twice: see the
+//! [tolerance algorithm](crate::motion::ways::tolerance). With tolerances, the safe region is tested only where the
+//! tolerance test fails.
 //!
 //! Cost: a test is a squared distance for each bi-cell of the star; a queued vertex costs as in the tolerance
 //! algorithm.

@@ -7,10 +7,10 @@
 //! if something failed: mend it, as a repair does, and compute the bi-cells of all new cells
 //! ```
 //!
-//! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star recomputed, in
-//! space 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
-//! ([`Slacks`](crate::motion::filters::slack::Slacks)); in return each timestamp looks at all cells, if only at three or four numbers
-//! each.
+//! In the tolerance algorithm, and when watching, a vertex beyond its tolerance has its whole star recomputed, in space
+//! 66 bi-cells, though hardly more than one of them has become tight. Here it is that one alone
+//! ([`Slacks`](crate::motion::filters::slack::Slacks)); in return each timestamp looks at all cells, if only at three
+//! or four numbers each.
 //!
 //! What a timestamp proves is what it proves in [watching](super::watching): read "held" for a bi-cell that
 //! has slack left, "watched" for one that has none.

@@ -37,7 +37,7 @@ use crate::motion::region_kind::RegionKind;
 use crate::motion::report::CommitReport;
 use crate::motion::state::goals::Moves;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::motion::ways::attempt::Advance;
+use crate::motion::ways::moving::Advance;
 use crate::motion::ways::moving::Beyond;
 
 impl<G: Dimension> MovingTriangulation<G> {

@@ -49,8 +49,10 @@ use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::state::mesh::REPLACED_TO_SORT_FIRST;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::motion::ways::attempt::{Advance, Attempt, Mending, Start};
+use crate::motion::ways::attempt::{Attempt, Start};
+use crate::motion::ways::moving::Advance;
 use crate::motion::ways::moving::Beyond;
+use crate::motion::ways::repair::Mending;
 
 /// Watching pays only while less than this share of the vertices is beyond its tolerance.
 const MAX_SHARE_BEYOND: f64 = 0.125;

@@ -58,7 +58,7 @@ pub(in crate::motion) enum Expired {
     TooMany,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Slacks<G: Dimension> {
     margin: Margin,
     /// How far every vertex may still go until the kernel's static filter must cover more.
@@ -80,24 +80,6 @@ pub(in crate::motion) struct Slacks<G: Dimension> {
     /// Cells that are *open*: referred to the present, with odometers in place of deadlines. A bit for each.
     open: Vec<Slot>,
     is_open: Vec<u64>,
-}
-
-impl<G: Dimension> Default for Slacks<G> {
-    fn default() -> Self {
-        Slacks {
-            margin: Margin::default(),
-            room: 0.0,
-            per_length: 0.0,
-            unfit: 0,
-            enough: 0.0,
-            travelled: Vec::new(),
-            entries: Vec::new(),
-            expired: Vec::new(),
-            facets: Vec::new(),
-            open: Vec::new(),
-            is_open: Vec::new(),
-        }
-    }
 }
 
 impl<G: Dimension> Slacks<G> {

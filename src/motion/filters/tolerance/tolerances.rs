@@ -37,19 +37,13 @@ impl<G: Dimension> Fixed<G> {
 }
 
 /// Fixed position and tolerance of each vertex: as far as bi-cells have been allowed to lower it.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Tolerances<G: Dimension> {
     /// No tolerance is greater.
     margin: Margin,
     /// By vertex id, so that what a timestamp reads that changes nothing is one stream. For a site with several
     /// vertices, that of its representative is in force.
     fixed: Vec<Fixed<G>>,
-}
-
-impl<G: Dimension> Default for Tolerances<G> {
-    fn default() -> Self {
-        Tolerances { margin: Margin::default(), fixed: Vec::new() }
-    }
 }
 
 impl<G: Dimension> Tolerances<G> {

@@ -10,16 +10,10 @@ use crate::motion::filters::watching::watched::Watched;
 use crate::predicates::squared_distance;
 
 /// A bi-cell is either watched, and lowers no tolerance, or has lowered those of its vertices.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::motion) struct Watching<G: Dimension> {
     tolerances: Tolerances<G>,
     watched: Watched,
-}
-
-impl<G: Dimension> Default for Watching<G> {
-    fn default() -> Self {
-        Watching { tolerances: Tolerances::default(), watched: Watched::default() }
-    }
 }
 
 impl<G: Dimension> Watching<G> {

@@ -89,9 +89,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// 0 in the plane, and their ids as an array `vertex`.
     ///
     /// # Errors
-    /// [`Error::InvalidName`] if a field is called what XML does not have, or as another one;
-    /// [`Error::WrongCount`] if one has no or too few numbers, or too many; [`Error::OutOfMemory`]; all before the first
-    /// byte; and those of `put`, with which it ends.
+    /// [`Error::InvalidName`] if a field is called what XML does not have, or as another one; [`Error::WrongCount`] if
+    /// one has no or too few numbers, or too many; [`Error::OutOfMemory`]; all before the first byte; and those of
+    /// `put`, with which it ends.
     pub fn write_vtu<E: From<Error>>(
         &self,
         vertex_fields: &[Field<'_>],

@@ -12,6 +12,7 @@ use crate::machine::prefetch::prefetch;
 use crate::motion::reading::query::cells_at;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::marks::Bits;
+use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// The share of the vertices from which on a pass over all cells is faster than their stars: of 100,000 vertices 0.03
@@ -54,10 +55,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     self.mesh.kernel.prefetch_star(self.mesh.site_of[next], step);
                 }
             }
-            let s = self.mesh.site_of[vertex];
-            if self.mesh.kernel.site(s).id != vertex {
-                continue;
-            }
+            let Standing::Shown(s) = self.mesh.standing(vertex) else { continue };
             star.clear();
             self.mesh.kernel.list_star(s, &mut star, |slot| prefetch(index_of, slot.index()))?;
             memory::reserve(&mut list, star.as_slice().len())?;

@@ -3,12 +3,12 @@
 //! # Idea
 //!
 //! Let *a* be the place of the vertex, or that in the box which is nearest to it. A cell in the box consists of the
-//! pyramids from *a* to its facets and to what it has of the faces of the box. That, in its face, consists of those from
-//! the foot of *a* on the face to sides of Voronoi facets and to what the cell has of the edges of the box; and that of
-//! what is between the foot on the edge and corners of facets, or the end of the edge. With heights as factors, each of
-//! these is one term; where *a* is on the other side, it is negative. So a cell is a sum over its facets, their sides
-//! and corners on the box, and those corners of the box that are in it: nothing has to be put together, the terms are
-//! exact but for the rounding of corners, and there are as few as there are corners.
+//! pyramids from *a* to its facets and to what it has of the faces of the box. That, in its face, consists of those
+//! from the foot of *a* on the face to sides of Voronoi facets and to what the cell has of the edges of the box; and
+//! that of what is between the foot on the edge and corners of facets, or the end of the edge. With heights as factors,
+//! each of these is one term; where *a* is on the other side, it is negative. So a cell is a sum over its facets, their
+//! sides and corners on the box, and those corners of the box that are in it: nothing has to be put together, the terms
+//! are exact but for the rounding of corners, and there are as few as there are corners.
 //!
 //! A corner of the box is in the cell of the vertex that is nearest to it. Faces are where cutting facets assumes them
 //! (`cut_facets.rs`): a little farther out, the later the more. So of vertices equally near, it is the one that is

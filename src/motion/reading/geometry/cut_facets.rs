@@ -3,9 +3,9 @@
 //! # Idea
 //!
 //! In its bisector a facet is a convex polygon; in the plane, a piece of a line. Its sides are where it meets the cells
-//! of the vertices of the edge's link, in the order of these. One that is unbounded has a side at infinity. Each face of
-//! the box in turn cuts off what is beyond it: corners are kept or not, and where the one follows the other, there is a
-//! new corner on the face.
+//! of the vertices of the edge's link, in the order of these. One that is unbounded has a side at infinity. Each face
+//! of the box in turn cuts off what is beyond it: corners are kept or not, and where the one follows the other, there
+//! is a new corner on the face.
 //!
 //! A corner is known by the two sides that meet in it, so that whether it is beyond a face is a sign of a polynomial in
 //! the coordinates of vertices and the box. These signs are exact ([`Meeting`]). A corner *on* a face is not beyond it.
@@ -17,9 +17,9 @@
 //!
 //! # Corners at infinity
 //!
-//! One has a direction, of which the signs of the coordinates are known. A face along which that goes has all or nothing
-//! of the side that leads to the corner; if none does, as in the middle of a plane that is a facet as a whole, either
-//! will do, unless the plane is parallel to the face.
+//! One has a direction, of which the signs of the coordinates are known. A face along which that goes has all or
+//! nothing of the side that leads to the corner; if none does, as in the middle of a plane that is a facet as a whole,
+//! either will do, unless the plane is parallel to the face.
 //!
 //! # Cost
 //!
@@ -171,8 +171,8 @@ impl CutFacet {
         self.push(left)
     }
 
-    /// Makes it the facet between two vertices of a set that is in one hyperplane, whole. In space, `others` are at most
-    /// two, the cells of which it meets.
+    /// Makes it the facet between two vertices of a set that is in one hyperplane, whole. In space, `others` are at
+    /// most two, the cells of which it meets.
     pub(super) fn fill_flat(&mut self, edge: [Vector; 2], others: &[Vector], is_plane: bool) -> Result<()> {
         self.begin(edge, is_plane);
         let infinity = Side::AtInfinity;
@@ -389,9 +389,9 @@ impl CutFacet {
         }
     }
 
-    /// What it adds to the area or volume of the cell of its edge's first end: the pyramid above it, and those above its
-    /// sides and corners on faces of the box, as `cut_cells.rs` has them. All have their apex at the same place in the
-    /// box.
+    /// What it adds to the area or volume of the cell of its edge's first end: the pyramid above it, and those above
+    /// its sides and corners on faces of the box, as `cut_cells.rs` has them. All have their apex at the same place in
+    /// the box.
     pub(super) fn pyramids(&self, clip: &Clip, apex: &Vector) -> f64 {
         let n = self.places.len();
         let from_apex = |k: usize| minus(&self.places[k % n], apex);

@@ -1,8 +1,8 @@
 //! Voronoi cells of vertices in one hyperplane, cut by a box.
 //!
-//! While all vertices are on a line, or in space in a plane, there are no cells that tell which Voronoi cells meet. With
-//! further places, as few as make the vertices span the dimension, there are: those of a triangulation of all. In it,
-//! the sphere of a cell of vertices in a hyperplane and one other place meets the hyperplane in the sphere of the
+//! While all vertices are on a line, or in space in a plane, there are no cells that tell which Voronoi cells meet.
+//! With further places, as few as make the vertices span the dimension, there are: those of a triangulation of all. In
+//! it, the sphere of a cell of vertices in a hyperplane and one other place meets the hyperplane in the sphere of the
 //! vertices alone, so it holds no other vertex: these cells are a Delaunay triangulation of the vertices in their
 //! hyperplane. What is said of the further places is left out.
 
@@ -36,7 +36,8 @@ fn missing_axes<G: Dimension>(places: &[Vector]) -> [bool; 3] {
     }
 }
 
-/// The same places, and others with which they span the dimension: those that are moved by their own size.
+/// Places in one hyperplane, and others with which they span the dimension: those that are moved by the size of the
+/// set.
 fn spanning<G: Dimension>(mut places: Vec<G::Point>) -> Result<Vec<G::Point>> {
     let mut in_space_all = Vec::new();
     memory::collect(&mut in_space_all, places.iter().map(in_space::<G>))?;

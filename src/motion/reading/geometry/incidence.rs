@@ -96,7 +96,7 @@ impl<'t, G: Dimension> Neighbours<'t, G> {
         }
     }
 
-    /// As [`append`](Self::append), to a list that is cleared first.
+    /// Clears a list, and [appends](Self::append) to it.
     #[inline(always)]
     pub(super) fn list<T: Ord>(
         &mut self,

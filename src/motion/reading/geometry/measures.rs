@@ -71,7 +71,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.measures_of_all(G::Point::circumsphere)
     }
 
-    /// As [`circumspheres`](Self::circumspheres), of the cells of these indices, in their order.
+    /// Circumcentre and squared circumradius of the cells of these indices, in their order, with the errors that
+    /// [`circumspheres`](Self::circumspheres) documents.
     ///
     /// Rounding depends on the order in which the kernel has the corners of a cell. That may change when the cell is
     /// removed and created again between two readings, so a value that is kept meanwhile agrees with that of a full
@@ -104,7 +105,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.measures_of_all(G::Point::volume)
     }
 
-    /// As [`volumes`](Self::volumes), of the cells of these indices, in their order.
+    /// Area or volume of the cells of these indices, in their order, with the errors that [`volumes`](Self::volumes)
+    /// documents.
     ///
     /// # Errors
     /// [`Error::NoSuchCell`], [`Error::OutOfMemory`].
@@ -138,7 +140,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         )
     }
 
-    /// As [`mask_by_circumradius`](Self::mask_by_circumradius), of the cells of these indices, in their order.
+    /// Whether the squared circumradius of each cell of these indices is at most `squared_radius`, decided exactly; in
+    /// their order.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] if the bound is negative or NaN, [`Error::NoSuchCell`], [`Error::OutOfMemory`].

@@ -1,5 +1,5 @@
-//! Geometry that programs compute from the cells: read from the arrays of [`cells`](crate::motion::MovingTriangulation::cells)
-//! and the positions, without any change to the triangulation.
+//! Geometry that programs compute from the cells: read from the arrays of
+//! [`cells`](crate::motion::MovingTriangulation::cells) and the positions, without any change to the triangulation.
 //!
 //! | file | what |
 //! |---|---|

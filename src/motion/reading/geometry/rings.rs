@@ -113,7 +113,7 @@ impl Ring {
         }
     }
 
-    /// Makes the order that of one who looks from the end of the edge to its start and goes counter-clockwise; in the
+    /// Makes the order counter-clockwise, seen from the end of the edge towards its start; in the
     /// plane, lists the cell on the left of the edge first, if there is one. Whether there is one.
     pub(super) fn orient<G: Dimension>(&mut self, cells: &Cells<G>, [v, w]: [VertexId; 2]) -> bool {
         let row = cells.corners()[self.cells[0]].as_ref();

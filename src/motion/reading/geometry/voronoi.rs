@@ -82,8 +82,8 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
         self.ring.is_closed && sides != 0
     }
 
-    /// Twice the area of the polygon of the circumcentres around an edge times the length of the edge; in the plane, the
-    /// square of the distance between the two centres.
+    /// Twice the area of the polygon of the circumcentres around an edge times the length of the edge; in the plane,
+    /// the square of the distance between the two centres.
     #[inline(always)]
     fn rounded_measure(&self, along: &Vector) -> f64 {
         let centre = |cell: CellId| in_space::<G>(&self.centres[cell]);
@@ -115,7 +115,8 @@ impl<'t, G: Dimension> Voronoi<'t, G> {
         [if G::D == 2 { rounded.sqrt() } else { 0.5 * rounded / length }, length]
     }
 
-    /// The same where numbers are too large or too small for their products.
+    /// Length or area of the polygon, and the length of its edge, where numbers are too large or too small for their
+    /// products.
     #[cold]
     #[inline(never)]
     fn polygon_scaled(&self, along: &Vector) -> [f64; 2] {

@@ -5,7 +5,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::ids::{CellId, SiteId, VertexId};
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::Clip;
 use crate::motion::reading::geometry::incidence::Neighbours;
@@ -43,10 +43,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.voronoi_volumes_monitored(clip, &mut |_| true)
     }
 
-    /// As [`voronoi_volumes`](Self::voronoi_volumes). `monitor` is called now and then with the fraction done.
+    /// The [`voronoi_volumes`](Self::voronoi_volumes), with a call of `monitor` now and then, which is told the
+    /// fraction done.
     ///
     /// # Errors
-    /// As [`voronoi_volumes`](Self::voronoi_volumes), and [`Error::Cancelled`] if `monitor` returns `false`.
+    /// [`Error::Cancelled`] if `monitor` returns `false`; [`Error::NotFinite`], [`Error::OutOfRange`] and
+    /// [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
     pub fn voronoi_volumes_monitored(
         &self,
         clip: Option<[&G::Point; 2]>,
@@ -55,7 +57,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         let clip = clip.map(checked::<G>).transpose()?;
         let mut volumes = Vec::new();
         memory::reserve_exact(&mut volumes, self.id_count())?;
-        volumes.extend(self.mesh.site_of.iter().map(|&s| if s == SiteId::NONE { f64::NAN } else { 0.0 }));
+        volumes.extend(self.mesh.sites_of_ids().map(|(_, s)| if s.is_some() { 0.0 } else { f64::NAN }));
         let progress = &mut Progress::new(monitor, self.expected_work(clip.is_some()));
         match clip {
             None if self.cell_count() == 0 => {
@@ -121,15 +123,17 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// times the perimeter of the facet.
     ///
     /// # Errors
-    /// As [`voronoi_volumes`](Self::voronoi_volumes).
+    /// [`Error::NotFinite`], [`Error::OutOfRange`] and [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
     pub fn voronoi_facets(&self, clip: Option<[&G::Point; 2]>) -> Result<Vec<f64>> {
         self.voronoi_facets_monitored(clip, &mut |_| true)
     }
 
-    /// As [`voronoi_facets`](Self::voronoi_facets). `monitor` is called now and then with the fraction done.
+    /// The [`voronoi_facets`](Self::voronoi_facets), with a call of `monitor` now and then, which is told the fraction
+    /// done.
     ///
     /// # Errors
-    /// As [`voronoi_facets`](Self::voronoi_facets), and [`Error::Cancelled`] if `monitor` returns `false`.
+    /// [`Error::Cancelled`] if `monitor` returns `false`; [`Error::NotFinite`], [`Error::OutOfRange`] and
+    /// [`Error::InvalidValue`] for the box, [`Error::OutOfMemory`].
     pub fn voronoi_facets_monitored(
         &self,
         clip: Option<[&G::Point; 2]>,

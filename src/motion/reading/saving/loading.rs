@@ -4,7 +4,7 @@ use crate::complex::Corners;
 use crate::damage::{Damage, LoadError};
 use crate::delaunay::{Delaunay, Dimension, Rows};
 use crate::error::{Error, Result};
-use crate::ids::{CellId, Id, SiteId, VertexId};
+use crate::ids::{CellId, Id, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
@@ -58,8 +58,8 @@ impl<'d> Reader<'d> {
     }
 }
 
-/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere; returns how
-/// many are present.
+/// Checks where the present vertices are, and what stands for their places, and that all others are nowhere; returns
+/// how many are present.
 fn check_vertices<G: Dimension>(
     positions: &[G::Point],
     representatives: &[VertexId],
@@ -173,7 +173,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.edits.reserve_insertions(insertions.len())?;
         let mut last = None;
         for (index, (&vertex, position)) in insertions.iter().zip(coming).enumerate() {
-            let is_free = self.mesh.site_of.get(vertex.index()) == Some(&SiteId::NONE);
+            let is_free = self.mesh.is_absent(vertex);
             if !is_free || last.is_some_and(|last| vertex <= last) {
                 return Err(Damage::Insertion { vertex }.into());
             }

@@ -35,8 +35,8 @@ impl<'d> Saved<'d> {
     /// Bytes of the header.
     pub const HEADER: usize = header::SIZE;
 
-    /// The size of all data by their header, or as much of it as there is, if that is right and there are as many bytes:
-    /// so much is to be read.
+    /// The size of all data by their header, or as much of it as there is, if that is right and there are as many
+    /// bytes: so much is to be read.
     ///
     /// # Errors
     /// What is wrong with the header.

@@ -2,7 +2,7 @@
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::ids::{CellId, SiteId, VertexId};
+use crate::ids::{CellId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
 use crate::motion::reading::saving::header::Header;
@@ -58,8 +58,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         chunks.write(self.header().bytes())?;
         let mut nowhere = G::Point::default();
         (0..G::D).for_each(|axis| nowhere[axis] = f64::NAN);
-        for &s in &self.mesh.site_of {
-            chunks.point::<G>(if s == SiteId::NONE { &nowhere } else { &self.mesh.kernel.site(s).point })?;
+        for (_, s) in self.mesh.sites_of_ids() {
+            chunks.point::<G>(s.map_or(&nowhere, |s| &self.mesh.kernel.site(s).point))?;
         }
         self.staged_vertices().try_for_each(|v| chunks.point::<G>(self.staging.goal(v)))?;
         insertions.iter().try_for_each(|(_, point)| chunks.point::<G>(point))
@@ -72,8 +72,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         insertions: &[(VertexId, G::Point)],
         chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
     ) -> Result<(), E> {
-        for &s in &self.mesh.site_of {
-            let first = if s == SiteId::NONE { VertexId::NONE } else { self.mesh.kernel.site(s).id };
+        for (_, s) in self.mesh.sites_of_ids() {
+            let first = s.map_or(VertexId::NONE, |s| self.mesh.kernel.site(s).id);
             chunks.numbers(&[first.get()])?;
         }
         cells.corners.iter().try_for_each(|row| chunks.numbers(VertexId::numbers_of(row.as_ref())))?;

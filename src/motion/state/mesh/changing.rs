@@ -9,8 +9,8 @@
 //!
 //! What is kept for undoing: the rows of cells and the sites that were removed, added or renamed
 //! ([`Delaunay::begin`](crate::delaunay::Delaunay::begin)), the site of each vertex that came to or left a place, and
-//! with whom, and where the vertices were that have moved ([`origins`](crate::motion::state::origins)). A
-//! [rebuilding](crate::motion::ways::rebuilding) makes a new kernel beside the old one, which stays as it is until that is complete.
+//! with whom, and where the vertices were that have moved ([`origins`](crate::motion::state::origins)). A rebuilding
+//! makes a new kernel beside the old one, which stays as it is until that is complete.
 //!
 //! Memory is reserved before a change, so [`undo`](Mesh::undo) needs none, and cannot fail.
 
@@ -29,7 +29,7 @@ impl<G: Dimension> Mesh<G> {
         self.kernel.begin()?;
         self.transaction.begin(Counts {
             present: self.n_present,
-            visibilities: self.views.visibilities().shortened_len(self.site_of.len()),
+            visibilities: self.views.visibilities_mut().shortened_len(self.site_of.len()),
         });
         Ok(())
     }
@@ -69,7 +69,7 @@ impl<G: Dimension> Mesh<G> {
         }
         let before = self.transaction.before();
         self.n_present = before.present;
-        self.views.visibilities().truncate(before.visibilities);
+        self.views.visibilities_mut().truncate(before.visibilities);
         self.kernel.undo();
         self.transaction.origins().put_back(&mut self.kernel, &self.site_of);
     }

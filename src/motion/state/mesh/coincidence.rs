@@ -1,5 +1,5 @@
-//! Vertices at the same place: the lowest id represents it, the others are [hidden](crate::motion::state::hidden) until they move
-//! apart.
+//! Vertices at the same place: the lowest id represents it, the others are [hidden](crate::motion::state::hidden) until
+//! they move apart.
 
 use crate::delaunay::{Delaunay, Dimension, Place};
 use crate::error::{Error, Result};
@@ -7,7 +7,7 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
 use crate::motion::options::CoincidencePolicy;
 use crate::motion::state::hidden::Hidden;
-use crate::motion::state::mesh::Mesh;
+use crate::motion::state::mesh::{Mesh, Standing};
 use crate::motion::state::transaction::{Event, VertexBefore};
 
 impl<G: Dimension> Mesh<G> {
@@ -15,11 +15,6 @@ impl<G: Dimension> Mesh<G> {
     #[inline(always)]
     pub(in crate::motion) fn is_shared(&self, s: SiteId) -> bool {
         self.hidden.count() != 0 && self.hidden.is_followed(self.kernel.site(s).id)
-    }
-
-    /// Whether a vertex that is present is hidden.
-    pub(in crate::motion) fn is_hidden(&self, vertex: VertexId) -> bool {
-        self.hidden.count() != 0 && self.kernel.site(self.site_of[vertex]).id != vertex
     }
 
     /// Lets a vertex that has no site of its own join another's.
@@ -96,7 +91,7 @@ impl<G: Dimension> Mesh<G> {
         if !self.takes_changes {
             return Ok(());
         }
-        self.views.visibilities().note(vertex, was_hidden)
+        self.views.visibilities_mut().note(vertex, was_hidden)
     }
 
     /// Notes the vertices that a new kernel hides and the present one does not, or the other way round. Insertions that
@@ -133,8 +128,8 @@ impl<G: Dimension> Mesh<G> {
             return Ok(spread);
         }
         memory::reserve_exact(&mut spread, self.hidden.count())?;
-        for (v, &s) in VertexId::range(0..self.site_of.len()).zip(&self.site_of) {
-            if s != SiteId::NONE && self.kernel.site(s).id != v {
+        for (v, standing) in self.standings() {
+            if let Standing::Hidden(s) = standing {
                 spread.push((v, next.add_site(self.kernel.site(s).point, v)?));
             }
         }

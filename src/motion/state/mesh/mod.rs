@@ -1,14 +1,15 @@
 //! The vertices, the kernel that triangulates them, and what undoes a change of both.
 //!
 //! Vertices that share a place share a site; which of them is seen is in [`coincidence`]. A change is begun, and then
-//! published or undone ([`changing`]).
+//! published or undone ([`changing`]). Whether a vertex is there, and seen, is asked in [`standing`].
 
 mod changing;
 mod coincidence;
+mod standing;
 
 use crate::delaunay::{Delaunay, Dimension, Merge};
 use crate::error::{Error, Result};
-use crate::ids::{SiteId, VertexId};
+use crate::ids::SiteId;
 use crate::machine::memory;
 use crate::motion::constants::{Constants, TABLE};
 use crate::motion::options::CoincidencePolicy;
@@ -17,6 +18,8 @@ use crate::motion::state::hidden::Hidden;
 use crate::motion::state::transaction::Transaction;
 use crate::motion::state::views::Views;
 use crate::predicates::exact_calls;
+
+pub(in crate::motion) use standing::Standing;
 
 /// Before the tolerances of all bi-cells are computed, cells are sorted again if this many times as many as there are
 /// have been replaced: the computation takes several times as long as sorting, and less where cells are sorted.
@@ -76,11 +79,6 @@ impl<G: Dimension> Mesh<G> {
             constants: self.constants,
             takes_changes: self.takes_changes,
         })
-    }
-
-    /// Whether there is a vertex of this id.
-    pub(in crate::motion) fn is_present(&self, vertex: VertexId) -> bool {
-        self.site_of.get(vertex.index()).is_some_and(|&s| s != SiteId::NONE)
     }
 
     /// Finds the site of each vertex.

@@ -14,8 +14,8 @@ use crate::simd::{Avx2, LANES, Lanes};
 const MOVED_AT_LEAST: usize = 1 << 14;
 
 impl<G: Dimension> Mesh<G> {
-    /// Moves all vertices, on several threads where that pays; returns how many goals differ from the places before. The
-    /// origins of all are known afterwards, also after the error that one of the goals is bad.
+    /// Moves all vertices, on several threads where that pays; returns how many goals differ from the places before.
+    /// The origins of all are known afterwards, also after the error that one of the goals is bad.
     pub(in crate::motion) fn move_everything(&mut self, moves: &mut Moves<'_, G>) -> Result<u64> {
         let n_threads = self.kernel.threads().for_work(self.site_of.len(), MOVED_AT_LEAST, 256);
         let origins = self.transaction.origins_mut().of_all_mut(self.site_of.len())?;

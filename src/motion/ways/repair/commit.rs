@@ -40,7 +40,8 @@ use crate::motion::state::mesh::Mesh;
 use crate::motion::state::places::At;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::motion::ways::attempt::{Mending, Prospect, Start};
+use crate::motion::ways::attempt::Start;
+use crate::motion::ways::repair::{Mending, Prospect};
 use crate::predicates::exact_calls;
 
 /// Times that flips may be stuck before the triangulation is rebuilt.

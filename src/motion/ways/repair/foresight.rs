@@ -26,11 +26,11 @@ use crate::error::Result;
 use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::motion::ways::attempt::Prospect;
+use crate::motion::ways::repair::Prospect;
 use crate::predicates::exact_calls;
 
-/// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random points need
-/// none, those of a sheared lattice about one.)
+/// There are ties where a sweep evaluates more than this number of signs exactly for each finite cell. (Random points
+/// need none, those of a sheared lattice about one.)
 const EXACT_OF_TIES: f64 = 0.1;
 
 /// How many times the limit a sample has to find to be believed: about the error of a small one.

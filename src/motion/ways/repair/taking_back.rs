@@ -9,7 +9,7 @@ use crate::machine::prefetch::prefetch;
 use crate::motion::state::places::At;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::motion::ways::attempt::Prospect;
+use crate::motion::ways::repair::Prospect;
 use crate::predicates::squared_distance;
 
 /// Cells between those of which one thing and the next are asked for.
