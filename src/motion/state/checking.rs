@@ -11,6 +11,7 @@ pub(in crate::motion) fn differ<G: Dimension>(p: &G::Point, q: &G::Point) -> boo
 }
 
 /// Copies positions, with the sign of zeros made positive; `false` if one is bad.
+#[inline(always)]
 pub(in crate::motion) fn copy_checked<G: Dimension>(to: &mut [G::Point], positions: &[G::Point]) -> bool {
     let mut bad = 0u64;
     for (to, &value) in G::Point::flattened_mut(to).iter_mut().zip(G::Point::flattened(positions)) {

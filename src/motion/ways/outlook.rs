@@ -51,9 +51,10 @@ impl<G: Dimension> Mesh<G> {
         let (n, are_all) = (self.n_present, vertices.len() == self.n_present);
         let sites = self.kernel.sites();
         let is_far = self.kernel.is_far();
-        let mut ahead = vertices.clone().skip(AHEAD);
-        let mut seen = Seen::<G> { common: None, n_moving: 0 };
-        for (k, v) in vertices.enumerate() {
+        let n_at_rest = self.leading_at_rest(vertices.clone(), goals);
+        let mut seen = Seen::<G> { common: (n_at_rest > 0).then(G::Point::default), n_moving: 0 };
+        let mut ahead = vertices.clone().skip(n_at_rest + AHEAD);
+        for (k, v) in vertices.enumerate().skip(n_at_rest) {
             if is_far && let Some(next) = ahead.next() {
                 prefetch(sites, self.site_of[next].index());
             }
@@ -69,6 +70,25 @@ impl<G: Dimension> Mesh<G> {
             Seen { n_moving, .. } if self.constants.are_few(n_moving, n) => Outlook::FewMove,
             _ => Outlook::Unknown,
         }
+    }
+}
+
+impl<G: Dimension> Mesh<G> {
+    /// How many of these vertices, from the first on, are where they are to go.
+    #[inline(always)]
+    fn leading_at_rest(&self, vertices: impl Iterator<Item = VertexId> + Clone, goals: &[G::Point]) -> usize {
+        let sites = self.kernel.sites();
+        let is_there = |v: VertexId| sites[self.site_of[v]].point == goals[v];
+        if !self.kernel.is_far() {
+            return vertices.take_while(|&v| is_there(v)).count();
+        }
+        let mut ahead = vertices.clone().skip(AHEAD);
+        let announced = vertices.inspect(|_| {
+            if let Some(next) = ahead.next() {
+                prefetch(sites, self.site_of[next].index());
+            }
+        });
+        announced.take_while(|&v| is_there(v)).count()
     }
 }
 
