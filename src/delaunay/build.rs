@@ -27,13 +27,14 @@ pub struct Merge {
 /// Insertions between two calls of a monitor, unless they take much [work](ASKED_EVERY).
 const MONITORED: usize = 1024;
 
-/// Number of distances in a sample.
+/// Distances of sites next to each other in storage of which the mean is taken.
 const STRIDES: usize = 1024;
 
-/// Pairs of sites in another sample.
+/// Pairs of sites whose distances tell whether the static filter is weak.
 const SAMPLED_PAIRS: usize = 64;
 
-/// The static bound decides little where it exceeds this share of the determinant of a cell as large as the spacing.
+/// The static filter is weak, as it decides little, where its bound exceeds this share of the determinant of a cell as
+/// large as the spacing.
 const WEAK_SHARE: f64 = 1.0 / 256.0;
 
 /// From this number on, cells do not fit in a core's own cache.
