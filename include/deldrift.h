@@ -49,7 +49,8 @@
  * Errors. Functions return a deldrift_status, DELDRIFT_OK being 0. A call that fails has no effect: what can be asked
  * about the triangulation is as it was, what is staged included, and outputs are not written (except the count of a
  * buffer that is too small). But views end as if it had not failed, and deldrift_memory_bytes may tell more than before,
- * as room that was made is kept for the next call. deldrift_last_error gives the details. Nothing is printed, and no exception leaves the library.
+ * as room that was made is kept for the next call. deldrift_last_error gives the details. Nothing is printed, and no
+ * exception leaves the library.
  *
  * Besides the errors named with each function, every function that takes a triangulation may return
  * DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUSY (called from a callback of a call
@@ -640,8 +641,8 @@ deldrift_status deldrift_commit_timestamp(deldrift_triangulation *t,
 ///
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
-/// removal is staged, are not read. Read during the call only. report: receives what was done; may be NULL. Ends all
-/// views.
+/// removal is staged, are not read. They are read during the call only, which may be up to its end: neither a callback nor
+/// another thread may change them before it returns. report: receives what was done; may be NULL. Ends all views.
 ///
 /// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///

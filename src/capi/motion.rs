@@ -246,8 +246,8 @@ pub unsafe extern "C" fn deldrift_commit_timestamp(
 ///
 /// positions: count points, one for each id (count must be deldrift_id_count, those of staged insertions included). A
 /// vertex whose insertion is staged is inserted where its entry says; entries of removed vertices, and of those whose
-/// removal is staged, are not read. Read during the call only. report: receives what was done; may be NULL. Ends all
-/// views.
+/// removal is staged, are not read. They are read during the call only, which may be up to its end: neither a callback nor
+/// another thread may change them before it returns. report: receives what was done; may be NULL. Ends all views.
 ///
 /// Cost: n + m, and that of deldrift_commit_timestamp for what has moved.
 ///

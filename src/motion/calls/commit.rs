@@ -148,3 +148,48 @@ macro_rules! commit_by {
 }
 
 for_algorithms!(commit_by);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delaunay::{Level, Plane, Space};
+    use crate::ids::VertexId;
+    use crate::motion::options::Options;
+    use crate::motion::state::goals::Movers;
+    use crate::random::Rng;
+
+    /// Memory that is lent is the program's: what a callback has written there after the check is refused where it is
+    /// read again, and all is undone.
+    fn goals_that_turn_bad_are_refused<G: Dimension>() {
+        let rng = &mut Rng::new(7);
+        let mut random = || {
+            let mut points = vec![G::Point::default(); 300];
+            points.iter_mut().for_each(|p| (0..G::D).for_each(|axis| p[axis] = rng.unit()));
+            points
+        };
+        let (here, mut goals) = (random(), random());
+        goals[200][G::D - 1] = f64::NAN;
+        let vertices: Vec<_> = VertexId::range(0..300).collect();
+        for algorithm in [Algorithm::PlacementFlips, Algorithm::Placement, Algorithm::Tolerance] {
+            for movers in [Movers::All, Movers::Listed(&vertices)] {
+                let options = Options { algorithm, ..Options::default() };
+                let mut t = MovingTriangulation::<G>::new(&here, options).expect("room");
+                // These count as checked.
+                let refused = t.commit(&mut Moves::staged(&goals, movers)).expect_err("one is no number");
+                assert!(matches!(refused, Error::NotFinite { index: 200, .. }), "{algorithm:?}: {refused:?}");
+                assert!(vertices.iter().all(|&v| t.position(v) == Ok(here[v.index()])), "{algorithm:?}");
+                assert_eq!((t.timestamp(), t.validate(Level::Delaunay)), (0, Ok(())), "{algorithm:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn goals_that_turn_bad_are_refused_in_the_plane() {
+        goals_that_turn_bad_are_refused::<Plane>();
+    }
+
+    #[test]
+    fn goals_that_turn_bad_are_refused_in_space() {
+        goals_that_turn_bad_are_refused::<Space>();
+    }
+}

@@ -11,9 +11,9 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::prefetch::prefetch;
-use crate::motion::state::checking::{are_good, first_bad};
+use crate::motion::state::checking::{are_good, check_position, first_bad};
 
-/// Whom a commit moves.
+/// Which vertices a commit moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::motion) enum Movers<'p> {
     /// Every vertex; none has been removed.
@@ -31,7 +31,7 @@ pub(in crate::motion) struct Moves<'p, G: Dimension> {
 }
 
 impl<'p, G: Dimension> Moves<'p, G> {
-    /// Of all vertices, to positions that nobody has looked at.
+    /// Of all vertices, to positions that have not been looked at.
     pub(in crate::motion) fn lent(positions: &'p [G::Point]) -> Self {
         Moves { goals: positions, movers: Movers::All, are_checked: false }
     }
@@ -41,7 +41,7 @@ impl<'p, G: Dimension> Moves<'p, G> {
         Moves { goals, movers, are_checked: true }
     }
 
-    /// Whom they move.
+    /// Which vertices they move.
     pub(in crate::motion) fn movers(&self) -> Movers<'p> {
         self.movers
     }
@@ -94,6 +94,13 @@ impl<'p, G: Dimension> Goals<'p, G> {
         let mut goal = self.positions[vertex];
         (0..G::D).for_each(|axis| goal[axis] += 0.0);
         goal
+    }
+
+    /// Where a vertex goes, looked at once more: where the array is lent, a callback of the program may have written to it
+    /// since the check.
+    #[inline(always)]
+    pub(in crate::motion) fn read(self, vertex: VertexId) -> Result<G::Point> {
+        check_position::<G>("positions", vertex.index(), &self.positions[vertex])
     }
 
     /// By vertex id, where they go that move. Zeros may be negative.

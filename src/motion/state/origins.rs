@@ -1,15 +1,15 @@
 //! Where vertices were that a commit has moved.
 //!
-//! Every vertex that is moved is noted here first, or with all others. A vertex that is taken back has its origin here,
-//! certificates are compared with what they were there, and undoing puts all back. Where they go is in
-//! [`goals`](super::goals), for as long as the commit takes.
+//! Every vertex that is moved is noted here first, or with all others. A vertex that is taken back goes to its origin, a
+//! check of certificates may take them to have held at the origins, and undoing puts all vertices back. Where vertices go
+//! is in [`goals`](super::goals), for as long as the commit takes.
 
 use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
 use crate::ids::{SiteId, VertexId};
 use crate::machine::memory;
 
-/// Of whom origins are known.
+/// Of which vertices origins are known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Known {
     /// Of the listed vertices.

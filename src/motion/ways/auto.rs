@@ -95,7 +95,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             self.auto.note_rebuild([before, after]);
             return Ok(());
         }
-        let can_check_less = moves.are_of_all() && self.mesh.hidden.count() == 0;
+        let can_check_less = self.mesh.moves_in_one_loop(moves);
         let start = match self.commit_by_scope(can_check_less, moves, report)? {
             Attempt::Committed => return Ok(()),
             Attempt::GivenUp(start) => start,
@@ -125,7 +125,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// that, so they stay.
     fn commit_together(&mut self, moves: &mut Moves<'_, G>, report: &mut CommitReport) -> Result<()> {
         self.regions.invalidate();
-        if moves.are_of_all() && self.mesh.hidden.count() == 0 {
+        if self.mesh.moves_in_one_loop(moves) {
             self.mesh.move_everything(moves)?;
         } else {
             self.move_sites_together(moves)?;

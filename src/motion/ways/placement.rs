@@ -135,7 +135,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             if is_far {
                 self.mesh.prefetch_queued(&queue[k + 1..], goals);
             }
-            let (old, goal) = (self.mesh.kernel.site(self.mesh.site_of[v]).point, goals.of(v));
+            let (old, goal) = (self.mesh.kernel.site(self.mesh.site_of[v]).point, goals.read(v)?);
             if goal == old {
                 continue;
             }

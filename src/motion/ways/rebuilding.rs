@@ -57,13 +57,14 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         let mut next = self.mesh.kernel.successor(self.mesh.hidden.count(), |site| site.point, |_| {})?;
-        let spread = self.mesh.spread_hidden(&mut next).map(|spread| {
-            for &v in vertices {
+        let moved = self.mesh.spread_hidden(&mut next).and_then(|spread| {
+            vertices.iter().try_for_each(|&v| {
                 let s = self.mesh.own_site(&spread, v);
-                report.moved += u64::from(move_to(&mut next, s, goals.of(v)));
-            }
+                report.moved += u64::from(move_to(&mut next, s, goals.read(v)?));
+                Ok(())
+            })
         });
-        self.build_and_adopt(next, spread, report)
+        self.build_and_adopt(next, moved, report)
     }
 
     /// Triangulates all sites where they are, those that are in no cell included, in a call on one vertex.

@@ -41,7 +41,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let can = self.mesh.kernel.has_cells() && moves.are_of_all() && self.mesh.hidden.count() == 0;
+        let can = self.mesh.kernel.has_cells() && self.mesh.moves_in_one_loop(moves);
         let attempt =
             if can { self.commit_by_slack(moves, report)? } else { Attempt::GivenUp(Start::AtOrigins) };
         match attempt {

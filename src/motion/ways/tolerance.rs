@@ -54,7 +54,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             let goals = moves.checked()?;
             self.prepare_regions(RegionKind::Tolerance, goals.positions(), report)?;
         }
-        let queue = if moves.are_of_all() && self.mesh.hidden.count() == 0 {
+        let queue = if self.mesh.moves_in_one_loop(moves) {
             self.accept_all(moves, report)?
         } else {
             let mut queue = self.queue_of(moves)?;

@@ -64,7 +64,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         moves: &mut Moves<'_, G>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let can_watch = self.mesh.kernel.has_cells() && moves.are_of_all() && self.mesh.hidden.count() == 0;
+        let can_watch = self.mesh.kernel.has_cells() && self.mesh.moves_in_one_loop(moves);
         let attempt = if can_watch {
             self.commit_by_watching(moves, report)?
         } else {
@@ -76,8 +76,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// Brings all vertices to their goals, or none if more than this share of them leave
-    /// their tolerance. No two vertices may share a site.
+    /// Brings all vertices to their goals, or none if more than [`MAX_SHARE_BEYOND`] of them leave their tolerance. No
+    /// two vertices may share a site.
     pub(in crate::motion) fn commit_by_watching(
         &mut self,
         moves: &mut Moves<'_, G>,

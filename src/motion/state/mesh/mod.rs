@@ -14,6 +14,7 @@ use crate::machine::memory;
 use crate::motion::constants::{Constants, TABLE};
 use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::Evaluations;
+use crate::motion::state::goals::Moves;
 use crate::motion::state::hidden::Hidden;
 use crate::motion::state::transaction::Transaction;
 use crate::motion::state::views::Views;
@@ -79,6 +80,11 @@ impl<G: Dimension> Mesh<G> {
             constants: self.constants,
             takes_changes: self.takes_changes,
         })
+    }
+
+    /// Whether these moves are of every vertex, and each has a site of its own: one loop can make them.
+    pub(in crate::motion) fn moves_in_one_loop(&self, moves: &Moves<'_, G>) -> bool {
+        moves.are_of_all() && self.hidden.count() == 0
     }
 
     /// Finds the site of each vertex.

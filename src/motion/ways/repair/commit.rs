@@ -35,7 +35,7 @@ use crate::machine::memory;
 use crate::machine::prefetch::{AHEAD, prefetch};
 use crate::motion::plan::budget::REPAIRED_ALONE;
 use crate::motion::report::CommitReport;
-use crate::motion::state::goals::{Goals, Movers, Moves};
+use crate::motion::state::goals::{Goals, Moves};
 use crate::motion::state::mesh::Mesh;
 use crate::motion::state::places::At;
 use crate::motion::state::repair::Repair;
@@ -77,13 +77,13 @@ impl<G: Dimension> MovingTriangulation<G> {
         report: &mut CommitReport,
     ) -> Result<()> {
         self.begin_moves(repair)?;
-        match (start, moves.movers()) {
-            (Start::AtGoals { n_moved }, _) => self.note_all_moved(repair, n_moved),
-            (Start::AtOrigins, Movers::All) if self.mesh.hidden.count() == 0 => {
+        match start {
+            Start::AtGoals { n_moved } => self.note_all_moved(repair, n_moved),
+            Start::AtOrigins if self.mesh.moves_in_one_loop(moves) => {
                 let n_moved = self.mesh.move_everything(moves)?;
                 self.note_all_moved(repair, n_moved);
             }
-            (Start::AtOrigins, _) => self.move_queued(repair, moves)?,
+            Start::AtOrigins => self.move_queued(repair, moves)?,
         }
         let goals = moves.checked()?;
         repair.failures.is_sweep_due = true;
