@@ -1,0 +1,84 @@
+"""Exact Delaunay triangulations of moving points, in 2D and 3D.
+
+`Delaunay` has the attributes and methods of `scipy.spatial.Delaunay`; its points may move, be inserted and be removed.
+
+Examples
+--------
+>>> import deldrift
+>>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+>>> report = tri.move([[3, 2]], ids=[4])
+>>> tri.find_simplex([3.5, 2]) >= 0
+True
+"""
+
+from ._arrays import is_current
+from ._delaunay import Delaunay, frombytes, load, tsearch
+from ._errors import (
+    Busy,
+    Cancelled,
+    Closed,
+    Coincident,
+    DuplicateMove,
+    Error,
+    FileError,
+    InternalError,
+    Invalid,
+    InvalidData,
+    InvalidDimension,
+    InvalidField,
+    InvalidOption,
+    InvalidShape,
+    InvalidValue,
+    NoSuchSimplex,
+    NoSuchVertex,
+    NotFinite,
+    OutOfMemory,
+    OutOfRange,
+    RemovedVertex,
+    StagedVertex,
+    TooMany,
+    WrongCount,
+)
+from ._geometry import Boundary, Locations
+from ._library import Report, version
+from ._motion import Changes, Step
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Boundary",
+    "Busy",
+    "Cancelled",
+    "Changes",
+    "Closed",
+    "Coincident",
+    "Delaunay",
+    "DuplicateMove",
+    "Error",
+    "FileError",
+    "InternalError",
+    "Invalid",
+    "InvalidData",
+    "InvalidDimension",
+    "InvalidField",
+    "InvalidOption",
+    "InvalidShape",
+    "InvalidValue",
+    "Locations",
+    "NoSuchSimplex",
+    "NoSuchVertex",
+    "NotFinite",
+    "OutOfMemory",
+    "OutOfRange",
+    "RemovedVertex",
+    "Report",
+    "StagedVertex",
+    "Step",
+    "TooMany",
+    "WrongCount",
+    "frombytes",
+    "is_current",
+    "load",
+    "tsearch",
+    "version",
+]

@@ -1,0 +1,252 @@
+"""Arrays that come in, converted where they must be, and arrays of the library that go out without a copy."""
+
+from __future__ import annotations
+
+import operator
+import sys
+from typing import Any, Optional
+
+import numpy as np
+
+from . import _library
+from ._errors import InvalidDimension, InvalidShape, InvalidValue, NoSuchSimplex, NoSuchVertex
+
+F64 = np.dtype(np.float64)
+U32 = np.dtype(np.uint32)
+I32 = np.dtype(np.int32)
+
+# A view is known to be out of use when nothing refers to it any more, which only counted references tell at once.
+COUNTS_REFERENCES = sys.implementation.name == "cpython"
+
+
+def address(array: Optional[np.ndarray]) -> Optional[int]:
+    """Where the numbers of an array are; None for no array."""
+    return None if array is None else array.__array_interface__["data"][0]
+
+
+def floats(argument: str, values: Any) -> np.ndarray:
+    """Values as contiguous doubles: the array itself where it is so, else a converted copy."""
+    if type(values) is np.ndarray and values.dtype is F64 and values.flags.carray:
+        return values
+    if isinstance(values, np.ma.MaskedArray):
+        raise InvalidShape(f"{argument} is a masked array, of which it is not known what its masked entries are", argument)
+    if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
+        values = np.from_dlpack(values)
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        if array.dtype.kind == "O":
+            try:
+                return np.require(array.astype(F64), F64, "CA")
+            except (TypeError, ValueError) as error:
+                raise TypeError(f"{argument} has entries that are no numbers: {error}") from None
+        raise TypeError(f"{argument} has the type {array.dtype}, and must have real numbers")
+    return np.require(array, F64, "CA")
+
+
+def points(argument: str, values: Any, ndim: Optional[int] = None) -> np.ndarray:
+    """Rows of coordinates: of ndim of them, or of 2 or 3."""
+    array = floats(argument, values)
+    if array.ndim != 2:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have a row of coordinates for each point", argument)
+    if array.shape[1] != ndim:
+        _check_width(argument, array.shape[1], ndim)
+    return array
+
+
+def _check_width(argument: str, width: int, ndim: Optional[int]) -> None:
+    if ndim is not None:
+        raise InvalidShape(f"{argument} has {width} coordinates for each point, and must have {ndim}", argument, None, width)
+    if width not in (2, 3):
+        raise InvalidDimension(
+            f"{argument} has {width} coordinates for each point; deldrift triangulates in 2 and 3 dimensions, "
+            "scipy.spatial.Delaunay in any",
+            argument,
+            None,
+            width,
+        )
+
+
+def one_point(argument: str, value: Any, ndim: int) -> np.ndarray:
+    """The coordinates of one point."""
+    array = floats(argument, value)
+    if array.shape != (ndim,):
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must be {ndim} coordinates", argument)
+    return array
+
+
+def places(argument: str, values: Any, ndim: int) -> tuple[np.ndarray, tuple[int, ...]]:
+    """Points in an array of any shape whose last axis has the coordinates: rows of them, and the other axes."""
+    array = floats(argument, values)
+    if array.ndim == 0 or array.shape[-1] != ndim:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, whose last entry must be {ndim}", argument)
+    return array.reshape(-1, ndim), array.shape[:-1]
+
+
+def ids(argument: str, values: Any, missing: type = NoSuchVertex) -> np.ndarray:
+    """Ids of vertices, or indices of simplices, as contiguous unsigned numbers of 32 bits."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise InvalidShape(f"{argument} is a masked array, of which it is not known what its masked entries are", argument)
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
+    if array.size == 0:
+        return np.empty(0, U32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{argument} has the type {array.dtype}, and must have whole numbers")
+    if array.dtype.kind == "i" or array.dtype.itemsize > 4:
+        wrong = (array < 0) | (array >= _library.NONE)
+        if wrong.any():
+            index = int(np.argmax(wrong))
+            raise missing(f"{argument}[{index}] is {array[index]}, which was never given", argument, index, int(array[index]))
+    return np.require(array, U32, "CA")
+
+
+def one_id(argument: str, value: Any) -> int:
+    """The id of one vertex."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{argument} is {value!r}, and must be a whole number") from None
+    if not 0 <= number < _library.NONE:
+        raise NoSuchVertex(f"{argument} is {number}, which was never given", argument, None, number)
+    return number
+
+
+def simplex_ids(argument: str, values: Any) -> np.ndarray:
+    """Indices of simplices."""
+    return ids(argument, values, NoSuchSimplex)
+
+
+def box_corners(box: Any, ndim: int) -> tuple[Optional[np.ndarray], Optional[np.ndarray]]:
+    """The corners of a box, (low, high), or None twice for no box."""
+    if box is None:
+        return None, None
+    try:
+        low, high = box
+    except (TypeError, ValueError):
+        raise InvalidShape("box must be (low, high), two corners", "box") from None
+    return one_point("low", low, ndim), one_point("high", high, ndim)
+
+
+def choice(argument: str, value: Any, choices: tuple[str, ...], kind: type = InvalidValue) -> int:
+    """The number of a name in a list of them."""
+    if value in choices:
+        return choices.index(value)
+    raise kind(f"{argument} is {value!r}, and must be one of " + ", ".join(map(repr, choices)), argument)
+
+
+class Handle:
+    """A triangulation of the library, destroyed with the last reference to it."""
+
+    __slots__ = ("pointer", "keep")
+
+    def __init__(self, pointer: int, keep: Any) -> None:
+        self.pointer = pointer
+        # What the callbacks of the library use.
+        self.keep = keep
+
+    def __del__(self, destroy=_library.destroy) -> None:
+        destroy(self.pointer)
+
+
+class Version:
+    """A state of a triangulation between two changes."""
+
+    __slots__ = ("is_current",)
+
+    def __init__(self) -> None:
+        self.is_current = True
+
+
+class Lease:
+    """Rows of memory that is not NumPy's to change; the base of all arrays that show it.
+
+    NumPy keeps the base of an array alive with it and with all that is made of it without a copy. So a lease that is
+    gone says that nobody looks at the memory any more, and one that is not keeps what owns the memory.
+    """
+
+    __slots__ = ("version", "owner", "__array_interface__", "__weakref__")
+
+    def __init__(self, version: Version, owner: Any, start: int, shape: tuple[int, ...]) -> None:
+        self.version = version
+        self.owner = owner
+        self.__array_interface__ = {"shape": shape, "typestr": I32.str, "data": (start, True), "version": 3}
+
+
+def taken(start: Optional[int], shape: tuple[int, ...]) -> np.ndarray:
+    """A copy of an array of the library's, of ids or indices."""
+    if not start:
+        return np.empty(shape, I32)
+    return np.array(np.asarray(_Memory(start, shape)))
+
+
+class _Memory:
+    """Memory of the library that is read at once."""
+
+    __slots__ = ("__array_interface__",)
+
+    def __init__(self, start: int, shape: tuple[int, ...]) -> None:
+        self.__array_interface__ = {"shape": shape, "typestr": I32.str, "data": (start, True), "version": 3}
+
+
+def is_current(self) -> bool:
+        """Whether the triangulation has not been changed since."""
+        return not self.handle.is_left and self.handle.generation == self.generation
+
+
+def lend(handle: Handle, start: Optional[int], shape: tuple[int, ...]) -> tuple[np.ndarray, Optional[weakref.ref]]:
+    """A read-only array of the library's memory, and what tells whether it is still in use."""
+    if not start:
+        array = np.empty(shape, I32)
+        array.flags.writeable = False
+        return array, None
+    lease = Lease(handle, start, shape)
+    return np.asarray(lease), weakref.ref(lease)
+
+
+def taken(start: Optional[int], shape: tuple[int, ...]) -> np.ndarray:
+    """A copy of an array of the library's, of ids or indices."""
+    if not start:
+        return np.empty(shape, I32)
+    return np.array(np.asarray(_Memory(start, shape)))
+
+
+class _Memory:
+    """Memory of the library that is read at once."""
+
+    __slots__ = ("__array_interface__",)
+
+    def __init__(self, start: int, shape: tuple[int, ...]) -> None:
+        self.__array_interface__ = {"shape": shape, "typestr": "<i4", "data": (start, True), "version": 3}
+
+
+def is_current(array: np.ndarray) -> bool:
+    """Whether an array that a triangulation gave shows it as it is now.
+
+    Parameters
+    ----------
+    array : ndarray
+        `Delaunay.simplices` or `Delaunay.neighbors`, or a slice of them.
+
+    Returns
+    -------
+    bool
+        False if the triangulation has been changed since. The array still has the numbers of before, then.
+
+    Examples
+    --------
+    >>> import deldrift
+    >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+    >>> simplices = tri.simplices
+    >>> deldrift.is_current(simplices)
+    True
+    >>> tri.relocate(4, [3, 2])
+    >>> deldrift.is_current(simplices)
+    False
+    """
+    base: Any = array
+    while isinstance(base, np.ndarray):
+        base = base.base
+    if isinstance(base, Lease):
+        return base.version.is_current
+    raise InvalidValue("array is no array of a triangulation, or a copy, which does not know what it was copied from", "array")

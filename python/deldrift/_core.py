@@ -1,0 +1,201 @@
+"""What all methods of a triangulation use: its handle, who may use it when, and arrays lent to NumPy."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+import weakref
+from typing import Any, Callable, Mapping, Optional
+
+import numpy as np
+
+from . import _library
+from ._arrays import COUNTS_REFERENCES, I32, Handle, Lease, Version, address, choice
+from ._callbacks import Callbacks
+from ._errors import Busy, Closed, InvalidOption, raise_for
+
+NO_NAMES: Mapping[str, str] = {}
+
+_clone = _library.function("clone")
+_cells = _library.function("cells")
+_discard_moves = _library.function("discard_moves")
+_id_count = _library.function("id_count")
+_cell_count = _library.function("cell_count")
+
+
+def check(status: int, names: Mapping[str, str] = NO_NAMES, callbacks: Optional[Callbacks] = None) -> None:
+    """Raises what a status stands for, or the exception that a callback has raised."""
+    if status:
+        raised = callbacks.raised() if callbacks is not None else None
+        if raised is not None:
+            raise raised
+        raise_for(status, names)
+
+
+def make_options(algorithm: str, threads: int, coincidence: str, callbacks: Optional[Callbacks]) -> _library.Options:
+    """deldrift_options of Python's arguments."""
+    if not isinstance(threads, int) or not 0 <= threads < 1 << 32:
+        raise InvalidOption(f"threads is {threads!r}, and must be a number of threads, or 0 for all that pay", "threads")
+    options = _library.Options(ctypes.sizeof(_library.Options))
+    options.algorithm = choice("algorithm", algorithm, _library.ALGORITHMS, InvalidOption)
+    options.threads = threads
+    options.coincidence = choice("coincidence", coincidence, _library.COINCIDENCES, InvalidOption)
+    if callbacks is not None:
+        options.progress, options.cancel = callbacks.on_progress, callbacks.on_cancel
+    return options
+
+
+class _Reading:
+    """Reads of a triangulation, which may run on several threads at once: `with self._reading as t`."""
+
+    __slots__ = ("owner",)
+
+    def __init__(self, owner: "Core") -> None:
+        self.owner = owner
+
+    def __enter__(self) -> int:
+        owner = self.owner
+        with owner._lock:
+            if owner._is_changing:
+                raise Busy("the triangulation is being changed, by another thread or by the call whose callback this is")
+            owner._readers += 1
+        return owner._handle.pointer
+
+    def __exit__(self, *_: Any) -> None:
+        with self.owner._lock:
+            self.owner._readers -= 1
+
+
+class _Changing:
+    """A change of a triangulation, alone: `with self._changing as t`."""
+
+    __slots__ = ("owner", "is_of_step")
+
+    def __init__(self, owner: "Core", is_of_step: bool) -> None:
+        self.owner = owner
+        self.is_of_step = is_of_step
+
+    def __enter__(self) -> int:
+        owner = self.owner
+        with owner._lock:
+            if owner._is_changing or owner._readers:
+                raise Busy("the triangulation is in use, by another thread or by the call whose callback this is")
+            if owner._has_step and not self.is_of_step:
+                raise Busy("a step of the triangulation is open, and nothing else may change it before that ends")
+            if owner._is_closed:
+                raise Closed("the triangulation was closed, and cannot be changed any more")
+            owner._is_changing = True
+        try:
+            owner._leave_views()
+            if owner._must_discard and not owner._has_step:
+                check(_discard_moves(owner._handle.pointer))
+                owner._must_discard = False
+        except BaseException:
+            owner._is_changing = False
+            raise
+        return owner._handle.pointer
+
+    def __exit__(self, *_: Any) -> None:
+        self.owner._is_changing = False
+
+
+class Core:
+    """The handle of a triangulation."""
+
+    ndim: int
+    """The number of dimensions, 2 or 3."""
+
+    def _start(self, handle: Handle, ndim: int, threads: int, coincidence: str, callbacks: Optional[Callbacks]) -> None:
+        self._handle = handle
+        self.ndim = ndim
+        self._threads, self._coincidence, self._callbacks = threads, coincidence, callbacks
+        self._lock = threading.Lock()
+        self._readers = 0
+        self._is_changing = False
+        self._is_closed = False
+        self._has_step = False
+        # Whether the library has moves staged that no step will commit.
+        self._must_discard = False
+        self._last_report: Optional[_library.Report] = None
+        self._reading = _Reading(self)
+        self._changing, self._staging = _Changing(self, False), _Changing(self, True)
+        self._version = Version()
+        # What has been computed of this version, by name.
+        self._cache: dict[str, Any] = {}
+        self._leases: list[weakref.ref] = []
+        # Whether arrays of cells are copies, as the program has held one over a change before.
+        self._are_copied = not COUNTS_REFERENCES
+
+    def _leave_views(self) -> None:
+        """Goes on with a clone where arrays of the library's memory are still in use, which keep what they show."""
+        self._version.is_current = False
+        self._version = Version()
+        self._cache = {}
+        if self._leases:
+            is_held = any(lease() is not None for lease in self._leases)
+            if is_held:
+                clone = ctypes.c_void_p()
+                check(_clone(self._handle.pointer, clone), NO_NAMES, self._callbacks)
+                self._handle = Handle(clone.value or 0, self._callbacks)
+                self._are_copied = True
+            self._leases = []
+
+    def _cell_arrays(self) -> tuple[np.ndarray, np.ndarray]:
+        """The arrays of the cells, `simplices` and `neighbors`."""
+        cells = self._cache.get("cells")
+        if cells is None:
+            with self._reading as t:
+                view = _library.CellsView()
+                check(_cells(t, view))
+                shape = (view.count, self.ndim + 1)
+                cells = self._lend(view.vertices, shape), self._lend(view.neighbours, shape)
+                self._cache["cells"] = cells
+        return cells
+
+    def _lend(self, start: Optional[int], shape: tuple[int, ...]) -> np.ndarray:
+        """A read-only array of memory of the library, or of a copy of it."""
+        owner: Any = self._handle
+        if self._are_copied or not start:
+            owner = np.empty(shape, I32)
+            if start:
+                ctypes.memmove(address(owner), start, owner.nbytes)
+            start = address(owner)
+        lease = Lease(self._version, owner, start or 0, shape)
+        if owner is self._handle:
+            self._leases.append(weakref.ref(lease))
+        return np.asarray(lease)
+
+    def _once(self, name: str, make: Callable[[], Any]) -> Any:
+        """What `make` gives, computed once for each version."""
+        cache = self._cache
+        if name not in cache:
+            cache[name] = make()
+        return cache[name]
+
+    def _check(self, status: int, **names: str) -> None:
+        """`check` with the callbacks of this triangulation."""
+        if status:
+            check(status, names, self._callbacks)
+
+
+def count_of(function: Any, t: int) -> int:
+    """The count that a function tells."""
+    count = ctypes.c_size_t()
+    check(function(t, count))
+    return count.value
+
+
+def id_count(t: int) -> int:
+    """How many ids there are."""
+    return count_of(_id_count, t)
+
+
+def cell_count(t: int) -> int:
+    """How many cells there are."""
+    return count_of(_cell_count, t)
+
+
+def fixed(array: np.ndarray) -> np.ndarray:
+    """The array, which can only be read from now on."""
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,240 @@
+"""The class of triangulations, and how they are made."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from . import _library
+from ._arrays import Handle, address, points as point_rows
+from ._callbacks import Callbacks
+from ._core import check, make_options
+from ._files import Files, Path, file_name
+from ._geometry import Geometry
+from ._motion import Motion
+from ._scipy import Scipy, check_scipy_options
+
+_create = _library.function("create")
+_clone = _library.function("clone")
+_dimension = _library.function("dimension")
+_discard_moves = _library.function("discard_moves")
+_load = _library.function("load")
+_load_file = _library.function("load_file")
+
+
+class Delaunay(Scipy, Motion, Geometry, Files):
+    """The Delaunay triangulation of points in the plane or in space, whose points may move.
+
+    Simplices are exact, and a function of positions and ids alone: ties between cocircular and cospherical points are
+    broken by id. Points at the place of one of lower id are in no simplex (see `coplanar`). Points that do not span the
+    dimension have no simplices.
+
+    Parameters
+    ----------
+    points : array_like
+        A row of 2 or 3 coordinates for each point: of any type of real numbers, which are rounded to doubles where they
+        are none, in any order of memory, with `__array__` or DLPack. Row i is vertex i.
+    incremental : bool, optional
+        Without an effect: points can always be added.
+    furthest_site : bool, optional
+        Must be false.
+    qhull_options : str, optional
+        Options of qhull that change no triangulation; others raise.
+    algorithm : {"auto", "rebuilding", "placement_flips", "tolerance", "repair"}, optional
+        How `move` and steps bring the triangulation to new positions. All give the same simplices.
+    threads : int, optional
+        The most threads that a call may use, 0 for as many as pay.
+    coincidence : {"merge", "reject"}, optional
+        Whether points at one place are legal, or raise `Coincident`.
+    progress : callable or tqdm, optional
+        Called during long calls with the part that is done, from 0 to 1. An exception cancels the call. May be a bar of
+        tqdm, or `tqdm.tqdm`.
+    cancel : callable, optional
+        Called during long calls; when it returns true, the call raises `Cancelled` and has no effect.
+
+    Examples
+    --------
+    >>> import deldrift
+    >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+    >>> len(tri.simplices)
+    4
+    >>> report = tri.move([[0, 0], [4, 0], [4, 3], [0, 3], [3, 2]])
+    >>> report.moved, tri.timestamp
+    (1, 1)
+    """
+
+    def __init__(
+        self,
+        points: Any,
+        incremental: bool = False,
+        furthest_site: bool = False,
+        qhull_options: Optional[str] = None,
+        *,
+        algorithm: str = "auto",
+        threads: int = 0,
+        coincidence: str = "merge",
+        progress: Any = None,
+        cancel: Optional[Callable[[], bool]] = None,
+    ) -> None:
+        check_scipy_options(furthest_site, qhull_options)
+        rows = point_rows("points", points)
+        callbacks = _callbacks(progress, cancel)
+        options = make_options(algorithm, threads, coincidence, callbacks)
+        pointer = ctypes.c_void_p()
+        status = _create(rows.shape[1], address(rows), len(rows), options, pointer)
+        check(status, {"positions": "points"}, callbacks)
+        self._start(Handle(pointer.value or 0, callbacks), rows.shape[1], threads, coincidence, callbacks)
+
+    def add_points(self, points: Any, restart: bool = False) -> None:
+        """Inserts points, whose ids follow those that have been given.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each.
+        restart : bool, optional
+            Without an effect: simplices depend on positions and ids alone.
+        """
+        with self.step() as step:
+            step.insert(points)
+
+    def copy(self) -> "Delaunay":
+        """An independent triangulation that is as this one.
+
+        Returns
+        -------
+        Delaunay
+            After the same calls it has the same simplices. It calls the same callbacks.
+        """
+        with self._reading as t:
+            pointer = ctypes.c_void_p()
+            self._check(_clone(t, pointer))
+        return _made(pointer, self._threads, self._coincidence, self._callbacks, type(self))
+
+    def __copy__(self) -> "Delaunay":
+        return self.copy()
+
+    def __deepcopy__(self, _memo: Any) -> "Delaunay":
+        return self.copy()
+
+    def __reduce__(self) -> Any:
+        return _unpickled, (type(self), self.tobytes(), self.algorithm, self._threads, self._coincidence)
+
+    def __repr__(self) -> str:
+        return f"<deldrift.Delaunay of {self.nvertices} points in {self.ndim}D, {self.nsimplex} simplices>"
+
+
+def _callbacks(progress: Any, cancel: Optional[Callable[[], bool]]) -> Optional[Callbacks]:
+    if cancel is not None and not callable(cancel):
+        raise TypeError(f"cancel is {cancel!r}, and must be a function that tells whether to cancel")
+    return None if progress is None and cancel is None else Callbacks(progress, cancel)
+
+
+def _made(
+    pointer: ctypes.c_void_p, threads: int, coincidence: str, callbacks: Optional[Callbacks], kind: type = Delaunay
+) -> Delaunay:
+    """A triangulation that the library has made; what is staged, which no step would commit, is forgotten."""
+    handle = Handle(pointer.value or 0, callbacks)
+    check(_discard_moves(handle.pointer))
+    ndim = ctypes.c_uint32()
+    check(_dimension(handle.pointer, ndim))
+    made = kind.__new__(kind)
+    made._start(handle, ndim.value, threads, coincidence, callbacks)
+    return made
+
+
+def _unpickled(kind: type, data: bytes, algorithm: str, threads: int, coincidence: str) -> Delaunay:
+    return frombytes(data, algorithm=algorithm, threads=threads, coincidence=coincidence, _kind=kind)
+
+
+def load(
+    path: Path,
+    *,
+    algorithm: str = "auto",
+    threads: int = 0,
+    coincidence: str = "merge",
+    progress: Any = None,
+    cancel: Optional[Callable[[], bool]] = None,
+) -> Delaunay:
+    """Makes a triangulation of a file that `Delaunay.save` has written.
+
+    Parameters
+    ----------
+    path : str or path
+        Of the file.
+    algorithm, threads, coincidence, progress, cancel
+        As of `Delaunay`; they are not saved.
+
+    Returns
+    -------
+    Delaunay
+        As the one that was saved, simplices with their indices included.
+
+    Examples
+    --------
+    >>> import deldrift, os, tempfile
+    >>> path = os.path.join(tempfile.mkdtemp(), "square")
+    >>> deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]]).save(path)
+    >>> deldrift.load(path)
+    <deldrift.Delaunay of 4 points in 2D, 2 simplices>
+    """
+    callbacks = _callbacks(progress, cancel)
+    options = make_options(algorithm, threads, coincidence, callbacks)
+    pointer = ctypes.c_void_p()
+    check(_load_file(file_name(path), options, pointer), {}, callbacks)
+    return _made(pointer, threads, coincidence, callbacks)
+
+
+def frombytes(
+    data: Any,
+    *,
+    algorithm: str = "auto",
+    threads: int = 0,
+    coincidence: str = "merge",
+    progress: Any = None,
+    cancel: Optional[Callable[[], bool]] = None,
+    _kind: type = Delaunay,
+) -> Delaunay:
+    """Makes a triangulation of bytes that `Delaunay.tobytes` gave.
+
+    Parameters
+    ----------
+    data : bytes-like
+        The bytes. Whatever they are, nothing is loaded that is not a Delaunay triangulation, exactly.
+    algorithm, threads, coincidence, progress, cancel
+        As of `Delaunay`; they are not saved.
+
+    Returns
+    -------
+    Delaunay
+        As the one that was saved, simplices with their indices included.
+    """
+    callbacks = _callbacks(progress, cancel)
+    options = make_options(algorithm, threads, coincidence, callbacks)
+    try:
+        buffer = np.frombuffer(data, np.uint8)
+    except (TypeError, AttributeError):
+        raise TypeError(f"data is a {type(data).__name__}, and must be bytes") from None
+    pointer = ctypes.c_void_p()
+    check(_load(address(buffer), len(buffer), options, pointer), {}, callbacks)
+    return _made(pointer, threads, coincidence, callbacks, _kind)
+
+
+def tsearch(tri: Any, xi: Any) -> np.ndarray:
+    """The simplices that contain points: `tri.find_simplex(xi)`.
+
+    Parameters
+    ----------
+    tri : Delaunay
+        The triangulation.
+    xi : array_like
+        Points; the last axis has the coordinates.
+
+    Returns
+    -------
+    ndarray of int
+        An index for each point, -1 outside the convex hull.
+    """
+    return tri.find_simplex(xi)

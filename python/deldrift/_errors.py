@@ -1,0 +1,189 @@
+"""Errors of the library as exceptions, one class for each kind."""
+
+from __future__ import annotations
+
+import re
+from typing import Mapping, Optional, Union
+
+from . import _library
+
+Number = Union[int, float, None]
+
+
+class Error(Exception):
+    """What every exception of deldrift's own is.
+
+    Attributes
+    ----------
+    argument : str or None
+        Name of the argument that is wrong.
+    index : int or None
+        Which entry of it is wrong.
+    value : int, float or None
+        The value that is wrong.
+    """
+
+    argument: Optional[str]
+    index: Optional[int]
+    value: Number
+
+    def __init__(
+        self, message: str, argument: Optional[str] = None, index: Optional[int] = None, value: Number = None
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.argument, self.index, self.value = argument, index, value
+
+    def __reduce__(self):
+        return type(self), (self.message, self.argument, self.index, self.value)
+
+
+class InvalidDimension(Error, ValueError):
+    """Points have neither 2 nor 3 coordinates, or a function is not there in this dimension."""
+
+
+class InvalidShape(Error, ValueError):
+    """An array has another shape than it must have, or is masked."""
+
+
+class InvalidOption(Error, ValueError):
+    """An option has a value without a meaning, or one that stands for what is not Delaunay's triangulation."""
+
+
+class InvalidValue(Error, ValueError):
+    """A number has no meaning for its argument."""
+
+
+class NotFinite(Error, ValueError):
+    """A coordinate is NaN or infinite."""
+
+
+class OutOfRange(Error, ValueError):
+    """A coordinate is of a magnitude above 1e57."""
+
+
+class WrongCount(Error, ValueError):
+    """An array has another number of entries than it must have."""
+
+
+class Coincident(Error, ValueError):
+    """Two vertices would be at the same place, and coincidence="reject" was asked for."""
+
+
+class DuplicateMove(Error, ValueError):
+    """A vertex is moved twice in one step."""
+
+
+class StagedVertex(Error, ValueError):
+    """The vertex is inserted, or removed, only with the end of the step that is open."""
+
+
+class NoSuchVertex(Error, IndexError):
+    """No vertex ever had this id."""
+
+
+class RemovedVertex(Error, IndexError):
+    """The vertex of this id has been removed."""
+
+
+class NoSuchSimplex(Error, IndexError):
+    """There is no simplex of this index."""
+
+
+class TooMany(Error, OverflowError):
+    """There would be more vertices or simplices than 32-bit ids can name."""
+
+
+class OutOfMemory(Error, MemoryError):
+    """Memory has been refused; the triangulation is as it was."""
+
+
+class Cancelled(Error):
+    """The cancel callback returned true; the triangulation is as it was."""
+
+
+class Invalid(Error):
+    """Delaunay.validate has found something wrong: a defect of the library, or memory that was overwritten."""
+
+
+class Busy(Error, RuntimeError):
+    """Another thread, a callback, or an open step uses the triangulation."""
+
+
+class Closed(Error, RuntimeError):
+    """The triangulation was closed, and cannot be changed any more."""
+
+
+class InvalidData(Error, ValueError):
+    """Data are not those of a saved triangulation."""
+
+
+class FileError(Error, OSError):
+    """The system cannot read or write a file."""
+
+
+class InvalidField(Error, ValueError):
+    """A field for write_vtu has no name, one that XML does not have, or is there twice."""
+
+
+class InternalError(Error, RuntimeError):
+    """A defect of the library or of this package; please report the message."""
+
+
+KINDS = {
+    4: InvalidDimension,
+    5: InvalidOption,
+    6: InvalidValue,
+    8: NotFinite,
+    9: OutOfRange,
+    10: NoSuchVertex,
+    11: RemovedVertex,
+    12: DuplicateMove,
+    13: WrongCount,
+    14: Coincident,
+    15: TooMany,
+    16: TooMany,
+    17: OutOfMemory,
+    18: Cancelled,
+    19: Invalid,
+    20: Busy,
+    23: NoSuchSimplex,
+    24: InvalidValue,
+    25: InvalidData,
+    26: FileError,
+    27: InvalidField,
+    28: StagedVertex,
+}
+"""Classes by deldrift_status. What is not here is a defect, as a pointer of this package that is NULL."""
+
+BUFFER_TOO_SMALL = 7
+
+# "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1"
+PLACE = re.compile(r"(?P<argument>\w+)(?:\[(?P<index>\d+)\])?(?:, coordinate \d+,)? is (?P<value>[^\s,]+)")
+
+
+def _number(text: str) -> Number:
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return None
+
+
+def raise_for(status: int, names: Mapping[str, str]) -> None:
+    """Raises the exception for a status, with the arguments of C named as those of Python."""
+    message = _library.last_error()
+    place = PLACE.match(message)
+    kind = KINDS.get(status, InternalError)
+    if place is None:
+        raise kind(message)
+    argument = names.get(place["argument"], place["argument"])
+    # The index 0 that the library tells for a single id has no counterpart in Python.
+    is_single = argument.endswith("!")
+    argument = argument.rstrip("!")
+    index = int(place["index"]) if place["index"] is not None and not is_single else None
+    rest = message[place.end("argument") :]
+    if is_single:
+        rest = re.sub(r"^\[0\]", "", rest)
+    raise kind(argument + rest, argument, index, _number(place["value"]))

@@ -1,0 +1,547 @@
+"""Geometry in bulk, and questions about places and vertices."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+
+from . import _library
+from ._arrays import F64, I32, U32, address, box_corners, choice, floats, ids, one_id, one_point, places, simplex_ids
+from ._core import Core, cell_count, count_of, id_count
+from ._errors import InvalidShape, InvalidValue, WrongCount
+
+_vertex_count = _library.function("vertex_count")
+_memory_bytes = _library.function("memory_bytes")
+_is_present = _library.function("is_present")
+_star = _library.function("star")
+_ordered_star = _library.function("ordered_star")
+_tolerance = _library.function("tolerance")
+_validate = _library.function("validate")
+_locate_points = _library.function("locate_points")
+_nearest_vertex = _library.function("nearest_vertex")
+_coincident_representative = _library.function("coincident_representative")
+_circumcentres = _library.function("circumcentres")
+_volumes = _library.function("volumes")
+_mask_by_circumradius = _library.function("mask_by_circumradius")
+_mask_boundary = _library.function("mask_boundary")
+_hull_facets = _library.function("hull_facets")
+_edges = _library.function("edges")
+_vertex_cells = _library.function("vertex_cells")
+_mirror_indices = _library.function("mirror_indices")
+_cells_around = _library.function("cells_around")
+_update_circumcentres = _library.function("update_circumcentres")
+_update_volumes = _library.function("update_volumes")
+_update_mask_by_circumradius = _library.function("update_mask_by_circumradius")
+_voronoi_volumes = _library.function("voronoi_volumes")
+_voronoi_facets = _library.function("voronoi_facets")
+_interpolate = _library.function("interpolate")
+
+
+class Boundary(NamedTuple):
+    """Facets between simplices of a mask and what is outside of it."""
+
+    facets: np.ndarray
+    """Rows of 2 or 3 vertex ids, seen from outside."""
+    simplices: np.ndarray
+    """The simplex of the mask at each."""
+    corners: np.ndarray
+    """Which of its corners is opposite the facet."""
+
+
+class Locations(NamedTuple):
+    """Where points lie."""
+
+    kinds: np.ndarray
+    """0 at a vertex, 1 in a simplex or on its boundary, 2 outside the convex hull, 3 where there are no simplices."""
+    indices: np.ndarray
+    """The vertex; the simplex; one with a facet on the hull that faces the point; -1."""
+
+
+class Geometry(Core):
+    """Geometry in bulk, and questions about places and vertices."""
+
+    @property
+    def nvertices(self) -> int:
+        """The number of vertices that are present, hidden ones included and removed ones not."""
+        with self._reading as t:
+            return count_of(_vertex_count, t)
+
+    @property
+    def nbytes(self) -> int:
+        """The bytes of memory that the library holds for the triangulation."""
+        with self._reading as t:
+            return count_of(_memory_bytes, t)
+
+    def is_present(self, vertex: int) -> bool:
+        """Whether there is a vertex of an id: False if it has been removed, or never was.
+
+        Parameters
+        ----------
+        vertex : int
+            The id.
+
+        Returns
+        -------
+        bool
+            Whether it is there.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            present = ctypes.c_bool()
+            self._check(_is_present(t, number, present))
+        return present.value
+
+    def representative(self, vertex: int) -> int:
+        """The lowest id among the vertices at the place of one: the corner of simplices there.
+
+        Parameters
+        ----------
+        vertex : int
+            The id.
+
+        Returns
+        -------
+        int
+            Its own id, unless the vertex is hidden.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            found = ctypes.c_uint32()
+            self._check(_coincident_representative(t, number, found), vertex="vertex!")
+        return found.value
+
+    def tolerance(self, vertex: int) -> float:
+        """How far every vertex may move without a change of simplices at this one: a certified lower bound.
+
+        Parameters
+        ----------
+        vertex : int
+            The id.
+
+        Returns
+        -------
+        float
+            The distance; infinite while there are no simplices.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            found = ctypes.c_double()
+            self._check(_tolerance(t, number, found), vertex="vertex!")
+        return found.value
+
+    def validate(self, level: int = 3) -> None:
+        """Checks the triangulation, exactly; raises `Invalid` for a defect.
+
+        Parameters
+        ----------
+        level : int, optional
+            1 checks indices and adjacency, 2 also orientation and hull, 3 also that no circumsphere has a vertex inside.
+        """
+        number = one_id("level", level)
+        with self._reading as t:
+            self._check(_validate(t, number))
+
+    def star(self, vertex: int, ordered: bool = False) -> np.ndarray:
+        """The simplices that have a vertex as a corner.
+
+        Parameters
+        ----------
+        vertex : int
+            The id; for a hidden vertex that of its representative counts.
+        ordered : bool, optional
+            Whether they are in the order in which one goes around the vertex, counter-clockwise: in 2D only.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices.
+        """
+        number = one_id("vertex", vertex)
+        function = _ordered_star if ordered else _star
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            self._check(function(t, number, None, 0, count), vertex="vertex!")
+            cells = np.empty(count.value, I32)
+            self._check(function(t, number, address(cells), len(cells), count), vertex="vertex!")
+        return cells
+
+    def locate(self, xi: Any) -> Locations:
+        """Where points lie, exactly.
+
+        Parameters
+        ----------
+        xi : array_like
+            Points; the last axis has the coordinates.
+
+        Returns
+        -------
+        Locations
+            A kind and an index for each.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
+        >>> tri.locate([[4, 0], [1, 1], [3, 3]])
+        Locations(kinds=array([0, 1, 2], dtype=int32), indices=array([1, 0, 0], dtype=int32))
+        """
+        rows, shape = places("xi", xi, self.ndim)
+        locations = np.empty((len(rows), 2), I32)
+        with self._reading as t:
+            self._check(_locate_points(t, address(rows), len(rows), None, address(locations)), positions="xi")
+        return Locations(locations[:, 0].reshape(shape), locations[:, 1].reshape(shape))
+
+    def nearest_vertex(self, point: Any) -> int:
+        """The vertex nearest to a point: the lowest id among the nearest.
+
+        Parameters
+        ----------
+        point : array_like
+            The coordinates.
+
+        Returns
+        -------
+        int
+            Its id, -1 if there are no vertices.
+        """
+        position = one_point("point", point, self.ndim)
+        with self._reading as t:
+            found = ctypes.c_uint32()
+            self._check(_nearest_vertex(t, address(position), found), position="point")
+        return -1 if found.value == _library.NONE else found.value
+
+    def volumes(self) -> np.ndarray:
+        """The areas or volumes of the simplices, always positive.
+
+        Returns
+        -------
+        ndarray
+            A number for each simplex, with a relative error of at most 1e-9.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> deldrift.Delaunay([[0, 0], [4, 0], [0, 3]]).volumes()
+        array([6.])
+        """
+        with self._reading as t:
+            volumes = np.empty(cell_count(t), F64)
+            count = ctypes.c_size_t()
+            self._check(_volumes(t, address(volumes), len(volumes), count))
+        return volumes
+
+    def circumcentres(self) -> tuple[np.ndarray, np.ndarray]:
+        """The circumcentres and squared circumradii of the simplices.
+
+        Returns
+        -------
+        centres : ndarray
+            A row for each simplex, off by at most 1e-9 circumradii.
+        squared_radii : ndarray
+            A number for each simplex.
+        """
+        with self._reading as t:
+            centres = np.empty((cell_count(t), self.ndim), F64)
+            squared_radii = np.empty(len(centres), F64)
+            count = ctypes.c_size_t()
+            self._check(_circumcentres(t, address(centres), address(squared_radii), len(centres), count))
+        return centres, squared_radii
+
+    def alpha_mask(self, squared_radius: float) -> np.ndarray:
+        """Which simplices have a circumradius of at most a given one, exactly: those of an alpha shape.
+
+        Parameters
+        ----------
+        squared_radius : float
+            Its square.
+
+        Returns
+        -------
+        ndarray of bool
+            Whether, for each simplex.
+        """
+        limit = _real("squared_radius", squared_radius)
+        with self._reading as t:
+            mask = np.empty(cell_count(t), np.bool_)
+            count = ctypes.c_size_t()
+            self._check(
+                _mask_by_circumradius(t, limit, address(mask), len(mask), count), squared_radius="squared_radius!"
+            )
+        return mask
+
+    def boundary(self, mask: Any = None) -> Boundary:
+        """The facets between simplices in a mask and those not in it, or the outside.
+
+        Parameters
+        ----------
+        mask : array_like of bool, optional
+            Whether each simplex is in it; all are by default.
+
+        Returns
+        -------
+        Boundary
+            Facets, seen from outside, with the simplex and the corner of each.
+        """
+        chosen = None if mask is None else _mask("mask", mask)
+        with self._reading as t:
+            count = ctypes.c_size_t()
+
+            def fill(facets: Any, cells: Any, corners: Any, capacity: int) -> None:
+                if chosen is None:
+                    status = _hull_facets(t, facets, cells, corners, capacity, count)
+                else:
+                    status = _mask_boundary(t, address(chosen), len(chosen), facets, cells, corners, capacity, count)
+                self._check(status, mask_count="mask")
+
+            fill(None, None, None, 0)
+            facets = np.empty((count.value, self.ndim), I32)
+            cells, corners = np.empty(count.value, I32), np.empty(count.value, np.uint8)
+            fill(address(facets), address(cells), address(corners), len(cells))
+        return Boundary(facets, cells, corners)
+
+    def edges(self) -> np.ndarray:
+        """The edges: rows of two vertex ids, the lower one first, in lexicographic order.
+
+        Returns
+        -------
+        ndarray of int
+            Each edge once.
+        """
+        with self._reading as t:
+            edges = np.empty((count_of(lambda t, count: _edges(t, None, 0, count), t), 2), I32)
+            count = ctypes.c_size_t()
+            self._check(_edges(t, address(edges), len(edges), count))
+        return edges
+
+    def vertex_simplices(self) -> tuple[np.ndarray, np.ndarray]:
+        """The simplices around each vertex: `indices[indptr[k]:indptr[k + 1]]`, ascending, for vertex k.
+
+        Returns
+        -------
+        indptr, indices : ndarray of int
+            As of `vertex_neighbor_vertices`.
+        """
+        with self._reading as t:
+            indptr, indices = np.empty(id_count(t) + 1, I32), np.empty(cell_count(t) * (self.ndim + 1), I32)
+            count = ctypes.c_size_t()
+            self._check(_vertex_cells(t, address(indptr), len(indptr), address(indices), len(indices), count))
+        return indptr, indices
+
+    def mirror_indices(self) -> np.ndarray:
+        """For each facet the corner of the simplex beyond that is opposite to it, 255 on the hull.
+
+        Returns
+        -------
+        ndarray of uint8
+            Of the shape of `neighbors`.
+        """
+        with self._reading as t:
+            mirrors = np.empty((cell_count(t), self.ndim + 1), np.uint8)
+            count = ctypes.c_size_t()
+            self._check(_mirror_indices(t, address(mirrors), len(mirrors), count))
+        return mirrors
+
+    def simplices_around(self, vertices: Any) -> np.ndarray:
+        """The simplices of which at least one of some vertices is a corner.
+
+        Parameters
+        ----------
+        vertices : array_like of int
+            Ids.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices, ascending, each once.
+        """
+        listed = ids("vertices", vertices)
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            names = {"vertices": "vertices", "vertex": "vertices"}
+            self._check(_cells_around(t, address(listed), len(listed), None, 0, count), **names)
+            cells = np.empty(count.value, I32)
+            self._check(_cells_around(t, address(listed), len(listed), address(cells), len(cells), count), **names)
+        return cells
+
+    def update_volumes(self, simplices: Any, volumes: np.ndarray) -> None:
+        """Computes entries of an array again that `volumes` gave, or that follows it.
+
+        Parameters
+        ----------
+        simplices : array_like of int
+            Indices of simplices.
+        volumes : ndarray of float
+            Entries of these are written; there must be one for each simplex, or more.
+        """
+        listed = simplex_ids("simplices", simplices)
+        with self._reading as t:
+            _check_output("volumes", volumes, F64, (cell_count(t),))
+            status = _update_volumes(t, address(listed), len(listed), address(volumes), len(volumes))
+            self._check(status, cells="simplices")
+
+    def update_circumcentres(self, simplices: Any, centres: np.ndarray, squared_radii: np.ndarray) -> None:
+        """Computes entries of arrays again that `circumcentres` gave, or that follow them.
+
+        Parameters
+        ----------
+        simplices : array_like of int
+            Indices of simplices.
+        centres, squared_radii : ndarray of float
+            Entries of these are written; there must be one for each simplex, or more.
+        """
+        listed = simplex_ids("simplices", simplices)
+        with self._reading as t:
+            cells = cell_count(t)
+            _check_output("centres", centres, F64, (cells, self.ndim))
+            _check_output("squared_radii", squared_radii, F64, (cells,))
+            capacity = min(len(centres), len(squared_radii))
+            status = _update_circumcentres(
+                t, address(listed), len(listed), address(centres), address(squared_radii), capacity
+            )
+            self._check(status, cells="simplices")
+
+    def update_alpha_mask(self, simplices: Any, squared_radius: float, mask: np.ndarray) -> None:
+        """Decides entries of a mask again that `alpha_mask` gave for one radius, or that follows it.
+
+        Parameters
+        ----------
+        simplices : array_like of int
+            Indices of simplices.
+        squared_radius : float
+            The one of the mask.
+        mask : ndarray of bool
+            Entries of these are written; there must be one for each simplex, or more.
+        """
+        listed = simplex_ids("simplices", simplices)
+        limit = _real("squared_radius", squared_radius)
+        with self._reading as t:
+            _check_output("mask", mask, np.dtype(np.bool_), (cell_count(t),))
+            status = _update_mask_by_circumradius(t, address(listed), len(listed), limit, address(mask), len(mask))
+            self._check(status, cells="simplices", squared_radius="squared_radius!")
+
+    def voronoi_volumes(self, box: Any = None) -> np.ndarray:
+        """The areas or volumes of the Voronoi cells of all ids, within a box.
+
+        Parameters
+        ----------
+        box : (array_like, array_like), optional
+            Its corners of least and of greatest coordinates. Without a box cells on the hull are infinite.
+
+        Returns
+        -------
+        ndarray
+            A number for each id: 0 for hidden vertices, NaN for removed ones.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[1, 1], [3, 1], [1, 3], [3, 3]])
+        >>> tri.voronoi_volumes(box=([0, 0], [4, 4]))
+        array([4., 4., 4., 4.])
+        """
+        low, high = box_corners(box, self.ndim)
+        with self._reading as t:
+            volumes = np.empty(id_count(t), F64)
+            count = ctypes.c_size_t()
+            self._check(_voronoi_volumes(t, address(low), address(high), address(volumes), len(volumes), count))
+        return volumes
+
+    def voronoi_facets(self, box: Any = None) -> np.ndarray:
+        """The lengths or areas of the Voronoi facets of all edges, in the order of `edges`, within a box.
+
+        Parameters
+        ----------
+        box : (array_like, array_like), optional
+            Its corners of least and of greatest coordinates. Without a box facets on the hull are infinite.
+
+        Returns
+        -------
+        ndarray
+            A number for each edge.
+        """
+        low, high = box_corners(box, self.ndim)
+        with self._reading as t:
+            measures = np.empty(count_of(lambda t, count: _edges(t, None, 0, count), t), F64)
+            count = ctypes.c_size_t()
+            self._check(_voronoi_facets(t, address(low), address(high), address(measures), len(measures), count))
+        return measures
+
+    def interpolate(self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan) -> np.ndarray:
+        """Values of the vertices, interpolated at other places.
+
+        Parameters
+        ----------
+        values : array_like
+            A number, or a row of them, for each id. Those of hidden and of removed vertices are not used.
+        xi : array_like
+            Points; the last axis has the coordinates.
+        method : {"linear", "natural"}, optional
+            Linear in each simplex, or by natural neighbours (Laplace's, or non-Sibsonian, interpolation).
+        fill_value : float or array_like, optional
+            What points outside the convex hull get.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of xi without its last axis, and with that of a row of values.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
+        >>> tri.interpolate([0, 4, 8], [[1, 1], [5, 5]])
+        array([ 3., nan])
+        """
+        number = choice("method", method, _library.INTERPOLATIONS)
+        given = floats("values", values)
+        if given.ndim == 0:
+            raise InvalidShape("values is a single number, and must have an entry for each id", "values")
+        rows, shape = places("xi", xi, self.ndim)
+        width = int(np.prod(given.shape[1:], dtype=np.intp))
+        outside = _fill("fill_value", fill_value, given.shape[1:])
+        results = np.empty((len(rows), width), F64)
+        with self._reading as t:
+            if len(given) != id_count(t):
+                raise WrongCount(f"values has {len(given)} entries, and there are {id_count(t)} ids", "values", None, len(given))
+            status = _interpolate(
+                t, number, address(given), len(given), width, address(rows), len(rows), None, address(outside),
+                address(results),
+            )
+            self._check(status, positions="xi", value_count="values")
+        return results.reshape(shape + given.shape[1:])
+
+
+def _real(argument: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{argument} is {value!r}, and must be a number") from None
+
+
+def _mask(argument: str, values: Any) -> np.ndarray:
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have an entry for each simplex", argument)
+    if array.size == 0:
+        return np.empty(0, np.bool_)
+    if array.dtype.kind not in "biu":
+        raise TypeError(f"{argument} has the type {array.dtype}, and must have true or false for each simplex")
+    return np.require(array, np.bool_, "CA")
+
+
+def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    try:
+        return np.require(np.broadcast_to(floats(argument, value), shape), F64, "CA").reshape(-1)
+    except ValueError:
+        raise InvalidShape(f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument) from None
+
+
+def _check_output(argument: str, array: Any, dtype: np.dtype, least: tuple[int, ...]) -> None:
+    if not isinstance(array, np.ndarray) or array.dtype != dtype or not array.flags.carray:
+        raise TypeError(f"{argument} must be a contiguous, writeable array of {dtype}")
+    if array.ndim != len(least) or array.shape[1:] != least[1:]:
+        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have {least}", argument)
+    if len(array) < least[0]:
+        raise WrongCount(f"{argument} has {len(array)} entries, and there are {least[0]} simplices", argument, None, len(array))

@@ -1,0 +1,232 @@
+"""The C library: where it is, its structures, and its functions as ctypes calls them.
+
+ctypes releases the GIL during each call. Pointers are passed as addresses, None being NULL.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+
+NONE = 0xFFFFFFFF
+"""DELDRIFT_NONE: no cell, no vertex. Arrays that are seen as int32 have -1."""
+
+ALGORITHMS = ("auto", "rebuilding", "placement_flips", "tolerance", "repair")
+COINCIDENCES = ("merge", "reject")
+INTERPOLATIONS = ("linear", "natural")
+
+CancelCallback = ctypes.CFUNCTYPE(c_bool, c_void_p)
+ProgressCallback = ctypes.CFUNCTYPE(None, c_void_p, c_double)
+
+
+class Options(ctypes.Structure):
+    """deldrift_options."""
+
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("algorithm", c_uint32),
+        ("threads", c_uint32),
+        ("coincidence", c_uint32),
+        ("reserved", c_uint32),
+        ("cancel", CancelCallback),
+        ("progress", ProgressCallback),
+        ("user_data", c_void_p),
+    ]
+
+
+class Report(ctypes.Structure):
+    """What a commit did, or all of them.
+
+    Attributes
+    ----------
+    timestamp : int
+        Number of the timestamp reached: 0 at creation, one more at each commit.
+    moved : int
+        Vertices whose position differs from that of the timestamp before.
+    unchanged : int
+        Moved vertices for which nothing but coordinates changed.
+    placements : int
+        Vertices removed and inserted again.
+    flips : int
+        Flips made.
+    rebuilds : int
+        1 if the triangulation was rebuilt; in `Delaunay.statistics` how often.
+    coincident : int
+        Hidden vertices at the end: those at the place of a vertex with a lower id.
+    within_tolerance : int
+        Vertices that were certainly within their tolerance, with an algorithm that tests it.
+    tolerances : int
+        Bi-cells whose tolerance was computed.
+    certificates : int
+        Orientations and in-sphere tests of the stars of relocated vertices.
+    exact_calls : int
+        Signs that floating-point filters left to exact arithmetic.
+    inserted, removed : int
+        Vertices inserted and removed.
+    """
+
+    _fields_ = [
+        (name, c_uint64)
+        for name in (
+            "timestamp moved unchanged placements flips rebuilds coincident within_tolerance tolerances certificates "
+            "exact_calls inserted removed"
+        ).split()
+    ] + [("_reserved", c_uint64 * 3)]
+
+    def as_dict(self) -> dict[str, int]:
+        """The counts by name."""
+        return {name: getattr(self, name) for name, *_ in self._fields_ if name != "_reserved"}
+
+    def __repr__(self) -> str:
+        return "Report(" + ", ".join(f"{name}={count}" for name, count in self.as_dict().items()) + ")"
+
+
+class ChangesView(ctypes.Structure):
+    """deldrift_changes."""
+
+    _fields_ = [
+        ("created_count", c_size_t),
+        ("created", c_void_p),
+        ("removed_count", c_size_t),
+        ("removed", c_void_p),
+        ("removed_vertices", c_void_p),
+        ("renumbered_count", c_size_t),
+        ("renumbered_from", c_void_p),
+        ("renumbered_to", c_void_p),
+        ("star_count", c_size_t),
+        ("stars", c_void_p),
+        ("hidden_count", c_size_t),
+        ("hidden", c_void_p),
+        ("shown_count", c_size_t),
+        ("shown", c_void_p),
+        ("reserved", c_size_t * 4),
+    ]
+
+
+class CellsView(ctypes.Structure):
+    """deldrift_cells_view."""
+
+    _fields_ = [
+        ("count", c_size_t),
+        ("corners_per_cell", c_uint32),
+        ("vertices", c_void_p),
+        ("neighbours", c_void_p),
+    ]
+
+
+class Field(ctypes.Structure):
+    """deldrift_field."""
+
+    _fields_ = [("name", c_char_p), ("values", c_void_p), ("components", c_size_t)]
+
+
+# Arrays are addresses; T is a triangulation, N a count or a capacity, C the count that a function tells.
+T = A = c_void_p
+N = c_size_t
+C = POINTER(c_size_t)
+U32, F64 = c_uint32, c_double
+
+PROTOTYPES = {
+    "create": (U32, A, N, POINTER(Options), POINTER(T)),
+    "dimension": (T, POINTER(U32)),
+    "set_algorithm": (T, U32),
+    "get_algorithm": (T, POINTER(U32)),
+    "move_vertices": (T, A, A, N),
+    "stage_insertions": (T, A, N, POINTER(U32)),
+    "stage_removals": (T, A, N),
+    "discard_moves": (T,),
+    "commit_timestamp": (T, POINTER(Report)),
+    "commit_positions": (T, A, N, POINTER(Report)),
+    "relocate_vertex": (T, U32, A),
+    "insert_vertex": (T, A, POINTER(U32)),
+    "remove_vertex": (T, U32),
+    "compact": (T, A, N, C),
+    "take_changes": (T, POINTER(ChangesView)),
+    "vertex_count": (T, C),
+    "id_count": (T, C),
+    "cell_count": (T, C),
+    "staged_count": (T, C),
+    "memory_bytes": (T, C),
+    "timestamp": (T, POINTER(c_uint64)),
+    "statistics": (T, POINTER(Report)),
+    "is_present": (T, U32, POINTER(c_bool)),
+    "copy_positions": (T, A, N, C),
+    "cells": (T, POINTER(CellsView)),
+    "copy_cells": (T, A, A, N, C),
+    "star": (T, U32, A, N, C),
+    "tolerance": (T, U32, POINTER(F64)),
+    "validate": (T, U32),
+    "locate_points": (T, A, N, A, A),
+    "nearest_vertex": (T, A, POINTER(U32)),
+    "coincident_representative": (T, U32, POINTER(U32)),
+    "circumcentres": (T, A, A, N, C),
+    "volumes": (T, A, N, C),
+    "mask_by_circumradius": (T, F64, A, N, C),
+    "mask_boundary": (T, A, N, A, A, A, N, C),
+    "hull_facets": (T, A, A, A, N, C),
+    "edges": (T, A, N, C),
+    "vertex_neighbours": (T, A, N, A, N, C),
+    "vertex_cells": (T, A, N, A, N, C),
+    "mirror_indices": (T, A, N, C),
+    "ordered_star": (T, U32, A, N, C),
+    "cells_around": (T, A, N, A, N, C),
+    "update_circumcentres": (T, A, N, A, A, N),
+    "update_volumes": (T, A, N, A, N),
+    "update_mask_by_circumradius": (T, A, N, F64, A, N),
+    "voronoi_volumes": (T, A, A, A, N, C),
+    "voronoi_facets": (T, A, A, A, N, C),
+    "interpolate": (T, U32, A, N, N, A, N, A, A, A),
+    "clone": (T, POINTER(T)),
+    "save": (T, A, N, C),
+    "load": (A, N, POINTER(Options), POINTER(T)),
+    "save_file": (T, c_char_p),
+    "load_file": (c_char_p, POINTER(Options), POINTER(T)),
+    "write_vtu": (T, c_char_p, POINTER(Field), N, POINTER(Field), N),
+    "write_medit": (T, c_char_p),
+    "orientation": (U32, A, POINTER(c_int32)),
+}
+
+
+def _find() -> str:
+    """The path of the library: that of the environment variable DELDRIFT_LIBRARY, or else the package's own."""
+    path = os.environ.get("DELDRIFT_LIBRARY")
+    if path:
+        return path
+    return os.path.join(os.path.dirname(os.path.abspath(__file__)), "libdeldrift.so")
+
+
+def _load() -> ctypes.CDLL:
+    path = _find()
+    try:
+        loaded = ctypes.CDLL(path)
+    except OSError as error:
+        raise ImportError(f"deldrift needs its library, {path}, which cannot be loaded: {error}") from error
+    for name, arguments in PROTOTYPES.items():
+        function = getattr(loaded, "deldrift_" + name)
+        function.argtypes = arguments
+        function.restype = U32
+    loaded.deldrift_destroy.argtypes = (T,)
+    loaded.deldrift_destroy.restype = None
+    loaded.deldrift_version.argtypes = loaded.deldrift_last_error.argtypes = ()
+    loaded.deldrift_version.restype = loaded.deldrift_last_error.restype = c_char_p
+    return loaded
+
+
+_loaded = _load()
+destroy = _loaded.deldrift_destroy
+
+
+def function(name: str):
+    """The function deldrift_NAME."""
+    return getattr(_loaded, "deldrift_" + name)
+
+
+def version() -> str:
+    """The version of the library that is running."""
+    return _loaded.deldrift_version().decode()
+
+
+def last_error() -> str:
+    """The message of the last call of this thread that failed."""
+    return _loaded.deldrift_last_error().decode()

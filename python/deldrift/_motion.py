@@ -1,0 +1,410 @@
+"""Changes of a triangulation: moves, insertions, removals, steps, and what they have changed."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple, Optional, cast
+
+import numpy as np
+
+from . import _library
+from ._arrays import I32, address, choice, ids, one_id, one_point, points, taken
+from ._core import Core, id_count
+from ._errors import Busy, InvalidOption, WrongCount
+from ._library import Report
+
+_move_vertices = _library.function("move_vertices")
+_stage_insertions = _library.function("stage_insertions")
+_stage_removals = _library.function("stage_removals")
+_commit_timestamp = _library.function("commit_timestamp")
+_commit_positions = _library.function("commit_positions")
+_relocate_vertex = _library.function("relocate_vertex")
+_insert_vertex = _library.function("insert_vertex")
+_remove_vertex = _library.function("remove_vertex")
+_compact = _library.function("compact")
+_take_changes = _library.function("take_changes")
+_set_algorithm = _library.function("set_algorithm")
+_get_algorithm = _library.function("get_algorithm")
+_statistics = _library.function("statistics")
+_timestamp = _library.function("timestamp")
+
+NONE_LISTED = np.empty(0, I32)
+NONE_LISTED.flags.writeable = False
+
+
+class Changes(NamedTuple):
+    """What has changed since `Delaunay.changes` was last called.
+
+    A simplex is its set of vertices: one that existed before and exists now is in none of the lists, unless its index
+    is another one. A program with data for each simplex sets aside those of removed and renumbered ones, writes the
+    latter to their new indices, and makes those of created ones.
+    """
+
+    created: np.ndarray
+    """Indices of simplices that exist and did not, ascending."""
+    removed: np.ndarray
+    """The indices that simplices had which do not exist any more."""
+    removed_simplices: np.ndarray
+    """Their vertices, a row for each; -1 for vertices that a compaction has dropped."""
+    renumbered_from: np.ndarray
+    """The indices that simplices had which have another one."""
+    renumbered_to: np.ndarray
+    """The indices that they have."""
+    stars: np.ndarray
+    """Vertices of created and removed simplices, ascending."""
+    hidden: np.ndarray
+    """Vertices that a vertex of lower id at the same place hides, and did not before."""
+    shown: np.ndarray
+    """Vertices that were hidden and are not."""
+
+
+class Step:
+    """Moves, insertions and removals that `Delaunay.step` commits together."""
+
+    def __init__(self, owner: "Motion") -> None:
+        self._owner = owner
+        self._is_open = False
+
+    def __enter__(self) -> "Step":
+        owner = self._owner
+        with owner._changing:
+            owner._has_step = self._is_open = True
+        return self
+
+    def __exit__(self, kind: Any, *_: Any) -> None:
+        owner = self._owner
+        self._is_open = False
+        owner._must_discard = True
+        try:
+            if kind is None:
+                self._commit(owner)
+        finally:
+            owner._has_step = False
+            if owner._must_discard:
+                _discard(owner)
+
+    def _commit(self, owner: "Motion") -> None:
+        with owner._staging as t:
+            report = Report()
+            status = _commit_timestamp(t, report)
+            owner._check(status)
+            owner._must_discard = False
+            owner._last_report = report
+
+    def _check_open(self) -> None:
+        if not self._is_open:
+            raise Busy("the step is not open: use it in `with tri.step() as step`")
+
+    def move(self, points: Any, ids: Any = None) -> None:
+        """Moves vertices to new places.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each vertex.
+        ids : array_like of int, optional
+            The vertices, each at most once in a step; all by default.
+        """
+        self._check_open()
+        self._owner._stage_moves(points, ids)
+
+    def insert(self, points: Any) -> np.ndarray:
+        """Inserts vertices.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each new vertex.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids.
+        """
+        self._check_open()
+        owner = self._owner
+        positions = _rows(points, owner.ndim)
+        with owner._staging as t:
+            first = ctypes.c_uint32()
+            owner._check(_stage_insertions(t, address(positions), len(positions), first), positions="points")
+        return np.arange(first.value, first.value + len(positions), dtype=I32)
+
+    def remove(self, ids: Any) -> None:
+        """Removes vertices.
+
+        Parameters
+        ----------
+        ids : array_like of int
+            The vertices, each at most once in a step.
+        """
+        self._check_open()
+        owner = self._owner
+        vertices = _ids(ids)
+        with owner._staging as t:
+            owner._check(_stage_removals(t, address(vertices), len(vertices)), vertices="ids", vertex="ids")
+
+
+class Motion(Core):
+    """Changes of a triangulation."""
+
+    def move(self, points: Any, ids: Any = None) -> Report:
+        """Moves vertices, and makes that the next timestamp.
+
+        The simplices are then those of the new positions, as if they had been computed from nothing.
+
+        Parameters
+        ----------
+        points : array_like
+            A row of coordinates for each vertex. Without `ids` there is one for each id, as in `Delaunay.points`, and
+            rows of removed vertices are not read.
+        ids : array_like of int, optional
+            The vertices that move, each at most once; all by default.
+
+        Returns
+        -------
+        Report
+            What was done; also `Delaunay.report`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+        >>> tri.move([[3, 2]], ids=[4]).moved
+        1
+        >>> tri.points[4]
+        array([3., 2.])
+        """
+        if ids is not None:
+            with self.step() as step:
+                step.move(points, ids)
+            return cast(Report, self._last_report)
+        positions = _rows(points, self.ndim)
+        report = Report()
+        with self._changing as t:
+            status = _commit_positions(t, address(positions), len(positions), report)
+            if status:
+                self._check(status, positions="points", count="points")
+            self._last_report = report
+        return report
+
+    def step(self) -> Step:
+        """A step: moves, insertions and removals that are committed together at the end of a `with` block.
+
+        All or nothing: an exception in the block, or of the commit, leaves the triangulation as it was.
+
+        Returns
+        -------
+        Step
+            What has `move`, `insert` and `remove`.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+        >>> with tri.step() as step:
+        ...     step.move([[3, 2]], ids=[4])
+        ...     new = step.insert([[1, 2], [2, 1]])
+        ...     step.remove([0])
+        >>> new
+        array([5, 6], dtype=int32)
+        >>> tri.report.inserted, tri.report.removed, tri.report.moved
+        (2, 1, 1)
+        """
+        return Step(self)
+
+    def _stage_moves(self, values: Any, vertices: Any) -> None:
+        positions = _rows(values, self.ndim)
+        if vertices is None:
+            with self._staging as t:
+                if len(positions) != id_count(t):
+                    _wrong_count(len(positions), id_count(t))
+                self._check(_move_vertices(t, None, address(positions), len(positions)), positions="points")
+            return
+        listed = _ids(vertices)
+        if len(listed) != len(positions):
+            raise WrongCount(
+                f"points has {len(positions)} rows, and ids has {len(listed)} entries", "points", None, len(positions)
+            )
+        with self._staging as t:
+            status = _move_vertices(t, address(listed), address(positions), len(listed))
+            self._check(status, positions="points", vertices="ids", vertex="ids")
+
+    def relocate(self, vertex: int, point: Any) -> None:
+        """Moves one vertex at once; the timestamp stays.
+
+        Parameters
+        ----------
+        vertex : int
+            Its id.
+        point : array_like
+            Where it goes.
+        """
+        number = one_id("vertex", vertex)
+        position = one_point("point", point, self.ndim)
+        with self._changing as t:
+            self._check(_relocate_vertex(t, number, address(position)), vertex="vertex!", position="point")
+
+    def insert(self, point: Any) -> int:
+        """Inserts one vertex at once; the timestamp stays.
+
+        Parameters
+        ----------
+        point : array_like
+            Where it is.
+
+        Returns
+        -------
+        int
+            Its id: one above the highest ever given.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
+        >>> tri.insert([1, 1])
+        4
+        """
+        position = one_point("point", point, self.ndim)
+        with self._changing as t:
+            vertex = ctypes.c_uint32()
+            self._check(_insert_vertex(t, address(position), vertex), position="point")
+        return vertex.value
+
+    def remove(self, vertex: int) -> None:
+        """Removes one vertex at once; the timestamp stays.
+
+        Ids of the others stay, and its own is not given again before `compact`.
+
+        Parameters
+        ----------
+        vertex : int
+            Its id.
+        """
+        number = one_id("vertex", vertex)
+        with self._changing as t:
+            self._check(_remove_vertex(t, number), vertex="vertex!")
+
+    def compact(self) -> np.ndarray:
+        """Gives vertices the ids 0, 1, ... in the order of those that they have, and frees what removed ones used.
+
+        Returns
+        -------
+        ndarray of int
+            The new id of each old one, -1 for removed vertices.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
+        >>> tri.remove(1)
+        >>> tri.compact()
+        array([ 0, -1,  1,  2], dtype=int32)
+        """
+        with self._changing as t:
+            new_ids = np.empty(id_count(t), I32)
+            count = ctypes.c_size_t()
+            self._check(_compact(t, address(new_ids), len(new_ids), count))
+        return new_ids
+
+    def changes(self) -> Changes:
+        """What has changed since this was last called; the first call lists all simplices as created.
+
+        Returns
+        -------
+        Changes
+            Named arrays.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+        >>> len(tri.changes().created)
+        4
+        >>> _ = tri.move([[3, 2]], ids=[4])
+        >>> tri.changes().created
+        array([], dtype=int32)
+        >>> tri.remove(4)
+        >>> changes = tri.changes()
+        >>> len(changes.created), len(changes.removed)
+        (2, 4)
+        """
+        with self._changing as t:
+            view = _library.ChangesView()
+            self._check(_take_changes(t, view))
+            return _changes(view, self.ndim + 1)
+
+    @property
+    def report(self) -> Optional[Report]:
+        """What the last commit did; None before the first."""
+        return self._last_report
+
+    @property
+    def statistics(self) -> Report:
+        """What all commits and immediate changes have done, in sum."""
+        with self._reading as t:
+            report = Report()
+            self._check(_statistics(t, report))
+        return report
+
+    @property
+    def timestamp(self) -> int:
+        """The number of the current timestamp: 0 at creation, one more at each commit."""
+        with self._reading as t:
+            number = ctypes.c_uint64()
+            self._check(_timestamp(t, number))
+        return number.value
+
+    @property
+    def algorithm(self) -> str:
+        """The algorithm of commits: "auto", "rebuilding", "placement_flips", "tolerance" or "repair".
+
+        All give the same simplices; they differ in what they cost. It may be changed at any time.
+        """
+        with self._reading as t:
+            number = ctypes.c_uint32()
+            self._check(_get_algorithm(t, number))
+        return _library.ALGORITHMS[number.value]
+
+    @algorithm.setter
+    def algorithm(self, name: str) -> None:
+        number = choice("algorithm", name, _library.ALGORITHMS, InvalidOption)
+        with self._changing as t:
+            self._check(_set_algorithm(t, number))
+
+
+def _changes(view: _library.ChangesView, corners: int) -> Changes:
+    def listed(start: Optional[int], count: int) -> np.ndarray:
+        return taken(start, (count,)) if count else NONE_LISTED
+
+    removed_count = view.removed_count
+    return Changes(
+        listed(view.created, view.created_count),
+        listed(view.removed, removed_count),
+        taken(view.removed_vertices, (removed_count, corners)),
+        listed(view.renumbered_from, view.renumbered_count),
+        listed(view.renumbered_to, view.renumbered_count),
+        listed(view.stars, view.star_count),
+        listed(view.hidden, view.hidden_count),
+        listed(view.shown, view.shown_count),
+    )
+
+
+def _discard(owner: Motion) -> None:
+    """Forgets what is staged: at once, or with the next change where another thread is reading."""
+    try:
+        with owner._changing:
+            pass
+    except Busy:
+        pass
+
+
+def _wrong_count(rows: int, there_are: int) -> None:
+    raise WrongCount(f"points has {rows} rows, and there are {there_are} ids", "points", None, rows)
+
+
+def _rows(values: Any, ndim: int) -> np.ndarray:
+    return points("points", values, ndim)
+
+
+def _ids(values: Any) -> np.ndarray:
+    return ids("ids", values)
