@@ -7,8 +7,8 @@ Examples
 >>> import deldrift
 >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
 >>> report = tri.move([[3, 2]], ids=[4])
->>> tri.find_simplex([3.5, 2]) >= 0
-True
+>>> tri.find_simplex([[3.5, 2], [5, 2]]) >= 0
+array([ True, False])
 """
 
 from ._arrays import is_current

@@ -341,12 +341,16 @@ def _cofactors(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _paraboloid(positions: np.ndarray) -> tuple[float, float]:
-    """The scale and shift that qhull's option Qbb gives: heights from 0 to the greatest magnitude of a coordinate."""
+    """The scale and shift of qhull's options Qbb and Qz, which scipy sets by default.
+
+    Heights go from 0 to the greatest magnitude of a coordinate, which is that of the point at infinity; it is a tenth
+    higher than the highest point.
+    """
     heights = (positions**2).sum(axis=1)
     heights = heights[~np.isnan(heights)]
-    if not len(heights) or heights.max() == heights.min():
+    if not len(heights) or not heights.max() > 0:
         return 1.0, 0.0
-    scale = float(np.nanmax(np.abs(positions)) / (heights.max() - heights.min()))
+    scale = float(np.nanmax(np.abs(positions)) / (1.1 * heights.max() - heights.min()))
     return scale, float(-heights.min() * scale)
 
 
