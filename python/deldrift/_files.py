@@ -9,9 +9,9 @@ from typing import Any, Mapping, Optional, Union
 import numpy as np
 
 from . import _library
-from ._arrays import F64, address, floats
+from ._arrays import address, floats
 from ._core import Core, cell_count, id_count
-from ._errors import InvalidField, InvalidShape, WrongCount
+from ._errors import InvalidDimension, InvalidField, WrongCount
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
@@ -128,7 +128,7 @@ class Files(Core):
             Where it is drawn.
         """
         if self.ndim != 2:
-            raise InvalidShape("plot draws triangles, and the triangulation is one of tetrahedra: see write_vtu")
+            raise InvalidDimension("plot draws triangles, and the triangulation is one of tetrahedra: see write_vtu")
         if ax is None:
             import matplotlib.pyplot as plt
 
@@ -164,7 +164,7 @@ def _fields(
         if b"\0" in encoded:
             raise InvalidField(f"{argument} has the name {name!r} with a NUL character, which XML does not have", argument)
         field.name = encoded
-        field.values = address(np.require(array, F64, "CA"))
+        field.values = address(array)
         field.components = array.size // max(len(array), 1) if len(array) else 1
         arrays.append(array)
     return listed, arrays
