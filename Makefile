@@ -33,7 +33,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .NOTPARALLEL:
 .PHONY: help quick test counts soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
 .PHONY: examples
-.PHONY: compat demo deb dist packages library benchmark clean faults tsan miri fuzz mutants coverage
+.PHONY: compat demo deb dist packages wheel library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
@@ -194,6 +194,10 @@ fuzz: ## fuzzing guided by coverage: TARGET=predicates, calls or loaders, for SE
 	ASAN_OPTIONS=allocator_may_return_null=1 "$(FUZZ_BUILD)/$(FUZZ_HOST)/release/$(TARGET)" \
 	    build/fuzz/$(TARGET) fuzz/corpus/$(TARGET) -max_total_time=$(SECONDS) -timeout=60 -max_len=1500 \
 	    -artifact_prefix=fuzz/findings/$(TARGET)-
+
+wheel: library ## Python package: wheel and sdist in build/packages, and its tests in a clean environment; needs a network
+	@.ci/packages python3-venv
+	python/make_wheel
 
 compat: library ## Triangle's and TetGen's calling conventions: libdeldrift_triangle_tetgen, in build/compat
 	@.ci/packages cmake g++
