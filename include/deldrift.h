@@ -62,7 +62,8 @@
  *
  * Ownership. What deldrift_create made must be given to deldrift_destroy, once. Arrays that are passed in
  * are read during the call and not kept. Views (deldrift_cells_view, deldrift_changes) belong to
- * the triangulation and end with the next call on it that takes it as non-const, or with its destruction.
+ * the triangulation and end with the next call on it that takes it as non-const, or with its destruction; but see
+ * deldrift_cells_view for calls that change no cells, and deldrift_release_cells for views that outlive any.
  * Strings belong to the library.
  *
  * Threads. Functions that take `const deldrift_triangulation *` may run on the same triangulation from
@@ -285,6 +286,10 @@ typedef uint32_t deldrift_interpolation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
+/// deldrift_free_cells.
+typedef struct deldrift_released_cells deldrift_released_cells;
+
 /// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.
 typedef struct deldrift_triangulation deldrift_triangulation;
 
@@ -415,6 +420,9 @@ typedef struct deldrift_changes {
 
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
 /// until the next call that changes the triangulation.
+///
+/// Calls that stage, that discard what is staged, that take changes, and deldrift_set_algorithm, change no cells: a view
+/// of them stays valid, unless it is older than the last change.
 ///
 /// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
 /// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
@@ -843,6 +851,25 @@ deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_cells(const deldrift_triangulation *t,
                                deldrift_cells_view *view);
+
+/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner: they stay as they
+/// are, and valid, until the owner is handed to deldrift_free_cells, whatever becomes of t. A view that deldrift_cells has
+/// given since the last change of the cells is of these arrays, so that a program which has shown it to others, such as
+/// an interpreter, can call this before it makes a change. The triangulation makes copies for itself.
+///
+/// Cost: m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing is handed over, and
+/// views are as valid as before. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_release_cells(deldrift_triangulation *t,
+                                       deldrift_cells_view *view,
+                                       deldrift_released_cells **owner);
+
+/// Frees arrays that deldrift_release_cells has handed over. NULL is legal and does nothing. May be called from any
+/// thread.
+///
+/// Cost: constant.
+void deldrift_free_cells(deldrift_released_cells *owner);
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
 ///

@@ -205,6 +205,13 @@ public:
     // The ids of the vertices that are present, in ascending order.
     Vertices vertices() const { return Vertices(native(), id_count(), vertex_count()); }
     Cells cells() const { return Cells(ask<deldrift_cells_view>(deldrift_cells)); }
+    // The arrays that cells() shows, handed over; the triangulation goes on with copies.
+    ReleasedCells release_cells() {
+        deldrift_released_cells *owner = nullptr;
+        deldrift_cells_view view;
+        require_ok(deldrift_release_cells(native(), &view, &owner));
+        return {owner, view};
+    }
     // Since the last call; all lists end with the next change.
     deldrift_changes take_changes() {
         deldrift_changes changes;

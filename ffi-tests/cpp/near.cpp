@@ -171,7 +171,18 @@ static void signs_are_exact() {
     CHECK_THROWS(deldrift::in_sphere(4, {}), DELDRIFT_INVALID_DIMENSION, "dimension");
 }
 
+static void released_cells_stay() {
+    Triangulation t(2, points);
+    const std::uint32_t *shown = t.cells().vertices().data();
+    const Ids before(t.cells().vertices().begin(), t.cells().vertices().end());
+    const deldrift::ReleasedCells released = t.release_cells();
+    t = Triangulation(2, {});
+    CHECK(released.cells().vertices().data() == shown);
+    CHECK(std::equal(before.begin(), before.end(), released.cells().vertices().begin()));
+}
+
 int main() {
+    released_cells_stay();
     vertices_are_found();
     hidden_vertices_are_listed();
     simplices_are_found();

@@ -47,7 +47,7 @@ pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;
 pub use reading::saving::Saved;
 pub use report::CommitReport;
-pub use state::cells::{NO_CELL, NO_CORNER};
+pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};
 pub use state::changes::{Changes, NO_VERTEX};
 pub(crate) use state::checking::check_position;
 pub use state::views::CellsView;
