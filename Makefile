@@ -145,6 +145,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/solver docs/solver.svg
 	build/examples/tour
 	build/examples/comparison
+	build/examples/plate
 	build/examples/heat 4000 100 docs/heat.svg
 	build/examples/smoothing 60 docs/smoothing.svg
 	build/examples/densities 1225 docs/densities.svg
