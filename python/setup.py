@@ -1,7 +1,7 @@
 """Builds the package with the library inside.
 
-The library comes from DELDRIFT_LIBRARY_DIR, a folder with libdeldrift.a and libdeldrift.so, or is compiled by cargo from
-the sources: those of the repository around this folder, or, in an sdist, those in the folder rust.
+The library comes from DELDRIFT_LIBRARY_DIR, a folder with libdeldrift.a and libdeldrift.so, or is compiled by cargo
+from sources: those of the repository around this folder, or, in an sdist, those in the folder rust.
 
 With PyPI's ziglang installed it is linked again for glibc 2.17, so that the wheel runs on older systems than the one it
 was built on.
@@ -39,7 +39,17 @@ def compiled(scratch):
     given = os.environ.get("DELDRIFT_LIBRARY_DIR")
     if given:
         return Path(given)
-    run("cargo", "build", "--release", "--lib", "--locked", "--manifest-path", SOURCES / "Cargo.toml", "--target-dir", scratch)
+    run(
+        "cargo",
+        "build",
+        "--release",
+        "--lib",
+        "--locked",
+        "--manifest-path",
+        SOURCES / "Cargo.toml",
+        "--target-dir",
+        scratch,
+    )
     return scratch / "release"
 
 
@@ -60,7 +70,15 @@ def link_for_old_glibc(archive, scratch, output):
     run(
         *(sys.executable, "-m", "ziglang", "cc", "-target", target, "-shared", "-s", "-o", output),
         *("-Wl,--whole-archive", archive, "-Wl,--no-whole-archive", "-Wl,--gc-sections"),
-        *(f"-Wl,--version-script={exports}", "-Wl,-soname,libdeldrift.so", "-lm", "-lpthread", "-ldl", "-lrt", "-lunwind"),
+        *(
+            f"-Wl,--version-script={exports}",
+            "-Wl,-soname,libdeldrift.so",
+            "-lm",
+            "-lpthread",
+            "-ldl",
+            "-lrt",
+            "-lunwind",
+        ),
     )
 
 

@@ -12,6 +12,7 @@ array([ True, False])
 """
 
 from ._arrays import is_current
+from ._asking import Locations, in_sphere, orientation
 from ._delaunay import Delaunay, frombytes, load, tsearch
 from ._errors import (
     Busy,
@@ -39,7 +40,7 @@ from ._errors import (
     TooMany,
     WrongCount,
 )
-from ._geometry import Boundary, Locations
+from ._geometry import Boundary
 from ._library import Report, version
 from ._motion import Changes, Step
 
@@ -77,8 +78,10 @@ __all__ = [
     "TooMany",
     "WrongCount",
     "frombytes",
+    "in_sphere",
     "is_current",
     "load",
+    "orientation",
     "tsearch",
     "version",
 ]

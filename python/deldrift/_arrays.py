@@ -19,9 +19,20 @@ I32 = np.dtype(np.int32)
 COUNTS_REFERENCES = sys.implementation.name == "cpython"
 
 
-def address(array: Optional[np.ndarray]) -> Optional[int]:
+def address(array: np.ndarray) -> int:
+    """Where the numbers of an array are."""
+    start: int = array.__array_interface__["data"][0]
+    return start
+
+
+def address_if(array: Optional[np.ndarray]) -> Optional[int]:
     """Where the numbers of an array are; None for no array."""
-    return None if array is None else array.__array_interface__["data"][0]
+    return None if array is None else address(array)
+
+
+def contiguous(array: np.ndarray, dtype: np.dtype) -> np.ndarray:
+    """The array as the library can read it: of a type, contiguous and aligned; itself where it is so."""
+    return np.require(array, dtype, ["C", "A"])
 
 
 def floats(argument: str, values: Any) -> np.ndarray:
@@ -29,25 +40,29 @@ def floats(argument: str, values: Any) -> np.ndarray:
     if type(values) is np.ndarray and values.dtype is F64 and values.flags.carray:
         return values
     if isinstance(values, np.ma.MaskedArray):
-        raise InvalidShape(f"{argument} is a masked array, of which it is not known what its masked entries are", argument)
+        raise InvalidShape(
+            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
+        )
     if hasattr(values, "__dlpack__") and not hasattr(values, "__array__"):
         values = np.from_dlpack(values)
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         if array.dtype.kind == "O":
             try:
-                return np.require(array.astype(F64), F64, "CA")
+                return contiguous(array.astype(F64), F64)
             except (TypeError, ValueError) as error:
                 raise TypeError(f"{argument} has entries that are no numbers: {error}") from None
         raise TypeError(f"{argument} has the type {array.dtype}, and must have real numbers")
-    return np.require(array, F64, "CA")
+    return contiguous(array, F64)
 
 
 def points(argument: str, values: Any, ndim: Optional[int] = None) -> np.ndarray:
     """Rows of coordinates: of ndim of them, or of 2 or 3."""
     array = floats(argument, values)
     if array.ndim != 2:
-        raise InvalidShape(f"{argument} has the shape {array.shape}, and must have a row of coordinates for each point", argument)
+        raise InvalidShape(
+            f"{argument} has the shape {array.shape}, and must have a row of coordinates for each point", argument
+        )
     if array.shape[1] != ndim:
         _check_width(argument, array.shape[1], ndim)
     return array
@@ -55,7 +70,9 @@ def points(argument: str, values: Any, ndim: Optional[int] = None) -> np.ndarray
 
 def _check_width(argument: str, width: int, ndim: Optional[int]) -> None:
     if ndim is not None:
-        raise InvalidShape(f"{argument} has {width} coordinates for each point, and must have {ndim}", argument, None, width)
+        raise InvalidShape(
+            f"{argument} has {width} coordinates for each point, and must have {ndim}", argument, None, width
+        )
     if width not in (2, 3):
         raise InvalidDimension(
             f"{argument} has {width} coordinates for each point; deldrift triangulates in 2 and 3 dimensions, "
@@ -85,7 +102,9 @@ def places(argument: str, values: Any, ndim: int) -> tuple[np.ndarray, tuple[int
 def ids(argument: str, values: Any, missing: type = NoSuchVertex) -> np.ndarray:
     """Ids of vertices, or indices of simplices, as contiguous unsigned numbers of 32 bits."""
     if isinstance(values, np.ma.MaskedArray):
-        raise InvalidShape(f"{argument} is a masked array, of which it is not known what its masked entries are", argument)
+        raise InvalidShape(
+            f"{argument} is a masked array, of which it is not known what its masked entries are", argument
+        )
     array = np.asarray(values)
     if array.ndim != 1:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must be a list", argument)
@@ -97,8 +116,10 @@ def ids(argument: str, values: Any, missing: type = NoSuchVertex) -> np.ndarray:
         wrong = (array < 0) | (array >= _library.NONE)
         if wrong.any():
             index = int(np.argmax(wrong))
-            raise missing(f"{argument}[{index}] is {array[index]}, which was never given", argument, index, int(array[index]))
-    return np.require(array, U32, "CA")
+            raise missing(
+                f"{argument}[{index}] is {array[index]}, which was never given", argument, index, int(array[index])
+            )
+    return contiguous(array, U32)
 
 
 def one_id(argument: str, value: Any) -> int:
@@ -110,6 +131,14 @@ def one_id(argument: str, value: Any) -> int:
     if not 0 <= number < _library.NONE:
         raise NoSuchVertex(f"{argument} is {number}, which was never given", argument, None, number)
     return number
+
+
+def real(argument: str, value: Any) -> float:
+    """A number."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{argument} is {value!r}, and must be a number") from None
 
 
 def simplex_ids(argument: str, values: Any) -> np.ndarray:
@@ -145,8 +174,20 @@ class Handle:
         # What the callbacks of the library use.
         self.keep = keep
 
-    def __del__(self, destroy=_library.destroy) -> None:
+    def __del__(self, destroy: Any = _library.destroy) -> None:
         destroy(self.pointer)
+
+
+class Released:
+    """Arrays of cells that the library has handed over, freed with the last reference."""
+
+    __slots__ = ("pointer",)
+
+    def __init__(self, pointer: int) -> None:
+        self.pointer = pointer
+
+    def __del__(self, free_cells: Any = _library.free_cells) -> None:
+        free_cells(self.pointer)
 
 
 class Version:
@@ -165,11 +206,12 @@ class Lease:
     gone says that nobody looks at the memory any more, and one that is not keeps what owns the memory.
     """
 
-    __slots__ = ("version", "owner", "__array_interface__", "__weakref__")
+    __slots__ = ("version", "owner", "start", "__array_interface__", "__weakref__")
 
     def __init__(self, version: Version, owner: Any, start: int, shape: tuple[int, ...]) -> None:
         self.version = version
         self.owner = owner
+        self.start = start
         self.__array_interface__ = {"shape": shape, "typestr": I32.str, "data": (start, True), "version": 3}
 
 
@@ -187,37 +229,6 @@ class _Memory:
 
     def __init__(self, start: int, shape: tuple[int, ...]) -> None:
         self.__array_interface__ = {"shape": shape, "typestr": I32.str, "data": (start, True), "version": 3}
-
-
-def is_current(self) -> bool:
-        """Whether the triangulation has not been changed since."""
-        return not self.handle.is_left and self.handle.generation == self.generation
-
-
-def lend(handle: Handle, start: Optional[int], shape: tuple[int, ...]) -> tuple[np.ndarray, Optional[weakref.ref]]:
-    """A read-only array of the library's memory, and what tells whether it is still in use."""
-    if not start:
-        array = np.empty(shape, I32)
-        array.flags.writeable = False
-        return array, None
-    lease = Lease(handle, start, shape)
-    return np.asarray(lease), weakref.ref(lease)
-
-
-def taken(start: Optional[int], shape: tuple[int, ...]) -> np.ndarray:
-    """A copy of an array of the library's, of ids or indices."""
-    if not start:
-        return np.empty(shape, I32)
-    return np.array(np.asarray(_Memory(start, shape)))
-
-
-class _Memory:
-    """Memory of the library that is read at once."""
-
-    __slots__ = ("__array_interface__",)
-
-    def __init__(self, start: int, shape: tuple[int, ...]) -> None:
-        self.__array_interface__ = {"shape": shape, "typestr": "<i4", "data": (start, True), "version": 3}
 
 
 def is_current(array: np.ndarray) -> bool:
@@ -249,4 +260,6 @@ def is_current(array: np.ndarray) -> bool:
         base = base.base
     if isinstance(base, Lease):
         return base.version.is_current
-    raise InvalidValue("array is no array of a triangulation, or a copy, which does not know what it was copied from", "array")
+    raise InvalidValue(
+        "array is no array of a triangulation, or a copy, which does not know what it was copied from", "array"
+    )

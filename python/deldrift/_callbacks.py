@@ -22,14 +22,14 @@ class Callbacks:
         self.on_progress = _library.ProgressCallback(self._on_progress)
         self.on_cancel = _library.CancelCallback(self._on_cancel)
 
-    def _on_progress(self, _user_data, fraction: float) -> None:
+    def _on_progress(self, _user_data: Any, fraction: float) -> None:
         try:
             if self._tell is not None:
                 self._tell(fraction)
         except BaseException as error:
             self._raised[threading.get_ident()] = error
 
-    def _on_cancel(self, _user_data) -> bool:
+    def _on_cancel(self, _user_data: Any) -> bool:
         try:
             if threading.get_ident() in self._raised:
                 return True
@@ -58,4 +58,5 @@ def _teller(progress: Any) -> Optional[Callable[[float], None]]:
         return show
     if not callable(progress):
         raise TypeError(f"progress is {progress!r}, and must be a function of the part that is done, or a tqdm")
-    return progress
+    tell: Callable[[float], None] = progress
+    return tell

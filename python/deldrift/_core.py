@@ -5,18 +5,20 @@ from __future__ import annotations
 import ctypes
 import threading
 import weakref
-from typing import Any, Callable, Mapping, Optional
+from typing import Any, Callable, Mapping, Optional, TypeVar
 
 import numpy as np
 
 from . import _library
-from ._arrays import COUNTS_REFERENCES, I32, Handle, Lease, Version, address, choice
+from ._arrays import COUNTS_REFERENCES, Handle, Lease, Released, Version, address, choice, taken
 from ._callbacks import Callbacks
-from ._errors import Busy, Closed, InvalidOption, raise_for
+from ._errors import Busy, Closed, InternalError, InvalidOption, raise_for
+
+Made = TypeVar("Made")
 
 NO_NAMES: Mapping[str, str] = {}
 
-_clone = _library.function("clone")
+_release_cells = _library.function("release_cells")
 _cells = _library.function("cells")
 _discard_moves = _library.function("discard_moves")
 _id_count = _library.function("id_count")
@@ -35,7 +37,9 @@ def check(status: int, names: Mapping[str, str] = NO_NAMES, callbacks: Optional[
 def make_options(algorithm: str, threads: int, coincidence: str, callbacks: Optional[Callbacks]) -> _library.Options:
     """deldrift_options of Python's arguments."""
     if not isinstance(threads, int) or not 0 <= threads < 1 << 32:
-        raise InvalidOption(f"threads is {threads!r}, and must be a number of threads, or 0 for all that pay", "threads")
+        raise InvalidOption(
+            f"threads is {threads!r}, and must be a number of threads, or 0 for all that pay", "threads"
+        )
     options = _library.Options(ctypes.sizeof(_library.Options))
     options.algorithm = choice("algorithm", algorithm, _library.ALGORITHMS, InvalidOption)
     options.threads = threads
@@ -57,7 +61,9 @@ class _Reading:
         owner = self.owner
         with owner._lock:
             if owner._is_changing:
-                raise Busy("the triangulation is being changed, by another thread or by the call whose callback this is")
+                raise Busy(
+                    "the triangulation is being changed, by another thread or by the call whose callback this is"
+                )
             owner._readers += 1
         return owner._handle.pointer
 
@@ -67,13 +73,16 @@ class _Reading:
 
 
 class _Changing:
-    """A change of a triangulation, alone: `with self._changing as t`."""
+    """A call that may not run beside any other: `with self._changing as t`."""
 
-    __slots__ = ("owner", "is_of_step")
+    __slots__ = ("owner", "is_of_step", "keeps_cells")
 
-    def __init__(self, owner: "Core", is_of_step: bool) -> None:
+    def __init__(self, owner: "Core", is_of_step: bool, keeps_cells: bool) -> None:
         self.owner = owner
+        # Whether it belongs to the step that is open: nothing else may change the triangulation then.
         self.is_of_step = is_of_step
+        # Whether it changes no cells, so that arrays of them stay as they are.
+        self.keeps_cells = keeps_cells
 
     def __enter__(self) -> int:
         owner = self.owner
@@ -86,7 +95,10 @@ class _Changing:
                 raise Closed("the triangulation was closed, and cannot be changed any more")
             owner._is_changing = True
         try:
-            owner._leave_views()
+            if self.keeps_cells:
+                owner._forget_all_but_cells()
+            else:
+                owner._leave_views()
             if owner._must_discard and not owner._has_step:
                 check(_discard_moves(owner._handle.pointer))
                 owner._must_discard = False
@@ -118,27 +130,35 @@ class Core:
         self._must_discard = False
         self._last_report: Optional[_library.Report] = None
         self._reading = _Reading(self)
-        self._changing, self._staging = _Changing(self, False), _Changing(self, True)
+        self._changing, self._committing = _Changing(self, False, False), _Changing(self, True, False)
+        self._taking, self._staging = _Changing(self, False, True), _Changing(self, True, True)
         self._version = Version()
         # What has been computed of this version, by name.
         self._cache: dict[str, Any] = {}
-        self._leases: list[weakref.ref] = []
-        # Whether arrays of cells are copies, as the program has held one over a change before.
-        self._are_copied = not COUNTS_REFERENCES
+        # Arrays of the library's memory that may be in use.
+        self._leases: list[weakref.ref[Lease]] = []
+
+    def _forget_all_but_cells(self) -> None:
+        cells = self._cache.get("cells")
+        self._cache = {} if cells is None else {"cells": cells}
 
     def _leave_views(self) -> None:
-        """Goes on with a clone where arrays of the library's memory are still in use, which keep what they show."""
+        """Takes arrays of the library's memory over that are still in use, so that they keep what they show."""
         self._version.is_current = False
         self._version = Version()
         self._cache = {}
-        if self._leases:
-            is_held = any(lease() is not None for lease in self._leases)
-            if is_held:
-                clone = ctypes.c_void_p()
-                check(_clone(self._handle.pointer, clone), NO_NAMES, self._callbacks)
-                self._handle = Handle(clone.value or 0, self._callbacks)
-                self._are_copied = True
-            self._leases = []
+        if not self._leases:
+            return
+        held = [lease for lease in [reference() for reference in self._leases] if lease is not None]
+        if held:
+            view, owner = _library.CellsView(), ctypes.c_void_p()
+            check(_release_cells(self._handle.pointer, view, owner))
+            released = Released(owner.value or 0)
+            for lease in held:
+                if lease.start not in (view.vertices, view.neighbours):
+                    raise InternalError("the arrays that were handed over are not those that are in use")
+                lease.owner = released
+        self._leases = []
 
     def _cell_arrays(self) -> tuple[np.ndarray, np.ndarray]:
         """The arrays of the cells, `simplices` and `neighbors`."""
@@ -153,24 +173,21 @@ class Core:
         return cells
 
     def _lend(self, start: Optional[int], shape: tuple[int, ...]) -> np.ndarray:
-        """A read-only array of memory of the library, or of a copy of it."""
-        owner: Any = self._handle
-        if self._are_copied or not start:
-            owner = np.empty(shape, I32)
-            if start:
-                ctypes.memmove(address(owner), start, owner.nbytes)
-            start = address(owner)
-        lease = Lease(self._version, owner, start or 0, shape)
-        if owner is self._handle:
+        """A read-only array of memory of the library, or of a copy where it would not be known how long it is used."""
+        if start and COUNTS_REFERENCES:
+            lease = Lease(self._version, self._handle, start, shape)
             self._leases.append(weakref.ref(lease))
-        return np.asarray(lease)
+            return np.asarray(lease)
+        copy = taken(start, shape)
+        return np.asarray(Lease(self._version, copy, address(copy), shape))
 
-    def _once(self, name: str, make: Callable[[], Any]) -> Any:
+    def _once(self, name: str, make: Callable[[], Made]) -> Made:
         """What `make` gives, computed once for each version."""
         cache = self._cache
         if name not in cache:
             cache[name] = make()
-        return cache[name]
+        made: Made = cache[name]
+        return made
 
     def _check(self, status: int, **names: str) -> None:
         """`check` with the callbacks of this triangulation."""

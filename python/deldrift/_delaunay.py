@@ -9,12 +9,13 @@ import numpy as np
 
 from . import _library
 from ._arrays import Handle, address, points as point_rows
+from ._asking import Asking
 from ._callbacks import Callbacks
 from ._core import check, make_options
 from ._files import Files, Path, file_name
 from ._geometry import Geometry
 from ._motion import Motion
-from ._scipy import Scipy, check_scipy_options
+from ._scipy import check_scipy_options
 
 _create = _library.function("create")
 _clone = _library.function("clone")
@@ -24,7 +25,7 @@ _load = _library.function("load")
 _load_file = _library.function("load_file")
 
 
-class Delaunay(Scipy, Motion, Geometry, Files):
+class Delaunay(Motion, Asking, Geometry, Files):
     """The Delaunay triangulation of points in the plane or in space, whose points may move.
 
     Simplices are exact, and a function of positions and ids alone: ties between cocircular and cospherical points are
@@ -133,7 +134,11 @@ def _callbacks(progress: Any, cancel: Optional[Callable[[], bool]]) -> Optional[
 
 
 def _made(
-    pointer: ctypes.c_void_p, threads: int, coincidence: str, callbacks: Optional[Callbacks], kind: type = Delaunay
+    pointer: ctypes.c_void_p,
+    threads: int,
+    coincidence: str,
+    callbacks: Optional[Callbacks],
+    kind: type[Delaunay] = Delaunay,
 ) -> Delaunay:
     """A triangulation that the library has made; what is staged, which no step would commit, is forgotten."""
     handle = Handle(pointer.value or 0, callbacks)
@@ -145,7 +150,7 @@ def _made(
     return made
 
 
-def _unpickled(kind: type, data: bytes, algorithm: str, threads: int, coincidence: str) -> Delaunay:
+def _unpickled(kind: type[Delaunay], data: bytes, algorithm: str, threads: int, coincidence: str) -> Delaunay:
     return frombytes(data, algorithm=algorithm, threads=threads, coincidence=coincidence, _kind=kind)
 
 
@@ -195,7 +200,7 @@ def frombytes(
     coincidence: str = "merge",
     progress: Any = None,
     cancel: Optional[Callable[[], bool]] = None,
-    _kind: type = Delaunay,
+    _kind: type[Delaunay] = Delaunay,
 ) -> Delaunay:
     """Makes a triangulation of bytes that `Delaunay.tobytes` gave.
 
@@ -237,4 +242,5 @@ def tsearch(tri: Any, xi: Any) -> np.ndarray:
     ndarray of int
         An index for each point, -1 outside the convex hull.
     """
-    return tri.find_simplex(xi)
+    found: np.ndarray = tri.find_simplex(xi)
+    return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Mapping, Optional, Union
+from typing import Any, Mapping, Optional, Union
 
 from . import _library
 
@@ -34,7 +34,7 @@ class Error(Exception):
         self.message = message
         self.argument, self.index, self.value = argument, index, value
 
-    def __reduce__(self):
+    def __reduce__(self) -> Any:
         return type(self), (self.message, self.argument, self.index, self.value)
 
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from . import _library
 from ._arrays import address, floats
-from ._core import Core, cell_count, id_count
+from ._core import cell_count, id_count
 from ._errors import InvalidDimension, InvalidField, WrongCount
+from ._scipy import Scipy
 
 Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
@@ -21,11 +22,8 @@ _write_vtu = _library.function("write_vtu")
 _write_medit = _library.function("write_medit")
 
 
-class Files(Core):
+class Files(Scipy):
     """Saving, and other forms of a triangulation."""
-
-    points: np.ndarray
-    simplices: np.ndarray
 
     def tobytes(self) -> bytes:
         """The bytes of a saved triangulation, from which `deldrift.frombytes` makes one like it on any machine.
@@ -159,10 +157,14 @@ def _fields(
     for field, (name, values) in zip(listed, (fields or {}).items()):
         array = floats(f"{argument}[{name!r}]", values)
         if array.ndim == 0 or len(array) != count:
-            raise WrongCount(f"{argument}[{name!r}] has the shape {array.shape}, and there are {count} {entries}", argument)
+            raise WrongCount(
+                f"{argument}[{name!r}] has the shape {array.shape}, and there are {count} {entries}", argument
+            )
         encoded = str(name).encode()
         if b"\0" in encoded:
-            raise InvalidField(f"{argument} has the name {name!r} with a NUL character, which XML does not have", argument)
+            raise InvalidField(
+                f"{argument} has the name {name!r} with a NUL character, which XML does not have", argument
+            )
         field.name = encoded
         field.values = address(array)
         field.components = array.size // max(len(array), 1) if len(array) else 1

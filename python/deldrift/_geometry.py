@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, U32, address, box_corners, choice, floats, ids, one_id, one_point, places, simplex_ids
-from ._core import Core, cell_count, count_of, id_count
-from ._errors import InvalidShape, InvalidValue, WrongCount
+from ._arrays import (
+    F64,
+    I32,
+    address,
+    address_if,
+    box_corners,
+    choice,
+    contiguous,
+    floats,
+    ids,
+    places,
+    real,
+    simplex_ids,
+)
+from ._core import cell_count, count_of, id_count
+from ._scipy import Scipy
+from ._errors import InvalidShape, WrongCount
 
-_vertex_count = _library.function("vertex_count")
-_memory_bytes = _library.function("memory_bytes")
-_is_present = _library.function("is_present")
-_star = _library.function("star")
-_ordered_star = _library.function("ordered_star")
-_tolerance = _library.function("tolerance")
-_validate = _library.function("validate")
-_locate_points = _library.function("locate_points")
-_nearest_vertex = _library.function("nearest_vertex")
-_coincident_representative = _library.function("coincident_representative")
+_mask_without_flat_cells = _library.function("mask_without_flat_cells")
 _circumcentres = _library.function("circumcentres")
 _volumes = _library.function("volumes")
 _mask_by_circumradius = _library.function("mask_by_circumradius")
@@ -50,167 +55,27 @@ class Boundary(NamedTuple):
     """Which of its corners is opposite the facet."""
 
 
-class Locations(NamedTuple):
-    """Where points lie."""
+class Geometry(Scipy):
+    """Geometry in bulk."""
 
-    kinds: np.ndarray
-    """0 at a vertex, 1 in a simplex or on its boundary, 2 outside the convex hull, 3 where there are no simplices."""
-    indices: np.ndarray
-    """The vertex; the simplex; one with a facet on the hull that faces the point; -1."""
-
-
-class Geometry(Core):
-    """Geometry in bulk, and questions about places and vertices."""
-
-    @property
-    def nvertices(self) -> int:
-        """The number of vertices that are present, hidden ones included and removed ones not."""
-        with self._reading as t:
-            return count_of(_vertex_count, t)
-
-    @property
-    def nbytes(self) -> int:
-        """The bytes of memory that the library holds for the triangulation."""
-        with self._reading as t:
-            return count_of(_memory_bytes, t)
-
-    def is_present(self, vertex: int) -> bool:
-        """Whether there is a vertex of an id: False if it has been removed, or never was.
+    def mask_without_flat(self, tolerance: float) -> np.ndarray:
+        """Which simplices are more than what the rounding of a straight or flat side has made.
 
         Parameters
         ----------
-        vertex : int
-            The id.
+        tolerance : float
+            A simplex is flat if its least height is at most this part of its longest edge, such as 1e-9.
 
         Returns
         -------
-        bool
-            Whether it is there.
+        ndarray of bool
+            False for simplices along the hull that are flat. `boundary` of it gives the sides as they were meant.
         """
-        number = one_id("vertex", vertex)
+        limit = real("tolerance", tolerance)
         with self._reading as t:
-            present = ctypes.c_bool()
-            self._check(_is_present(t, number, present))
-        return present.value
-
-    def representative(self, vertex: int) -> int:
-        """The lowest id among the vertices at the place of one: the corner of simplices there.
-
-        Parameters
-        ----------
-        vertex : int
-            The id.
-
-        Returns
-        -------
-        int
-            Its own id, unless the vertex is hidden.
-        """
-        number = one_id("vertex", vertex)
-        with self._reading as t:
-            found = ctypes.c_uint32()
-            self._check(_coincident_representative(t, number, found), vertex="vertex!")
-        return found.value
-
-    def tolerance(self, vertex: int) -> float:
-        """How far every vertex may move without a change of simplices at this one: a certified lower bound.
-
-        Parameters
-        ----------
-        vertex : int
-            The id.
-
-        Returns
-        -------
-        float
-            The distance; infinite while there are no simplices.
-        """
-        number = one_id("vertex", vertex)
-        with self._reading as t:
-            found = ctypes.c_double()
-            self._check(_tolerance(t, number, found), vertex="vertex!")
-        return found.value
-
-    def validate(self, level: int = 3) -> None:
-        """Checks the triangulation, exactly; raises `Invalid` for a defect.
-
-        Parameters
-        ----------
-        level : int, optional
-            1 checks indices and adjacency, 2 also orientation and hull, 3 also that no circumsphere has a vertex inside.
-        """
-        number = one_id("level", level)
-        with self._reading as t:
-            self._check(_validate(t, number))
-
-    def star(self, vertex: int, ordered: bool = False) -> np.ndarray:
-        """The simplices that have a vertex as a corner.
-
-        Parameters
-        ----------
-        vertex : int
-            The id; for a hidden vertex that of its representative counts.
-        ordered : bool, optional
-            Whether they are in the order in which one goes around the vertex, counter-clockwise: in 2D only.
-
-        Returns
-        -------
-        ndarray of int
-            Their indices.
-        """
-        number = one_id("vertex", vertex)
-        function = _ordered_star if ordered else _star
-        with self._reading as t:
-            count = ctypes.c_size_t()
-            self._check(function(t, number, None, 0, count), vertex="vertex!")
-            cells = np.empty(count.value, I32)
-            self._check(function(t, number, address(cells), len(cells), count), vertex="vertex!")
-        return cells
-
-    def locate(self, xi: Any) -> Locations:
-        """Where points lie, exactly.
-
-        Parameters
-        ----------
-        xi : array_like
-            Points; the last axis has the coordinates.
-
-        Returns
-        -------
-        Locations
-            A kind and an index for each.
-
-        Examples
-        --------
-        >>> import deldrift
-        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
-        >>> tri.locate([[4, 0], [1, 1], [3, 3]])
-        Locations(kinds=array([0, 1, 2], dtype=int32), indices=array([1, 0, 0], dtype=int32))
-        """
-        rows, shape = places("xi", xi, self.ndim)
-        locations = np.empty((len(rows), 2), I32)
-        with self._reading as t:
-            self._check(_locate_points(t, address(rows), len(rows), None, address(locations)), positions="xi")
-        return Locations(locations[:, 0].reshape(shape), locations[:, 1].reshape(shape))
-
-    def nearest_vertex(self, point: Any) -> int:
-        """The vertex nearest to a point: the lowest id among the nearest.
-
-        Parameters
-        ----------
-        point : array_like
-            The coordinates.
-
-        Returns
-        -------
-        int
-            Its id, -1 if there are no vertices.
-        """
-        position = one_point("point", point, self.ndim)
-        with self._reading as t:
-            found = ctypes.c_uint32()
-            self._check(_nearest_vertex(t, address(position), found), position="point")
-        return -1 if found.value == _library.NONE else found.value
+            mask, count = np.empty(cell_count(t), np.bool_), ctypes.c_size_t()
+            self._check(_mask_without_flat_cells(t, limit, address(mask), len(mask), count), tolerance="tolerance!")
+        return mask
 
     def volumes(self) -> np.ndarray:
         """The areas or volumes of the simplices, always positive.
@@ -262,7 +127,7 @@ class Geometry(Core):
         ndarray of bool
             Whether, for each simplex.
         """
-        limit = _real("squared_radius", squared_radius)
+        limit = real("squared_radius", squared_radius)
         with self._reading as t:
             mask = np.empty(cell_count(t), np.bool_)
             count = ctypes.c_size_t()
@@ -415,7 +280,7 @@ class Geometry(Core):
             Entries of these are written; there must be one for each simplex, or more.
         """
         listed = simplex_ids("simplices", simplices)
-        limit = _real("squared_radius", squared_radius)
+        limit = real("squared_radius", squared_radius)
         with self._reading as t:
             _check_output("mask", mask, np.dtype(np.bool_), (cell_count(t),))
             status = _update_mask_by_circumradius(t, address(listed), len(listed), limit, address(mask), len(mask))
@@ -445,7 +310,7 @@ class Geometry(Core):
         with self._reading as t:
             volumes = np.empty(id_count(t), F64)
             count = ctypes.c_size_t()
-            self._check(_voronoi_volumes(t, address(low), address(high), address(volumes), len(volumes), count))
+            self._check(_voronoi_volumes(t, address_if(low), address_if(high), address(volumes), len(volumes), count))
         return volumes
 
     def voronoi_facets(self, box: Any = None) -> np.ndarray:
@@ -465,7 +330,7 @@ class Geometry(Core):
         with self._reading as t:
             measures = np.empty(count_of(lambda t, count: _edges(t, None, 0, count), t), F64)
             count = ctypes.c_size_t()
-            self._check(_voronoi_facets(t, address(low), address(high), address(measures), len(measures), count))
+            self._check(_voronoi_facets(t, address_if(low), address_if(high), address(measures), len(measures), count))
         return measures
 
     def interpolate(self, values: Any, xi: Any, method: str = "linear", fill_value: Any = np.nan) -> np.ndarray:
@@ -504,20 +369,23 @@ class Geometry(Core):
         results = np.empty((len(rows), width), F64)
         with self._reading as t:
             if len(given) != id_count(t):
-                raise WrongCount(f"values has {len(given)} entries, and there are {id_count(t)} ids", "values", None, len(given))
+                raise WrongCount(
+                    f"values has {len(given)} entries, and there are {id_count(t)} ids", "values", None, len(given)
+                )
             status = _interpolate(
-                t, number, address(given), len(given), width, address(rows), len(rows), None, address(outside),
+                t,
+                number,
+                address(given),
+                len(given),
+                width,
+                address(rows),
+                len(rows),
+                None,
+                address(outside),
                 address(results),
             )
             self._check(status, positions="xi", value_count="values")
         return results.reshape(shape + given.shape[1:])
-
-
-def _real(argument: str, value: Any) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise TypeError(f"{argument} is {value!r}, and must be a number") from None
 
 
 def _mask(argument: str, values: Any) -> np.ndarray:
@@ -528,14 +396,16 @@ def _mask(argument: str, values: Any) -> np.ndarray:
         return np.empty(0, np.bool_)
     if array.dtype.kind not in "biu":
         raise TypeError(f"{argument} has the type {array.dtype}, and must have true or false for each simplex")
-    return np.require(array, np.bool_, "CA")
+    return contiguous(array, np.dtype(np.bool_))
 
 
 def _fill(argument: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
     try:
-        return np.require(np.broadcast_to(floats(argument, value), shape), F64, "CA").reshape(-1)
+        return contiguous(np.broadcast_to(floats(argument, value), shape), F64).reshape(-1)
     except ValueError:
-        raise InvalidShape(f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument) from None
+        raise InvalidShape(
+            f"{argument} has the shape {np.shape(value)}, and must be a number or {shape}", argument
+        ) from None
 
 
 def _check_output(argument: str, array: Any, dtype: np.dtype, least: tuple[int, ...]) -> None:
@@ -544,4 +414,6 @@ def _check_output(argument: str, array: Any, dtype: np.dtype, least: tuple[int, 
     if array.ndim != len(least) or array.shape[1:] != least[1:]:
         raise InvalidShape(f"{argument} has the shape {array.shape}, and must have {least}", argument)
     if len(array) < least[0]:
-        raise WrongCount(f"{argument} has {len(array)} entries, and there are {least[0]} simplices", argument, None, len(array))
+        raise WrongCount(
+            f"{argument} has {len(array)} entries, and there are {least[0]} simplices", argument, None, len(array)
+        )

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import ctypes
 import os
-from ctypes import POINTER, c_bool, c_char_p, c_double, c_int32, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from typing import Any
 
 NONE = 0xFFFFFFFF
 """DELDRIFT_NONE: no cell, no vertex. Arrays that are seen as int32 have -1."""
@@ -158,7 +159,16 @@ PROTOTYPES = {
     "tolerance": (T, U32, POINTER(F64)),
     "validate": (T, U32),
     "locate_points": (T, A, N, A, A),
-    "nearest_vertex": (T, A, POINTER(U32)),
+    "release_cells": (T, POINTER(CellsView), POINTER(T)),
+    "nearest_vertices": (T, A, N, N, A),
+    "vertices_in_ball": (T, A, F64, A, N, C),
+    "vertices_in_box": (T, A, A, A, N, C),
+    "conflicts": (T, A, A, A, N, C),
+    "hidden_vertices": (T, A, A, N, C),
+    "cell_of_each_vertex": (T, A, N, C),
+    "find_simplices": (T, U32, A, N, A),
+    "barycentric": (T, A, A, N, A),
+    "mask_without_flat_cells": (T, F64, A, N, C),
     "coincident_representative": (T, U32, POINTER(U32)),
     "circumcentres": (T, A, A, N, C),
     "volumes": (T, A, N, C),
@@ -185,6 +195,7 @@ PROTOTYPES = {
     "write_vtu": (T, c_char_p, POINTER(Field), N, POINTER(Field), N),
     "write_medit": (T, c_char_p),
     "orientation": (U32, A, POINTER(c_int32)),
+    "in_sphere": (U32, A, POINTER(c_int32)),
 }
 
 
@@ -206,8 +217,8 @@ def _load() -> ctypes.CDLL:
         function = getattr(loaded, "deldrift_" + name)
         function.argtypes = arguments
         function.restype = U32
-    loaded.deldrift_destroy.argtypes = (T,)
-    loaded.deldrift_destroy.restype = None
+    loaded.deldrift_destroy.argtypes = loaded.deldrift_free_cells.argtypes = (T,)
+    loaded.deldrift_destroy.restype = loaded.deldrift_free_cells.restype = None
     loaded.deldrift_version.argtypes = loaded.deldrift_last_error.argtypes = ()
     loaded.deldrift_version.restype = loaded.deldrift_last_error.restype = c_char_p
     return loaded
@@ -215,18 +226,19 @@ def _load() -> ctypes.CDLL:
 
 _loaded = _load()
 destroy = _loaded.deldrift_destroy
+free_cells = _loaded.deldrift_free_cells
 
 
-def function(name: str):
+def function(name: str) -> Any:
     """The function deldrift_NAME."""
     return getattr(_loaded, "deldrift_" + name)
 
 
 def version() -> str:
     """The version of the library that is running."""
-    return _loaded.deldrift_version().decode()
+    return str(_loaded.deldrift_version(), "utf-8")
 
 
 def last_error() -> str:
     """The message of the last call of this thread that failed."""
-    return _loaded.deldrift_last_error().decode()
+    return str(_loaded.deldrift_last_error(), "utf-8")

@@ -67,7 +67,7 @@ class Step:
 
     def __enter__(self) -> "Step":
         owner = self._owner
-        with owner._changing:
+        with owner._taking:
             owner._has_step = self._is_open = True
         return self
 
@@ -84,7 +84,7 @@ class Step:
                 _discard(owner)
 
     def _commit(self, owner: "Motion") -> None:
-        with owner._staging as t:
+        with owner._committing as t:
             report = Report()
             status = _commit_timestamp(t, report)
             owner._check(status)
@@ -328,7 +328,7 @@ class Motion(Core):
         >>> len(changes.created), len(changes.removed)
         (2, 4)
         """
-        with self._changing as t:
+        with self._taking as t:
             view = _library.ChangesView()
             self._check(_take_changes(t, view))
             return _changes(view, self.ndim + 1)
@@ -368,7 +368,7 @@ class Motion(Core):
     @algorithm.setter
     def algorithm(self, name: str) -> None:
         number = choice("algorithm", name, _library.ALGORITHMS, InvalidOption)
-        with self._changing as t:
+        with self._taking as t:
             self._check(_set_algorithm(t, number))
 
 
@@ -392,7 +392,7 @@ def _changes(view: _library.ChangesView, corners: int) -> Changes:
 def _discard(owner: Motion) -> None:
     """Forgets what is staged: at once, or with the next change where another thread is reading."""
     try:
-        with owner._changing:
+        with owner._taking:
             pass
     except Busy:
         pass

@@ -13,7 +13,8 @@ from ._core import Core, cell_count, fixed, id_count
 from ._errors import InvalidOption, InvalidValue
 
 _copy_positions = _library.function("copy_positions")
-_coincident_representative = _library.function("coincident_representative")
+_hidden_vertices = _library.function("hidden_vertices")
+_cell_of_each_vertex = _library.function("cell_of_each_vertex")
 _hull_facets = _library.function("hull_facets")
 _vertex_neighbours = _library.function("vertex_neighbours")
 _locate_points = _library.function("locate_points")
@@ -119,28 +120,24 @@ class Scipy(Core):
         return fixed(rows)
 
     def _hidden_vertices(self) -> tuple[np.ndarray, np.ndarray]:
-        """The hidden vertices, and the vertex at the place of each that is a corner of simplices."""
-        is_candidate = (self._corner_simplices() < 0) & ~np.isnan(self.points[:, 0])
-        candidates = np.flatnonzero(is_candidate)
-        representatives = np.empty(len(candidates), np.intp)
+        """The hidden vertices, and the one at the place of each that is a corner of simplices."""
         with self._reading as t:
-            found = ctypes.c_uint32()
-            for i, vertex in enumerate(candidates):
-                self._check(_coincident_representative(t, int(vertex), found))
-                representatives[i] = found.value
-        is_hidden = representatives != candidates
-        return candidates[is_hidden], representatives[is_hidden]
+            count = ctypes.c_size_t()
+            self._check(_hidden_vertices(t, None, None, 0, count))
+            hidden, shown = np.empty(count.value, I32), np.empty(count.value, I32)
+            self._check(_hidden_vertices(t, address(hidden), address(shown), len(hidden), count))
+        return hidden, shown
 
     def _corner_simplices(self) -> np.ndarray:
         """A simplex that each id is a corner of, -1 for none."""
-        return self._once("corner_simplices", self._find_corner_simplices)
+        return self._once("corner_simplices", self._simplex_at_each)
 
-    def _find_corner_simplices(self) -> np.ndarray:
-        simplices = self.simplices
-        of_corner = np.full(self.npoints, -1, I32)
-        for column in simplices.T:
-            of_corner[column] = np.arange(len(simplices), dtype=I32)
-        return of_corner
+    def _simplex_at_each(self) -> np.ndarray:
+        with self._reading as t:
+            simplices = np.empty(id_count(t), I32)
+            count = ctypes.c_size_t()
+            self._check(_cell_of_each_vertex(t, address(simplices), len(simplices), count))
+        return simplices
 
     @property
     def vertex_to_simplex(self) -> np.ndarray:
@@ -241,7 +238,8 @@ class Scipy(Core):
         """
         lifted = self.lift_points(xi)
         equations = self.equations
-        return lifted @ equations[:, :-1].T + equations[:, -1]
+        distances: np.ndarray = lifted @ equations[:, :-1].T + equations[:, -1]
+        return distances
 
     def find_simplex(self, xi: Any, bruteforce: bool = False, tol: Optional[float] = None) -> np.ndarray:
         """The simplices that contain points.
@@ -309,7 +307,8 @@ class Scipy(Core):
 def _bound(choose: np.ufunc, positions: np.ndarray) -> np.ndarray:
     if not len(positions):
         return np.full(positions.shape[1], np.nan)
-    return choose.reduce(positions, axis=0)
+    bound: np.ndarray = choose.reduce(positions, axis=0)
+    return bound
 
 
 def _transforms(positions: np.ndarray, simplices: np.ndarray) -> np.ndarray:

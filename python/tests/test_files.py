@@ -37,7 +37,9 @@ class Special(deldrift.Delaunay):
     pass
 
 
-@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda t: t.copy(), lambda t: pickle.loads(pickle.dumps(t))])
+@pytest.mark.parametrize(
+    "again", [copy.copy, copy.deepcopy, lambda t: t.copy(), lambda t: pickle.loads(pickle.dumps(t))]
+)
 def test_copies_are_independent(tri, rng, again):
     other = again(tri)
     assert_same(tri, other)

@@ -146,15 +146,85 @@ def test_interpolation_reproduces_linear_functions(tri, rng, method):
     np.testing.assert_array_equal(one[inside], results[inside][:, 0])
 
 
-def test_places_and_nearest_vertices(tri, rng):
+def test_places_and_near_vertices(tri, rng):
     x = rng.random((40, tri.ndim)) * 1.4 - 0.2
     kinds, indices = tri.locate(x)
     np.testing.assert_array_equal(kinds == 1, tri.find_simplex(x) >= 0)
     np.testing.assert_array_equal(tri.locate(tri.points)[0], np.zeros(tri.npoints))
     np.testing.assert_array_equal(tri.locate(tri.points)[1], np.arange(tri.npoints))
-    for place in x:
-        assert tri.nearest_vertex(place) == np.argmin(((tri.points - place) ** 2).sum(axis=1))
-    assert deldrift.Delaunay(np.empty((0, tri.ndim))).nearest_vertex(x[0]) == -1
+    distances = ((tri.points - x[:, None]) ** 2).sum(axis=2)
+    by_distance = np.argsort(distances, axis=1, kind="stable")
+    np.testing.assert_array_equal(tri.nearest_vertices(x), by_distance[:, 0])
+    np.testing.assert_array_equal(tri.nearest_vertices(x.reshape(8, 5, -1), k=7), by_distance[:, :7].reshape(8, 5, 7))
+    assert deldrift.Delaunay(np.empty((0, tri.ndim))).nearest_vertices(x[0]) == -1
+    for place, row in zip(x, distances):
+        np.testing.assert_array_equal(tri.vertices_in_ball(place, 0.1), np.flatnonzero(row <= 0.1))
+        is_in = ((tri.points >= place) & (tri.points <= place + 0.5)).all(axis=1)
+        np.testing.assert_array_equal(tri.vertices_in_box(place, place + 0.5), np.flatnonzero(is_in))
+
+
+def test_conflicts_are_what_an_insertion_removes(tri, rng):
+    tri.changes()
+    for place in rng.random((10, tri.ndim)):
+        conflicts = tri.conflicts(place)
+        centres, squared_radii = tri.circumcentres()
+        is_in = ((centres - place) ** 2).sum(axis=1) < squared_radii
+        np.testing.assert_array_equal(np.sort(conflicts), np.flatnonzero(is_in))
+        rows = {tuple(sorted(row)) for row in tri.simplices[conflicts].tolist()}
+        tri.insert(place)
+        assert {tuple(sorted(row)) for row in tri.changes().removed_simplices.tolist()} == rows
+
+
+def test_simplices_with_vertices(tri, rng):
+    for width in range(1, tri.ndim + 2):
+        chosen = rng.integers(0, 150, (300, width))
+        chosen[:100] = rng.permuted(tri.simplices[rng.integers(0, tri.nsimplex, 100)], axis=1)[:, :width]
+        found = tri.simplices_with(chosen)
+        for row, cell in zip(chosen, found):
+            there_are = np.isin(tri.simplices, row).sum(axis=1) == width
+            is_proper = len(set(row.tolist())) == width
+            assert (cell >= 0) == (is_proper and there_are.any())
+            if cell >= 0:
+                assert set(row) <= set(tri.simplices[cell])
+
+
+def test_barycentric_coordinates(tri, rng):
+    x = rng.random((20, 3, tri.ndim)) * 1.2
+    weights, simplices = tri.barycentric(x), tri.find_simplex(x)
+    inside = simplices >= 0
+    assert weights.shape == (20, 3, tri.ndim + 1) and np.isnan(weights[~inside]).all()
+    assert (weights[inside] >= 0).all()
+    corners = tri.points[tri.simplices[simplices[inside]]]
+    np.testing.assert_allclose((weights[inside][..., None] * corners).sum(axis=1), x[inside], rtol=1e-9)
+    np.testing.assert_array_equal(tri.barycentric(x, simplices), weights)
+    assert (tri.barycentric(x[~inside], np.zeros((~inside).sum(), int)) < 0).any(axis=1).all()
+
+
+def test_flat_simplices_along_the_hull():
+    side = np.linspace(0, 1, 30)
+    points = np.concatenate([np.c_[side, 0.3 * side], np.c_[side, 0.3 * side + 1]])
+    tri = deldrift.Delaunay(points)
+    mask = tri.mask_without_flat(1e-9)
+    assert tri.mask_without_flat(0).all() and not mask.all()
+    assert tri.volumes()[mask].min() > 1e-3 > tri.volumes()[~mask].max()
+    assert len(tri.boundary(mask).facets) == 60
+
+
+def test_signs():
+    assert [deldrift.orientation(p) for p in ([[0, 0], [1, 0], [0, 1]], [[0, 0], [0, 1], [1, 0]])] == [1, -1]
+    assert deldrift.orientation(np.vstack([np.zeros(3), np.eye(3)])) == 1
+    line = [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]
+    exact = [[Fraction(x) for x in row] for row in line]
+    (ax, ay), (bx, by), (cx, cy) = exact
+    determinant = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    assert deldrift.orientation(line) == (determinant > 0) - (determinant < 0)
+    circle = [[5, 0], [3, 4], [-3, 4]]
+    assert [deldrift.in_sphere(circle + [p]) for p in ([-5, 0], [-5, 1e-300], [0, 0], [-5.0000001, 0])] == [
+        0,
+        -1,
+        1,
+        -1,
+    ]
 
 
 def test_tolerances_are_kept(tri, rng):

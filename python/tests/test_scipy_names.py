@@ -1,4 +1,4 @@
-"""What scipy.spatial.Delaunay has, compared with scipy itself on points in general position, and with the definition."""
+"""What scipy.spatial.Delaunay has, compared with scipy on points in general position, and with the definition."""
 
 import numpy as np
 import pytest
@@ -74,7 +74,10 @@ def test_transforms_are_those_of_scipy(both):
     for k, row in enumerate(ours.simplices.tolist()):
         other = by_vertices[tuple(sorted(row))]
         np.testing.assert_allclose(
-            dict_of_weights(ours, k, x), dict_of_weights(theirs, other, x), rtol=1e-6, atol=1e-6 * weight_scale(ours, k, x)
+            dict_of_weights(ours, k, x),
+            dict_of_weights(theirs, other, x),
+            rtol=1e-6,
+            atol=1e-6 * weight_scale(ours, k, x),
         )
 
 
@@ -108,9 +111,7 @@ def test_places_are_found_where_scipy_finds_them(both, rng):
     assert found.shape == expected.shape and found.dtype == expected.dtype
     np.testing.assert_array_equal(found < 0, expected < 0)
     inside = found >= 0
-    np.testing.assert_array_equal(
-        np.sort(ours.simplices[found[inside]]), np.sort(theirs.simplices[expected[inside]])
-    )
+    np.testing.assert_array_equal(np.sort(ours.simplices[found[inside]]), np.sort(theirs.simplices[expected[inside]]))
     np.testing.assert_array_equal(deldrift.tsearch(ours, x), found)
     np.testing.assert_array_equal(ours.find_simplex(x, bruteforce=True), found)
     assert ours.find_simplex(x[0, 0]).shape == theirs.find_simplex(x[0, 0]).shape == ()

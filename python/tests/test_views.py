@@ -9,7 +9,9 @@ import pytest
 
 import deldrift
 
-counted = pytest.mark.skipif(sys.implementation.name != "cpython", reason="arrays are always copies without counted references")
+counted = pytest.mark.skipif(
+    sys.implementation.name != "cpython", reason="arrays are always copies without counted references"
+)
 
 
 def test_arrays_cannot_be_written(rng, ndim):
@@ -115,7 +117,7 @@ def look(tri, rng):
 
 @pytest.mark.parametrize("seed", range(10))
 def test_random_interleavings(seed):
-    """100 for each seed: held arrays are compared with copies that were made at once; tests/checked runs them in valgrind."""
+    """100 for each seed: held arrays are compared with copies that were made at once. test_under_valgrind runs some."""
     rng = np.random.default_rng(seed)
     for _ in range(100):
         tri = deldrift.Delaunay(rng.random((int(rng.integers(1, 25)), int(rng.integers(2, 4)))))

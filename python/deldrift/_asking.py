@@ -1,0 +1,398 @@
+"""Questions about places, vertices, and the triangulation itself."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+
+from . import _library
+from ._arrays import F64, I32, address, ids, one_id, one_point, places, points as point_rows, real, simplex_ids
+from ._core import check, count_of
+from ._errors import InvalidShape, WrongCount
+from ._scipy import Scipy
+
+_vertex_count = _library.function("vertex_count")
+_memory_bytes = _library.function("memory_bytes")
+_is_present = _library.function("is_present")
+_star = _library.function("star")
+_ordered_star = _library.function("ordered_star")
+_tolerance = _library.function("tolerance")
+_validate = _library.function("validate")
+_locate_points = _library.function("locate_points")
+_nearest_vertices = _library.function("nearest_vertices")
+_vertices_in_ball = _library.function("vertices_in_ball")
+_vertices_in_box = _library.function("vertices_in_box")
+_conflicts = _library.function("conflicts")
+_find_simplices = _library.function("find_simplices")
+_barycentric = _library.function("barycentric")
+_orientation = _library.function("orientation")
+_in_sphere = _library.function("in_sphere")
+_coincident_representative = _library.function("coincident_representative")
+
+
+class Locations(NamedTuple):
+    """Where points lie."""
+
+    kinds: np.ndarray
+    """0 at a vertex, 1 in a simplex or on its boundary, 2 outside the convex hull, 3 where there are no simplices."""
+    indices: np.ndarray
+    """The vertex; the simplex; one with a facet on the hull that faces the point; -1."""
+
+
+class Asking(Scipy):
+    """Questions about places, vertices, and the triangulation itself."""
+
+    @property
+    def nvertices(self) -> int:
+        """The number of vertices that are present, hidden ones included and removed ones not."""
+        with self._reading as t:
+            return count_of(_vertex_count, t)
+
+    @property
+    def nbytes(self) -> int:
+        """The bytes of memory that the library holds for the triangulation."""
+        with self._reading as t:
+            return count_of(_memory_bytes, t)
+
+    def is_present(self, vertex: int) -> bool:
+        """Whether there is a vertex of an id: False if it has been removed, or never was.
+
+        Parameters
+        ----------
+        vertex : int
+            The id.
+
+        Returns
+        -------
+        bool
+            Whether it is there.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            present = ctypes.c_bool()
+            self._check(_is_present(t, number, present))
+        return present.value
+
+    def representative(self, vertex: int) -> int:
+        """The lowest id among the vertices at the place of one: the corner of simplices there.
+
+        Parameters
+        ----------
+        vertex : int
+            The id.
+
+        Returns
+        -------
+        int
+            Its own id, unless the vertex is hidden.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            found = ctypes.c_uint32()
+            self._check(_coincident_representative(t, number, found), vertex="vertex!")
+        return found.value
+
+    def tolerance(self, vertex: int) -> float:
+        """How far every vertex may move without a change of simplices at this one: a certified lower bound.
+
+        Parameters
+        ----------
+        vertex : int
+            The id.
+
+        Returns
+        -------
+        float
+            The distance; infinite while there are no simplices.
+        """
+        number = one_id("vertex", vertex)
+        with self._reading as t:
+            found = ctypes.c_double()
+            self._check(_tolerance(t, number, found), vertex="vertex!")
+        return found.value
+
+    def validate(self, level: int = 3) -> None:
+        """Checks the triangulation, exactly; raises `Invalid` for a defect.
+
+        Parameters
+        ----------
+        level : int, optional
+            1 checks indices and adjacency, 2 also orientation and hull, 3 also that circumspheres are empty.
+        """
+        number = one_id("level", level)
+        with self._reading as t:
+            self._check(_validate(t, number))
+
+    def star(self, vertex: int, ordered: bool = False) -> np.ndarray:
+        """The simplices that have a vertex as a corner.
+
+        Parameters
+        ----------
+        vertex : int
+            The id; for a hidden vertex that of its representative counts.
+        ordered : bool, optional
+            Whether they are in the order in which one goes around the vertex, counter-clockwise: in 2D only.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices.
+        """
+        number = one_id("vertex", vertex)
+        function = _ordered_star if ordered else _star
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            self._check(function(t, number, None, 0, count), vertex="vertex!")
+            cells = np.empty(count.value, I32)
+            self._check(function(t, number, address(cells), len(cells), count), vertex="vertex!")
+        return cells
+
+    def locate(self, xi: Any) -> Locations:
+        """Where points lie, exactly.
+
+        Parameters
+        ----------
+        xi : array_like
+            Points; the last axis has the coordinates.
+
+        Returns
+        -------
+        Locations
+            A kind and an index for each.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
+        >>> tri.locate([[4, 0], [1, 1], [3, 3]])
+        Locations(kinds=array([0, 1, 2], dtype=int32), indices=array([1, 0, 0], dtype=int32))
+        """
+        rows, shape = places("xi", xi, self.ndim)
+        locations = np.empty((len(rows), 2), I32)
+        with self._reading as t:
+            self._check(_locate_points(t, address(rows), len(rows), None, address(locations)), positions="xi")
+        return Locations(locations[:, 0].reshape(shape), locations[:, 1].reshape(shape))
+
+    def nearest_vertices(self, xi: Any, k: Optional[int] = None) -> np.ndarray:
+        """The vertices nearest to points, by distance, compared exactly, and at the same distance by id.
+
+        Parameters
+        ----------
+        xi : array_like
+            Points; the last axis has the coordinates.
+        k : int, optional
+            How many for each point. By default the nearest one, without an axis of its own in the result.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids, -1 where there are fewer vertices.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3]])
+        >>> tri.nearest_vertices([[1, 1], [3, 3]])
+        array([0, 2], dtype=int32)
+        >>> tri.nearest_vertices([[1, 1], [3, 3]], k=2)
+        array([[0, 3],
+               [2, 3]], dtype=int32)
+        """
+        rows, shape = places("xi", xi, self.ndim)
+        width = 1 if k is None else one_id("k", k)
+        found = np.empty((len(rows), width), I32)
+        with self._reading as t:
+            self._check(_nearest_vertices(t, address(rows), len(rows), width, address(found)), positions="xi")
+        return found.reshape(shape if k is None else shape + (width,))
+
+    def vertices_in_ball(self, centre: Any, squared_radius: float) -> np.ndarray:
+        """The vertices whose squared distance from a point is at most a given one, exactly.
+
+        Parameters
+        ----------
+        centre : array_like
+            The point.
+        squared_radius : float
+            The square of the radius.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids, ascending, hidden ones included.
+        """
+        position, limit = one_point("centre", centre, self.ndim), real("squared_radius", squared_radius)
+        with self._reading as t:
+            found, count = np.empty(count_of(_vertex_count, t), I32), ctypes.c_size_t()
+            status = _vertices_in_ball(t, address(position), limit, address(found), len(found), count)
+            self._check(status, squared_radius="squared_radius!", centre="centre!")
+        return np.array(found[: count.value])
+
+    def vertices_in_box(self, low: Any, high: Any) -> np.ndarray:
+        """The vertices in a box, boundary included.
+
+        Parameters
+        ----------
+        low, high : array_like
+            Its corners of least and of greatest coordinates, which may be infinite.
+
+        Returns
+        -------
+        ndarray of int
+            Their ids, ascending, hidden ones included.
+        """
+        least, greatest = one_point("low", low, self.ndim), one_point("high", high, self.ndim)
+        with self._reading as t:
+            found, count = np.empty(count_of(_vertex_count, t), I32), ctypes.c_size_t()
+            self._check(_vertices_in_box(t, address(least), address(greatest), address(found), len(found), count))
+        return np.array(found[: count.value])
+
+    def conflicts(self, point: Any) -> np.ndarray:
+        """The simplices that inserting a point would remove: those whose circumsphere has it inside.
+
+        Parameters
+        ----------
+        point : array_like
+            The point.
+
+        Returns
+        -------
+        ndarray of int
+            Their indices, in no particular order.
+        """
+        position = one_point("point", point, self.ndim)
+        with self._reading as t:
+            count = ctypes.c_size_t()
+            self._check(_conflicts(t, address(position), None, None, 0, count), position="point")
+            cells = np.empty(count.value, I32)
+            self._check(_conflicts(t, address(position), None, address(cells), len(cells), count), position="point")
+        return cells
+
+    def simplices_with(self, vertices: Any) -> np.ndarray:
+        """Simplices that have given vertices as corners: so it tells which edges, facets or simplices there are.
+
+        Parameters
+        ----------
+        vertices : array_like of int
+            Rows of 1 (a simplex of each vertex), 2 (edges), 3 or, in 3D, 4 ids, in any order.
+
+        Returns
+        -------
+        ndarray of int
+            The index of one for each row, -1 where there is none.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [4, 3], [0, 3], [1, 1]])
+        >>> tri.simplices_with([[0, 1], [0, 2]]) >= 0
+        array([ True, False])
+        """
+        array = np.asarray(vertices)
+        if array.ndim != 2:
+            raise InvalidShape(f"vertices has the shape {array.shape}, and must have rows of ids", "vertices")
+        listed = ids("vertices", array.reshape(-1))
+        found = np.empty(len(array), I32)
+        with self._reading as t:
+            status = _find_simplices(t, array.shape[1], address(listed), len(array), address(found))
+            self._check(status, corners_per_simplex="the width of vertices", vertex="vertices")
+        return found
+
+    def barycentric(self, xi: Any, simplices: Any = None) -> np.ndarray:
+        """The barycentric coordinates of points, each in a simplex.
+
+        Parameters
+        ----------
+        xi : array_like
+            Points; the last axis has the coordinates.
+        simplices : array_like of int, optional
+            The simplex of each; by default the one that it is in.
+
+        Returns
+        -------
+        ndarray
+            A row for each point: a number for each corner, with the right sign; NaN where the simplex is -1.
+
+        Examples
+        --------
+        >>> import deldrift
+        >>> tri = deldrift.Delaunay([[0, 0], [4, 0], [0, 4]])
+        >>> tri.barycentric([[1, 1], [4, 4]])
+        array([[0.5 , 0.25, 0.25],
+               [ nan,  nan,  nan]])
+        """
+        rows, shape = places("xi", xi, self.ndim)
+        if simplices is None:
+            cells = self._simplices_at(rows)
+        else:
+            cells = np.asarray(simplices).reshape(-1)
+            is_none = cells == -1
+            cells = simplex_ids("simplices", np.where(is_none, 0, cells)).view(I32)
+            cells[is_none] = -1
+        if len(cells) != len(rows):
+            raise WrongCount(
+                f"simplices has {len(cells)} entries, and there are {len(rows)} points", "simplices", None, len(cells)
+            )
+        weights = np.empty((len(rows), self.ndim + 1), F64)
+        with self._reading as t:
+            status = _barycentric(t, address(rows), address(cells), len(rows), address(weights))
+            self._check(status, positions="xi", cells="simplices")
+        return weights.reshape(shape + (self.ndim + 1,))
+
+
+def orientation(points: Any) -> int:
+    """The orientation of 3 points of the plane or 4 points of space, exactly.
+
+    Parameters
+    ----------
+    points : array_like
+        A row of coordinates for each.
+
+    Returns
+    -------
+    int
+        1 if they are oriented as simplices are (counter-clockwise in the plane), -1 if not, 0 on a line or plane.
+
+    Examples
+    --------
+    >>> import deldrift
+    >>> deldrift.orientation([[0, 0], [1, 0], [0, 1]])
+    1
+    """
+    return _sign(_orientation, points, 1)
+
+
+def in_sphere(points: Any) -> int:
+    """Whether a point is in the circle or sphere through others, exactly.
+
+    Parameters
+    ----------
+    points : array_like
+        A row of coordinates for each of 3 points of the plane or 4 of space, of orientation 1, and of the one that is
+        asked about.
+
+    Returns
+    -------
+    int
+        1 inside, -1 outside, 0 on the circle or sphere.
+
+    Examples
+    --------
+    >>> import deldrift
+    >>> deldrift.in_sphere([[0, 0], [1, 0], [0, 1], [1, 1]])
+    0
+    """
+    return _sign(_in_sphere, points, 2)
+
+
+def _sign(function: Any, values: Any, more: int) -> int:
+    rows = point_rows("points", values)
+    ndim = rows.shape[1]
+    if len(rows) != ndim + more:
+        raise WrongCount(
+            f"points has {len(rows)} rows, and must have {ndim + more} in {ndim}D", "points", None, len(rows)
+        )
+    sign = ctypes.c_int32()
+    check(function(ndim, address(rows), sign))
+    return sign.value
