@@ -63,24 +63,20 @@ def points(argument: str, values: Any, ndim: Optional[int] = None) -> np.ndarray
         raise InvalidShape(
             f"{argument} has the shape {array.shape}, and must have a row of coordinates for each point", argument
         )
-    if array.shape[1] != ndim:
-        _check_width(argument, array.shape[1], ndim)
-    return array
-
-
-def _check_width(argument: str, width: int, ndim: Optional[int]) -> None:
-    if ndim is not None:
-        raise InvalidShape(
-            f"{argument} has {width} coordinates for each point, and must have {ndim}", argument, None, width
-        )
-    if width not in (2, 3):
+    width = array.shape[1]
+    if ndim is None and width not in (2, 3):
         raise InvalidDimension(
-            f"{argument} has {width} coordinates for each point; deldrift triangulates in 2 and 3 dimensions, "
-            "scipy.spatial.Delaunay in any",
+            f"{argument} has the shape {array.shape}, and must have rows of 2 or 3 coordinates; scipy.spatial.Delaunay "
+            "takes any number",
             argument,
             None,
             width,
         )
+    if ndim is not None and width != ndim:
+        raise InvalidShape(
+            f"{argument} has the shape {array.shape}, and must have rows of {ndim} coordinates", argument, None, width
+        )
+    return array
 
 
 def one_point(argument: str, value: Any, ndim: int) -> np.ndarray:
@@ -122,12 +118,17 @@ def ids(argument: str, values: Any, missing: type = NoSuchVertex) -> np.ndarray:
     return contiguous(array, U32)
 
 
-def one_id(argument: str, value: Any) -> int:
-    """The id of one vertex."""
+def whole(argument: str, value: Any) -> int:
+    """A whole number."""
     try:
-        number = operator.index(value)
+        return operator.index(value)
     except TypeError:
         raise TypeError(f"{argument} is {value!r}, and must be a whole number") from None
+
+
+def one_id(argument: str, value: Any) -> int:
+    """The id of one vertex."""
+    number = whole(argument, value)
     if not 0 <= number < _library.NONE:
         raise NoSuchVertex(f"{argument} is {number}, which was never given", argument, None, number)
     return number

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple, Optional
 import numpy as np
 
 from . import _library
-from ._arrays import F64, I32, address, ids, one_id, one_point, places, points as point_rows, real, simplex_ids
+from ._arrays import F64, I32, address, ids, one_id, one_point, places, points as point_rows, real, simplex_ids, whole
 from ._core import check, count_of
-from ._errors import InvalidShape, WrongCount
+from ._errors import InvalidDimension, InvalidShape, InvalidValue, WrongCount
 from ._scipy import Scipy
 
 _vertex_count = _library.function("vertex_count")
@@ -69,7 +69,9 @@ class Asking(Scipy):
         bool
             Whether it is there.
         """
-        number = one_id("vertex", vertex)
+        number = whole("vertex", vertex)
+        if not 0 <= number < _library.NONE:
+            return False
         with self._reading as t:
             present = ctypes.c_bool()
             self._check(_is_present(t, number, present))
@@ -121,7 +123,9 @@ class Asking(Scipy):
         level : int, optional
             1 checks indices and adjacency, 2 also orientation and hull, 3 also that circumspheres are empty.
         """
-        number = one_id("level", level)
+        number = whole("level", level)
+        if number not in (1, 2, 3):
+            raise InvalidValue(f"level is {number}, and must be 1, 2 or 3", "level", None, number)
         with self._reading as t:
             self._check(_validate(t, number))
 
@@ -141,6 +145,10 @@ class Asking(Scipy):
             Their indices.
         """
         number = one_id("vertex", vertex)
+        if ordered and self.ndim != 2:
+            raise InvalidDimension(
+                "ordered is true, and only in the plane do simplices around a vertex have an order", "ordered"
+            )
         function = _ordered_star if ordered else _star
         with self._reading as t:
             count = ctypes.c_size_t()
@@ -201,7 +209,9 @@ class Asking(Scipy):
                [2, 3]], dtype=int32)
         """
         rows, shape = places("xi", xi, self.ndim)
-        width = 1 if k is None else one_id("k", k)
+        width = 1 if k is None else whole("k", k)
+        if width < 0:
+            raise InvalidValue(f"k is {width}, and must be 0 or more", "k", None, width)
         found = np.empty((len(rows), width), I32)
         with self._reading as t:
             self._check(_nearest_vertices(t, address(rows), len(rows), width, address(found)), positions="xi")
@@ -264,9 +274,9 @@ class Asking(Scipy):
         position = one_point("point", point, self.ndim)
         with self._reading as t:
             count = ctypes.c_size_t()
-            self._check(_conflicts(t, address(position), None, None, 0, count), position="point")
+            self._check(_conflicts(t, address(position), None, None, 0, count), position="point!")
             cells = np.empty(count.value, I32)
-            self._check(_conflicts(t, address(position), None, address(cells), len(cells), count), position="point")
+            self._check(_conflicts(t, address(position), None, address(cells), len(cells), count), position="point!")
         return cells
 
     def simplices_with(self, vertices: Any) -> np.ndarray:
@@ -292,11 +302,19 @@ class Asking(Scipy):
         array = np.asarray(vertices)
         if array.ndim != 2:
             raise InvalidShape(f"vertices has the shape {array.shape}, and must have rows of ids", "vertices")
+        width = array.shape[1]
+        if not 1 <= width <= self.ndim + 1:
+            raise InvalidShape(
+                f"vertices has the shape {array.shape}, and must have rows of 1 to {self.ndim + 1} ids",
+                "vertices",
+                None,
+                width,
+            )
         listed = ids("vertices", array.reshape(-1))
         found = np.empty(len(array), I32)
         with self._reading as t:
-            status = _find_simplices(t, array.shape[1], address(listed), len(array), address(found))
-            self._check(status, corners_per_simplex="the width of vertices", vertex="vertices")
+            status = _find_simplices(t, width, address(listed), len(array), address(found))
+            self._check(status, vertex="vertices")
         return found
 
     def barycentric(self, xi: Any, simplices: Any = None) -> np.ndarray:

@@ -186,4 +186,6 @@ def raise_for(status: int, names: Mapping[str, str]) -> None:
     rest = message[place.end("argument") :]
     if is_single:
         rest = re.sub(r"^\[0\]", "", rest)
+    if kind is NoSuchSimplex:
+        rest = rest.replace(" cells", " simplices")
     raise kind(argument + rest, argument, index, _number(place["value"]))

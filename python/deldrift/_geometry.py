@@ -152,13 +152,16 @@ class Geometry(Scipy):
         chosen = None if mask is None else _mask("mask", mask)
         with self._reading as t:
             count = ctypes.c_size_t()
+            if chosen is not None and len(chosen) != cell_count(t):
+                message = f"mask has {len(chosen)} entries, and there are {cell_count(t)} simplices"
+                raise WrongCount(message, "mask", None, len(chosen))
 
             def fill(facets: Any, cells: Any, corners: Any, capacity: int) -> None:
                 if chosen is None:
                     status = _hull_facets(t, facets, cells, corners, capacity, count)
                 else:
                     status = _mask_boundary(t, address(chosen), len(chosen), facets, cells, corners, capacity, count)
-                self._check(status, mask_count="mask")
+                self._check(status)
 
             fill(None, None, None, 0)
             facets = np.empty((count.value, self.ndim), I32)

@@ -183,7 +183,8 @@ class Motion(Core):
         with self._changing as t:
             status = _commit_positions(t, address(positions), len(positions), report)
             if status:
-                self._check(status, positions="points", count="points")
+                _check_rows(t, len(positions))
+                self._check(status, positions="points")
             self._last_report = report
         return report
 
@@ -216,8 +217,7 @@ class Motion(Core):
         positions = _rows(values, self.ndim)
         if vertices is None:
             with self._staging as t:
-                if len(positions) != id_count(t):
-                    _wrong_count(len(positions), id_count(t))
+                _check_rows(t, len(positions))
                 self._check(_move_vertices(t, None, address(positions), len(positions)), positions="points")
             return
         listed = _ids(vertices)
@@ -242,7 +242,7 @@ class Motion(Core):
         number = one_id("vertex", vertex)
         position = one_point("point", point, self.ndim)
         with self._changing as t:
-            self._check(_relocate_vertex(t, number, address(position)), vertex="vertex!", position="point")
+            self._check(_relocate_vertex(t, number, address(position)), vertex="vertex!", position="point!")
 
     def insert(self, point: Any) -> int:
         """Inserts one vertex at once; the timestamp stays.
@@ -267,7 +267,7 @@ class Motion(Core):
         position = one_point("point", point, self.ndim)
         with self._changing as t:
             vertex = ctypes.c_uint32()
-            self._check(_insert_vertex(t, address(position), vertex), position="point")
+            self._check(_insert_vertex(t, address(position), vertex), position="point!")
         return vertex.value
 
     def remove(self, vertex: int) -> None:
@@ -398,8 +398,10 @@ def _discard(owner: Motion) -> None:
         pass
 
 
-def _wrong_count(rows: int, there_are: int) -> None:
-    raise WrongCount(f"points has {rows} rows, and there are {there_are} ids", "points", None, rows)
+def _check_rows(t: int, rows: int) -> None:
+    there_are = id_count(t)
+    if rows != there_are:
+        raise WrongCount(f"points has {rows} rows, and there are {there_are} ids", "points", None, rows)
 
 
 def _rows(values: Any, ndim: int) -> np.ndarray:

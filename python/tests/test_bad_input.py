@@ -1,0 +1,56 @@
+"""Wrong calls: each has an exception, as the table says, and changes nothing."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+import bad_input
+import deldrift
+
+
+def state(tri):
+    return tri.tobytes(), tri.algorithm, tri.statistics.as_dict()
+
+
+@pytest.mark.parametrize("text", bad_input.CALLS)
+def test_nothing_is_changed(text):
+    tri = bad_input.make()
+    before = state(tri)
+    error = bad_input.call(text, tri)
+    assert isinstance(error, (deldrift.Error, TypeError, ValueError))
+    assert not isinstance(error, deldrift.InternalError)
+    assert state(tri) == before
+
+
+def test_the_page_is_that_of_the_calls():
+    if np.lib.NumpyVersion(np.__version__) < "2.0.0":
+        pytest.skip("the page is written with NumPy 2")
+    if not bad_input.PAGE.exists():
+        pytest.skip("the page is in the sources alone")
+    assert bad_input.PAGE.read_text() == bad_input.page()
+
+
+def has_arguments(function):
+    parameters = list(inspect.signature(function).parameters)
+    return bool([name for name in parameters if name != "self"])
+
+
+def test_every_function_is_in_the_table():
+    text = "\n".join(bad_input.CALLS)
+    functions = [name for name in deldrift.__all__ if inspect.isfunction(getattr(deldrift, name))]
+    assert [name for name in functions if has_arguments(getattr(deldrift, name)) and f"{name}(" not in text] == []
+    methods = inspect.getmembers(deldrift.Delaunay, inspect.isfunction)
+    missing = [n for n, f in methods if n[0] != "_" and has_arguments(f) and f"tri.{n}(" not in text]
+    assert missing == ["plot"]
+    for name in "move", "insert", "remove":
+        assert f"step.{name}(" in text
+
+
+def test_errors_can_be_pickled_and_have_their_place():
+    import pickle
+
+    error = bad_input.call("Delaunay([[0, 0], [1, 2e57]])", bad_input.make())
+    again = pickle.loads(pickle.dumps(error))
+    assert type(again) is deldrift.OutOfRange and str(again) == str(error)
+    assert (again.argument, again.index, again.value) == ("points", 1, 2e57)
