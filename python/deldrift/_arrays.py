@@ -37,8 +37,10 @@ def contiguous(array: np.ndarray, dtype: np.dtype) -> np.ndarray:
 
 def floats(argument: str, values: Any) -> np.ndarray:
     """Values as contiguous doubles: the array itself where it is so, else a converted copy."""
-    if type(values) is np.ndarray and values.dtype is F64 and values.flags.carray:
-        return values
+    if type(values) is np.ndarray and values.dtype is F64:
+        flags = values.flags
+        if flags.c_contiguous and flags.aligned:
+            return values
     if isinstance(values, np.ma.MaskedArray):
         raise InvalidShape(
             f"{argument} is a masked array, of which it is not known what its masked entries are", argument

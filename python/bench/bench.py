@@ -1,0 +1,201 @@
+"""Times of the Python package: beside scipy's Delaunay, beside C, and of the import.
+
+    python python/bench/bench.py [--csv FILE] [--write-page FILE] [--sizes 10000 100000]
+
+Runs of both sides are in turn, so that load on the machine meets both, and medians are shown. The steps in C need a C
+compiler, the header of the repository, and the library that the package uses.
+"""
+
+import argparse
+import csv
+import os
+import pathlib
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+from scipy import spatial
+
+import deldrift
+from deldrift import _library
+
+HERE = pathlib.Path(__file__).resolve().parent
+SPACINGS = 1e-3
+BLOCK = 7
+
+
+def seconds(run):
+    start = time.perf_counter()
+    result = run()
+    return time.perf_counter() - start, result
+
+
+def cpu_seconds(run):
+    start = time.thread_time()
+    run()
+    return time.thread_time() - start
+
+
+def points_of(count, ndim, seed=1):
+    return np.random.default_rng(seed).random((count, ndim))
+
+
+def frames_of(count, ndim, amplitude, number):
+    """Positions that wander by a part of the mean spacing of the points in each step."""
+    rng = np.random.default_rng(2)
+    frames = [points_of(count, ndim)]
+    scale = amplitude * count ** (-1 / ndim) / ndim**0.5
+    for _ in range(number):
+        frames.append(frames[-1] + scale * rng.standard_normal((count, ndim)))
+    return np.array(frames)
+
+
+def step(tri, positions):
+    tri.move(positions)
+    return tri.simplices, tri.neighbors, tri.changes()
+
+
+def beside_scipy(count, ndim, rounds):
+    """Median seconds of scipy's Delaunay, of this one, and of a step, in turn."""
+    frames = frames_of(count, ndim, SPACINGS, 5 * rounds)
+    of_scipy, of_build, of_step = [], [], []
+    tri = deldrift.Delaunay(frames[0])
+    step(tri, frames[0])
+    for k in range(rounds):
+        taken, theirs = seconds(lambda: spatial.Delaunay(frames[5 * k]))
+        of_scipy.append(taken)
+        taken, ours = seconds(lambda: built(frames[5 * k]))
+        of_build.append(taken)
+        assert abs(ours.nsimplex - theirs.nsimplex) <= 1e-5 * ours.nsimplex
+        for positions in frames[5 * k + 1 : 5 * k + 6]:
+            of_step.append(seconds(lambda: step(tri, positions))[0])
+    return statistics.median(of_scipy), statistics.median(of_build), statistics.median(of_step)
+
+
+def built(positions):
+    tri = deldrift.Delaunay(positions)
+    return tri if len(tri.simplices) and len(tri.neighbors) else None
+
+
+def beside_c(ndim, amplitude, scratch, number=100):
+    """Median seconds of a step of 100,000 points in C and in Python, on one thread, and the median ratio of blocks.
+
+    The seconds are those of the processor, which load on the machine hardly changes. Blocks of steps are in turn.
+    """
+    frames = frames_of(100_000, ndim, amplitude, number)
+    data = scratch / "frames"
+    with open(data, "wb") as file:
+        np.array([ndim, 100_000, len(frames)], np.uint64).tofile(file)
+        frames.tofile(file)
+    tri = deldrift.Delaunay(frames[0], threads=1)
+    step(tri, frames[0])
+    of_c, of_python = [], []
+    with subprocess.Popen([scratch / "step", data], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+
+        def step_in_c():
+            process.stdin.write(b"\n")
+            process.stdin.flush()
+            return float(process.stdout.readline())
+
+        for k in range(1, len(frames) - BLOCK, BLOCK):
+            block = frames[k : k + BLOCK]
+            of_c.append([step_in_c() for _ in block])
+            of_python.append([cpu_seconds(lambda: step(tri, positions)) for positions in block])
+    # The first block finds out which algorithm pays, and the first step of each finds caches with what is the other's.
+    of_c, of_python = np.array(of_c)[1:, 1:], np.array(of_python)[1:, 1:]
+    ratio = np.median(np.median(of_python, axis=1) / np.median(of_c, axis=1))
+    return np.median(of_c), np.median(of_python), ratio
+
+
+def compile_step(scratch):
+    library = pathlib.Path(_library._find()).resolve()
+    # As the build of the repository names it, and as that of the wheel does.
+    for name in "libdeldrift.so.0.1", "libdeldrift.so":
+        shutil.copy(library, scratch / name)
+    command = ["cc", "-O2", f"-I{HERE.parent.parent / 'include'}", HERE / "step.c", "-o", scratch / "step"]
+    subprocess.run(command + [scratch / "libdeldrift.so", f"-Wl,-rpath,{scratch}"], check=True)
+
+
+def import_times(rounds=11):
+    """Milliseconds of `import deldrift` after NumPy, least and median; bytecode is there, as pip leaves it."""
+    script = (
+        "import time, numpy; start = time.perf_counter(); import deldrift; print(1e3 * (time.perf_counter() - start))"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    times = [
+        float(subprocess.check_output([sys.executable, "-c", script], env=environment, text=True))
+        for _ in range(rounds + 1)
+    ][1:]
+    return min(times), statistics.median(times)
+
+
+def table_of_scipy(rows):
+    lines = ["| points | | scipy's Delaunay | `Delaunay(points)` | | a step | |", "|--:|---|--:|--:|--:|--:|--:|"]
+    for count, ndim, of_scipy, of_build, of_step in rows:
+        lines.append(
+            f"| {count:,} | {ndim}D | {1e3 * of_scipy:,.3g} ms | {1e3 * of_build:,.3g} ms | **{of_scipy / of_build:.1f}×** "
+            f"| {1e3 * of_step:,.3g} ms | **{of_scipy / of_step:.0f}×** |"
+        )
+    return lines
+
+
+def table_of_c(rows):
+    lines = ["| 100,000 points move by | | in C | in Python | |", "|--:|---|--:|--:|--:|"]
+    for ndim, amplitude, in_c, in_python, ratio in rows:
+        part = 100 * (ratio - 1)
+        lines.append(
+            f"| {amplitude:g} spacings | {ndim}D | {1e3 * in_c:.3f} ms | {1e3 * in_python:.3f} ms | {part:+.1f} % |"
+        )
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--sizes", type=int, nargs="*", default=[10_000, 100_000, 1_000_000])
+    parser.add_argument("--csv", type=pathlib.Path, help="writes all numbers to a file")
+    parser.add_argument("--write-page", type=pathlib.Path, help="replaces what is between the marks of a page")
+    given = parser.parse_args()
+
+    records, scipy_rows, c_rows = [], [], []
+    for count in given.sizes:
+        for ndim in 2, 3:
+            row = beside_scipy(count, ndim, 5 if count <= 10_000 else 3 if count <= 100_000 else 1)
+            scipy_rows.append((count, ndim, *row))
+            records += zip(["scipy", "build", "step"], [ndim] * 3, [count] * 3, [SPACINGS] * 3, row)
+            print(table_of_scipy(scipy_rows)[-1], flush=True)
+    if shutil.which("cc"):
+        with tempfile.TemporaryDirectory() as folder:
+            compile_step(pathlib.Path(folder))
+            for ndim in 2, 3:
+                for amplitude in 0, 1e-5, 1e-3, 1e-2:
+                    row = beside_c(ndim, amplitude, pathlib.Path(folder))
+                    c_rows.append((ndim, amplitude, *row))
+                    names = "step in C", "step in Python", "ratio of steps"
+                    records += zip(names, [ndim] * 3, [100_000] * 3, [amplitude] * 3, row)
+                    print(table_of_c(c_rows)[-1], flush=True)
+    else:
+        print("SKIPPED steps in C: there is no C compiler")
+    least, median = import_times()
+    records.append(("import", "", "", "", median / 1e3))
+    sentence = f"`import deldrift` takes {least:.1f} ms after NumPy (the least of 11; the median is {median:.1f})."
+    print(sentence)
+
+    text = "\n".join([*table_of_scipy(scipy_rows), "", *table_of_c(c_rows), "", sentence, ""])
+    if given.csv:
+        with open(given.csv, "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["what", "dimension", "points", "spacings", "seconds or ratio"])
+            writer.writerows(records)
+    if given.write_page:
+        page = given.write_page.read_text()
+        begin, end = "<!-- bench:begin -->\n", "<!-- bench:end -->"
+        before, rest = page.split(begin)
+        given.write_page.write_text(f"{before}{begin}\n{text}\n{end}{rest.split(end)[1]}")
+
+
+if __name__ == "__main__":
+    main()
