@@ -1,0 +1,210 @@
+"""Programs of others, and loops as they write them, on this package; compared with scipy's Delaunay where they use that."""
+
+import importlib.util
+import pathlib
+import random
+import sys
+
+import numpy as np
+import pytest
+
+import deldrift
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "examples"))
+
+
+def as_sets(rows):
+    return {tuple(sorted(row)) for row in np.asarray(rows).tolist()}
+
+
+def test_matplotlib_triangulates_with_it(rng, monkeypatch):
+    """matplotlib.tri has one function for triangles of points: of x, y and whether to be verbose."""
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    from matplotlib import _qhull, tri
+
+    x, y = rng.random((2, 500))
+    theirs = tri.Triangulation(x, y)
+    calls = []
+
+    def delaunay(x, y, _verbose):
+        ours = deldrift.Delaunay(np.stack([x, y], axis=1))
+        calls.append(ours)
+        # Neighbour k of matplotlib is across the edge from corner k to corner k + 1.
+        return ours.simplices, np.roll(ours.neighbors, 1, axis=1)
+
+    monkeypatch.setattr(_qhull, "delaunay", delaunay)
+    ours = tri.Triangulation(x, y)
+    assert len(calls) == 1
+    assert as_sets(ours.triangles) == as_sets(theirs.triangles)
+    neighbours = {
+        frozenset(t): {frozenset(theirs.triangles[n]) for n in row if n >= 0}
+        for t, row in zip(theirs.triangles.tolist(), theirs.neighbors)
+    }
+    for k, row in enumerate(ours.neighbors):
+        for corner, beside in enumerate(row):
+            if beside >= 0:
+                edge = {ours.triangles[k, corner], ours.triangles[k, (corner + 1) % 3]}
+                assert edge <= set(ours.triangles[beside])
+        assert {frozenset(ours.triangles[n].tolist()) for n in row if n >= 0} == neighbours[
+            frozenset(ours.triangles[k].tolist())
+        ]
+    z = np.sin(5 * x) * y
+    at = rng.random((2, 50)) * 0.8 + 0.1
+    linear, cubic = tri.LinearTriInterpolator, tri.CubicTriInterpolator
+    np.testing.assert_allclose(linear(ours, z)(*at), linear(theirs, z)(*at), rtol=1e-9, atol=1e-12)
+    # The cubic one solves a system by iteration, up to this tolerance.
+    np.testing.assert_allclose(cubic(ours, z)(*at), cubic(theirs, z)(*at), rtol=1e-3, atol=1e-5)
+    assert (ours.get_trifinder()(*at) >= 0).sum() == (theirs.get_trifinder()(*at) >= 0).sum()
+
+
+def test_distmesh_goes_as_with_scipy():
+    """80 steps: the two triangulations are the same at each, and so are the positions but for rounding in sums."""
+    spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")
+    import distmesh
+
+    points = distmesh.start(200)
+    moving = distmesh.Moving(points)
+    ours = distmesh.relax(points, moving, steps=80)
+    theirs = distmesh.relax(points, lambda at: spatial.Delaunay(at).simplices, steps=80)
+    np.testing.assert_allclose(ours, theirs, atol=1e-9)
+    assert moving.tri.timestamp == 80
+    triangles = distmesh.inside(ours, moving.tri.simplices)
+    assert distmesh.qualities(ours, triangles).mean() > 0.9
+
+
+def test_an_optimiser_moves_all_points(rng):
+    """As radiance meshes are trained: Adam on positions, tetrahedra of each step; here for equal volumes."""
+    spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")
+    points = rng.random((400, 3)).astype(np.float32)
+    tri = deldrift.Delaunay(points)
+    mean, square = np.zeros_like(points), np.zeros_like(points)
+    spreads = []
+    for number in range(1, 60):
+        cells = tri.simplices
+        corners = points[cells].astype(np.float64)
+        edges = corners[:, 1:] - corners[:, :1]
+        volumes = np.linalg.det(edges) / 6
+        spreads.append(volumes.std() / volumes.mean())
+        # d/dx of sum(volume²): each corner's gradient is the volume times its facet's normal.
+        normals = np.stack([np.cross(edges[:, (k + 1) % 3], edges[:, (k + 2) % 3]) for k in range(3)], axis=1)
+        of_corners = volumes[:, None, None] * np.concatenate([-normals.sum(axis=1, keepdims=True), normals], axis=1) / 3
+        gradient = np.zeros(points.shape)
+        np.add.at(gradient, cells.ravel(), of_corners.reshape(-1, 3))
+        mean = 0.9 * mean + 0.1 * gradient
+        square = 0.99 * square + 0.01 * gradient**2
+        step = 1e-3 * (mean / (1 - 0.9**number)) / (np.sqrt(square / (1 - 0.99**number)) + 1e-12)
+        points = np.clip(points - step, 0, 1).astype(np.float32)
+        tri.move(points)
+    assert spreads[-1] < 0.9 * spreads[0]
+    tri.validate()
+    general = rng.random((400, 3))
+    tri.move(general)
+    assert as_sets(tri.simplices) == as_sets(spatial.Delaunay(general).simplices)
+
+
+def test_pyafv_has_the_same_forces(rng):
+    pyafv = pytest.importorskip("pyafv", reason="pyafv is not installed")
+    import voronoi
+
+    points = rng.random((150, 2)) * 12
+    simulators = [pyafv.FiniteVoronoiSimulator(points.copy(), pyafv.PhysicalParams()) for _ in range(2)]
+    simulators[1]._voronoi = diagrams = voronoi.Diagrams()
+    for number in range(10):
+        theirs, ours = [simulator.build() for simulator in simulators]
+        for name in "forces", "areas", "perimeters":
+            np.testing.assert_allclose(ours[name], theirs[name], rtol=1e-8, atol=1e-8, err_msg=name)
+        points = points + 0.02 * theirs["forces"] + 0.01 * rng.standard_normal(points.shape)
+        for simulator in simulators:
+            simulator.update_positions(points.copy())
+    assert diagrams.tri.timestamp == 9
+
+
+def test_voronoi_diagrams_are_those_of_scipy(rng):
+    spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")
+    import voronoi
+
+    points = rng.random((60, 2))
+    ours, theirs = voronoi.Voronoi(deldrift.Delaunay(points)), spatial.Voronoi(points)
+
+    def corners(diagram, indices):
+        """Places of Voronoi vertices in an order of theirs; that at infinity has none."""
+        places = np.round(diagram.vertices, 6).tolist()
+        return sorted([] if k < 0 else places[k] for k in indices)
+
+    def ridges(diagram):
+        return {
+            tuple(sorted(ends)): corners(diagram, row)
+            for ends, row in zip(diagram.ridge_points.tolist(), diagram.ridge_vertices)
+        }
+
+    assert ridges(ours) == ridges(theirs)
+    for v in range(60):
+        assert corners(ours, ours.regions[ours.point_region[v]]) == corners(
+            theirs, theirs.regions[theirs.point_region[v]]
+        )
+
+
+# Of adaptive's tests, by the beginning of their names.
+ADAPTIVE_WAIVED = {
+    "test_circumsphere": "of a function that the triangulation does not use here",
+    "test_adding_point_on_standard_simplex_face-3": "a third is rounded, and the point off the face: a flat simplex more",
+}
+
+
+def adaptive_tests():
+    """adaptive's own tests of its triangulation, in 2D and 3D, with the one on this package in its place."""
+    if importlib.util.find_spec("adaptive") is None:
+        return [pytest.param(None, marks=pytest.mark.skip(reason="adaptive is not installed"), id="adaptive")]
+    cases = []
+    for name in "adaptive.tests.test_triangulation", "adaptive.tests.unit.test_triangulation":
+        if importlib.util.find_spec(name) is None:
+            continue
+        module = importlib.import_module(name)
+        for test, function in vars(module).items():
+            if test.startswith("test_"):
+                cases += adaptive_cases(module, test, function)
+    return [case for case in cases if not any(case.id.startswith(waived) for waived in ADAPTIVE_WAIVED)]
+
+
+def adaptive_cases(module, test, function):
+    marks = [mark for mark in getattr(function, "pytestmark", []) if mark.name == "parametrize"]
+    sets = [{}]
+    for mark in marks:
+        names, values = mark.args[:2]
+        sets = [{**one, names: value} for one in sets for value in values if names != "dim" or value in (2, 3)]
+    return [pytest.param((module, function, one), id=f"{test}-{'-'.join(map(str, one.values()))}") for one in sets]
+
+
+@pytest.mark.parametrize("case", adaptive_tests())
+def test_adaptive(case, monkeypatch):
+    import adaptive_backend
+
+    module, function, arguments = case
+    monkeypatch.setattr(module, "Triangulation", adaptive_backend.Triangulation)
+    np.random.seed(1)
+    function(**arguments)
+
+
+def test_adaptive_learns_with_it():
+    adaptive = pytest.importorskip("adaptive", reason="adaptive is not installed")
+    import adaptive_backend
+
+    def ring(xy):
+        x, y = xy
+        return x + np.exp(-((x**2 + y**2 - 0.75**2) ** 2) / 0.2**4)
+
+    random.seed(1)
+    # The sides are not square: ties of a square have another diagonal in adaptive.
+    bounds = [(-1, 1), (-0.93, 1.07)]
+    learners = [
+        adaptive.LearnerND(ring, bounds, triangulation_backend=backend)
+        for backend in ("python", adaptive_backend.Triangulation)
+    ]
+    for learner in learners:
+        adaptive.runner.simple(learner, npoints_goal=150)
+    theirs, ours = learners
+    assert ours.npoints == theirs.npoints == 150
+    assert ours.loss() == pytest.approx(theirs.loss(), rel=0.3)
+    ours.tri._tri.validate()
+    assert ours.tri.simplices == as_sets(ours.tri._tri.simplices)
+    assert ours.tri.reference_invariant()
