@@ -1,6 +1,6 @@
 """adaptive's triangulation on deldrift: `LearnerND(f, bounds, triangulation_backend=Triangulation)`.
 
-A point is inserted at the cost of the simplices around it, and `Delaunay.changes` says which were removed and added: what
+A point is inserted at the cost of the simplices around it. `Delaunay.changes` says which were removed and added: what
 adaptive asks of `add_point`.
 """
 

@@ -1,7 +1,7 @@
 """A mesh of a disc with a hole by DistMesh's iteration (Persson and Strang, doi:10.1137/S0036144503429121).
 
 Bars push points apart until lengths are as wanted, and points that leave the shape are put back. The triangulation is
-needed at every step; here points move in one triangulation. `python distmesh.py docs/python_distmesh.svg` draws it.
+needed at every step; here points move in one triangulation. `python distmesh.py docs/python_distmesh.png` draws it.
 """
 
 import sys
@@ -21,10 +21,10 @@ def distance(points):
 
 def wanted(points):
     """How long bars are to be, relative to each other."""
-    return 0.03 + 0.06 * (np.hypot(*points.T) - HOLE)
+    return 0.04 + 0.06 * (np.hypot(*points.T) - HOLE)
 
 
-def start(count=900, seed=1):
+def start(count=600, seed=1):
     """Points in the shape, where they are wanted more the shorter bars are to be."""
     rng = np.random.default_rng(seed)
     points = rng.uniform(-RADIUS, RADIUS, (40 * count, 2))
@@ -105,8 +105,7 @@ def draw(path, before, after):
         ax.set_aspect("equal")
         ax.axis("off")
     figure.tight_layout()
-    plt.rcParams["svg.hashsalt"] = "distmesh"
-    figure.savefig(path, metadata={"Date": None})
+    figure.savefig(path, dpi=72)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Calls with wrong arguments, and the table of what comes of them: `python tests/bad_input.py` writes BAD_INPUT.md.
 
-Each call is evaluated with a triangulation `tri` of the plane, which has the ids 0 to 6: vertex 5 is hidden by vertex 4,
+Each call is evaluated with a triangulation `tri` of the plane that has the ids 0 to 6: vertex 5 is hidden by vertex 4,
 and vertex 6 has been removed.
 """
 

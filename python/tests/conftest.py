@@ -1,5 +1,7 @@
 """Fixtures, and the count of scipy's own tests at the end."""
 
+import collections
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,10 @@ def pytest_terminal_summary(terminalreporter):
         count = sum(1 for report in reports if "test_scipy_suite" in getattr(report, "nodeid", ""))
         if outcome in ("passed", "failed", "skipped") and count:
             terminalreporter.write_line(f"scipy's own tests: {count} {outcome}")
+    reasons = collections.Counter()
     for report in terminalreporter.stats.get("skipped", []):
         reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
         if "WAIVED" not in reason:
-            terminalreporter.write_line(f"SKIPPED python {report.nodeid}: {reason.replace('Skipped: ', '')}")
+            reasons[reason.replace("Skipped: ", "")] += 1
+    for reason, count in sorted(reasons.items()):
+        terminalreporter.write_line(f"SKIPPED python: {count} of its tests: {reason}")

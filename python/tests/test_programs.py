@@ -1,4 +1,4 @@
-"""Programs of others, and loops as they write them, on this package; compared with scipy's Delaunay where they use that."""
+"""Programs of others, and loops as they write them, on this package; beside scipy where they use that."""
 
 import importlib.util
 import pathlib
@@ -26,7 +26,7 @@ def test_matplotlib_triangulates_with_it(rng, monkeypatch):
     theirs = tri.Triangulation(x, y)
     calls = []
 
-    def delaunay(x, y, _verbose):
+    def delaunay(x, y, *_verbose):
         ours = deldrift.Delaunay(np.stack([x, y], axis=1))
         calls.append(ours)
         # Neighbour k of matplotlib is across the edge from corner k to corner k + 1.
@@ -147,7 +147,7 @@ def test_voronoi_diagrams_are_those_of_scipy(rng):
 # Of adaptive's tests, by the beginning of their names.
 ADAPTIVE_WAIVED = {
     "test_circumsphere": "of a function that the triangulation does not use here",
-    "test_adding_point_on_standard_simplex_face-3": "a third is rounded, and the point off the face: a flat simplex more",
+    "test_adding_point_on_standard_simplex_face-3": "a third is rounded, and the point off the face",
 }
 
 

@@ -1,0 +1,80 @@
+"""Examples in the documentation run, docstrings are numpydoc's, and types hold."""
+
+import doctest
+import importlib.util
+import pathlib
+import pkgutil
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import deldrift
+
+PACKAGE = pathlib.Path(deldrift.__file__).resolve().parent
+PYTHON = pathlib.Path(__file__).resolve().parent.parent
+MODULES = [f"deldrift.{module.name}" for module in pkgutil.iter_modules([str(PACKAGE)])]
+MODULES = ["deldrift"] + [name for name in MODULES if not name.endswith("libdeldrift")]
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_docstrings(name):
+    assert doctest.testmod(importlib.import_module(name)).failed == 0
+
+
+@pytest.mark.parametrize("page", ["docs/PYTHON.md"])
+def test_pages(page):
+    path = PYTHON.parent / page
+    if not path.exists():
+        pytest.skip("the page is in the sources alone")
+    if np.lib.NumpyVersion(np.__version__) < "2.0.0":
+        pytest.skip("the page shows numbers as NumPy 2 does")
+    failed, tried = doctest.testfile(str(path), module_relative=False, globs={"deldrift": deldrift})
+    assert tried > 20 and failed == 0
+
+
+def test_the_readme():
+    text = (PYTHON / "README.md").read_text()
+    exec(re.search(r"```python\n(.*?)```", text, re.S)[1], {})
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
+def test_types():
+    command = [sys.executable, "-m", "mypy", "--config-file", str(PYTHON / "pyproject.toml"), str(PACKAGE)]
+    result = subprocess.run(command, capture_output=True, text=True, cwd=PACKAGE.parent)
+    assert result.returncode == 0, result.stdout
+
+
+def test_what_users_see_has_types():
+    assert (PACKAGE / "py.typed").exists()
+
+
+def public():
+    for name in deldrift.__all__:
+        thing = getattr(deldrift, name)
+        yield name, thing
+        if isinstance(thing, type) and not issubclass(thing, (Exception, tuple)) and name != "Report":
+            for member in vars_of(thing):
+                if not member.startswith("_"):
+                    yield f"{name}.{member}", getattr(thing, member)
+
+
+def vars_of(kind):
+    return {name for base in kind.__mro__ if base.__module__.startswith("deldrift") for name in vars(base)}
+
+
+@pytest.mark.parametrize("name, thing", [case for case in public() if callable(case[1])])
+def test_docstrings_are_numpydoc(name, thing):
+    docscrape = pytest.importorskip("numpydoc.docscrape", reason="numpydoc is not installed")
+    import inspect
+
+    if isinstance(thing, type) and name != "Delaunay":
+        assert thing.__doc__
+        return
+    parsed = docscrape.NumpyDocString(inspect.getdoc(thing))
+    assert parsed["Summary"]
+    given = [n for n in inspect.signature(thing).parameters if n not in ("self", "_kind")]
+    told = [n.strip(" *") for parameter in parsed["Parameters"] for n in parameter.name.split(",")]
+    assert told == given
