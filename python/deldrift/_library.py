@@ -67,6 +67,20 @@ class Report(ctypes.Structure):
         Vertices inserted and removed.
     """
 
+    timestamp: int
+    moved: int
+    unchanged: int
+    placements: int
+    flips: int
+    rebuilds: int
+    coincident: int
+    within_tolerance: int
+    tolerances: int
+    certificates: int
+    exact_calls: int
+    inserted: int
+    removed: int
+
     _fields_ = [
         (name, c_uint64)
         for name in (

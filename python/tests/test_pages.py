@@ -2,6 +2,7 @@
 
 import doctest
 import importlib.util
+import os
 import pathlib
 import pkgutil
 import re
@@ -45,6 +46,32 @@ def test_types():
     command = [sys.executable, "-m", "mypy", "--config-file", str(PYTHON / "pyproject.toml"), str(PACKAGE)]
     result = subprocess.run(command, capture_output=True, text=True, cwd=PACKAGE.parent)
     assert result.returncode == 0, result.stdout
+
+
+PROGRAM = """
+import numpy as np
+import deldrift
+
+tri = deldrift.Delaunay(np.zeros((3, 2)), threads=1, progress=print)
+report: deldrift.Report = tri.move([[0, 0], [1, 0], [0, 1]])
+moved: int = report.moved
+with tri.step() as step:
+    ids: np.ndarray = step.insert([[1.0, 1.0]])
+created: np.ndarray = tri.changes().created
+tri.move(3, 4, 5)  # wrong: too many arguments
+tri.timestamp + "a"  # wrong: an int
+"""
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
+def test_a_program_is_checked_by_its_types(tmp_path):
+    (tmp_path / "program.py").write_text(PROGRAM)
+    environment = dict(os.environ, MYPYPATH=str(PACKAGE.parent)) if "site-packages" not in str(PACKAGE) else None
+    command = [sys.executable, "-m", "mypy", "--strict", "program.py"]
+    result = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=environment)
+    wrong = [number for number, line in enumerate(PROGRAM.splitlines(), 1) if "# wrong" in line]
+    found = re.findall(r"^program.py:(\d+): error", result.stdout, re.M)
+    assert list(map(int, found)) == wrong, result.stdout
 
 
 def test_what_users_see_has_types():
