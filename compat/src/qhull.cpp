@@ -1,0 +1,152 @@
+// qhull's Delaunay triangulations on deldrift: qh_new_qhull, in place of that of libqhull_r.
+#include <cstring>
+#include <new>
+
+#include "kept.hpp"
+#include "original.hpp"
+#include "qhull_flat.hpp"
+#include "qhull_library.hpp"
+#include "qhull_options.hpp"
+#include "qhull_writer.hpp"
+#include "representatives.hpp"
+#include "settings.hpp"
+
+namespace compat {
+
+namespace {
+
+Tally tally("qh_new_qhull");
+
+// What deldrift has for a call: cells for comparing, and what is written.
+struct Triangulated {
+    QhullOutput output;
+    std::vector<std::uint32_t> representative;
+    How how = How::built;
+};
+
+// The points at the place of another, each with a facet that has this.
+std::vector<CoplanarPoint> coplanar_points(const QhullFacets &facets, const std::vector<std::uint32_t> &representative) {
+    std::vector<CoplanarPoint> result;
+    if (representative.empty()) return result;
+    std::vector<std::uint32_t> facet_of(representative.size());
+    for (std::size_t slot = 0; slot < facets.n_lower * facets.n_corners; slot++)
+        facet_of[facets.corners[slot]] = static_cast<std::uint32_t>(slot / facets.n_corners);
+    for (std::uint32_t i = 0; i < representative.size(); i++)
+        if (representative[i] != i) result.push_back({i, facet_of[representative[i]]});
+    return result;
+}
+
+// False if the points are for qhull, which has a message for those that do not span the dimension or are not finite.
+bool triangulate_points(const QhullCall &call, const QhullOptions &options, Triangulated &result) {
+    const auto dimension = static_cast<unsigned>(call.dimension);
+    const auto n_points = static_cast<std::size_t>(call.n_points);
+    const Borrowed triangulation(dimension, call.points, n_points);
+    deldrift_cells_view view{};
+    deldrift_status status = triangulation.status();
+    if (status == DELDRIFT_OK) status = deldrift_cells(triangulation.get(), &view);
+    if (status != DELDRIFT_OK) {
+        const bool is_of_points = status == DELDRIFT_NOT_FINITE || status == DELDRIFT_OUT_OF_RANGE;
+        if (!is_of_points) complain("qh_new_qhull", "%s; the call is passed on", deldrift_last_error());
+        return false;
+    }
+    if (view.count == 0) return false;
+    const Cells cells{view.corners_per_cell, view.count, view.vertices, view.neighbours};
+    const auto is_flat = flat_cells(cells, call.points, flatness_tolerance(dimension, call.points, n_points));
+    const std::uint32_t apex = options.has_infinity ? static_cast<std::uint32_t>(n_points) : no_cell;
+    QhullOutput &output = result.output;
+    output.facets = closed_facets(cells, is_flat, n_points, apex);
+    if (output.facets.count() == 0) return false;
+    result.representative = representatives(triangulation.get(), n_points);
+    if (options.keeps_coplanar) output.coplanar = coplanar_points(output.facets, result.representative);
+    output.vertices.resize(n_points + 1);
+    output.made.resize(output.facets.count());
+    result.how = triangulation.how();
+    return true;
+}
+
+// The cells that qhull has found.
+std::vector<std::uint32_t> lower_facets(qhT *qh, unsigned n_corners) {
+    std::vector<std::uint32_t> corners;
+    const facetT *facet;
+    FORALLfacets {
+        if (facet->upperdelaunay) continue;
+        for (unsigned i = 0; i < n_corners; i++) {
+            const coordT *point = SETelemt_(facet->vertices, i, vertexT)->point;
+            corners.push_back(static_cast<std::uint32_t>((point - qh->first_point) / qh->hull_dim));
+        }
+    }
+    return corners;
+}
+
+void compare(const QhullCall &call, const Triangulated &own) {
+    const unsigned n_corners = own.output.facets.n_corners;
+    const std::vector<std::uint32_t> corners = lower_facets(call.qh, n_corners);
+    const Cells other{n_corners, corners.size() / n_corners, corners.data(), nullptr};
+    const Cells cells{n_corners, own.output.facets.n_lower, own.output.facets.corners.data(), nullptr};
+    const Difference found = difference(cells, other, own.representative);
+    if (!tally.compared(cells.count + other.count, found.count)) return;
+    complain("qh_new_qhull", "%zu of %zu cells differ from the original's; the first is %u %u %u%s, of %s", found.count,
+             cells.count + other.count, found.first[0], found.first[1], found.first[2],
+             n_corners == 4 ? (" " + std::to_string(found.first[3])).c_str() : "",
+             found.first_is_own ? "deldrift" : "the original");
+}
+
+int call_original(NewQhull original, const QhullCall &call) {
+    return original(call.qh, call.dimension, call.n_points, call.points, call.ismalloc, call.command, call.outfile,
+                    call.errfile);
+}
+
+bool may_be_served(const QhullCall &call, QhullOptions &options) {
+    if (call.dimension != 2 && call.dimension != 3) return false;
+    if (call.points == nullptr || !read_qhull_command(call.command, options)) return false;
+    return call.n_points + (options.has_infinity ? 1 : 0) >= call.dimension + 2;
+}
+
+// Whether the call has been served; then its exit code.
+bool serve(NewQhull original, const QhullCall &call, int &exit_code) {
+    QhullOptions options;
+    QhullLibrary library;
+    if (!may_be_served(call, options) || !find_qhull_library(original, library)) return false;
+    const auto n_points = static_cast<std::size_t>(call.n_points);
+    double start = processor_time();
+    Triangulated own;
+    if (mode() != Mode::original) {
+        if (!triangulate_points(call, options, own)) return false;
+        if (mode() == Mode::deldrift) {
+            exit_code = write_qhull(library, call, own.output);
+            tally.served(own.how, processor_time() - start, n_points, own.output.facets.n_lower);
+            return true;
+        }
+    }
+    start = processor_time();
+    exit_code = call_original(original, call);
+    const double seconds = processor_time() - start;
+    const std::size_t n_cells = exit_code == 0 ? lower_facets(call.qh, static_cast<unsigned>(call.dimension) + 1).size() : 0;
+    tally.original_served(seconds, n_points, n_cells / (static_cast<unsigned>(call.dimension) + 1));
+    if (mode() == Mode::compare && exit_code == 0) compare(call, own);
+    return true;
+}
+
+} // namespace
+
+} // namespace compat
+
+extern "C" [[gnu::visibility("default")]] int qh_new_qhull(qhT *qh, int dim, int numpoints, coordT *points,
+                                                           boolT ismalloc, char *qhull_cmd, FILE *outfile,
+                                                           FILE *errfile) {
+    using namespace compat;
+    const auto original = reinterpret_cast<NewQhull>(original_of("qh_new_qhull", __builtin_return_address(0)));
+    if (original == nullptr) {
+        complain("qh_new_qhull", "there is no libqhull_r to pass the call to");
+        return qh_ERRqhull;
+    }
+    const QhullCall call{qh, dim, numpoints, points, ismalloc, qhull_cmd, outfile, errfile};
+    int exit_code = 0;
+    try {
+        if (serve(original, call, exit_code)) return exit_code;
+    } catch (const std::bad_alloc &) {
+        complain("qh_new_qhull", "there is not enough memory; the call is passed on");
+    }
+    tally.passed_on();
+    return call_original(original, call);
+}
