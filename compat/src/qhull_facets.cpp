@@ -1,6 +1,7 @@
 #include "qhull_facets.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 namespace compat {
@@ -27,8 +28,8 @@ public:
         std::vector<std::size_t> boundary;
         for (std::size_t slot = 0; slot < result.n_lower * n; slot++)
             if (result.neighbours[slot] == no_cell) boundary.push_back(slot);
-        if (boundary.empty()) return false;
-        if (apex == no_cell) apex = result.corners[boundary[0] / n * n + (boundary[0] % n + 1) % n];
+        if (apex == no_cell) apex = point_of(boundary);
+        if (apex == no_cell) return false;
         for (const std::size_t slot : boundary) add_above(slot, apex);
         for (const std::size_t slot : boundary)
             if (!join(slot, apex)) return false;
@@ -50,6 +51,19 @@ private:
             result.corners.push_back(cells_.vertices[slot]);
             result.neighbours.push_back(neighbour == no_cell ? no_cell : index[neighbour]);
         }
+    }
+
+    // A point of the boundary that is in no cell opposite a facet of the boundary: the facet above would have the points
+    // of that cell. no_cell if there is none, which can be of few points in space.
+    std::uint32_t point_of(const std::vector<std::size_t> &boundary) const {
+        std::unordered_set<std::uint32_t> opposite;
+        for (const std::size_t slot : boundary) opposite.insert(result.corners[slot]);
+        for (const std::size_t slot : boundary)
+            for (unsigned i = 1; i < n; i++) {
+                const std::uint32_t point = result.corners[slot / n * n + (slot % n + i) % n];
+                if (opposite.count(point) == 0) return point;
+            }
+        return no_cell;
     }
 
     bool has_corner(std::size_t facet, std::uint32_t point) const {

@@ -11,28 +11,42 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-Vector edge(const double *points, unsigned dimension, std::uint32_t from, std::uint32_t to) {
-    Vector result{};
-    for (unsigned axis = 0; axis < dimension; axis++)
-        result[axis] = points[to * std::size_t{dimension} + axis] - points[from * std::size_t{dimension} + axis];
-    return result;
-}
-
-Vector cross(const Vector &a, const Vector &b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 double dot(const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// The distance of corner i from the plane of the others.
-double height(const Cells &cells, const double *points, std::size_t cell, unsigned i) {
+// The thickness of a cell: the distance of one of its corners from the line or plane of the others, which are those
+// farthest apart: the ends of the longest edge, in space then the corner farthest from that. Off by no more than a
+// rounding of the longest edge, however near to a line the corners are.
+double thickness(const Cells &cells, const double *points, std::size_t cell) {
     const unsigned n = cells.n_corners, dimension = n - 1;
     const std::uint32_t *row = cells.vertices + cell * n;
-    const std::uint32_t base = row[(i + 1) % n];
-    const Vector to_apex = edge(points, dimension, base, row[i]), first = edge(points, dimension, base, row[(i + 2) % n]);
-    if (dimension == 2) return std::abs(cross(first, to_apex)[2]) / std::sqrt(dot(first, first));
-    const Vector normal = cross(first, edge(points, dimension, base, row[(i + 3) % n]));
-    return std::abs(dot(normal, to_apex)) / std::sqrt(dot(normal, normal));
+    std::array<Vector, 4> from_base{};
+    double longest = -1;
+    for (unsigned base = 0; base < n; base++) {
+        std::array<Vector, 4> edges{};
+        double greatest = 0;
+        for (unsigned i = 0; i < n; i++) {
+            for (unsigned axis = 0; axis < dimension; axis++)
+                edges[i][axis] = points[row[i] * std::size_t{dimension} + axis] -
+                                 points[row[base] * std::size_t{dimension} + axis];
+            greatest = std::max(greatest, dot(edges[i], edges[i]));
+        }
+        if (greatest <= longest) continue;
+        longest = greatest;
+        from_base = edges;
+    }
+    // Each step takes the longest of the vectors, and leaves of the others what is orthogonal to it.
+    double left = 0;
+    for (unsigned step = 0; step < dimension; step++) {
+        const auto is_shorter = [](const Vector &a, const Vector &b) { return dot(a, a) < dot(b, b); };
+        const Vector taken = *std::max_element(from_base.begin(), from_base.end(), is_shorter);
+        left = std::sqrt(dot(taken, taken));
+        if (left == 0) return 0;
+        for (Vector &each : from_base) {
+            const double part = dot(each, taken) / left / left;
+            for (unsigned axis = 0; axis < dimension; axis++) each[axis] -= part * taken[axis];
+        }
+    }
+    return left;
 }
 
 } // namespace
@@ -51,11 +65,6 @@ std::vector<bool> flat_cells(const Cells &cells, const double *points, double to
     std::vector<std::size_t> waiting;
     std::vector<bool> is_flat;
     const auto is_outside = [&](std::uint32_t cell) { return cell == no_cell || (!is_flat.empty() && is_flat[cell]); };
-    const auto is_dropped = [&](std::size_t cell) {
-        for (unsigned i = 0; i < n; i++)
-            if (is_outside(cells.neighbours[cell * n + i]) && !(height(cells, points, cell, i) > tolerance)) return true;
-        return false;
-    };
     const auto drop = [&](std::size_t cell) {
         if (is_flat.empty()) is_flat.resize(cells.count);
         is_flat[cell] = true;
@@ -64,12 +73,12 @@ std::vector<bool> flat_cells(const Cells &cells, const double *points, double to
     };
     for (std::size_t cell = 0; cell < cells.count; cell++) {
         const std::uint32_t *neighbours = cells.neighbours + cell * n;
-        if (std::find(neighbours, neighbours + n, no_cell) != neighbours + n && is_dropped(cell)) drop(cell);
+        if (std::find(neighbours, neighbours + n, no_cell) != neighbours + n && thickness(cells, points, cell) <= tolerance) drop(cell);
     }
     while (!waiting.empty()) {
         const std::size_t cell = waiting.back();
         waiting.pop_back();
-        if (!is_flat[cell] && is_dropped(cell)) drop(cell);
+        if (!is_flat[cell] && thickness(cells, points, cell) <= tolerance) drop(cell);
     }
     return is_flat;
 }

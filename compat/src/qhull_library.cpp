@@ -6,9 +6,9 @@
 
 namespace compat {
 
-bool find_qhull_library(NewQhull original, QhullLibrary &library) {
+bool find_qhull_library(const void *original, QhullLibrary &library) {
     Dl_info module;
-    if (dladdr(reinterpret_cast<const void *>(original), &module) == 0 || module.dli_fname == nullptr) return false;
+    if (dladdr(original, &module) == 0 || module.dli_fname == nullptr) return false;
     void *handle = dlopen(module.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
     if (handle == nullptr) return false;
     const auto *version = static_cast<const char *>(dlsym(handle, "qh_version2"));

@@ -24,6 +24,6 @@ struct QhullLibrary {
 
 // The functions of the library that has this qh_new_qhull; false if it is of another version than the headers that
 // this was compiled with, as its structures may be others, or if it is the library without qhT, or lacks a function.
-bool find_qhull_library(NewQhull original, QhullLibrary &library);
+bool find_qhull_library(const void *original, QhullLibrary &library);
 
 } // namespace compat

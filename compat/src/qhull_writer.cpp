@@ -19,17 +19,68 @@ Vector subtract(const coordT *to, const coordT *from, unsigned n) {
     return result;
 }
 
+double dot(const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
+
 double minor(const Vector &a, const Vector &b, const Vector &c, unsigned i, unsigned j, unsigned k) {
     return a[i] * (b[j] * c[k] - b[k] * c[j]) - a[j] * (b[i] * c[k] - b[k] * c[i]) +
            a[k] * (b[i] * c[j] - b[j] * c[i]);
 }
 
-// Orthogonal to the facet through these points, down where their order is that of a cell.
-Vector normal_of(coordT *const *points, unsigned n) {
-    const Vector a = subtract(points[1], points[0], n), b = subtract(points[2], points[0], n);
+// Orthogonal to n - 1 vectors.
+Vector orthogonal(const Vector *vectors, unsigned n) {
+    const Vector &a = vectors[0], &b = vectors[1], &c = vectors[2];
     if (n == 3) return {a[2] * b[1] - a[1] * b[2], a[0] * b[2] - a[2] * b[0], a[1] * b[0] - a[0] * b[1], 0};
-    const Vector c = subtract(points[3], points[0], n);
     return {minor(a, b, c, 1, 2, 3), -minor(a, b, c, 0, 2, 3), minor(a, b, c, 0, 1, 3), -minor(a, b, c, 0, 1, 2)};
+}
+
+// An orthonormal basis of what the vectors span, the longest first; of vectors that nearly depend on each other the
+// last is any that is orthogonal.
+void make_orthonormal(Vector *vectors, unsigned count) {
+    for (unsigned i = 0; i < count; i++) {
+        const auto is_shorter = [](const Vector &a, const Vector &b) { return dot(a, a) < dot(b, b); };
+        std::swap(vectors[i], *std::max_element(vectors + i, vectors + count, is_shorter));
+        // What rounding has left in the direction of those before is a part of a short vector.
+        for (unsigned round = 0; round < 2; round++) {
+            const double length = std::sqrt(dot(vectors[i], vectors[i]));
+            for (double &x : vectors[i]) x = length > 0 ? x / length : 0;
+            for (unsigned j = 0; j < i; j++) {
+                const double part = dot(vectors[i], vectors[j]);
+                for (unsigned axis = 0; axis < 4; axis++) vectors[i][axis] -= part * vectors[j][axis];
+            }
+        }
+        for (unsigned j = i + 1; j < count; j++) {
+            const double part = dot(vectors[j], vectors[i]);
+            for (unsigned axis = 0; axis < 4; axis++) vectors[j][axis] -= part * vectors[i][axis];
+        }
+    }
+}
+
+// The unit normal of the facet through these points, down where their order is that of a cell. Without a direction of
+// its own, of a facet that has collapsed in rounding, it is the last axis.
+Vector normal_of(coordT *const *points, unsigned n) {
+    Vector edges[3] = {};
+    double scale = 1;
+    for (unsigned i = 0; i + 1 < n; i++) {
+        edges[i] = subtract(points[i + 1], points[0], n);
+        scale *= std::sqrt(dot(edges[i], edges[i]));
+    }
+    constexpr double enough = 1e-6;
+    Vector normal = orthogonal(edges, n);
+    double length = std::sqrt(dot(normal, normal));
+    if (!(length > enough * scale)) {
+        const bool is_up = normal[n - 1] > 0;
+        make_orthonormal(edges, n - 1);
+        normal = orthogonal(edges, n);
+        length = std::sqrt(dot(normal, normal));
+        if (is_up != (normal[n - 1] > 0)) length = -length;
+    }
+    if (!(std::abs(length) > 0)) {
+        normal = {};
+        normal[n - 1] = -1;
+        length = 1;
+    }
+    for (double &x : normal) x /= length;
+    return normal;
 }
 
 class Writer {
@@ -126,19 +177,15 @@ private:
 
     void write_plane(facetT *facet, coordT *const *points, bool is_upper) const {
         const unsigned n = output_.facets.n_corners;
-        Vector normal = normal_of(points, n);
-        double squared = 0;
-        for (unsigned axis = 0; axis < n; axis++) squared += normal[axis] * normal[axis];
-        // Of a facet so small that its normal underflows.
-        if (!(squared > 0)) normal[n - 1] = -1;
-        const double scale = (is_upper ? -1 : 1) / (squared > 0 ? std::sqrt(squared) : 1);
+        const Vector normal = normal_of(points, n);
         facet->offset = 0;
         for (unsigned axis = 0; axis < n; axis++) {
-            facet->normal[axis] = normal[axis] * scale;
+            facet->normal[axis] = is_upper ? -normal[axis] : normal[axis];
             facet->offset -= facet->normal[axis] * points[0][axis];
         }
     }
 
+    // Each with a facet below that has the vertex at its place.
     void write_coplanar() {
         for (const CoplanarPoint &each : output_.coplanar)
             library_.qh_setappend(qh, &output_.made[each.facet]->coplanarset, point(each.point));
@@ -152,12 +199,17 @@ private:
 
 } // namespace
 
+// As qhull starts each call.
+static void start(const QhullLibrary &library, const QhullCall &call) {
+    FILE *const errfile = call.errfile != nullptr ? call.errfile : stderr;
+    if (call.qh->qhmem.ferr == nullptr) library.qh_meminit(call.qh, errfile);
+    else library.qh_memcheck(call.qh);
+    library.qh_initqhull_start(call.qh, nullptr, call.outfile, errfile);
+}
+
 int write_qhull(const QhullLibrary &library, const QhullCall &call, QhullOutput &output) {
     qhT *const qh = call.qh;
-    FILE *const errfile = call.errfile != nullptr ? call.errfile : stderr;
-    if (qh->qhmem.ferr == nullptr) library.qh_meminit(qh, errfile);
-    else library.qh_memcheck(qh);
-    library.qh_initqhull_start(qh, nullptr, call.outfile, errfile);
+    start(library, call);
     Writer writer(library, call, output);
     const int exit_code = setjmp(qh->errexit);
     if (exit_code == 0) {
@@ -167,6 +219,12 @@ int write_qhull(const QhullLibrary &library, const QhullCall &call, QhullOutput 
     }
     qh->NOerrexit = True;
     return exit_code;
+}
+
+int refuse_call(const QhullLibrary &library, const QhullCall &call, const char *message) {
+    start(library, call);
+    std::fprintf(call.qh->ferr, "deldrift: qh_new_qhull: %s\n", message);
+    return qh_ERRinput;
 }
 
 } // namespace compat

@@ -40,4 +40,8 @@ struct QhullOutput {
 // it fails qhull has said why, and what there is can be freed.
 int write_qhull(const QhullLibrary &library, const QhullCall &call, QhullOutput &output);
 
+// For points that qhull has no message for: writes this one to where qhull would, and gives qhull's exit code for input
+// that is wrong. What there is can be freed.
+int refuse_call(const QhullLibrary &library, const QhullCall &call, const char *message);
+
 } // namespace compat
