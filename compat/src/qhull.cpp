@@ -167,19 +167,25 @@ extern "C" [[gnu::visibility("default")]] int deldrift_qh_new_qhull(Word qh, Wor
 int deldrift_qh_new_qhull(Word qh, Word dimension, Word n_points, Word points, Word ismalloc, Word command,
                           Word outfile, Word errfile) {
     using namespace compat;
-    void *const original = original_of("qh_new_qhull", __builtin_return_address(0));
+    void *original = nullptr;
+    const QhullLibrary *library = nullptr;
+    try {
+        original = original_of("qh_new_qhull", __builtin_return_address(0));
+        if (original != nullptr) library = find_qhull_library(original);
+    } catch (const std::bad_alloc &) {
+        complain("qh_new_qhull", "there is not enough memory");
+    }
     if (original == nullptr) {
         complain("qh_new_qhull", "there is no libqhull_r to pass the call to");
         return qh_ERRqhull;
     }
-    QhullLibrary library;
-    if (find_qhull_library(original, library)) {
+    if (library != nullptr) {
         const QhullCall call{reinterpret_cast<qhT *>(qh),           static_cast<int>(dimension),
                              static_cast<int>(n_points),            reinterpret_cast<coordT *>(points),
                              static_cast<boolT>(ismalloc),          reinterpret_cast<char *>(command),
                              reinterpret_cast<FILE *>(outfile),     reinterpret_cast<FILE *>(errfile)};
         int exit_code = 0;
-        if (serve(reinterpret_cast<NewQhull>(original), library, call, exit_code)) return exit_code;
+        if (serve(reinterpret_cast<NewQhull>(original), *library, call, exit_code)) return exit_code;
     }
     tally.passed_on();
     return reinterpret_cast<Forwarded>(original)(qh, dimension, n_points, points, ismalloc, command, outfile, errfile);

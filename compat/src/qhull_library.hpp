@@ -22,8 +22,8 @@ struct QhullLibrary {
 #undef COMPAT_MEMBER
 };
 
-// The functions of the library that has this qh_new_qhull; false if it is of another version than the headers that
-// this was compiled with, as its structures may be others, or if it is the library without qhT, or lacks a function.
-bool find_qhull_library(const void *original, QhullLibrary &library);
+// The functions of the library that has this qh_new_qhull; null if it is of another version than the headers that this
+// was compiled with, as its structures may be others, or if it is the library without qhT, or lacks a function.
+const QhullLibrary *find_qhull_library(const void *original);
 
 } // namespace compat
