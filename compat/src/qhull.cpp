@@ -96,11 +96,11 @@ void compare(const QhullCall &call, const Triangulated &own) {
     const Cells other{n_corners, corners.size() / n_corners, corners.data(), nullptr};
     const Cells cells{n_corners, own.output.facets.n_lower, own.output.facets.corners.data(), nullptr};
     const Difference found = difference(cells, other, own.representative);
-    if (!tally.compared(cells.count + other.count, found.count)) return;
-    complain("qh_new_qhull", "%zu of %zu cells differ from the original's; the first is %u %u %u%s, of %s", found.count,
-             cells.count + other.count, found.first[0], found.first[1], found.first[2],
-             n_corners == 4 ? (" " + std::to_string(found.first[3])).c_str() : "",
-             found.first_is_own ? "deldrift" : "the original");
+    if (!tally.compared(cells.count, found.count)) return;
+    std::string first = std::to_string(found.first[0]);
+    for (unsigned i = 1; i < n_corners; i++) first += " " + std::to_string(found.first[i]);
+    complain("qh_new_qhull", "%zu of %zu cells differ from the original's; the first is %s, which %s has", found.count,
+             cells.count, first.c_str(), found.first_is_own ? "deldrift" : "the original");
 }
 
 bool may_be_served(const QhullCall &call, QhullOptions &options) {
