@@ -27,7 +27,8 @@ struct Triangulated {
 };
 
 // The points at the place of another, each with a facet that has this.
-std::vector<CoplanarPoint> coplanar_points(const QhullFacets &facets, const std::vector<std::uint32_t> &representative) {
+std::vector<CoplanarPoint> coplanar_points(const QhullFacets &facets,
+                                           const std::vector<std::uint32_t> &representative) {
     std::vector<CoplanarPoint> result;
     if (representative.empty()) return result;
     std::vector<std::uint32_t> facet_of(representative.size());
@@ -156,8 +157,8 @@ bool serve(NewQhull original, const QhullLibrary &library, const QhullCall &call
 
 } // namespace compat
 
-// All arguments as wide as registers: what calls the qh_new_qhull of libqhull, which has no qhT and so one argument less,
-// is passed on with arguments that are pointers where they are numbers here.
+// All arguments as wide as registers: what calls the qh_new_qhull of libqhull, which has no qhT and so one argument
+// less, is passed on with arguments that are pointers where they are numbers here.
 using Word = std::uintptr_t;
 using Forwarded = int (*)(Word, Word, Word, Word, Word, Word, Word, Word);
 extern "C" [[gnu::visibility("default")]] int deldrift_qh_new_qhull(Word qh, Word dimension, Word n_points, Word points,

@@ -53,8 +53,8 @@ private:
         }
     }
 
-    // A point of the boundary that is in no cell opposite a facet of the boundary: the facet above would have the points
-    // of that cell. no_cell if there is none, which can be of few points in space.
+    // A point of the boundary that is in no cell opposite a facet of the boundary: the facet above would have the
+    // points of that cell. no_cell if there is none, which can be of few points in space.
     std::uint32_t point_of(const std::vector<std::size_t> &boundary) const {
         std::unordered_set<std::uint32_t> opposite;
         for (const std::size_t slot : boundary) opposite.insert(result.corners[slot]);
@@ -151,8 +151,8 @@ bool has_lost_points(const Cells &cells, const QhullFacets &facets, std::size_t 
 QhullFacets closed_facets(const Cells &cells, const std::vector<bool> &is_flat, std::size_t n_points,
                           std::uint32_t apex) {
     Closing closing(cells, is_flat);
-    if (closing.result.n_lower == 0 || (!is_flat.empty() && has_lost_points(cells, closing.result, n_points))) return {};
-    if (!closing.close(apex)) return {};
+    const bool is_of_all = is_flat.empty() || !has_lost_points(cells, closing.result, n_points);
+    if (!is_of_all || !closing.close(apex)) return {};
     return std::move(closing.result);
 }
 

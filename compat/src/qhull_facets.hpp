@@ -19,9 +19,9 @@ struct QhullFacets {
     std::size_t count() const { return n_corners == 0 ? 0 : corners.size() / n_corners; }
 };
 
-// Of the cells that are not flat. Above, each facet on the boundary is joined to the apex: the point at infinity, or, with
-// no_cell for apex, a point of the boundary. Empty if the boundary cannot be joined, or if a point of a cell is in none
-// of those left: of points that nearly are on a line or plane.
+// Of the cells that are not flat. Above, each facet on the boundary is joined to the apex: the point at infinity, or,
+// with no_cell for apex, a point of the boundary. Empty if the boundary cannot be joined, or if a point of a cell is in
+// none of those left: of points that nearly are on a line or plane.
 QhullFacets closed_facets(const Cells &cells, const std::vector<bool> &is_flat, std::size_t n_points,
                           std::uint32_t apex);
 

@@ -73,7 +73,8 @@ std::vector<bool> flat_cells(const Cells &cells, const double *points, double to
     };
     for (std::size_t cell = 0; cell < cells.count; cell++) {
         const std::uint32_t *neighbours = cells.neighbours + cell * n;
-        if (std::find(neighbours, neighbours + n, no_cell) != neighbours + n && thickness(cells, points, cell) <= tolerance) drop(cell);
+        const bool is_at_hull = std::find(neighbours, neighbours + n, no_cell) != neighbours + n;
+        if (is_at_hull && thickness(cells, points, cell) <= tolerance) drop(cell);
     }
     while (!waiting.empty()) {
         const std::size_t cell = waiting.back();

@@ -124,7 +124,9 @@ public:
     }
 
 private:
-    coordT *point(std::uint32_t i) const { return qh->first_point + std::size_t{i} * static_cast<unsigned>(qh->hull_dim); }
+    coordT *point(std::uint32_t i) const {
+        return qh->first_point + std::size_t{i} * static_cast<unsigned>(qh->hull_dim);
+    }
 
     void write_vertices() {
         const QhullFacets &facets = output_.facets;

@@ -58,8 +58,8 @@ double orientation_of(coordT *const *corners, unsigned dimension) {
 }
 
 // What programs read of a facet that is a cell.
-void read_cell(qhT *qh, facetT *facet, unsigned dimension, bool has_exact_signs, const std::vector<std::uint32_t> &place,
-               Found &found) {
+void read_cell(qhT *qh, facetT *facet, unsigned dimension, bool has_exact_signs,
+               const std::vector<std::uint32_t> &place, Found &found) {
     CHECK(facet->simplicial && facet->good && facet->normal != nullptr && facet->normal[dimension] < 1e-9);
     CHECK(qh_setsize(qh, facet->vertices) == static_cast<int>(dimension) + 1);
     CHECK(qh_setsize(qh, facet->neighbors) == static_cast<int>(dimension) + 1);
@@ -117,12 +117,13 @@ Found call(Function function, unsigned dimension, Points points, const char *com
     std::fill(points.begin(), points.end(), 0.0);
     // qhull triangulates facets of more corners in orientations of their own.
     has_exact_signs = has_exact_signs && function == own && is_served_by_deldrift();
-    const bool is_of_simplices = std::strstr(command, " d ") && std::strstr(command, " Qt") && !std::strstr(command, " Qu");
+    const bool has_cells = dimension < 4 && std::strstr(command, " d ") && std::strstr(command, " Qt") &&
+                           !std::strstr(command, " Qu");
     facetT *facet;
     if (found.exit_code == 0) {
         FORALLfacets {
             found.n_facets++;
-            if (is_of_simplices && dimension < 4 && !facet->upperdelaunay) read_cell(qh, facet, dimension, has_exact_signs, place, found);
+            if (has_cells && !facet->upperdelaunay) read_cell(qh, facet, dimension, has_exact_signs, place, found);
         }
         CHECK(qh->num_facets == found.n_facets);
         CHECK(check_structure(qh) == 0);
@@ -188,7 +189,8 @@ double measure(unsigned dimension, const Points &points, const CellSet &cells) {
     double sum = 0;
     for (const auto &cell : cells) {
         coordT *corners[4] = {};
-        for (unsigned i = 0; i <= dimension; i++) corners[i] = const_cast<double *>(points.data()) + cell[i] * dimension;
+        for (unsigned i = 0; i <= dimension; i++)
+            corners[i] = const_cast<double *>(points.data()) + cell[i] * dimension;
         sum += std::abs(orientation_of(corners, dimension));
     }
     return sum / (dimension == 2 ? 2 : 6);
@@ -202,7 +204,8 @@ void general_points(const char *command) {
         for (unsigned step = 0; step < 10; step++) {
             points = moved(points, 0.003, step);
             check_same(dimension, points, command);
-            if (is_served_by_deldrift()) CHECK(call(own, dimension, points, command).cells == fresh_cells(dimension, points));
+            if (is_served_by_deldrift())
+                CHECK(call(own, dimension, points, command).cells == fresh_cells(dimension, points));
         }
     }
 }
@@ -220,7 +223,8 @@ void lattices() {
         // Squares have either diagonal.
         const Points points = turned(grid(2, 30), 2, angle);
         const Found a = call(own, 2, points, with_infinity), b = call(original, 2, points, with_infinity);
-        CHECK(a.exit_code == 0 && b.exit_code == 0 && a.cells.size() == b.cells.size() && a.cells.size() == 2 * 29 * 29);
+        CHECK(a.exit_code == 0 && b.exit_code == 0);
+        CHECK(a.cells.size() == b.cells.size() && a.cells.size() == 2 * 29 * 29);
         for (const auto &cell : a.cells) CHECK(std::abs(measure(2, points, {cell}) - 0.5) < 1e-12);
         const Points in_space = turned(grid(3, 6), 3, angle);
         const Found c = call(own, 3, in_space, with_infinity, angle == 0);
@@ -278,8 +282,9 @@ void not_finite() {
 }
 
 void passed_on() {
-    const std::pair<unsigned, const char *> calls[] = {{3, "qhull Qt"},       {2, "qhull d Qbb Qc Qz"}, {2, "qhull v Qbb"},
-                                                       {4, "qhull d Qt Qbb Qx"}, {2, "qhull d Qt Qu"},  {2, "qhull d QJ Tv"}};
+    const std::pair<unsigned, const char *> calls[] = {
+        {3, "qhull Qt"}, {2, "qhull d Qbb Qc Qz"}, {2, "qhull v Qbb"}, {4, "qhull d Qt Qbb Qx"}, {2, "qhull d Qt Qu"},
+        {2, "qhull d QJ Tv"}};
     for (const auto &[dimension, command] : calls) {
         const Points points = random_points(dimension, 60, 5);
         const Found a = call(own, dimension, points, command), b = call(original, dimension, points, command);
