@@ -117,6 +117,7 @@ public:
         qh->facet_next = qh->facet_tail;
         for (std::size_t f = 0; f < n_facets; f++) write_facet(f);
         if (qh->KEEPcoplanar) write_coplanar();
+        write_interior_point();
         qh->num_good = static_cast<int>(output_.facets.n_lower);
         qh->maxoutdone = True;
         qh->hasTriangulation = True;
@@ -185,6 +186,16 @@ private:
             facet->normal[axis] = is_upper ? -normal[axis] : normal[axis];
             facet->offset -= facet->normal[axis] * points[0][axis];
         }
+    }
+
+    // The mean of all vertices. By a point inside qhull turns hyperplanes that rounding has left without a side.
+    void write_interior_point() {
+        qh->interior_point = static_cast<coordT *>(library_.qh_memalloc(qh, qh->normal_size));
+        std::fill_n(qh->interior_point, qh->hull_dim, 0.0);
+        const vertexT *vertex;
+        FORALLvertices
+            for (int axis = 0; axis < qh->hull_dim; axis++)
+                qh->interior_point[axis] += vertex->point[axis] / qh->num_vertices;
     }
 
     // Each with a facet below that has the vertex at its place.

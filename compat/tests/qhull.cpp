@@ -20,7 +20,7 @@ namespace {
 using Function = decltype(&qh_new_qhull);
 
 // qhull's own, and the one that programs get.
-const Function original = reinterpret_cast<Function>(dlsym(dlopen("libqhull_r.so.8.0", RTLD_NOW), "qh_new_qhull"));
+const Function original = reinterpret_cast<Function>(dlsym(dlopen(QHULL_LIBRARY, RTLD_NOW), "qh_new_qhull"));
 const Function own = qh_new_qhull;
 
 bool is_served_by_deldrift() {
