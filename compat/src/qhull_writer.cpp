@@ -181,9 +181,11 @@ private:
     void write_plane(facetT *facet, coordT *const *points, bool is_upper) const {
         const unsigned n = output_.facets.n_corners;
         const Vector normal = normal_of(points, n);
+        // A cell is seen from below, also where the rounding of a flat one has it the other way.
+        const double sign = is_upper || normal[n - 1] > 0 ? -1 : 1;
         facet->offset = 0;
         for (unsigned axis = 0; axis < n; axis++) {
-            facet->normal[axis] = is_upper ? -normal[axis] : normal[axis];
+            facet->normal[axis] = sign * normal[axis];
             facet->offset -= facet->normal[axis] * points[0][axis];
         }
     }
