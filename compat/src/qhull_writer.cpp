@@ -33,16 +33,37 @@ Vector orthogonal(const Vector *vectors, unsigned n) {
     return {minor(a, b, c, 1, 2, 3), -minor(a, b, c, 0, 2, 3), minor(a, b, c, 0, 1, 3), -minor(a, b, c, 0, 1, 2)};
 }
 
+// The axis that is farthest from being spanned by count orthonormal vectors.
+Vector axis_beside(const Vector *vectors, unsigned count, unsigned n) {
+    unsigned best = 0;
+    double least = 2;
+    for (unsigned axis = 0; axis < n; axis++) {
+        double part = 0;
+        for (unsigned i = 0; i < count; i++) part += vectors[i][axis] * vectors[i][axis];
+        if (part >= least) continue;
+        least = part;
+        best = axis;
+    }
+    Vector result{};
+    result[best] = 1;
+    return result;
+}
+
 // An orthonormal basis of what the vectors span, the longest first; of vectors that nearly depend on each other the
 // last is any that is orthogonal.
-void make_orthonormal(Vector *vectors, unsigned count) {
+void make_orthonormal(Vector *vectors, unsigned count, unsigned n) {
     for (unsigned i = 0; i < count; i++) {
         const auto is_shorter = [](const Vector &a, const Vector &b) { return dot(a, a) < dot(b, b); };
         std::swap(vectors[i], *std::max_element(vectors + i, vectors + count, is_shorter));
         // What rounding has left in the direction of those before is a part of a short vector.
-        for (unsigned round = 0; round < 2; round++) {
-            const double length = std::sqrt(dot(vectors[i], vectors[i]));
-            for (double &x : vectors[i]) x = length > 0 ? x / length : 0;
+        for (unsigned round = 0; round < 3; round++) {
+            double length = std::sqrt(dot(vectors[i], vectors[i]));
+            if (!(length > 0)) {
+                vectors[i] = axis_beside(vectors, i, n);
+                length = 1;
+            }
+            for (double &x : vectors[i]) x /= length;
+            if (round == 2) break;
             for (unsigned j = 0; j < i; j++) {
                 const double part = dot(vectors[i], vectors[j]);
                 for (unsigned axis = 0; axis < 4; axis++) vectors[i][axis] -= part * vectors[j][axis];
@@ -55,8 +76,8 @@ void make_orthonormal(Vector *vectors, unsigned count) {
     }
 }
 
-// The unit normal of the facet through these points, down where their order is that of a cell. Without a direction of
-// its own, of a facet that has collapsed in rounding, it is the last axis.
+// The unit normal of the facet through these points, down where their order is that of a cell; of a facet that has
+// collapsed in rounding one of those that are orthogonal to it.
 Vector normal_of(coordT *const *points, unsigned n) {
     Vector edges[3] = {};
     double scale = 1;
@@ -69,15 +90,10 @@ Vector normal_of(coordT *const *points, unsigned n) {
     double length = std::sqrt(dot(normal, normal));
     if (!(length > enough * scale)) {
         const bool is_up = normal[n - 1] > 0;
-        make_orthonormal(edges, n - 1);
+        make_orthonormal(edges, n - 1, n);
         normal = orthogonal(edges, n);
         length = std::sqrt(dot(normal, normal));
         if (is_up != (normal[n - 1] > 0)) length = -length;
-    }
-    if (!(std::abs(length) > 0)) {
-        normal = {};
-        normal[n - 1] = -1;
-        length = 1;
     }
     for (double &x : normal) x /= length;
     return normal;
