@@ -58,7 +58,7 @@ double orientation_of(coordT *const *corners, unsigned dimension) {
 }
 
 // What programs read of a facet that is a cell.
-void read_cell(qhT *qh, facetT *facet, unsigned dimension, bool has_exact_signs,
+void read_cell(qhT *qh, facetT *facet, unsigned dimension, bool has_exact_signs, bool is_own,
                const std::vector<std::uint32_t> &place, Found &found) {
     CHECK(facet->simplicial && facet->good && facet->normal != nullptr && facet->normal[dimension] < 1e-9);
     CHECK(qh_setsize(qh, facet->vertices) == static_cast<int>(dimension) + 1);
@@ -76,12 +76,13 @@ void read_cell(qhT *qh, facetT *facet, unsigned dimension, bool has_exact_signs,
         facetT *neighbor = SETelemt_(facet->neighbors, k - 1, facetT);
         CHECK(!qh_setin(neighbor->vertices, vertex) && qh_setin(neighbor->neighbors, facet));
     }
-    if (has_exact_signs) CHECK((orientation_of(points, dimension) > 0) == (facet->toporient != 0));
+    // qhull triangulates facets of more corners in orientations of their own, and lists points near to a facet, too.
+    if (has_exact_signs && is_own) CHECK((orientation_of(points, dimension) > 0) == (facet->toporient != 0));
     insert_cell(found.cells, corners, dimension + 1, 0u);
     pointT *point, **pointp;
     FOREACHpoint_(facet->coplanarset) {
         const auto at = place[static_cast<std::size_t>(qh_pointid(qh, point))];
-        CHECK(std::find(corners, corners + dimension + 1, at) != corners + dimension + 1);
+        if (is_own) CHECK(std::find(corners, corners + dimension + 1, at) != corners + dimension + 1);
         found.coplanar[at].insert(static_cast<std::uint32_t>(qh_pointid(qh, point)));
     }
 }
@@ -115,15 +116,15 @@ Found call(Function function, unsigned dimension, Points points, const char *com
     found.exit_code = function(qh, static_cast<int>(dimension), n_points, points.data(), False, text.data(), nullptr,
                                errfile);
     std::fill(points.begin(), points.end(), 0.0);
-    // qhull triangulates facets of more corners in orientations of their own.
-    has_exact_signs = has_exact_signs && function == own && is_served_by_deldrift();
+    const bool is_own = function == own && is_served_by_deldrift();
     const bool has_cells = dimension < 4 && std::strstr(command, " d ") && std::strstr(command, " Qt") &&
                            !std::strstr(command, " Qu");
     facetT *facet;
     if (found.exit_code == 0) {
         FORALLfacets {
             found.n_facets++;
-            if (has_cells && !facet->upperdelaunay) read_cell(qh, facet, dimension, has_exact_signs, place, found);
+            if (!has_cells || facet->upperdelaunay) continue;
+            read_cell(qh, facet, dimension, has_exact_signs, is_own, place, found);
         }
         CHECK(qh->num_facets == found.n_facets);
         CHECK(check_structure(qh) == 0);
@@ -236,6 +237,23 @@ void lattices() {
     }
 }
 
+// Few points, many of them cocircular, coplanar, at one place or nearly on a line.
+void small_sets() {
+    for (unsigned seed = 0; seed < 600; seed++) {
+        std::mt19937_64 random(seed);
+        const unsigned dimension = 2 + random() % 2;
+        Points points = lattice_points(dimension, dimension + 1 + random() % 40, 2 + random() % 6, seed);
+        if (random() % 2 == 0) points = turned(points, dimension, 0.1 * static_cast<double>(1 + random() % 30));
+        const char *command = random() % 2 == 0 ? with_infinity : without_infinity;
+        const Found a = call(own, dimension, points, command, false), b = call(original, dimension, points, command);
+        // Points on one circle or sphere, which qhull refuses without the point at infinity.
+        if (command == without_infinity && a.exit_code == 0 && b.exit_code == qh_ERRinput) continue;
+        CHECK(a.exit_code == b.exit_code);
+        const double covered = measure(dimension, points, a.cells);
+        CHECK(std::abs(covered - measure(dimension, points, b.cells)) <= 1e-9 * covered);
+    }
+}
+
 void coincident_points() {
     for (const unsigned dimension : {2u, 3u}) {
         Points points = random_points(dimension, 100, 3);
@@ -336,6 +354,7 @@ int main() {
     general_points(without_infinity);
     turned_boxes();
     lattices();
+    small_sets();
     coincident_points();
     refused();
     if (is_served_by_deldrift()) not_finite();
