@@ -13,7 +13,7 @@ use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// From so many simplices for each vertex on, listing the cells of all vertices is faster.
-const LEAST_SHARE: f64 = 0.25;
+const LEAST_SHARE: f64 = 0.125;
 
 /// How many cells of a star are looked at first.
 const FIRST_CELLS: usize = 64;

@@ -10,6 +10,7 @@
 use crate::delaunay::{Dimension, IndexSet};
 use crate::error::{Error, Result};
 use crate::ids::{Slot, VertexId};
+use crate::machine::memory;
 use crate::motion::reading::near::most_cells;
 use crate::motion::triangulation::MovingTriangulation;
 
@@ -79,12 +80,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         // All sites are in the box for which the kernel's filter holds.
         let Some(inner) = wanted.met(&kernel.lower(), &kernel.upper()) else { return Ok(Vec::new()) };
-        let mut cells = IndexSet::new();
+        let mut cells = Vec::new();
         if !self.flood_box(&inner, &mut cells)? {
             return self.find_in_box(&wanted);
         }
         let mut found = IndexSet::new();
-        for &cell in cells.as_slice().iter().filter(|&&cell| !kernel.complex().cell(cell).is_ghost()) {
+        for &cell in cells.iter().filter(|&&cell| !kernel.complex().cell(cell).is_ghost()) {
             let corners = kernel.complex().cell(cell).corners;
             for &s in corners.as_ref().iter().filter(|&&s| wanted.has(&kernel.site(s).point)) {
                 found.insert(s)?;
@@ -101,16 +102,22 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// Lists cells, among them all that meet a box, of which the corners are in range of the kernel's filter; whether all have been found, before a pass over the sites takes
     /// less.
-    fn flood_box(&self, wanted: &Box<G>, cells: &mut IndexSet<Slot>) -> Result<bool> {
+    fn flood_box(&self, wanted: &Box<G>, cells: &mut Vec<Slot>) -> Result<bool> {
         let kernel = &self.mesh.kernel;
         let middle = wanted.middle();
         let filter = kernel.filter_for(&middle);
-        cells.insert(self.slot_at(kernel.locate(&middle, Slot::NONE)))?;
+        let first = self.slot_at(kernel.locate(&middle, Slot::NONE));
+        let mut seen = IndexSet::new();
+        seen.insert(first)?;
+        memory::push(cells, first)?;
         let mut next = 0;
-        while let Some(&cell) = cells.as_slice().get(next) {
+        while let Some(&cell) = cells.get(next) {
             next += 1;
             for i in 0..=G::D {
                 let across = kernel.complex().cell(cell).neighbour(i).cell();
+                if !seen.insert(across)? {
+                    continue;
+                }
                 let may_meet = if kernel.complex().cell(across).is_ghost() {
                     (0..1 << G::D)
                         .any(|bits| kernel.orientation_beyond(&filter, across, &wanted.corner(bits)) > 0.0)
@@ -118,7 +125,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     self.is_beside(across, wanted)
                 };
                 if may_meet {
-                    cells.insert(across)?;
+                    memory::push(cells, across)?;
                 }
             }
             if next > most_cells(kernel) {
