@@ -245,7 +245,8 @@ def is_current(array: np.ndarray) -> bool:
     Returns
     -------
     bool
-        False if the triangulation has been changed since. The array still has the numbers of before, then.
+        False if the triangulation has been changed since, or a change has failed. The array still has the numbers of
+        before, then.
 
     Examples
     --------

@@ -129,14 +129,32 @@ class Core:
         # Whether the library has moves staged that no step will commit.
         self._must_discard = False
         self._last_report: Optional[_library.Report] = None
-        self._reading = _Reading(self)
-        self._changing, self._committing = _Changing(self, False, False), _Changing(self, True, False)
-        self._taking, self._staging = _Changing(self, False, True), _Changing(self, True, True)
         self._version = Version()
         # What has been computed of this version, by name.
         self._cache: dict[str, Any] = {}
         # Arrays of the library's memory that may be in use.
         self._leases: list[weakref.ref[Lease]] = []
+
+    # Made for each call: kept, they would be in a circle with their owner, whose memory only a collection would free.
+    @property
+    def _reading(self) -> _Reading:
+        return _Reading(self)
+
+    @property
+    def _changing(self) -> _Changing:
+        return _Changing(self, False, False)
+
+    @property
+    def _taking(self) -> _Changing:
+        return _Changing(self, False, True)
+
+    @property
+    def _staging(self) -> _Changing:
+        return _Changing(self, True, True)
+
+    @property
+    def _committing(self) -> _Changing:
+        return _Changing(self, True, False)
 
     def _forget_all_but_cells(self) -> None:
         cells = self._cache.get("cells")

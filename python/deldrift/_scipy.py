@@ -56,6 +56,11 @@ def check_scipy_options(furthest_site: Any, qhull_options: Any) -> None:
 class Scipy(Core):
     """What scipy.spatial.Delaunay has."""
 
+    furthest_site = False
+    """As in scipy; always false."""
+    good = None
+    """As in scipy without the option QG; always None."""
+
     @property
     def points(self) -> np.ndarray:
         """The positions of all ids, a row for each; NaN for removed vertices. Read-only."""

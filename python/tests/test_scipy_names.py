@@ -32,6 +32,12 @@ def test_simplices_are_those_of_scipy(both):
     np.testing.assert_array_equal(ours.max_bound, theirs.max_bound)
 
 
+def test_every_public_name_of_scipy_is_there(both):
+    ours, theirs = both
+    assert [name for name in dir(theirs) if name[0] != "_" and not hasattr(ours, name)] in ([], ["vertices"])
+    assert ours.furthest_site == theirs.furthest_site
+
+
 def test_neighbours_are_opposite_corners(both):
     ours, theirs = both
     by_vertices = cells_by_vertices(theirs)

@@ -3,6 +3,7 @@
 import copy
 import gc
 import sys
+import weakref
 
 import numpy as np
 import pytest
@@ -45,6 +46,24 @@ def test_handle_is_kept_as_long_as_arrays(rng, ndim):
     np.testing.assert_array_equal(part, expected)
     assert deldrift.is_current(part)
     del junk
+
+
+@counted
+def test_memory_is_freed_with_the_last_reference(rng, ndim):
+    gc.disable()
+    try:
+        tri = deldrift.Delaunay(rng.random((50, ndim)))
+        with tri.step() as step:
+            step.move(rng.random((50, ndim)))
+        handle = sys.getrefcount(tri._handle)
+        held = tri.simplices, tri.transform, tri.changes()
+        assert sys.getrefcount(tri._handle) > handle
+        seen = weakref.ref(tri)
+        del tri, step
+        assert seen() is None
+        del held
+    finally:
+        gc.enable()
 
 
 def test_an_array_keeps_what_it_showed(rng, ndim):
