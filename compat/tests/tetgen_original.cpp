@@ -218,14 +218,14 @@ void coincident_points(Function original) {
 } // namespace
 
 int main() {
-    void *handle = dlopen("libtet.so.1.5", RTLD_LAZY | RTLD_LOCAL);
+    void *handle = dlopen(TETGEN, RTLD_LAZY | RTLD_LOCAL);
     CHECK(handle != nullptr);
     const auto original = reinterpret_cast<Function>(dlsym(handle, "_Z14tetrahedralizePcP8tetgenioS1_S1_S1_"));
     CHECK(original != nullptr && original != static_cast<Function>(&tetrahedralize));
     // Not z with numbers from 1 in the input: TetGen 1.5.0 puts the markers of faces one place off then. Nor E with n,
     // f or v: it reads numbers of tetrahedra that it has not set.
     for (const char *switches : {"Qznfev", "Qz", "Qze", "Qzn", "nJQF", "Qfe", "Qnfev", "QzB", "QBnfe", "QzN", "QzE",
-                                 "QFen", "QzJX", "QNnf", "Qzee"})
+                                 "QFen", "QzJX", "QNnf", "Qzee", "QzI", "QInfev"})
         for (const int firstnumber : {0, 1})
             if (firstnumber == 0 || std::strchr(switches, 'z') == nullptr) call_both(original, switches, firstnumber);
     coincident_points(original);
