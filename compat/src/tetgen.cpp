@@ -3,6 +3,7 @@
 
 #include <climits>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -50,14 +51,21 @@ void check(const Io &in) {
         fail(bad_input, "in->pointattributelist is NULL");
 }
 
-// The cells of the original, with an output of its own.
+// The cells of the original, with an output of its own. Its input is numbered from 0: TetGen 1.5 and 1.6 write past the
+// end of the markers of faces where z is given for points that are numbered from 1.
 template <class Io>
 class Original {
 public:
-    Original(Function function, const TetgenSwitches &switches, Io &in) {
+    Original(Function function, const TetgenSwitches &switches, const Io &in) {
+        struct Lent {
+            Io io;
+            ~Lent() { io.pointlist = nullptr; }
+        } lent;
+        lent.io.pointlist = in.pointlist;
+        lent.io.numberofpoints = in.numberofpoints;
         std::string plain = switches.for_cells();
         const double start = processor_time();
-        function(plain.data(), reinterpret_cast<tetgenio *>(&in), reinterpret_cast<tetgenio *>(&out_), nullptr,
+        function(plain.data(), reinterpret_cast<tetgenio *>(&lent.io), reinterpret_cast<tetgenio *>(&out_), nullptr,
                  nullptr);
         seconds_ = processor_time() - start;
     }
@@ -82,6 +90,15 @@ double write(const TetgenSwitches &switches, const Cells &cells, const Io &in, I
     const double start = processor_time();
     write_tetrahedra(switches, in_order ? in_order->view() : cells, in, out, representative);
     return processor_time() - start;
+}
+
+// The points that stay where the cells are the original's: each that is in one stands for itself. Of points at one place
+// it need not be the first.
+std::vector<std::uint32_t> representatives_in(const Cells &cells, int n_points) {
+    constexpr std::uint32_t none = UINT32_MAX;
+    std::vector<std::uint32_t> representative(static_cast<std::size_t>(n_points), none);
+    for (std::size_t i = 0; i < 4 * cells.count; i++) representative[cells.vertices[i]] = cells.vertices[i];
+    return representative;
 }
 
 void report_difference(const Difference &difference, std::size_t n_cells) {
@@ -119,7 +136,8 @@ void serve(const TetgenSwitches &switches, Io &in, Io &out, Function compared) {
         const Difference found = difference(cells, original.cells(), representative);
         if (tally.compared(cells.count, found.count)) report_difference(found, cells.count);
         tally.original_served(original.seconds(), n_points, original.cells().count);
-        seconds += write(switches, original.cells(), in, out, representative);
+        const std::vector<std::uint32_t> shown = representatives_in(original.cells(), in.numberofpoints);
+        seconds += write(switches, original.cells(), in, out, shown);
     }
     tally.served(triangulation.how(), seconds, n_points, view.count);
 }
@@ -132,7 +150,7 @@ void serve_by_original(const Call &call, const TetgenSwitches &switches, Io &in,
         check(in);
         const Original<Io> original(function, switches, in);
         seconds = original.seconds();
-        write(switches, original.cells(), in, out, {});
+        write(switches, original.cells(), in, out, representatives_in(original.cells(), in.numberofpoints));
     } else {
         const double start = processor_time();
         function(call.switches, call.in, call.out, call.addin, call.bgmin);
