@@ -215,7 +215,7 @@ std::set<std::set<std::array<double, 3>>> places_of(const tetgenio &io) {
 // Where points share a place all but one are left out; which one stays is not the same.
 void coincident_points(Function original) {
     Points points = random_points(3, 60, 3);
-    std::copy(points.begin() + 30, points.begin() + 33, points.begin());
+    std::copy(points.begin() + 60, points.begin() + 120, points.begin());
     for (const char *switches : {"Qz", "QzJ"}) {
         tetgenio in, own, other;
         in.pointlist = points.data();
