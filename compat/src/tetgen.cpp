@@ -92,8 +92,8 @@ double write(const TetgenSwitches &switches, const Cells &cells, const Io &in, I
     return processor_time() - start;
 }
 
-// The points that stay where the cells are the original's: each that is in one stands for itself. Of points at one place
-// it need not be the first.
+// The points that stay where the cells are the original's: each that is in one stands for itself. Of points at one
+// place it need not be the first.
 std::vector<std::uint32_t> representatives_in(const Cells &cells, int n_points) {
     constexpr std::uint32_t none = UINT32_MAX;
     std::vector<std::uint32_t> representative(static_cast<std::size_t>(n_points), none);
