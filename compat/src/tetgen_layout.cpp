@@ -64,17 +64,15 @@ Layout layout_of(const void *io) {
     constexpr std::size_t corners_in_1_4 = 100;
     if (number_at(io, corners_in_1_4) == 4) return Layout::unknown;
     if (number_at(io, offsetof(TetgenIo150, numberofcorners)) == 4) return Layout::v1_5_0;
-    if (number_at(io, offsetof(TetgenIo16, numberofcorners)) == 4) return Layout::v1_5_1_or_1_6;
-    return Layout::unknown;
+    if (number_at(io, offsetof(TetgenIo16, numberofcorners)) != 4) return Layout::unknown;
+    static const Layout of_environment = read_environment();
+    return of_environment;
 }
 
 Layout told_apart(const void *original) {
-    if (original != nullptr) {
-        if (has_beside(original, "_ZN8tetgenio9load_elemEPc")) return Layout::v1_6;
-        if (has_beside(original, "_ZN8tetgenio9load_nodeEPc")) return Layout::v1_5_1;
-    }
-    static const Layout of_environment = read_environment();
-    return of_environment;
+    if (original != nullptr && has_beside(original, "_ZN8tetgenio9load_elemEPc")) return Layout::v1_6;
+    if (original != nullptr && has_beside(original, "_ZN8tetgenio9load_nodeEPc")) return Layout::v1_5_1;
+    return Layout::v1_5_1_or_1_6;
 }
 
 } // namespace compat

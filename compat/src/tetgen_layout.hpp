@@ -117,11 +117,11 @@ enum class Layout {
     v1_5_1_or_1_6, // nothing that is in the structure tells them apart
 };
 
-// The layout of io, which its constructor has initialised, and nothing else: its number of corners, 4, tells.
+// The layout of io, which its constructor has initialised, and nothing else: its number of corners, 4, tells. Of the two
+// that nothing in the structure tells apart it is the one that DELDRIFT_COMPAT_TETGEN (1.5.1 or 1.6) says, if it does.
 Layout layout_of(const void *io);
 
-// Which of the two that nothing in the structure tells apart the program has, by the functions beside the original, a
-// pointer to it, where there is one; otherwise by DELDRIFT_COMPAT_TETGEN (1.5.1 or 1.6). If neither says, it is still
+// Which of these two it is by the functions beside the original (null: there is none); if they do not say, it is still
 // one of the two.
 Layout told_apart(const void *original);
 
