@@ -85,6 +85,30 @@ void check_name_of_cxx(const Original &original, const Points &points) {
     std::free(result.pointlist);
 }
 
+// With p it depends on the lists of the input who serves a call.
+void check_lists_of_graph(const Original &original, const Points &points) {
+    std::vector<int> segment{0, 1};
+    std::vector<double> place{0.5, 0.5, 0, 0};
+    triangulateio in{};
+    in.pointlist = const_cast<double *>(points.data());
+    in.numberofpoints = static_cast<int>(points.size() / 2);
+    in.segmentlist = segment.data();
+    in.holelist = in.regionlist = place.data();
+    for (const auto count : {&triangulateio::numberofsegments, &triangulateio::numberofholes,
+                             &triangulateio::numberofregions}) {
+        for (const int n : {0, 1}) {
+            in.*count = n;
+            const int before = *original.calls;
+            char switches[] = "QpczNB";
+            triangulateio out{};
+            original.call_triangulate(switches, &in, &out, nullptr);
+            CHECK(*original.calls == before + n);
+            for (int *array : {out.trianglelist, out.neighborlist, out.segmentlist}) std::free(array);
+        }
+        in.*count = 0;
+    }
+}
+
 } // namespace
 
 int main(int count, char **arguments) {
@@ -100,7 +124,10 @@ int main(int count, char **arguments) {
     *original.is_wrong = 1;
     reaches_original(original, "Qzn", points, cells);
     CHECK((cells == expected) == is_default);
-    if (is_default) check_name_of_cxx(original, points);
+    if (is_default) {
+        check_name_of_cxx(original, points);
+        check_lists_of_graph(original, points);
+    }
 
     Points space = random_points(3, 50, 2);
     for (const char *switches : {"Qz", "Qzp", "Qzq1.4"}) {
