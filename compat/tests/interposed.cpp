@@ -85,7 +85,7 @@ void check_name_of_cxx(const Original &original, const Points &points) {
     std::free(result.pointlist);
 }
 
-// With p it depends on the lists of the input who serves a call.
+// With p the lists of the input decide whether a call is passed on.
 void check_lists_of_graph(const Original &original, const Points &points) {
     std::vector<int> segment{0, 1};
     std::vector<double> place{0.5, 0.5, 0, 0};
