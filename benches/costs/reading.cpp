@@ -267,7 +267,8 @@ std::vector<Call> reading_calls() {
          }},
         {"deldrift_nearest_vertices", "8 of places anywhere, as many as vertices",
          [](Context &c) { nearest_vertices(c, c.many(c.n, &Context::anywhere)); }},
-        {"deldrift_nearest_vertices", "8 near vertices, by id", [](Context &c) { nearest_vertices(c, c.all_nearby()); }},
+        {"deldrift_nearest_vertices", "8 near vertices, by id",
+         [](Context &c) { nearest_vertices(c, c.all_nearby()); }},
         {"deldrift_vertices_in_ball", "to the next vertex, for one vertex in eight", [](Context &c) {
              in_parts(c, [&](std::uint32_t v, std::uint32_t *to, std::size_t *count) {
                  return deldrift_vertices_in_ball(c.t, c.place(v), c.spacing[v] * c.spacing[v], to, c.n, count);

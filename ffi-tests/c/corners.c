@@ -1,5 +1,5 @@
-// Cells by their corners: those that have given vertices, one of each vertex, hidden vertices, barycentric coordinates, and
-// which cells are flat along the hull.
+// Cells by their corners: those that have given vertices, one of each vertex, hidden vertices, barycentric coordinates,
+// and which cells are flat along the hull.
 #include "buffers.h"
 
 static void simplices_of_the_square(void) {
@@ -298,7 +298,8 @@ static void check_mask_by_volume(const deldrift_triangulation *t, size_t n_wante
     CHECK(n_flat == n_wanted && count > n_wanted);
 }
 
-// A side that is straight but for rounding: the cell on it is left out, and the boundary of the rest goes past all three.
+// A side that is straight but for rounding: the cell on it is left out, and the boundary of the others goes past all
+// three vertices.
 static void flat_cells_are_left_out(void) {
     static const double places[] = {0, 0, 2, 0, 1, 1e-15, 1, 1};
     deldrift_triangulation *t = create(2, places, 4, NULL);

@@ -1,8 +1,8 @@
 // What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
 #include "buffers.h"
 
-// Sixty vertices at places of a small lattice, so that distances tie and places are shared, and some of them removed; or,
-// in a line, without cells. Places to ask about are of the lattice, too, so that squares of distances are integers.
+// Sixty vertices at places of a small lattice, so that distances tie and places are shared, and some of them removed;
+// or, in a line, without cells. Places to ask about are of the lattice, too, so that squares of distances are integers.
 enum { COUNT = 60, SIDE = 7, PLACES = 200 };
 
 typedef struct {
@@ -291,7 +291,8 @@ static void conflicts_from_outside(void) {
     uint32_t cells[4];
     size_t count = 77;
     OK(deldrift_conflicts(t, beside, NULL, cells, 4, &count));
-    CHECK(count == 1 && has_corner(view.vertices + 3 * cells[0], 3, 0) && has_corner(view.vertices + 3 * cells[0], 3, 1));
+    CHECK(count == 1 && has_corner(view.vertices + 3 * cells[0], 3, 0));
+    CHECK(has_corner(view.vertices + 3 * cells[0], 3, 1));
     OK(deldrift_conflicts(t, at, NULL, NULL, 0, &count));
     CHECK(count == 0);
     OK(deldrift_conflicts(t, far, NULL, NULL, 0, &count));

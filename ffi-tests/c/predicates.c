@@ -75,8 +75,9 @@ static int64_t determinant(uint32_t d, int64_t u[3][3]) {
            u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
 }
 
-// By the definition. Seen from the first point, of edges e to the others of the simplex the centre c solves 2 e c = e², and
-// a point q is inside if 2 q c - q² is positive. By Cramer's rule that is an integer over the determinant of the edges.
+// By the definition. Seen from the first point, of edges e to the others of the simplex the centre c solves 2 e c = e²,
+// and a point q is inside if 2 q c - q² is positive. By Cramer's rule that is an integer over the determinant of the
+// edges.
 static int64_t by_definition(uint32_t d, int64_t p[5][3]) {
     int64_t e[3][3] = {{0}}, squares[3] = {0}, own = 0, sum = 0;
     for (uint32_t i = 0; i < d; i++) {
@@ -96,8 +97,8 @@ static int64_t by_definition(uint32_t d, int64_t p[5][3]) {
     return sum - own * determinant(d, e);
 }
 
-// Integers from -2^range to 2^range; in every second case corners of a box, which are on a circle or sphere, the last one
-// or a place beside it.
+// Integers from -2^range to 2^range; in every second case corners of a box, which are on a circle or sphere, the last
+// one or a place beside it.
 static void in_spheres_of_integers(int range, uint64_t seed) {
     int n_of[3] = {0, 0, 0};
     for (int round = 0; round < 20000; round++) {
@@ -132,8 +133,8 @@ static void in_spheres_of_integers(int range, uint64_t seed) {
     for (int i = 0; i < 3; i++) CHECK(n_of[i] > 1000);
 }
 
-// Of corners that are in positive order, in negative order, and on a line or plane; at both ends of the range; next to a
-// circle, where doubles would be 0 or wrong.
+// Of corners that are in positive order, in negative order, and on a line or plane; at both ends of the range; next to
+// a circle, where doubles would be 0 or wrong.
 static void inside_is_positive(void) {
     static const double circle[] = {0, 0, 1, 0, 0, 1, 0.5, 0.5}, turned[] = {0, 0, 0, 1, 1, 0, 0.5, 0.5};
     static const double sphere[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.5, 0.5, 0.5};

@@ -18,10 +18,10 @@
 //! # Corners at infinity
 //!
 //! One has a direction, of which the signs of the coordinates are known. A face along which that goes has all or
-//! nothing of the side that leads to the corner. If none does, as in the middle of a plane that is a facet as a whole, the
-//! corner is *open* unless the plane is parallel to the face: a part of what is far away in its direction is on either side
-//! of the face. Then it goes if the corners before and after it do, so that what stays is convex; if one of them does,
-//! either will do. These are not open to the same face.
+//! nothing of the side that leads to the corner. If none does, as in the middle of a plane that is a facet as a whole,
+//! the corner is *open* unless the plane is parallel to the face: a part of what is far away in its direction is on
+//! either side of the face. Then it goes if the corners before and after it do, so that what stays is convex; if one of
+//! them does, either will do. These are not open to the same face.
 //!
 //! # Cost
 //!
