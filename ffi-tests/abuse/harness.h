@@ -41,7 +41,7 @@ static size_t n_ids, n_cells, n_edges;
 static uint32_t inner_cell, inner_corner;
 
 // Arguments, which are made again before each call.
-static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3];
+static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
 static double outside[ROOM], low[ROOM], high[ROOM];
 static uint32_t ids[3];
 static uint8_t mask[ROOM], saved[BYTES];
@@ -166,6 +166,7 @@ static void before(void) {
     memcpy(points + HIDDEN * dimension, points + 3 * dimension, dimension * sizeof *points);
     for (size_t i = 0; i < sizeof points / sizeof *points; i++) moved[i] = points[i] + 0.01 * next_random(&seed);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) values[i] = (double)i;
+    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++) inside[i] = 0.5;
     for (size_t i = 0; i < 3; i++) {
         low[i] = -1;
         high[i] = 2;

@@ -123,9 +123,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                     continue;
                 };
                 found(next.vertex);
-                if next.vertex == self.mesh.kernel.site(next.site).id {
-                    self.enter_around(&next, &mut link, &mut seen, &mut waiting)?;
-                }
+                self.enter_after(&next, &mut link, &mut seen, &mut waiting)?;
             }
         }
         Ok(())
@@ -136,22 +134,22 @@ impl<G: Dimension> MovingTriangulation<G> {
         Candidate { q, point: &site.point, vertex: site.id, site: s }
     }
 
-    /// Has what can follow a representative wait: those hidden behind it, and its neighbours.
-    fn enter_around<'t>(
+    /// Has what can follow a vertex wait: of those hidden at its place the ones below it in their tree, as there may be
+    /// thousands of which few are wanted; and the neighbours of a representative.
+    fn enter_after<'t>(
         &'t self,
         next: &Candidate<'t, G::Point>,
         link: &mut Link,
         seen: &mut IndexSet<SiteId>,
         waiting: &mut BinaryHeap<Candidate<'t, G::Point>>,
     ) -> Result<()> {
-        let &Candidate { q, point, vertex: representative, site } = next;
-        let mut entered = Ok(());
-        self.mesh.hidden.for_all_at(representative, |vertex| {
-            if vertex != representative && entered.is_ok() {
-                entered = memory::enter(waiting, Candidate { q, point, vertex, site });
-            }
-        });
-        entered?;
+        let &Candidate { q, point, vertex, site } = next;
+        for top in self.mesh.hidden.tops_below(vertex).into_iter().filter(|&top| top != VertexId::NONE) {
+            memory::enter(waiting, Candidate { q, point, vertex: top, site })?;
+        }
+        if vertex != self.mesh.kernel.site(site).id {
+            return Ok(());
+        }
         for &x in link.list(&self.mesh.kernel, site)? {
             if seen.insert(x)? {
                 memory::enter(waiting, self.candidate(q, x))?;
