@@ -154,9 +154,7 @@ KINDS = {
     27: InvalidField,
     28: StagedVertex,
 }
-"""Classes by deldrift_status. What is not here is a defect, as a pointer of this package that is NULL."""
-
-BUFFER_TOO_SMALL = 7
+"""Classes by deldrift_status. What is not here comes of a defect, as a pointer of this package that is NULL."""
 
 # "positions[12], coordinate 1, is inf", "cells[3] is 99, but ...", "squared_radius is -1"
 PLACE = re.compile(r"(?P<argument>\w+)(?:\[(?P<index>\d+)\])?(?:, coordinate \d+,)? is (?P<value>[^\s,]+)")

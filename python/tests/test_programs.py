@@ -119,6 +119,29 @@ def test_pyafv_has_the_same_forces(rng):
     assert diagrams.tri.timestamp == 9
 
 
+def test_lloyd_relaxes_to_the_same_places(rng, monkeypatch):
+    program = pytest.importorskip("lloyd.lloyd", reason="lloyd is not installed")
+    import voronoi
+
+    points = rng.random((120, 2))
+    theirs = program.Field(points.copy())
+    monkeypatch.setattr(program, "Voronoi", diagrams := voronoi.Diagrams())
+    ours = program.Field(points.copy())
+    for _ in range(8):
+        for field, module_voronoi in (theirs, program_voronoi()), (ours, diagrams):
+            monkeypatch.setattr(program, "Voronoi", module_voronoi)
+            field.relax()
+        # Circumcentres of flat triangles are far away, and rounded by each in its own way.
+        np.testing.assert_allclose(ours.get_points(), theirs.get_points(), atol=1e-4)
+    assert diagrams.tri.timestamp == 8
+
+
+def program_voronoi():
+    from scipy.spatial import Voronoi
+
+    return Voronoi
+
+
 def test_voronoi_diagrams_are_those_of_scipy(rng):
     spatial = pytest.importorskip("scipy.spatial", reason="scipy is not installed")
     import voronoi
