@@ -133,12 +133,19 @@ def import_times(rounds=11):
     return min(times), statistics.median(times)
 
 
+def milliseconds(seconds):
+    """With three digits."""
+    value = 1e3 * seconds
+    return f"{value:,.0f} ms" if value >= 100 else f"{value:#.3g} ms"
+
+
 def table_of_scipy(rows):
     lines = ["| points | | scipy's Delaunay | `Delaunay(points)` | | a step | |", "|--:|---|--:|--:|--:|--:|--:|"]
-    for count, ndim, of_scipy, of_build, of_step in rows:
+    for count, ndim, *times in rows:
+        of_scipy, of_build, of_step = map(milliseconds, times)
+        to_build, to_step = times[0] / times[1], times[0] / times[2]
         lines.append(
-            f"| {count:,} | {ndim}D | {1e3 * of_scipy:,.3g} ms | {1e3 * of_build:,.3g} ms | **{of_scipy / of_build:.1f}×** "
-            f"| {1e3 * of_step:,.3g} ms | **{of_scipy / of_step:.0f}×** |"
+            f"| {count:,} | {ndim}D | {of_scipy} | {of_build} | **{to_build:.1f}×** | {of_step} | **{to_step:.0f}×** |"
         )
     return lines
 

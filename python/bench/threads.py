@@ -45,7 +45,9 @@ def main():
         for _ in range(9):
             of_processes = seconds(process, count, frames)
             ratios.append(seconds(threading.Thread, count, frames) / of_processes)
-        print(f"{count} threads, {points:,} points in {ndim}D: {statistics.median(ratios):.2f} times as long as processes")
+        print(
+            f"{count} threads, {points:,} points in {ndim}D: {statistics.median(ratios):.2f} times as long as processes"
+        )
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import I32, address, choice, ids, one_id, one_point, points, taken
-from ._core import Core, id_count
+from ._core import Core, fixed, id_count
 from ._errors import Busy, InvalidOption, WrongCount
 from ._library import Report
 
@@ -28,8 +28,7 @@ _get_algorithm = _library.function("get_algorithm")
 _statistics = _library.function("statistics")
 _timestamp = _library.function("timestamp")
 
-NONE_LISTED = np.empty(0, I32)
-NONE_LISTED.flags.writeable = False
+NONE_LISTED = fixed(np.empty(0, I32))
 
 
 class Changes(NamedTuple):
@@ -373,6 +372,9 @@ class Motion(Core):
 
 
 def _changes(view: _library.ChangesView, corners: int) -> Changes:
+    if not (view.created_count or view.removed_count or view.renumbered_count or view.hidden_count or view.shown_count):
+        return NO_CHANGES[corners]
+
     def listed(start: Optional[int], count: int) -> np.ndarray:
         return taken(start, (count,)) if count else NONE_LISTED
 
@@ -387,6 +389,22 @@ def _changes(view: _library.ChangesView, corners: int) -> Changes:
         listed(view.hidden, view.hidden_count),
         listed(view.shown, view.shown_count),
     )
+
+
+NO_CHANGES = {
+    corners: Changes(
+        created=NONE_LISTED,
+        removed=NONE_LISTED,
+        removed_simplices=fixed(np.empty((0, corners), I32)),
+        renumbered_from=NONE_LISTED,
+        renumbered_to=NONE_LISTED,
+        stars=NONE_LISTED,
+        hidden=NONE_LISTED,
+        shown=NONE_LISTED,
+    )
+    for corners in (3, 4)
+}
+"""What is told where nothing has changed, by the number of corners of a simplex."""
 
 
 def _discard(owner: Motion) -> None:
