@@ -81,7 +81,12 @@ def built(positions):
     return tri if len(tri.simplices) and len(tri.neighbors) else None
 
 
-def beside_c(ndim, amplitude, scratch, number=100):
+def beside_c(ndim, amplitude, scratch, rounds=5):
+    """Medians over some rounds, as how fast a step is also depends on where the system has put the arrays."""
+    return tuple(np.median([one_beside_c(ndim, amplitude, scratch) for _ in range(rounds)], axis=0))
+
+
+def one_beside_c(ndim, amplitude, scratch, number=50):
     """Median seconds of a step of 100,000 points in C and in Python, on one thread, and the median ratio of blocks.
 
     The seconds are those of the processor, which load on the machine hardly changes. Blocks of steps are in turn.
