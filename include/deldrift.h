@@ -1298,8 +1298,8 @@ deldrift_status deldrift_cell_of_each_vertex(const deldrift_triangulation *t,
 /// ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with two
 /// corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
 ///
-/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than a
-/// quarter of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
+/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than an
+/// eighth of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for
 /// another number of corners, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
