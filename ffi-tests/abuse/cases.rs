@@ -143,9 +143,11 @@ impl Cases<'_> {
         let is_legal = match role {
             Role::Handle => self.function.name == "deldrift_destroy",
             Role::Owner
-            | Role::Hint | Role::Options | Role::ResearchOptions | Role::OutputIfAny | Role::NumbersIfAny => {
-                true
-            }
+            | Role::Hint
+            | Role::Options
+            | Role::ResearchOptions
+            | Role::OutputIfAny
+            | Role::NumbersIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
