@@ -68,6 +68,11 @@ struct Kernel {
     using FT = double;
     using Point_2 = cgal::Point_2;
     using Point_3 = cgal::Point_3;
+    using Segment_2 = Simplex<Point_2, 2>;
+    using Triangle_2 = Simplex<Point_2, 3>;
+    using Segment_3 = Simplex<Point_3, 2>;
+    using Triangle_3 = Simplex<Point_3, 3>;
+    using Tetrahedron_3 = Simplex<Point_3, 4>;
 };
 
 }  // namespace deldrift::cgal
