@@ -34,6 +34,7 @@ const MAIN: Header = Header {
         "state",
         "query",
         "location",
+        "near",
         "geometry",
         "incidence",
         "listed",

@@ -960,6 +960,104 @@ deldrift_status deldrift_coincident_representative(const deldrift_triangulation 
                                                    uint32_t vertex,
                                                    uint32_t *representative);
 
+/// The vertices that are hidden, ascending, each with the one that represents it.
+///
+/// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
+/// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0
+/// asks for the count alone.
+///
+/// Cost: n; constant where there are none, and for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
+                                         uint32_t *vertices,
+                                         uint32_t *representatives,
+                                         size_t capacity,
+                                         size_t *count);
+
+/// The k vertices nearest to each of count positions: rows of k ids, by distance and, at the same distance, by id;
+/// DELDRIFT_NONE where there are fewer vertices than k. Distances are compared exactly. Hidden vertices count like
+/// others.
+///
+/// positions: 2 or 3 numbers each, read during the call only; NULL if count is 0. vertices: receives count rows of k
+/// ids; may be NULL if there are none.
+///
+/// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
+///
+/// Cost: count times that of deldrift_nearest_vertex, and the stars of the k vertices. While there are no cells, count
+/// times n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+deldrift_status deldrift_nearest_vertices(const deldrift_triangulation *t,
+                                          const double *positions,
+                                          size_t count,
+                                          size_t k,
+                                          uint32_t *vertices);
+
+/// The vertices in a closed ball, ascending by id, hidden ones included: those whose squared distance from centre is at
+/// most squared_radius. Exact.
+///
+/// centre: 2 or 3 numbers. squared_radius: 0 or more; infinity is all vertices. vertices: a buffer with room for
+/// capacity ids; deldrift_vertex_count is always enough. count: receives their number, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone, which takes as long.
+///
+/// Cost: that of deldrift_nearest_vertex, the stars of the vertices in the ball, and k log k for the k of them; n log n
+/// at most but for the former. While there are no cells, n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_INVALID_VALUE for a squared radius that is negative or NaN, DELDRIFT_BUFFER_TOO_SMALL,
+/// DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
+                                          const double *centre,
+                                          double squared_radius,
+                                          uint32_t *vertices,
+                                          size_t capacity,
+                                          size_t *count);
+
+/// The vertices in a closed box, ascending by id, hidden ones included: those of which each coordinate is at least that
+/// of low and at most that of high.
+///
+/// low, high: 2 or 3 numbers each, which may be infinite. Where one of low is above that of high there are none.
+/// vertices: a buffer with room for capacity ids; deldrift_vertex_count is always enough. count: receives their number,
+/// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
+/// long.
+///
+/// Cost: that of deldrift_locate, the cells that the box meets, the facets of the hull that are seen from it, and k log k
+/// for the k vertices in it; n log n at most but for the first. While there are no cells, n.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
+                                         const double *low,
+                                         const double *high,
+                                         uint32_t *vertices,
+                                         size_t capacity,
+                                         size_t *count);
+
+/// The cells that the insertion of a vertex at a position would remove, in no particular order: those whose circle or
+/// sphere has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a vertex,
+/// and while there are no cells, there are none.
+///
+/// position: 2 or 3 numbers. hint: where to begin to look for it, as for deldrift_locate_points; NULL if nothing is
+/// known. cells: a buffer with room for capacity indices. count: receives their number, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone, which takes as long.
+///
+/// A position outside the convex hull may be in the circle or sphere of no cell: then the insertion removes none, and
+/// joins the vertex to the facets of the hull that it sees.
+///
+/// Cost: that of deldrift_locate, the cells found, and the facets of the hull that are seen from the position. After a
+/// change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE, DELDRIFT_OUT_OF_RANGE,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
+                                   const double *position,
+                                   const deldrift_location *hint,
+                                   uint32_t *cells,
+                                   size_t capacity,
+                                   size_t *count);
+
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
 /// centres: a buffer with room for capacity points. squared_radii: a buffer with room for capacity numbers. One
@@ -1016,6 +1114,33 @@ deldrift_status deldrift_mask_by_circumradius(const deldrift_triangulation *t,
                                               uint8_t *mask,
                                               size_t capacity,
                                               size_t *count);
+
+/// Which cells are more than what the rounding of a straight or flat side has made: 0 for cells along the convex hull that
+/// are flat, 1 for the others, in the order of deldrift_cells.
+///
+/// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times its
+/// longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with room
+/// for capacity bytes. count: receives the number of cells, which is also written when the buffer is too small. NULL with
+/// capacity 0 asks for the count alone.
+///
+/// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes over
+/// flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or volumes.
+/// Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out and keeps all others:
+/// deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept, as leaving them out
+/// would leave holes.
+///
+/// Rounded: a cell whose quotient of height and edge is tolerance but for a part of 1.1e-9 + 2e-15 / tolerance may get
+/// either. One pass over the cells.
+///
+/// Cost: m. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a tolerance that is negative
+/// or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_mask_without_flat_cells(const deldrift_triangulation *t,
+                                                 double tolerance,
+                                                 uint8_t *mask,
+                                                 size_t capacity,
+                                                 size_t *count);
 
 /// The boundary of some of the cells: the facets between a cell in a mask and one that is not in it, or the outside.
 ///
@@ -1124,6 +1249,39 @@ deldrift_status deldrift_vertex_cells(const deldrift_triangulation *t,
                                       uint32_t *cells,
                                       size_t capacity,
                                       size_t *count);
+
+/// A cell of each vertex, to cells: for each id the index of a cell of which the vertex is a corner, any of them;
+/// DELDRIFT_NONE for those that are hidden or removed, whose insertion is staged, and while there are no cells.
+///
+/// cells: a buffer with room for capacity indices. count: receives deldrift_id_count, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: n. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+deldrift_status deldrift_cell_of_each_vertex(const deldrift_triangulation *t,
+                                             uint32_t *cells,
+                                             size_t capacity,
+                                             size_t *count);
+
+/// Cells that have given vertices as corners, to cells: for each of count simplices the index of one, DELDRIFT_NONE if
+/// there is none. So it tells which edges of a list are in the triangulation, and which facets.
+///
+/// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as many
+/// ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with two
+/// corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
+///
+/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than a
+/// quarter of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for
+/// another number of corners, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
+/// DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+deldrift_status deldrift_find_simplices(const deldrift_triangulation *t,
+                                        uint32_t corners_per_simplex,
+                                        const uint32_t *vertices,
+                                        size_t count,
+                                        uint32_t *cells);
 
 /// The mirror indices of all facets: entry i of the row of a cell, in the order of deldrift_cells, is about the facet
 /// opposite corner i. It is the corner (0, 1, ...) of the neighbour beyond that is opposite the same facet, 255 on
@@ -1372,6 +1530,29 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
                                      const double *outside,
                                      double *results);
 
+/// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
+/// for each corner in the order of deldrift_cells. They are what deldrift_interpolate multiplies values with, for programs
+/// that keep them.
+///
+/// positions: 2 or 3 numbers each. cells: count indices into deldrift_cells, as deldrift_locate_points gives them;
+/// DELDRIFT_NONE is no cell, for which the row is NaN. Both are read during the call only. weights: receives count rows.
+/// All may be NULL if count is 0. A position may be outside of its cell: then some of its coordinates are negative.
+///
+/// The sign of each is exact, and so is 0; the value has a relative error of at most 2.1e-9, and of some last bits
+/// unless the cell is nearly flat. (Where an area or volume is below the least normal number, 2.2e-308, it is less
+/// accurate.) A row adds up to 1 but for these errors.
+///
+/// Cost: count. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing is
+/// written.
+deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
+                                     const double *positions,
+                                     const uint32_t *cells,
+                                     size_t count,
+                                     double *weights);
+
 /// Makes an independent triangulation that is as this one, to *out, which the caller has to hand to
 /// deldrift_destroy; it is written on success only.
 ///
@@ -1522,6 +1703,21 @@ deldrift_status deldrift_write_medit(const deldrift_triangulation *t,
 deldrift_status deldrift_orientation(uint32_t dimension,
                                      const double *points,
                                      int32_t *sign);
+
+/// Whether a point is inside the circle or sphere through others, exactly, to *sign: 1 inside, -1 outside, 0 on it.
+///
+/// dimension: 2 or 3. points: dimension + 2 points, one after the other, 2 or 3 numbers each: those that the circle or
+/// sphere goes through, of orientation 1 (deldrift_orientation), and the one that is asked about. If their orientation is
+/// -1, the sign is the opposite one. If it is 0, it is that of the determinant alone. Ties are not broken.
+///
+/// Cost: constant.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE. Constant time, some ten nanoseconds except close to 0. May be called from any number of threads
+/// at once.
+deldrift_status deldrift_in_sphere(uint32_t dimension,
+                                   const double *points,
+                                   int32_t *sign);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -212,15 +212,9 @@ public:
         return changes;
     }
     std::vector<std::uint32_t> star(std::uint32_t vertex) const {
-        std::vector<std::uint32_t> star(64);
-        std::size_t count = 0;
-        deldrift_status status = deldrift_star(native(), vertex, star.data(), star.size(), &count);
-        star.resize(count);
-        if (status == DELDRIFT_BUFFER_TOO_SMALL) {
-            status = deldrift_star(native(), vertex, star.data(), star.size(), &count);
-        }
-        require_ok(status);
-        return star;
+        return found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
+            return deldrift_star(native(), vertex, cells, capacity, count);
+        });
     }
     // The cells of the star, with their vertices and neighbours.
     Star cells_of(std::uint32_t vertex) const {
@@ -246,6 +240,13 @@ public:
         std::size_t count = cell_count();
         std::vector<std::uint8_t> mask(count);
         require_ok(deldrift_mask_by_circumradius(native(), squared_radius, mask.data(), count, &count));
+        return mask;
+    }
+    // Without the flat cells along the hull that the rounding of straight sides makes.
+    std::vector<std::uint8_t> mask_without_flat_cells(double tolerance) const {
+        std::size_t count = cell_count();
+        std::vector<std::uint8_t> mask(count);
+        require_ok(deldrift_mask_without_flat_cells(native(), tolerance, mask.data(), count, &count));
         return mask;
     }
     // Of the cells listed alone, in arrays for all cells that hold those of the others already.
@@ -288,6 +289,27 @@ public:
     }
     Lists vertex_neighbours() const { return lists(deldrift_vertex_neighbours); }
     Lists vertex_cells() const { return lists(deldrift_vertex_cells); }
+    // A cell of each id, DELDRIFT_NONE where there is none.
+    std::vector<std::uint32_t> cell_of_each_vertex() const {
+        std::size_t count = id_count();
+        std::vector<std::uint32_t> cells(count);
+        require_ok(deldrift_cell_of_each_vertex(native(), cells.data(), count, &count));
+        return cells;
+    }
+    // For each row of vertices a cell that has all of them as corners, DELDRIFT_NONE where there is none.
+    std::vector<std::uint32_t> find_simplices(std::uint32_t corners_per_simplex,
+                                              span<const std::uint32_t> vertices) const {
+        const std::size_t count = vertices.size() / (corners_per_simplex == 0 ? 1 : corners_per_simplex);
+        expect("vertices", vertices.size(), count * corners_per_simplex);
+        std::vector<std::uint32_t> cells(count);
+        require_ok(deldrift_find_simplices(native(), corners_per_simplex, vertices.data(), count, cells.data()));
+        return cells;
+    }
+    // Of hidden ones as of the vertices that represent them.
+    bool is_edge(std::uint32_t vertex, std::uint32_t other) const {
+        const std::uint32_t edge[] = {vertex, other};
+        return find_simplices(2, edge)[0] != DELDRIFT_NONE;
+    }
     // For each corner of each cell, 255 for facets of the hull.
     std::vector<std::uint8_t> mirror_indices() const {
         std::size_t count = cell_count();
@@ -352,6 +374,17 @@ public:
         return results;
     }
 
+    // Rows of weights, one for each corner of the cell of each position; NaN where that is DELDRIFT_NONE.
+    std::vector<double> barycentric(const Positions &positions, span<const std::uint32_t> cells) const {
+        std::vector<double> room;
+        const span<const double> numbers = positions.numbers("positions", dimension_, room);
+        const std::size_t count = count_of("positions", numbers);
+        expect("cells", cells.size(), count);
+        std::vector<double> weights(count * (dimension_ + std::size_t{1}));
+        require_ok(deldrift_barycentric(native(), numbers.data(), cells.data(), count, weights.data()));
+        return weights;
+    }
+
     deldrift_location locate(span<const double> position) const {
         return ask<deldrift_location>(deldrift_locate, point(position));
     }
@@ -368,6 +401,44 @@ public:
     // DELDRIFT_NONE if there are no vertices.
     std::uint32_t nearest_vertex(span<const double> position) const {
         return ask<std::uint32_t>(deldrift_nearest_vertex, point(position));
+    }
+    // Rows of k ids for each position, by distance; DELDRIFT_NONE where there are no more vertices.
+    std::vector<std::uint32_t> nearest_vertices(const Positions &positions, std::size_t k) const {
+        std::vector<double> room;
+        const span<const double> numbers = positions.numbers("positions", dimension_, room);
+        const std::size_t count = count_of("positions", numbers);
+        std::vector<std::uint32_t> vertices(count * k);
+        require_ok(deldrift_nearest_vertices(native(), numbers.data(), count, k, vertices.data()));
+        return vertices;
+    }
+    // Ascending, hidden ones included.
+    std::vector<std::uint32_t> vertices_in_ball(span<const double> centre, double squared_radius) const {
+        expect("centre", centre.size(), dimension_);
+        return found([&](std::uint32_t *vertices, std::size_t capacity, std::size_t *count) {
+            return deldrift_vertices_in_ball(native(), centre.data(), squared_radius, vertices, capacity, count);
+        });
+    }
+    // Sides may be infinite.
+    std::vector<std::uint32_t> vertices_in_box(span<const double> low, span<const double> high) const {
+        expect("low", low.size(), dimension_);
+        expect("high", high.size(), dimension_);
+        return found([&](std::uint32_t *vertices, std::size_t capacity, std::size_t *count) {
+            return deldrift_vertices_in_box(native(), low.data(), high.data(), vertices, capacity, count);
+        });
+    }
+    // The cells that the insertion of a vertex would remove.
+    std::vector<std::uint32_t> conflicts(span<const double> position, const deldrift_location *hint = nullptr) const {
+        return found([&](std::uint32_t *cells, std::size_t capacity, std::size_t *count) {
+            return deldrift_conflicts(native(), point(position), hint, cells, capacity, count);
+        });
+    }
+    Hidden hidden_vertices() const {
+        std::size_t count = 0;
+        require_ok(deldrift_hidden_vertices(native(), nullptr, nullptr, 0, &count));
+        Hidden hidden{std::vector<std::uint32_t>(count), std::vector<std::uint32_t>(count)};
+        require_ok(deldrift_hidden_vertices(native(), hidden.vertices.data(), hidden.representatives.data(), count,
+                                            &count));
+        return hidden;
     }
     std::uint32_t coincident_representative(std::uint32_t vertex) const {
         return ask<std::uint32_t>(deldrift_coincident_representative, vertex);
@@ -408,6 +479,17 @@ private:
         require_ok(query(native(), arguments..., &answer));
         return answer;
     }
+    // What a function finds, where there is room at once for a common number.
+    template <class List>
+    static std::vector<std::uint32_t> found(List list) {
+        std::vector<std::uint32_t> found(64);
+        std::size_t count = 0;
+        deldrift_status status = list(found.data(), found.size(), &count);
+        found.resize(count);
+        if (status == DELDRIFT_BUFFER_TOO_SMALL) status = list(found.data(), count, &count);
+        require_ok(status);
+        return found;
+    }
     // The facets that a function lists, of which it first tells the number.
     template <class List>
     Facets facets(List list) const {
@@ -421,7 +503,7 @@ private:
     deldrift_status around(span<const std::uint32_t> vertices, span<std::uint32_t> cells, std::size_t &count) const {
         return deldrift_cells_around(native(), vertices.data(), vertices.size(), cells.data(), cells.size(), &count);
     }
-    // Likewise lists by vertex.
+    // Lists by vertex, of which a function first tells the number of entries.
     template <class List>
     Lists lists(List list) const {
         std::size_t count = 0;

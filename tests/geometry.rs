@@ -1,7 +1,9 @@
 //! Geometry computed from the cells, against exact integers and against brute force over all cells.
 
 mod exact_cells;
+mod flat_sides;
 mod listed;
+mod near;
 mod voronoi;
 mod voronoi_exact;
 

@@ -1,4 +1,4 @@
-// Orientations of points that belong to no triangulation. Included by deldrift.hpp.
+// Exact signs of points that belong to no triangulation. Included by deldrift.hpp.
 #ifndef DELDRIFT_ORIENTATION_HPP
 #define DELDRIFT_ORIENTATION_HPP
 
@@ -11,17 +11,32 @@
 
 namespace deldrift {
 
-// The sign of the orientation of dimension + 1 points, exactly; see deldrift_orientation.
-inline int orientation(std::uint32_t dimension, span<const double> points) {
-    const std::size_t n_numbers = std::size_t{dimension} * (std::size_t{dimension} + 1);
+namespace detail {
+
+// What a function of deldrift.h tells of so many points.
+template <class Sign>
+int sign_of(Sign function, std::uint32_t dimension, std::size_t n_points, span<const double> points) {
+    const std::size_t n_numbers = dimension * n_points;
     if ((dimension == 2 || dimension == 3) && points.size() != n_numbers) {
         throw Error(DELDRIFT_WRONG_COUNT, "points has " + std::to_string(points.size()) + " numbers, but must have " +
                                               std::to_string(n_numbers));
     }
     std::int32_t sign = 0;
-    const deldrift_status status = deldrift_orientation(dimension, points.data(), &sign);
+    const deldrift_status status = function(dimension, points.data(), &sign);
     if (status != DELDRIFT_OK) throw Error(status);
     return sign;
+}
+
+}  // namespace detail
+
+// The sign of the orientation of dimension + 1 points, exactly; see deldrift_orientation.
+inline int orientation(std::uint32_t dimension, span<const double> points) {
+    return detail::sign_of(deldrift_orientation, dimension, dimension + std::size_t{1}, points);
+}
+
+// On which side of the circle or sphere through dimension + 1 points another one is, exactly; see deldrift_in_sphere.
+inline int in_sphere(std::uint32_t dimension, span<const double> points) {
+    return detail::sign_of(deldrift_in_sphere, dimension, dimension + std::size_t{2}, points);
 }
 
 }  // namespace deldrift

@@ -34,6 +34,13 @@ struct Lists {
     }
 };
 
+// Vertices at the place of others, and those: see deldrift_hidden_vertices.
+struct Hidden {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> representatives;
+    std::size_t size() const noexcept { return vertices.size(); }
+};
+
 // Numbers for each vertex id, or for each cell, that are written along with a mesh: components for each.
 struct Field {
     std::string name;

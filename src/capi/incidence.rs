@@ -1,7 +1,7 @@
 //! What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
 
 use super::handle::{Reading, deldrift_triangulation, tell};
-use super::pointers::{Buffer, Output, fill_all, fit, given, write_all};
+use super::pointers::{Array, Buffer, Output, fill_all, fit, given, write_all};
 use super::query::{DELDRIFT_NONE, check_facet, dimension_of};
 use super::status::{Failure, deldrift_status};
 use crate::delaunay::Dimension;
@@ -9,6 +9,7 @@ use crate::either::AnyTriangulation;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
+use crate::machine::memory;
 use crate::motion::{MovingTriangulation, Rows};
 
 /// The edges: rows of two vertex ids, the lower one first, each edge once, in lexicographic order. They are a
@@ -98,6 +99,68 @@ pub unsafe extern "C" fn deldrift_vertex_cells(
         in_its_dimension!(t => {
             let needed = t.cell_count() * (dimension_of(t) + 1);
             lists.fill(t, count, needed, || t.vertex_cells(), CellId::numbers_of)
+        })
+    })
+}
+
+/// A cell of each vertex, to cells: for each id the index of a cell of which the vertex is a corner, any of them;
+/// DELDRIFT_NONE for those that are hidden or removed, whose insertion is staged, and while there are no cells.
+///
+/// cells: a buffer with room for capacity indices. count: receives deldrift_id_count, which is also written when the
+/// buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: n. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_cell_of_each_vertex(
+    t: *const deldrift_triangulation,
+    cells: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, cells[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            cells.fill(count, t.id_count(), || Ok(t.cell_of_each_vertex()?.map(CellId::get)))
+        })
+    })
+}
+
+/// Cells that have given vertices as corners, to cells: for each of count simplices the index of one, DELDRIFT_NONE if
+/// there is none. So it tells which edges of a list are in the triangulation, and which facets.
+///
+/// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as many
+/// ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with two
+/// corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
+///
+/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than a
+/// quarter of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for
+/// another number of corners, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
+/// DELDRIFT_OUT_OF_MEMORY; then nothing is written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_find_simplices(
+    t: *const deldrift_triangulation,
+    corners_per_simplex: u32,
+    vertices: *const u32,
+    count: usize,
+    cells: *mut u32,
+) -> deldrift_status {
+    let n_corners = corners_per_simplex as usize;
+    let n_ids = count.saturating_mul(n_corners);
+    given!(t: Reading, vertices[n_ids]: Array, cells[count]: Buffer);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            t.check_corners(n_corners)?;
+            let vertices = VertexId::of_numbers(vertices.get()?);
+            let places = cells.places(count)?;
+            let mut made = Vec::new();
+            memory::reserve_exact(&mut made, count)?;
+            t.find_simplices(vertices, n_corners, |cell| made.push(cell.map_or(DELDRIFT_NONE, CellId::get)))?;
+            write_all(places, made);
+            Ok(())
         })
     })
 }

@@ -3,8 +3,10 @@
 use super::handle::{Reading, deldrift_triangulation};
 use super::location::{deldrift_location, hint_at};
 use super::pointers::{Array, Buffer, Input, Points, given, write_all};
+use super::query::dimension_of;
 use super::status::{Failure, Wrong, deldrift_status};
 use crate::error::Error;
+use crate::ids::CellId;
 use crate::in_its_dimension;
 use crate::machine::memory;
 use crate::motion::{Interpolation, VertexValues};
@@ -85,6 +87,52 @@ pub unsafe extern "C" fn deldrift_interpolate(
                 }
             })?;
             write_all(places, made);
+            Ok(())
+        })
+    })
+}
+
+/// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
+/// for each corner in the order of deldrift_cells. They are what deldrift_interpolate multiplies values with, for programs
+/// that keep them.
+///
+/// positions: 2 or 3 numbers each. cells: count indices into deldrift_cells, as deldrift_locate_points gives them;
+/// DELDRIFT_NONE is no cell, for which the row is NaN. Both are read during the call only. weights: receives count rows.
+/// All may be NULL if count is 0. A position may be outside of its cell: then some of its coordinates are negative.
+///
+/// The sign of each is exact, and so is 0; the value has a relative error of at most 2.1e-9, and of some last bits
+/// unless the cell is nearly flat. (Where an area or volume is below the least normal number, 2.2e-308, it is less
+/// accurate.) A row adds up to 1 but for these errors.
+///
+/// Cost: count. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing is
+/// written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_barycentric(
+    t: *const deldrift_triangulation,
+    positions: *const f64,
+    cells: *const u32,
+    count: usize,
+    weights: *mut f64,
+) -> deldrift_status {
+    given!(t: Reading, positions[count]: Points, cells[count]: Array);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let positions = positions.of(t)?;
+            let cells = CellId::of_numbers(cells.get()?);
+            let n_corners = dimension_of(t) + 1;
+            check_product("weights", count, n_corners)?;
+            given!(weights[count * n_corners]: Buffer);
+            let mut rows = weights.places(count * n_corners)?.chunks_exact_mut(n_corners);
+            t.barycentric(positions, cells, |found| {
+                let row = rows.next().expect("as many as positions");
+                match found {
+                    Some(found) => write_all(row, found.iter().copied()),
+                    None => write_all(row, std::iter::repeat(f64::NAN)),
+                }
+            })?;
             Ok(())
         })
     })

@@ -1,7 +1,7 @@
 //! Where points lie, and which vertices are near.
 
 use super::handle::{Reading, deldrift_triangulation, tell};
-use super::pointers::{Buffer, Input, Output, Point, Points, given};
+use super::pointers::{Buffer, Input, Output, Point, Points, fill_all, given, write_all};
 use super::query::DELDRIFT_NONE;
 use super::status::{Failure, deldrift_status};
 use crate::ids::{CellId, VertexId};
@@ -140,6 +140,38 @@ pub unsafe extern "C" fn deldrift_coincident_representative(
 ) -> deldrift_status {
     given!(t: Reading, representative: Output);
     tell!(t, representative => t.coincident_representative(VertexId::new(vertex))?.get())
+}
+
+/// The vertices that are hidden, ascending, each with the one that represents it.
+///
+/// vertices, representatives: buffers with room for capacity ids each. One that is NULL is not filled. count: receives
+/// the number of hidden vertices, which is also written when the buffers are too small. NULL for both with capacity 0
+/// asks for the count alone.
+///
+/// Cost: n; constant where there are none, and for the count alone.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_hidden_vertices(
+    t: *const deldrift_triangulation,
+    vertices: *mut u32,
+    representatives: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, vertices[capacity]: Buffer, representatives[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        in_its_dimension!(t => {
+            let needed = t.hidden_count();
+            fill_all(count, needed, capacity, [vertices.offer(), representatives.offer()], || {
+                let (vertices, representatives) =
+                    (vertices.places_if_any(needed)?, representatives.places_if_any(needed)?);
+                write_all(vertices, t.hidden_vertices().map(|(vertex, _)| vertex.get()));
+                write_all(representatives, t.hidden_vertices().map(|(_, other)| other.get()));
+                Ok(())
+            })
+        })
+    })
 }
 
 /// The location that a program gives to begin a search at, if it gives one that has a meaning. Its kind may be any

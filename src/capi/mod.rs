@@ -63,6 +63,7 @@ mod listed;
 mod location;
 mod message;
 mod motion;
+mod near;
 mod options;
 #[cfg(test)]
 mod panics;
@@ -85,6 +86,7 @@ pub use interpolation::*;
 pub use listed::*;
 pub use location::*;
 pub use motion::*;
+pub use near::*;
 pub use options::*;
 pub use predicates::*;
 pub use query::*;

@@ -136,7 +136,7 @@ fn dig<const BY_LENGTHS: bool>(
         let (tip_at, [first, second]) = (edge.out.index(), OTHERS[edge.out.index()]);
         let cell = t.complex.cell(beyond);
         let behind = if cell.is_ghost() {
-            let is_in_zone = t.is_in_conflict_with_ghost(beyond, q, id);
+            let is_in_zone = t.is_in_conflict_with_ghost(&t.filter, beyond, q, id);
             n_ghosts += is_in_zone as usize;
             is_in_zone.then(|| [first, second].map(|i| Edge::of(t, beyond, i, q)))
         } else {

@@ -106,7 +106,7 @@ impl<G: Dimension> Delaunay<G> {
     }
 
     /// The static filter, widened where a point lies outside the box that it was made for.
-    fn filter_for(&self, q: &G::Point) -> StaticFilter {
+    pub(crate) fn filter_for(&self, q: &G::Point) -> StaticFilter {
         if (0..G::D).all(|k| self.lower[k] <= q[k] && q[k] <= self.upper[k]) {
             return self.filter;
         }

@@ -363,22 +363,41 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether `q`, with ties broken as those of vertex `id`, is in conflict with a cell.
     #[inline(always)]
     pub(crate) fn is_in_conflict(&self, cell: Slot, q: &G::Point, id: VertexId) -> bool {
+        self.is_in_conflict_with(&self.filter, cell, q, id)
+    }
+
+    /// Whether `q`, for which `f` must hold, is in conflict with a cell, with ties broken as those of vertex `id`.
+    #[inline(always)]
+    pub(crate) fn is_in_conflict_with(
+        &self,
+        f: &StaticFilter,
+        cell: Slot,
+        q: &G::Point,
+        id: VertexId,
+    ) -> bool {
         let c = self.complex.cell(cell);
         if c.is_ghost() {
-            return self.is_in_conflict_with_ghost(cell, q, id);
+            return self.is_in_conflict_with_ghost(f, cell, q, id);
         }
-        G::is_in_sphere(&self.filter, self.view(), &c.corners, q, id)
+        G::is_in_sphere(f, self.view(), &c.corners, q, id)
     }
 
     #[inline(never)]
-    fn is_in_conflict_with_ghost(&self, cell: Slot, q: &G::Point, id: VertexId) -> bool {
-        let c = self.complex.cell(cell);
-        let beyond = G::orientation_with(&self.filter, self.view(), &c.corners, Self::LAST, q);
+    fn is_in_conflict_with_ghost(&self, f: &StaticFilter, cell: Slot, q: &G::Point, id: VertexId) -> bool {
+        let beyond = self.orientation_beyond(f, cell, q);
         if beyond != 0.0 {
             return beyond > 0.0;
         }
+        let c = self.complex.cell(cell);
         let behind = self.complex.cell(c.neighbour(Self::LAST).cell());
-        G::is_in_sphere(&self.filter, self.view(), &behind.corners, q, id)
+        G::is_in_sphere(f, self.view(), &behind.corners, q, id)
+    }
+
+    /// On which side of the hull facet of a ghost cell `q` is, for which `f` must hold: positive beyond, 0 in its line
+    /// or plane.
+    #[inline(always)]
+    pub(crate) fn orientation_beyond(&self, f: &StaticFilter, ghost: Slot, q: &G::Point) -> f64 {
+        G::orientation_with(f, self.view(), &self.complex.cell(ghost).corners, Self::LAST, q)
     }
 
     /// How many certificates relocations have evaluated so far.

@@ -257,9 +257,11 @@ impl<G: Dimension> Delaunay<G> {
             for i in 0..Self::LAST {
                 let across = self.complex.cell(c).neighbour(i);
                 let apex = self.site(self.complex.cell(across.cell()).corners[across.index()]);
-                ensure(!self.is_in_conflict_with_ghost(c, &apex.point, apex.id), Level::Delaunay, || {
-                    text!("vertex {} is in conflict with the hull facet {}", apex.id, self.describe(c))
-                })?;
+                ensure(
+                    !self.is_in_conflict_with_ghost(&self.filter, c, &apex.point, apex.id),
+                    Level::Delaunay,
+                    || text!("vertex {} is in conflict with the hull facet {}", apex.id, self.describe(c)),
+                )?;
             }
         }
         Ok(())

@@ -6,7 +6,7 @@
 
 #![allow(unsafe_code)]
 
-use std::collections::HashMap;
+use std::collections::{BinaryHeap, HashMap};
 use std::fmt::{self, Write};
 use std::hash::{BuildHasher, Hash};
 use std::mem::MaybeUninit;
@@ -71,6 +71,13 @@ pub(crate) fn reserve_map<K: Eq + Hash, V, S: BuildHasher>(
 pub(crate) fn push<T>(array: &mut Vec<T>, entry: T) -> Result<()> {
     reserve(array, 1)?;
     array.push(entry);
+    Ok(())
+}
+
+/// Enters one entry into a heap.
+pub(crate) fn enter<T: Ord>(heap: &mut BinaryHeap<T>, entry: T) -> Result<()> {
+    heap.try_reserve(1).map_err(|_| Error::OutOfMemory { bytes: size_of::<T>() })?;
+    heap.push(entry);
     Ok(())
 }
 

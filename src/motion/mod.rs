@@ -41,6 +41,7 @@ pub use crate::delaunay::{Level, Violation};
 pub use algorithms::{Algorithm, AlgorithmRow, Commits, Purpose};
 pub use options::{CoincidencePolicy, Monitor, Options, SwitchingRule};
 pub use reading::exporting::Field;
+pub(crate) use reading::geometry::check_tolerance;
 pub use reading::geometry::{BoundaryFacet, Interpolation, OrderedStar, Rows, VertexValues};
 pub use reading::query::Location;
 pub(crate) use reading::query::cells_at;

@@ -81,6 +81,21 @@ pub(super) fn compare_distance(points: [&[f64]; 3]) -> Ordering {
     (square(&to_a) - square(&to_b)).sign()
 }
 
+/// Whether the squared distance of two points is at most `squared`, which is finite.
+#[cold]
+#[inline(never)]
+pub(super) fn is_within_distance(points: [&[f64]; 2], squared: f64) -> bool {
+    // An axis without extent adds no distance.
+    let in_space = |p: &[f64]| std::array::from_fn(|axis| p.get(axis).copied().unwrap_or(0.0));
+    let [q, a]: [[f64; 3]; 2] = points.map(in_space);
+    let room = Room::new();
+    let (mantissa, exponent) = decode(squared);
+    // The square of the unit must divide the given one.
+    let (unit, [to_a]) = differences_in_units(&room, &q, [&a], exponent.div_euclid(2));
+    let given = Integer::shifted(&room, mantissa, (exponent - 2 * unit) as u32);
+    square(&to_a).compare_magnitude(&given) != Ordering::Greater
+}
+
 #[cold]
 #[inline(never)]
 pub(super) fn is_collinear3([a, b, c]: [&[f64; 3]; 3]) -> bool {

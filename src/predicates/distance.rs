@@ -1,4 +1,4 @@
-//! Exact comparison of distances, and collinearity in space.
+//! Exact comparison of distances, with each other and with a bound, and collinearity in space.
 
 use super::big::{self, has_room};
 use super::filter::UNDERFLOW;
@@ -23,6 +23,35 @@ pub fn compare_distance<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
     } else {
         compare_distance_exactly(q, a, b)
     }
+}
+
+/// Whether the squared distance of `a` from `q` is at most `squared`, which is not negative: exactly.
+pub fn is_within_distance<P: AsRef<[f64]>>(q: &P, a: &P, squared: f64) -> bool {
+    let own = squared_distance(q, a);
+    let difference = own - squared;
+    // As in `compare_distance`, with one distance that is rounded.
+    let bound = 6.0 * (f64::EPSILON / 2.0) * own + UNDERFLOW;
+    if difference.abs() > bound { difference < 0.0 } else { is_exactly_within_distance(q, a, squared) }
+}
+
+/// The sign of |q − a|² − squared = Σ q² − 2qa + a² − squared, every product being a sum of two doubles.
+#[cold]
+#[inline(never)]
+fn is_exactly_within_distance<P: AsRef<[f64]>>(q: &P, a: &P, squared: f64) -> bool {
+    let [q, a] = [q, a].map(P::as_ref);
+    if !has_room([q, a], 2) {
+        return big::is_within_distance([q, a], squared);
+    }
+    let mut sum = ExactSum::default();
+    sum.add(-squared);
+    for (&q, &a) in q.iter().zip(a) {
+        for (factor, other) in [(q, q), (-2.0 * q, a), (a, a)] {
+            let (product, tail) = two_product(factor, other);
+            sum.add(tail);
+            sum.add(product);
+        }
+    }
+    sum.sign() != Ordering::Greater
 }
 
 /// Whether three points of space lie on a line, exactly: whether all three projections do.

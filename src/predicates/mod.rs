@@ -116,7 +116,7 @@ pub(crate) use bicells::{
 };
 pub use coordinates::Coordinates;
 pub use corners::{Meeting, sign_of_cross};
-pub use distance::{compare_distance, is_collinear3};
+pub use distance::{compare_distance, is_collinear3, is_within_distance};
 pub use filter::StaticFilter;
 pub use hull::{area, ray_and_segment, ray_and_triangle, volumes_over};
 pub use lanes::BiCells;
@@ -125,13 +125,9 @@ pub use lifted::{Lifted, seen_circle_bound, seen_circle_running_bound, side_of_s
 pub use measures::Measures;
 pub use path::{stays_positive2d, stays_positive3d};
 pub use perturbation::{incircle_perturbed, insphere_perturbed, is_inside_cospherical_on_lattice};
-#[cfg(feature = "internals")]
-pub use plane::incircle;
-pub use plane::orient2d;
+pub use plane::{incircle, orient2d};
 pub use separator::{delimiter3d, separator3d, tolerances3d};
-#[cfg(feature = "internals")]
-pub use space::insphere;
-pub use space::orient3d;
+pub use space::{insphere, orient3d};
 pub use sphere::{
     OwnBounds2d, OwnBounds3d, Sphere, circle, edge_length, half_space, half_space_by_length,
     is_box_outside_circle, is_box_outside_sphere, is_side_certain, side_bound_by_length, side_of_circle,

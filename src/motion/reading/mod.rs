@@ -4,6 +4,7 @@ pub(in crate::motion) mod cells;
 pub(in crate::motion) mod chunks;
 pub(in crate::motion) mod exporting;
 pub(in crate::motion) mod geometry;
+pub(in crate::motion) mod near;
 pub(in crate::motion) mod query;
 pub(in crate::motion) mod saving;
 pub(in crate::motion) mod tolerances;

@@ -1,11 +1,8 @@
 //! Questions that change nothing. They may be asked from several threads at once.
 
-use std::cmp::Ordering;
-
-use crate::complex::INFINITE;
 use crate::delaunay::{Dimension, IndexSet, Level, Place, Violation};
 use crate::error::Result;
-use crate::ids::{CellId, SiteId, Slot, VertexId};
+use crate::ids::{CellId, Slot, VertexId};
 use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::algorithms::Algorithm;
@@ -13,12 +10,9 @@ use crate::motion::report::CommitReport;
 use crate::motion::state::cells::Cells;
 use crate::motion::state::changes::Taken;
 use crate::motion::state::checking::check_position;
+use crate::motion::state::mesh::Standing;
 use crate::motion::state::repair::Repair;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::compare_distance;
-
-/// A search for the nearest vertex that has looked around so many others is on a long way.
-const MANY_STARS: u32 = 8;
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -230,110 +224,36 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
     }
 
-    /// The vertex nearest to a point, the lowest id among the nearest; `None` if there are no vertices. Distances
-    /// are compared exactly.
-    ///
-    /// ```
-    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
-    ///
-    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
-    /// assert_eq!(t.nearest_vertex(&[0.8, 0.1])?, Some(VertexId::new(1)));
-    /// # Ok::<(), deldrift::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
-    pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
-        let q = check_position::<G>("position", 0, position)?;
-        let start = match self.mesh.kernel.locate(&q, Slot::NONE) {
-            Place::Site(s) => return Ok(Some(self.mesh.kernel.site(s).id)),
-            Place::NoCells => return Ok(self.nearest_of(&q, self.mesh.kernel.live_sites())),
-            Place::Cell(c) | Place::Outside(c) => {
-                let corners = self.mesh.kernel.complex().cell(c).corners;
-                let finite = corners.as_ref().iter().copied().filter(|&s| s != INFINITE);
-                finite.min_by(|&a, &b| self.compare(&q, a, b)).expect("a cell has finite corners")
-            }
-        };
-        // Some neighbour of a vertex that is not the nearest is nearer; the nearest ones are on an empty sphere
-        // around the point, so they are connected by edges.
-        let mut best = start;
-        let (mut nearest, mut star, mut link) = (IndexSet::new(), IndexSet::new(), IndexSet::new());
-        nearest.insert(start)?;
-        // Those before this one have been looked around.
-        let (mut next, mut n_stars) = (0, 0);
-        while let Some(&s) = nearest.as_slice().get(next) {
-            next += 1;
-            n_stars += 1;
-            // Where cells are long, a landmark can be nearer by far.
-            if n_stars == MANY_STARS
-                && let Some(landmark) = self.nearer_landmark(&q, best)
-            {
-                best = landmark;
-                nearest.clear();
-                nearest.insert(best)?;
-                next = 0;
-                continue;
-            }
-            link.clear();
-            star.clear();
-            self.mesh.kernel.list_star(s, &mut star, |_| {})?;
-            for &c in star.as_slice() {
-                for &x in
-                    self.mesh.kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE)
-                {
-                    if link.insert(x)? {
-                        prefetch(self.mesh.kernel.sites(), x.index());
-                    }
-                }
-            }
-            for &x in link.as_slice() {
-                match self.compare(&q, x, best) {
-                    Ordering::Less => {
-                        best = x;
-                        nearest.clear();
-                        nearest.insert(x)?;
-                        next = 0;
-                    }
-                    Ordering::Equal => {
-                        nearest.insert(x)?;
-                    }
-                    Ordering::Greater => {}
-                }
-            }
-        }
-        Ok(nearest.as_slice().iter().map(|&s| self.mesh.kernel.site(s).id).min())
-    }
-
-    /// A landmark that is nearer to `q` than a site, if one is known.
-    #[cold]
-    fn nearer_landmark(&self, q: &G::Point, than: SiteId) -> Option<SiteId> {
-        self.mesh.kernel.landmark(q).filter(|&landmark| self.compare(q, landmark, than) == Ordering::Less)
-    }
-
-    fn compare(&self, q: &G::Point, a: SiteId, b: SiteId) -> Ordering {
-        compare_distance(q, &self.mesh.kernel.site(a).point, &self.mesh.kernel.site(b).point)
-    }
-
-    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = SiteId>) -> Option<VertexId> {
-        let mut best = sites.next()?;
-        for s in sites {
-            let order = self.compare(q, s, best);
-            if order == Ordering::Less
-                || order == Ordering::Equal && self.mesh.kernel.site(s).id < self.mesh.kernel.site(best).id
-            {
-                best = s;
-            }
-        }
-        Some(self.mesh.kernel.site(best).id)
-    }
-
     /// The lowest id among the vertices at the place of this one.
     ///
     /// # Errors
     /// [`Error::NoSuchVertex`](crate::Error::NoSuchVertex), [`Error::RemovedVertex`](crate::Error::RemovedVertex).
     pub fn coincident_representative(&self, vertex: VertexId) -> Result<VertexId> {
         Ok(self.mesh.kernel.site(self.present_site("vertex", 0, vertex)?).id)
+    }
+
+    /// The vertices that are hidden, ascending, each with the one that represents it.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 0.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&points, Options::default())?;
+    /// let hidden: Vec<_> = t.hidden_vertices().collect();
+    /// assert_eq!(hidden, [(VertexId::new(3), VertexId::new(1))]);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    pub fn hidden_vertices(&self) -> impl Iterator<Item = (VertexId, VertexId)> {
+        let n = if self.hidden_count() == 0 { 0 } else { self.id_count() };
+        VertexId::range(0..n).filter_map(|v| match self.mesh.standing(v) {
+            Standing::Hidden(s) => Some((v, self.mesh.kernel.site(s).id)),
+            Standing::Shown(_) | Standing::Gone => None,
+        })
+    }
+
+    /// How many vertices are hidden.
+    pub fn hidden_count(&self) -> usize {
+        self.mesh.hidden.count()
     }
 
     /// Checks the triangulation: see [`Level`].

@@ -113,7 +113,7 @@ impl<'t, G: Dimension> Neighbours<'t, G> {
 }
 
 /// The cells of each vertex, ascending.
-fn stars<G: Dimension>(cells: &Cells<G>, n_ids: usize) -> Result<Rows<CellId>> {
+pub(super) fn stars<G: Dimension>(cells: &Cells<G>, n_ids: usize) -> Result<Rows<CellId>> {
     let corners = cells.corners();
     let (mut offsets, mut entries) = (Vec::new(), Vec::new());
     memory::reserve_exact(&mut offsets, n_ids + 2)?;

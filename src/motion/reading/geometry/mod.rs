@@ -5,14 +5,17 @@
 //! |---|---|
 //! | `around` | the cells around some of the vertices |
 //! | `measures` | circumspheres and volumes of cells, masks by circumradius |
+//! | `flat_sides` | a mask without the flat cells that rounding makes along the hull |
 //! | `boundary` | facets around a mask of cells, the convex hull |
 //! | `incidence` | edges, neighbours and cells of vertices, mirror indices |
+//! | `simplices` | cells that have given vertices as corners |
 //! | `star` | stars in circulation order |
 //! | `rings` | what is around an edge, in order |
 //! | `voronoi`, `voronoi_cells`, `progress` | Voronoi cells and facets |
 //! | `clipping`, `cut_facets`, `cut_cells` | those that are cut by a box |
 //! | `flat_cells` | Voronoi cells of vertices in one hyperplane |
 //! | `interpolation`, `linear`, `natural` | values between vertices: linear, or of natural neighbours |
+//! | `weights` | barycentric coordinates of places |
 //!
 //! What depends on signs (masks, facets, neighbours) is exact. Numbers are rounded; each function says by how much.
 //! They are computed the same way on every processor.
@@ -23,6 +26,7 @@ mod clipping;
 mod cut_cells;
 mod cut_facets;
 mod flat_cells;
+mod flat_sides;
 mod incidence;
 mod interpolation;
 mod linear;
@@ -30,11 +34,14 @@ mod measures;
 mod natural;
 mod progress;
 mod rings;
+mod simplices;
 mod star;
 mod voronoi;
 mod voronoi_cells;
+mod weights;
 
 pub use boundary::BoundaryFacet;
+pub(crate) use flat_sides::check_tolerance;
 pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};
 pub use star::OrderedStar;

@@ -1,0 +1,179 @@
+//! Cells that have given vertices as corners: whether two vertices share an edge, whether a facet is there.
+//!
+//! Of few simplices the stars are looked through, those of all corners in turn and for twice as long each time, so that
+//! one with few cells is done before one with thousands has cost much. For many, a pass over the cells lists those of
+//! each vertex, and of each simplex the shortest list is looked through.
+
+use crate::complex::Corners;
+use crate::delaunay::{Delaunay, Dimension, IndexSet};
+use crate::error::{Error, Result};
+use crate::ids::{CellId, SiteId, Slot, VertexId};
+use crate::motion::reading::geometry::incidence::stars;
+use crate::motion::state::mesh::Standing;
+use crate::motion::triangulation::MovingTriangulation;
+
+/// From so many simplices for each vertex on, listing the cells of all vertices is faster.
+const LEAST_SHARE: f64 = 0.25;
+
+/// How many cells of a star are looked at first.
+const FIRST_CELLS: usize = 64;
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// For each simplex a cell that has all its vertices as corners, `None` if there is none; told to `found` one after
+    /// the other. `vertices`: rows of `n_corners` ids, from 1 (a cell of each vertex) to `D + 1`. A hidden vertex
+    /// stands for the one that represents it. A simplex with two corners at one place is in no cell.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [3.0, 0.0], [0.0, 1.0], [3.0, 1.0], [1.5, 0.5]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let edges = [[0, 1], [0, 3], [1, 4]].map(|edge| edge.map(VertexId::new));
+    /// let mut are_there = Vec::new();
+    /// t.find_simplices(edges.as_flattened(), 2, |cell| are_there.push(cell.is_some()))?;
+    /// assert_eq!(are_there, [true, false, true]);
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for another number of corners, [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
+    /// [`Error::OutOfMemory`].
+    pub fn find_simplices(
+        &self,
+        vertices: &[VertexId],
+        n_corners: usize,
+        mut found: impl FnMut(Option<CellId>),
+    ) -> Result<()> {
+        self.check_corners(n_corners)?;
+        for (index, &vertex) in vertices.iter().enumerate() {
+            self.present_site("vertices", index, vertex)?;
+        }
+        let rows = vertices.chunks_exact(n_corners);
+        if !self.mesh.kernel.has_cells() {
+            rows.for_each(|_| found(None));
+            return Ok(());
+        }
+        if rows.len() as f64 > LEAST_SHARE * self.vertex_count() as f64 {
+            return self.find_in_lists(rows, found);
+        }
+        let index_of = self.cell_arrays()?.index_of();
+        let mut star = IndexSet::new();
+        for row in rows {
+            let (sites, n) = self.sites_of_corners(row);
+            let slot = find_in_stars(&self.mesh.kernel, &sites[..n], &mut star)?;
+            found(slot.map(|slot| index_of[slot]));
+        }
+        Ok(())
+    }
+
+    /// A simplex has from 1 to `D + 1` corners.
+    pub(crate) fn check_corners(&self, n_corners: usize) -> Result<()> {
+        if (1..=G::D + 1).contains(&n_corners) {
+            return Ok(());
+        }
+        let wanted = if G::D == 2 { "1, 2 or 3" } else { "1, 2, 3 or 4" };
+        let (argument, value) = ("corners_per_simplex", n_corners as f64);
+        Err(Error::InvalidValue { argument, index: 0, value, wanted })
+    }
+
+    /// The different sites of a few vertices, as many as vertices unless two are at one place; and their number.
+    fn sites_of_corners(&self, row: &[VertexId]) -> ([SiteId; 4], usize) {
+        let mut sites = [SiteId::NONE; 4];
+        row.iter().zip(&mut sites).for_each(|(&v, site)| *site = self.mesh.site_of[v]);
+        let n = if are_different(&sites[..row.len()]) { row.len() } else { 0 };
+        (sites, n)
+    }
+
+    /// For each simplex a cell, by the cells of all vertices.
+    fn find_in_lists<'v>(
+        &self,
+        rows: impl Iterator<Item = &'v [VertexId]>,
+        mut found: impl FnMut(Option<CellId>),
+    ) -> Result<()> {
+        let cells = self.cell_arrays()?;
+        let stars = stars(cells, self.id_count())?;
+        for row in rows {
+            let mut corners = [VertexId::NONE; 4];
+            let (sites, n) = self.sites_of_corners(row);
+            sites[..n].iter().zip(&mut corners).for_each(|(&s, v)| *v = self.mesh.kernel.site(s).id);
+            let lists = corners[..n].iter().map(|&v| stars.row(v));
+            let shortest = lists.min_by_key(|list| list.len()).unwrap_or(&[]);
+            let has_all =
+                |cell: CellId| corners[..n].iter().all(|v| cells.corners()[cell].as_ref().contains(v));
+            found(shortest.iter().copied().find(|&cell| has_all(cell)));
+        }
+        Ok(())
+    }
+
+    /// For each id a cell of which the vertex is a corner; [`CellId::NONE`] for those that are hidden or removed, and
+    /// where there are no cells.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn cell_of_each_vertex(&self) -> Result<impl Iterator<Item = CellId> + '_> {
+        let index_of = self.cell_arrays()?.index_of();
+        let kernel = &self.mesh.kernel;
+        Ok(self.mesh.standings().map(move |(_, standing)| match standing {
+            Standing::Shown(s) if kernel.has_cells() => index_of[finite_cell(kernel, kernel.site(s).cell)],
+            _ => CellId::NONE,
+        }))
+    }
+}
+
+fn are_different(sites: &[SiteId]) -> bool {
+    (1..sites.len()).all(|k| !sites[..k].contains(&sites[k]))
+}
+
+/// A cell, or the finite cell behind a ghost cell.
+fn finite_cell<G: Dimension>(kernel: &Delaunay<G>, slot: Slot) -> Slot {
+    let cell = kernel.complex().cell(slot);
+    if cell.is_ghost() { cell.neighbour(G::D).cell() } else { slot }
+}
+
+/// The slot of a finite cell that has all these sites as corners; none if there are no sites.
+fn find_in_stars<G: Dimension>(
+    kernel: &Delaunay<G>,
+    sites: &[SiteId],
+    star: &mut IndexSet<Slot>,
+) -> Result<Option<Slot>> {
+    let has_all = |slot: Slot| {
+        let cell = kernel.complex().cell(slot);
+        !cell.is_ghost() && sites.iter().all(|s| cell.corners.as_ref().contains(s))
+    };
+    let mut most = FIRST_CELLS;
+    while !sites.is_empty() {
+        for &s in sites {
+            let is_whole = spread_around(kernel, s, most, star)?;
+            let slot = star.as_slice().iter().copied().find(|&slot| has_all(slot));
+            if is_whole || slot.is_some() {
+                return Ok(slot);
+            }
+        }
+        most *= 2;
+    }
+    Ok(None)
+}
+
+/// Lists cells around a site, until so many have been looked around; whether these are all.
+fn spread_around<G: Dimension>(
+    kernel: &Delaunay<G>,
+    s: SiteId,
+    most: usize,
+    star: &mut IndexSet<Slot>,
+) -> Result<bool> {
+    star.clear();
+    star.insert(kernel.site(s).cell)?;
+    let mut next = 0;
+    while let Some(&slot) = star.as_slice().get(next) {
+        if next == most {
+            return Ok(false);
+        }
+        next += 1;
+        let cell = kernel.complex().cell(slot);
+        let at = cell.index_of(s);
+        for i in (0..G::Corners::N).filter(|&i| i != at) {
+            star.insert(cell.neighbour(i).cell())?;
+        }
+    }
+    Ok(true)
+}

@@ -1,0 +1,68 @@
+//! The cells that a new vertex would remove: those in conflict with a place.
+//!
+//! They are connected by facets, and among them is the one that holds the place, or beyond whose facet it is.
+
+use crate::complex::Corners;
+use crate::delaunay::{Delaunay, Dimension, IndexSet, Place};
+use crate::error::Result;
+use crate::ids::{CellId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::reading::query::{Location, cells_at};
+use crate::motion::state::checking::check_position;
+use crate::motion::triangulation::MovingTriangulation;
+
+/// Enters the cells in conflict with a place that is at no site into an empty set, ghost cells included. `first` is the
+/// cell that holds the place, or the ghost cell beyond whose facet it is.
+fn list_conflicts<G: Dimension>(
+    kernel: &Delaunay<G>,
+    first: Slot,
+    q: &G::Point,
+    zone: &mut IndexSet<Slot>,
+) -> Result<()> {
+    let filter = kernel.filter_for(q);
+    zone.insert(first)?;
+    let mut next = 0;
+    while let Some(&inside) = zone.as_slice().get(next) {
+        next += 1;
+        for i in 0..G::Corners::N {
+            let across = kernel.complex().cell(inside).neighbour(i).cell();
+            // Ties are broken as for a vertex of the highest id.
+            if kernel.is_in_conflict_with(&filter, across, q, VertexId::NONE) {
+                zone.insert(across)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The cells that the insertion of a vertex would remove: those whose circle or sphere has `position` inside, with
+    /// ties broken as for a vertex of the highest id. None at the place of a vertex, nor while there are no cells. It
+    /// is looked for from `near`, if that is near it.
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!(t.conflicts(&[0.5, 0.4], None)?.len(), 2);
+    /// assert!(t.conflicts(&[1.0, 1.0], None)?.is_empty());
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
+    pub fn conflicts(&self, position: &G::Point, near: Option<Location>) -> Result<Vec<CellId>> {
+        let q = check_position::<G>("position", 0, position)?;
+        let index_of = self.cell_arrays()?.index_of();
+        let (mut zone, mut cells) = (IndexSet::new(), Vec::new());
+        if let Place::Cell(first) | Place::Outside(first) =
+            self.mesh.kernel.locate(&q, self.start_near(near)?)
+        {
+            list_conflicts(&self.mesh.kernel, first, &q, &mut zone)?;
+            memory::collect(&mut cells, cells_at(&zone, index_of))?;
+        }
+        Ok(cells)
+    }
+}

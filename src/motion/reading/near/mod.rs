@@ -1,0 +1,74 @@
+//! Vertices and cells that are near a place: which are nearest, which are in a ball or a box, which are in conflict.
+//!
+//! | file | what |
+//! |---|---|
+//! | `nearest` | the nearest vertex, and the k nearest of many places |
+//! | `ball` | the vertices in a ball |
+//! | `boxes` | the vertices in a box |
+//! | `conflicts` | the cells that a new vertex would remove |
+//!
+//! All is found by floods from a located cell, at the cost of what is found, and decided by exact signs. A flood that
+//! has looked at as many cells as would pay for a pass over all vertices is given up for that pass.
+
+mod ball;
+mod boxes;
+mod conflicts;
+mod nearest;
+
+use crate::complex::INFINITE;
+use crate::delaunay::{Delaunay, Dimension, IndexSet};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
+use crate::machine::memory;
+use crate::machine::prefetch::prefetch;
+use crate::motion::triangulation::MovingTriangulation;
+
+/// A flood that has looked at more cells than this share of the sites takes longer than a pass over these.
+const LEAST_SHARE: f64 = 0.25;
+
+/// The most cells that a flood looks at before all vertices are.
+fn most_cells<G: Dimension>(kernel: &Delaunay<G>) -> usize {
+    (LEAST_SHARE * kernel.sites().len() as f64) as usize
+}
+
+/// The sites that share a cell with one, itself included; kept as scratch from one to the next.
+#[derive(Debug, Default)]
+struct Link {
+    star: IndexSet<Slot>,
+    sites: IndexSet<SiteId>,
+}
+
+impl Link {
+    /// Lists those of a site.
+    fn list<G: Dimension>(&mut self, kernel: &Delaunay<G>, s: SiteId) -> Result<&[SiteId]> {
+        self.sites.clear();
+        self.star.clear();
+        kernel.list_star(s, &mut self.star, |_| {})?;
+        for &c in self.star.as_slice() {
+            for &x in kernel.complex().cell(c).corners.as_ref().iter().filter(|&&x| x != INFINITE) {
+                if self.sites.insert(x)? {
+                    prefetch(kernel.sites(), x.index());
+                }
+            }
+        }
+        Ok(self.sites.as_slice())
+    }
+}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// All vertices at some sites, ascending.
+    fn vertices_at(&self, sites: impl Iterator<Item = SiteId>) -> Result<Vec<VertexId>> {
+        let mut vertices = Vec::new();
+        for s in sites {
+            let mut entered = Ok(());
+            self.mesh.hidden.for_all_at(self.mesh.kernel.site(s).id, |vertex| {
+                if entered.is_ok() {
+                    entered = memory::push(&mut vertices, vertex);
+                }
+            });
+            entered?;
+        }
+        vertices.sort_unstable();
+        Ok(vertices)
+    }
+}

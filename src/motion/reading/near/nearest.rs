@@ -1,0 +1,236 @@
+//! The vertices nearest to a place.
+//!
+//! Some neighbour of a vertex that is not the nearest is nearer. So a walk along edges ends at the nearest one, and of the
+//! vertices in order of distance each is a neighbour of an earlier one, but for those that are nearest: these are on an
+//! empty sphere around the place, so they are connected by edges. Distances are compared exactly.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use crate::complex::INFINITE;
+use crate::delaunay::{Dimension, IndexSet, Place};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot, VertexId};
+use crate::machine::memory;
+use crate::motion::reading::near::Link;
+use crate::motion::state::checking::check_position;
+use crate::motion::triangulation::MovingTriangulation;
+use crate::predicates::compare_distance;
+
+/// A search for the nearest vertex that has looked around so many others is on a long way.
+const MANY_STARS: u32 = 8;
+
+/// A vertex that waits to be the next in order of distance from a place: the greatest is the nearest, of the nearest
+/// ones that of the lowest id.
+struct Candidate<'t, P> {
+    q: &'t P,
+    point: &'t P,
+    vertex: VertexId,
+    site: SiteId,
+}
+
+impl<P: AsRef<[f64]>> Ord for Candidate<'_, P> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        compare_distance(self.q, other.point, self.point).then(other.vertex.cmp(&self.vertex))
+    }
+}
+
+impl<P: AsRef<[f64]>> PartialOrd for Candidate<'_, P> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl<P: AsRef<[f64]>> PartialEq for Candidate<'_, P> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl<P: AsRef<[f64]>> Eq for Candidate<'_, P> {}
+
+impl<G: Dimension> MovingTriangulation<G> {
+    /// The vertex nearest to a point, the lowest id among the nearest; `None` if there are no vertices. Distances
+    /// are compared exactly.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// assert_eq!(t.nearest_vertex(&[0.8, 0.1])?, Some(VertexId::new(1)));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
+    pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
+        let q = check_position::<G>("position", 0, position)?;
+        if !self.mesh.kernel.has_cells() {
+            return Ok(self.nearest_of(&q, self.mesh.kernel.live_sites()));
+        }
+        let (nearest, _) = self.nearest_sites(&q, Slot::NONE)?;
+        Ok(nearest.as_slice().iter().map(|&s| self.mesh.kernel.site(s).id).min())
+    }
+
+    /// The `k` vertices nearest to each of several places, told to `found` one after the other: `k` for each place, in
+    /// order of distance and, at the same distance, of id, hidden ones included; [`VertexId::NONE`] where there are no
+    /// more. Each place is looked for from the one before.
+    ///
+    /// ```
+    /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
+    ///
+    /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
+    /// let mut found = Vec::new();
+    /// t.nearest_vertices(&[[0.9, 0.1]], 3, |vertex| found.push(vertex))?;
+    /// assert_eq!(found, [1, 0, 3].map(VertexId::new));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`](crate::Error::NotFinite) and [`Error::OutOfRange`](crate::Error::OutOfRange) for a place,
+    /// before anything is told; [`Error::OutOfMemory`](crate::Error::OutOfMemory), before or after.
+    pub fn nearest_vertices(
+        &self,
+        positions: &[G::Point],
+        k: usize,
+        mut found: impl FnMut(VertexId),
+    ) -> Result<()> {
+        for (index, position) in positions.iter().enumerate() {
+            check_position::<G>("positions", index, position)?;
+        }
+        let mut near = Slot::NONE;
+        let (mut link, mut seen) = (Link::default(), IndexSet::new());
+        for q in positions {
+            let mut waiting = BinaryHeap::new();
+            seen.clear();
+            if self.mesh.kernel.has_cells() {
+                let (nearest, start) = self.nearest_sites(q, near)?;
+                near = start;
+                for &s in nearest.as_slice() {
+                    seen.insert(s)?;
+                    memory::enter(&mut waiting, self.candidate(q, s))?;
+                }
+            } else {
+                for s in self.mesh.kernel.live_sites() {
+                    memory::enter(&mut waiting, self.candidate(q, s))?;
+                }
+            }
+            for _ in 0..k {
+                let Some(next) = waiting.pop() else {
+                    found(VertexId::NONE);
+                    continue;
+                };
+                found(next.vertex);
+                if next.vertex == self.mesh.kernel.site(next.site).id {
+                    self.enter_around(&next, &mut link, &mut seen, &mut waiting)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn candidate<'t>(&'t self, q: &'t G::Point, s: SiteId) -> Candidate<'t, G::Point> {
+        let site = self.mesh.kernel.site(s);
+        Candidate { q, point: &site.point, vertex: site.id, site: s }
+    }
+
+    /// Has what can follow a representative wait: those hidden behind it, and its neighbours.
+    fn enter_around<'t>(
+        &'t self,
+        next: &Candidate<'t, G::Point>,
+        link: &mut Link,
+        seen: &mut IndexSet<SiteId>,
+        waiting: &mut BinaryHeap<Candidate<'t, G::Point>>,
+    ) -> Result<()> {
+        let &Candidate { q, point, vertex: representative, site } = next;
+        let mut entered = Ok(());
+        self.mesh.hidden.for_all_at(representative, |vertex| {
+            if vertex != representative && entered.is_ok() {
+                entered = memory::enter(waiting, Candidate { q, point, vertex, site });
+            }
+        });
+        entered?;
+        for &x in link.list(&self.mesh.kernel, site)? {
+            if seen.insert(x)? {
+                memory::enter(waiting, self.candidate(q, x))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// All sites nearest to a place, where there are cells, and a slot near it; `near` is where to begin.
+    pub(super) fn nearest_sites(&self, q: &G::Point, near: Slot) -> Result<(IndexSet<SiteId>, Slot)> {
+        let place = self.mesh.kernel.locate(q, near);
+        let start = self.slot_at(place);
+        let mut nearest = IndexSet::new();
+        let mut best = match place {
+            Place::Site(s) => {
+                nearest.insert(s)?;
+                return Ok((nearest, start));
+            }
+            _ => {
+                let corners = self.mesh.kernel.complex().cell(start).corners;
+                let finite = corners.as_ref().iter().copied().filter(|&s| s != INFINITE);
+                finite.min_by(|&a, &b| self.compare(q, a, b)).expect("a cell has finite corners")
+            }
+        };
+        nearest.insert(best)?;
+        let mut link = Link::default();
+        // Those before this one have been looked around.
+        let (mut next, mut n_stars) = (0, 0);
+        while let Some(&s) = nearest.as_slice().get(next) {
+            next += 1;
+            n_stars += 1;
+            // Where cells are long, a landmark can be nearer by far.
+            if n_stars == MANY_STARS
+                && let Some(landmark) = self.nearer_landmark(q, best)
+            {
+                best = landmark;
+                nearest.clear();
+                nearest.insert(best)?;
+                next = 0;
+                continue;
+            }
+            for &x in link.list(&self.mesh.kernel, s)? {
+                match self.compare(q, x, best) {
+                    Ordering::Less => {
+                        best = x;
+                        nearest.clear();
+                        nearest.insert(x)?;
+                        next = 0;
+                    }
+                    Ordering::Equal => {
+                        nearest.insert(x)?;
+                    }
+                    Ordering::Greater => {}
+                }
+            }
+        }
+        Ok((nearest, start))
+    }
+
+    /// A landmark that is nearer to `q` than a site, if one is known.
+    #[cold]
+    fn nearer_landmark(&self, q: &G::Point, than: SiteId) -> Option<SiteId> {
+        self.mesh.kernel.landmark(q).filter(|&landmark| self.compare(q, landmark, than) == Ordering::Less)
+    }
+
+    fn compare(&self, q: &G::Point, a: SiteId, b: SiteId) -> Ordering {
+        compare_distance(q, &self.mesh.kernel.site(a).point, &self.mesh.kernel.site(b).point)
+    }
+
+    fn nearest_of(&self, q: &G::Point, mut sites: impl Iterator<Item = SiteId>) -> Option<VertexId> {
+        let mut best = sites.next()?;
+        for s in sites {
+            let order = self.compare(q, s, best);
+            if order == Ordering::Less
+                || order == Ordering::Equal && self.mesh.kernel.site(s).id < self.mesh.kernel.site(best).id
+            {
+                best = s;
+            }
+        }
+        Some(self.mesh.kernel.site(best).id)
+    }
+}
