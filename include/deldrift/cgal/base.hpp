@@ -202,15 +202,19 @@ protected:
         }
         return cells;
     }
-    // A cell with all of these vertices, which are different; none if there is none.
+    // A cell with all of these vertices, of which one may be infinite; none if there is none.
     template <std::size_t N>
     Cell cell_with(const std::array<Vertex_handle, N> &vertices) const {
-        const auto finite = std::find_if(vertices.begin(), vertices.end(), [&](auto v) { return !is_infinite(v); });
-        for (std::size_t i = 1; i < N; i++) {
-            if (std::find(vertices.begin(), vertices.begin() + i, vertices[i]) != vertices.begin() + i) return nullptr;
+        std::array<std::uint32_t, N> ids{};
+        for (std::size_t i = 0; i < N; i++) ids[i] = vertices[i].id();
+        if (std::count(ids.begin(), ids.end(), DELDRIFT_NONE) == 0) {
+            const std::uint32_t cell = triangulation().find_simplices(N, ids)[0];
+            return cell == DELDRIFT_NONE ? Cell() : Cell(mesh(), cell);
         }
-        if (n_cells() == 0 || finite == vertices.end()) return nullptr;
-        for (Cell c : star(*finite, true)) {
+        auto sorted = ids;
+        std::sort(sorted.begin(), sorted.end());
+        if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() || n_cells() == 0) return nullptr;
+        for (Cell c : star(vertices[ids[0] == DELDRIFT_NONE ? 1 : 0], true)) {
             if (std::all_of(vertices.begin(), vertices.end(), [&](auto v) { return c.has_vertex(v); })) return c;
         }
         return nullptr;

@@ -41,8 +41,8 @@ inline int next_around_edge(int i, int j) noexcept {
 // k-th of them, if the lowest is the first?
 inline int corner_of_facet(int i, int k) noexcept {
     const int lowest = i == 0 ? 1 : 0;
-    // With the fourth corner they are an even permutation.
-    const int second = next_around_edge(i, lowest);
+    // With corner i behind them they are an even permutation.
+    const int second = next_around_edge(lowest, i);
     return k == 0 ? lowest : k == 1 ? second : 6 - i - lowest - second;
 }
 

@@ -66,7 +66,6 @@ struct Coordinates<2, K> {
         return {static_cast<double>(p.x()), static_cast<double>(p.y())};
     }
     static Point point(const std::array<double, 2> &x) { return Point(x[0], x[1]); }
-    static Point origin() { return Point(0, 0); }
 };
 template <class K>
 struct Coordinates<3, K> {
@@ -76,7 +75,6 @@ struct Coordinates<3, K> {
         return {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())};
     }
     static Point point(const std::array<double, 3> &x) { return Point(x[0], x[1], x[2]); }
-    static Point origin() { return Point(0, 0, 0); }
 };
 // Points in space, of which two coordinates are triangulated.
 template <class R, std::size_t first, std::size_t second>
@@ -86,7 +84,12 @@ struct Projected {
         const std::array<double, 3> x = Coordinates<3, R>::of(p);
         return {x[first], x[second]};
     }
-    static Point origin() { return Point(0, 0, 0); }
+    static Point point(const std::array<double, 2> &x) {
+        std::array<double, 3> in_space{};
+        in_space[first] = x[0];
+        in_space[second] = x[1];
+        return Coordinates<3, R>::point(in_space);
+    }
 };
 template <class R>
 struct Coordinates<2, CGAL::Projection_traits_xy_3<R>> : Projected<R, 0, 1> {};

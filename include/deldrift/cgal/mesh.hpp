@@ -44,9 +44,9 @@ public:
     using Given_info = decltype(Record::info);
     using Vertices = std::vector<std::pair<Point, Given_info>>;
 
-    Mesh() : t_(D, Positions(), options()), infinite_{Coordinates<D, K>::origin(), {}, this, DELDRIFT_NONE} {}
+    Mesh() : t_(D, Positions(), options()), infinite_{Coordinates<D, K>::point({}), {}, this, DELDRIFT_NONE} {}
     // All is copied, nothing triangulated: vertices have the same ids, cells the same indices, and what is staged is.
-    Mesh(const Mesh &other) : t_(other.t_.clone()), infinite_{Coordinates<D, K>::origin(), {}, this, DELDRIFT_NONE} {
+    Mesh(const Mesh &other) : t_(other.t_.clone()), infinite_{Coordinates<D, K>::point({}), {}, this, DELDRIFT_NONE} {
         by_id_.reserve(other.by_id_.size());
         for (const Record *record : other.by_id_) {
             if (record != nullptr) records_.push_back(Record{record->point, record->info, this, record->id});

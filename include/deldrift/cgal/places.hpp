@@ -46,10 +46,7 @@ int side_of_sphere(Cell_handle<Mesh, D> c, const Mesh *mesh, const typename Mesh
         std::copy(x.begin(), x.end(), points.begin() + i * D);
     }
     std::copy(p.begin(), p.end(), points.end() - D);
-    std::int32_t sign = 0;
-    const deldrift_status status = deldrift_in_sphere(D, points.data(), &sign);
-    if (status != DELDRIFT_OK) throw Error(status);
-    return sign;
+    return in_sphere(D, points);
 }
 
 // Where a point is: at a vertex; in a finite cell, on those facets that are marked; in a ghost cell; or there are no
@@ -117,16 +114,7 @@ public:
 private:
     void add_finite(const Place<Mesh, D> &place) {
         const deldrift_location near{DELDRIFT_LOCATION_CELL, place.cell.id()};
-        const deldrift_triangulation *t = mesh_->triangulation().native();
-        std::vector<std::uint32_t> found(64);
-        std::size_t n = 0;
-        deldrift_status status = deldrift_conflicts(t, p_.data(), &near, found.data(), found.size(), &n);
-        found.resize(n);
-        if (status == DELDRIFT_BUFFER_TOO_SMALL) {
-            status = deldrift_conflicts(t, p_.data(), &near, found.data(), n, &n);
-        }
-        if (status != DELDRIFT_OK) throw Error(status);
-        for (std::uint32_t cell : found) cells_.emplace_back(mesh_, cell);
+        for (std::uint32_t cell : mesh_->triangulation().conflicts(p_, &near)) cells_.emplace_back(mesh_, cell);
         std::sort(cells_.begin(), cells_.end());
     }
     // A ghost cell goes if its facet is seen from the point; a facet whose plane the point is on, if the cell behind it
