@@ -101,7 +101,8 @@ public:
         add_finite(place);
         add_ghosts(place);
     }
-    const std::vector<Cell> &cells() const noexcept { return cells_; }
+    const std::vector<Cell> &cells() const & noexcept { return cells_; }
+    const std::vector<Cell> &cells() const && = delete;
     bool has(Cell c) const { return std::binary_search(cells_.begin(), cells_.end(), c); }
     // Of cells in the zone: those between it and others, and those between two of its cells, each one once.
     std::vector<Facet> boundary() const {

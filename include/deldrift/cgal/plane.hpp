@@ -244,19 +244,18 @@ public:
     std::pair<Faces, Edges> get_conflicts_and_boundary(const Point &p, Faces faces, Edges edges,
                                                        Face_handle hint = {}) const {
         const typename Base::Zone zone(this->mesh(), p, hint);
-        for (Face_handle f : zone.cells()) *faces++ = f;
-        for (const Edge &e : ring_of(zone)) *edges++ = e;
-        return {faces, edges};
+        const std::vector<Edge> ring = ring_of(zone);
+        return {std::copy(zone.cells().begin(), zone.cells().end(), faces), std::copy(ring.begin(), ring.end(), edges)};
     }
     template <class Faces>
     Faces get_conflicts(const Point &p, Faces faces, Face_handle hint = {}) const {
-        for (Face_handle f : typename Base::Zone(this->mesh(), p, hint).cells()) *faces++ = f;
-        return faces;
+        const typename Base::Zone zone(this->mesh(), p, hint);
+        return std::copy(zone.cells().begin(), zone.cells().end(), faces);
     }
     template <class Edges>
     Edges get_boundary_of_conflicts(const Point &p, Edges edges, Face_handle hint = {}) const {
-        for (const Edge &e : ring_of(typename Base::Zone(this->mesh(), p, hint))) *edges++ = e;
-        return edges;
+        const std::vector<Edge> ring = ring_of(typename Base::Zone(this->mesh(), p, hint));
+        return std::copy(ring.begin(), ring.end(), edges);
     }
     // Inserts p, of which these are all faces and edges that get_conflicts_and_boundary gives; throws Error if they are
     // not.
