@@ -77,7 +77,8 @@ static void show_objects(const Dt2 &t) {
     Rows<2> infinite;
     for (Dt2::All_edges_iterator e = t.all_edges_begin(); e != t.all_edges_end(); ++e) {
         if (t.is_infinite(e)) {
-            const unsigned a = e->first->vertex(t.cw(e->second))->info(), b = e->first->vertex(t.ccw(e->second))->info();
+            const unsigned a = e->first->vertex(t.cw(e->second))->info(),
+                           b = e->first->vertex(t.ccw(e->second))->info();
             infinite.push_back({std::min(a, b), std::max(a, b)});
         }
     }
@@ -165,8 +166,8 @@ static void show_objects(const Dt3 &t) {
             const Point_3 p = tetrahedron.vertex(i + 1), q = tetrahedron.vertex(0);
             u[i][0] = p.x() - q.x(), u[i][1] = p.y() - q.y(), u[i][2] = p.z() - q.z();
         }
-        volume += u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) - u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0]) +
-                  u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
+        volume += u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) -
+                  u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0]) + u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
     }
     for (const Dt3::Facet &f : t.finite_facets()) {
         const auto triangle = t.triangle(f);
@@ -183,8 +184,9 @@ static void show_objects(const Dt3 &t) {
     std::printf("%lu %lu, %lu %lu %lu %lu\n", count(t.number_of_facets()), count(t.number_of_edges()),
                 length(t.all_vertices_begin(), t.all_vertices_end()), length(t.all_edges_begin(), t.all_edges_end()),
                 length(t.all_facets_begin(), t.all_facets_end()), length(t.all_cells_begin(), t.all_cells_end()));
-    std::printf("%lu %lu %lu %lu\n", length(t.vertices_begin(), t.vertices_end()), length(t.edges_begin(), t.edges_end()),
-                length(t.facets_begin(), t.facets_end()), length(t.cells_begin(), t.cells_end()));
+    std::printf("%lu %lu %lu %lu\n", length(t.vertices_begin(), t.vertices_end()),
+                length(t.edges_begin(), t.edges_end()), length(t.facets_begin(), t.facets_end()),
+                length(t.cells_begin(), t.cells_end()));
     for (int i = 0; i < 4; i++) {
         for (int k = 0; k < 3; k++) std::printf("%d ", Dt3::vertex_triple_index(i, k));
         for (int j = 0; j < 4; j++) {
@@ -248,7 +250,8 @@ static void zones_in_space() {
             const int other = Dt3::next_around_edge(i, j);
             const Dt3::Vertex_handle third = c->vertex(other), fourth = c->vertex(6 - i - j - other);
             if (!t.is_facet(v, third, w, d, i, j, k) || d->vertex(j) != third) std::printf(", which is no facet");
-            if (!t.is_cell(v, third, fourth, w, d, i, k, l, m) || d != c || d->vertex(l) != fourth || d->vertex(m) != w) {
+            if (!t.is_cell(v, third, fourth, w, d, i, k, l, m) || d != c || d->vertex(l) != fourth ||
+                d->vertex(m) != w) {
                 std::printf(", which is no cell");
             }
         }

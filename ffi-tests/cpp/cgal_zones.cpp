@@ -60,7 +60,8 @@ static void check_ring(const std::vector<Dt2::Edge> &ring, const std::vector<Dt2
         const auto &[f, i] = ring[k];
         const auto &[g, j] = ring[(k + 1) % ring.size()];
         CHECK(f->vertex(f->ccw(i)) == g->vertex(g->cw(j)));
-        CHECK(std::count(faces.begin(), faces.end(), f) == 0 && std::count(faces.begin(), faces.end(), f->neighbor(i)) == 1);
+        CHECK(std::count(faces.begin(), faces.end(), f) == 0 &&
+              std::count(faces.begin(), faces.end(), f->neighbor(i)) == 1);
     }
 }
 
@@ -83,7 +84,8 @@ static void faces_in_conflict_are_those_that_go() {
             const auto side = t.side_of_oriented_circle(f, p);
             n_ghosts += goes && t.is_infinite(f);
             n_ties += side == deldrift::cgal::ON_ORIENTED_BOUNDARY;
-            CHECK(faces.empty() || side != (goes ? deldrift::cgal::ON_NEGATIVE_SIDE : deldrift::cgal::ON_POSITIVE_SIDE));
+            CHECK(faces.empty() ||
+                  side != (goes ? deldrift::cgal::ON_NEGATIVE_SIDE : deldrift::cgal::ON_POSITIVE_SIDE));
         }
         Dt2::Vertex_handle there;
         if (t.is_vertex(p, there)) {
@@ -94,7 +96,8 @@ static void faces_in_conflict_are_those_that_go() {
         Dt2 other(t);
         other.insert(p);
         const auto after = ids_of_all<3>(other.all_face_handles());
-        for (auto i = expected.begin(); i != expected.end();) i = after.count(*i) > 0 ? expected.erase(i) : std::next(i);
+        for (auto i = expected.begin(); i != expected.end();)
+            i = after.count(*i) > 0 ? expected.erase(i) : std::next(i);
         CHECK(ids_of_all<3>(faces) == expected);
 
         const auto without = [&] {
@@ -124,8 +127,8 @@ static void edges_and_faces_by_their_vertices() {
     }
     const std::vector<Dt2::Vertex_handle> all(t.all_vertices_begin(), t.all_vertices_end());
     CHECK(all.size() == 18 && t.is_infinite(all[0]) && t.all_vertex_handles().size() == 18);
-    CHECK(t.all_edges().size() == t.number_of_edges() + 12 && length_of(std::distance(t.edges_begin(), t.edges_end())) ==
-                                                                  t.number_of_edges());
+    CHECK(t.all_edges().size() == t.number_of_edges() + 12 &&
+          length_of(std::distance(t.edges_begin(), t.edges_end())) == t.number_of_edges());
     CHECK(length_of(std::distance(t.vertices_begin(), t.vertices_end())) == 17);
     CHECK(length_of(std::distance(t.faces_begin(), t.faces_end())) == t.number_of_faces());
     for (Dt2::Vertex_handle a : all) {
@@ -163,7 +166,8 @@ static void objects_of_the_plane() {
     CHECK(t.side_of_oriented_circle(f, Point_2(4, 3)) == deldrift::cgal::ON_ORIENTED_BOUNDARY);
     // In the line of an edge of the hull the circle behind it counts.
     for (Dt2::Face_handle g : t.all_face_handles()) {
-        if (!t.is_infinite(g) || g->index(f) != g->index(t.infinite_vertex()) || g->has_vertex(t.nearest_vertex(points[2]))) {
+        if (!t.is_infinite(g) || g->index(f) != g->index(t.infinite_vertex()) ||
+            g->has_vertex(t.nearest_vertex(points[2]))) {
             continue;
         }
         CHECK(t.side_of_oriented_circle(g, Point_2(1, 0)) == 1 && t.side_of_oriented_circle(g, Point_2(5, 0)) == -1);
@@ -185,8 +189,8 @@ static Dt3 grid_in_space(int n) {
     return Dt3(points.begin(), points.end());
 }
 
-static void check_facets(const Dt3 &t, const Point_3 &p, Dt3::Cell_handle hint, const std::vector<Dt3::Cell_handle> &cells,
-                         const std::vector<Dt3::Facet> &facets) {
+static void check_facets(const Dt3 &t, const Point_3 &p, Dt3::Cell_handle hint,
+                         const std::vector<Dt3::Cell_handle> &cells, const std::vector<Dt3::Facet> &facets) {
     const auto is_in = [&](Dt3::Cell_handle c) { return std::binary_search(cells.begin(), cells.end(), c); };
     std::size_t n_around = 0, n_within = 0;
     for (Dt3::Cell_handle c : cells) {
@@ -223,7 +227,8 @@ static void cells_in_conflict_are_those_that_go() {
             const auto side = t.side_of_sphere(c, p);
             n_finite += goes && !t.is_infinite(c);
             n_ties += side == deldrift::cgal::ON_BOUNDARY;
-            CHECK(cells.empty() || side != (goes ? deldrift::cgal::ON_UNBOUNDED_SIDE : deldrift::cgal::ON_BOUNDED_SIDE));
+            CHECK(cells.empty() ||
+                  side != (goes ? deldrift::cgal::ON_UNBOUNDED_SIDE : deldrift::cgal::ON_BOUNDED_SIDE));
         }
         n_ghosts += cells.size() - n_finite;
         n_without_finite += n_finite == 0 && !cells.empty();
@@ -236,7 +241,8 @@ static void cells_in_conflict_are_those_that_go() {
         Dt3 other(t);
         other.insert(p);
         const auto after = ids_of_all<4>(other.all_cell_handles());
-        for (auto i = expected.begin(); i != expected.end();) i = after.count(*i) > 0 ? expected.erase(i) : std::next(i);
+        for (auto i = expected.begin(); i != expected.end();)
+            i = after.count(*i) > 0 ? expected.erase(i) : std::next(i);
         CHECK(ids_of_all<4>(cells) == expected);
         const auto insert_in = [&](auto first, auto last) {
             return t.insert_in_hole(p, first, last, facets[0].first, facets[0].second);
@@ -274,7 +280,8 @@ static void edges_facets_and_cells_by_their_vertices() {
             const Dt3::Vertex_handle d = c->vertex(third), e = c->vertex(fourth);
             Dt3::Cell_handle other;
             CHECK(t.is_facet(d, a, b, other, k, i, j) && other->vertex(k) == d && other->vertex(i) == a);
-            CHECK(t.is_cell(d, b, e, a, other) && other == c && t.is_cell(b, a, d, e, other, j, i, k, l) && l == fourth);
+            CHECK(t.is_cell(d, b, e, a, other) && other == c && t.is_cell(b, a, d, e, other, j, i, k, l) &&
+                  l == fourth);
             CHECK(!t.is_facet(a, b, a, other, i, j, k) && !t.is_cell(a, b, d, d, other));
             const Dt3::Edge edge(c, c->index(a), c->index(b));
             for (Dt3::Cell_handle start : found->second) {
@@ -285,18 +292,21 @@ static void edges_facets_and_cells_by_their_vertices() {
                 while (++around != t.incident_cells(edge, start));
                 CHECK(cells == found->second);
                 const Dt3::Facet facet = *t.incident_facets(start, start->index(a), start->index(b));
-                CHECK(*t.incident_facets(edge, facet) == facet && *t.incident_facets(edge, t.mirror_facet(facet)) == facet);
+                CHECK(*t.incident_facets(edge, facet) == facet &&
+                      *t.incident_facets(edge, t.mirror_facet(facet)) == facet);
                 CHECK(*t.incident_facets(c, edge.second, edge.third, facet) == facet);
             }
         }
     }
-    CHECK(Dt3::Edge() != Dt3::Edge(*t.cells_begin(), 0, 1) && Dt3::Edge(*t.cells_begin(), 0, 1) < Dt3::Edge(*t.cells_begin(), 0, 2));
+    CHECK(Dt3::Edge() != Dt3::Edge(*t.cells_begin(), 0, 1) &&
+          Dt3::Edge(*t.cells_begin(), 0, 1) < Dt3::Edge(*t.cells_begin(), 0, 2));
 }
 
 static void around_any_vertex() {
     const Dt3 t = grid_in_space(3);
     const auto length = [](auto first, auto last) { return length_of(std::distance(first, last)); };
-    CHECK(length(t.vertices_begin(), t.vertices_end()) == 28 && length(t.cells_begin(), t.cells_end()) == t.number_of_cells());
+    CHECK(length(t.vertices_begin(), t.vertices_end()) == 28 &&
+          length(t.cells_begin(), t.cells_end()) == t.number_of_cells());
     CHECK(length(t.facets_begin(), t.facets_end()) == t.number_of_facets());
     CHECK(length(t.edges_begin(), t.edges_end()) == t.number_of_edges());
     CHECK(length(t.all_facets_begin(), t.all_facets_end()) == t.number_of_facets());
@@ -443,7 +453,8 @@ static void kernels_say_what_points_are() {
         yz.emplace_back(p.y(), p.z());
     }
     const auto faces = [](const std::vector<Point_2> &flat) {
-        return ids_of_all<3>(deldrift::cgal::Delaunay_triangulation_2<K>(flat.begin(), flat.end()).finite_face_handles());
+        return ids_of_all<3>(
+            deldrift::cgal::Delaunay_triangulation_2<K>(flat.begin(), flat.end()).finite_face_handles());
     };
     CHECK(faces_by<CGAL::Projection_traits_xy_3<Space>>(points) == faces(xy));
     CHECK(faces_by<CGAL::Projection_traits_xz_3<Space>>(points) == faces(xz));

@@ -101,6 +101,8 @@ public:
         add_finite(place);
         add_ghosts(place);
     }
+    Zone(const Zone &) = delete;
+    Zone &operator=(const Zone &) = delete;
     const std::vector<Cell> &cells() const & noexcept { return cells_; }
     const std::vector<Cell> &cells() const && = delete;
     bool has(Cell c) const { return std::binary_search(cells_.begin(), cells_.end(), c); }

@@ -82,8 +82,8 @@ public:
         return Tetrahedron(point(c, 0), point(c, 1), point(c, 2), point(c, 3));
     }
 
-    // The corner k by which i, j, k and the fourth one are an even permutation; the k-th corner of the facet opposite i,
-    // counter-clockwise as seen from there, the lowest first.
+    // The corner k by which i, j, k and the fourth one are an even permutation; the k-th corner of the facet opposite
+    // i, counter-clockwise as seen from there, the lowest first.
     static int next_around_edge(int i, int j) noexcept { return detail::next_around_edge(i, j); }
     static int vertex_triple_index(int i, int k) noexcept { return detail::corner_of_facet(i, k); }
 
