@@ -110,7 +110,7 @@ public:
     std::vector<Facet> boundary() const {
         return facets([this](Cell, Cell other) { return !has(other); });
     }
-    std::vector<Facet> interior() const {
+    std::vector<Facet> inner_facets() const {
         return facets([this](Cell c, Cell other) { return c < other && has(other); });
     }
 

@@ -297,7 +297,7 @@ public:
         const typename Base::Zone zone(this->mesh(), p, hint);
         for (const Facet &f : zone.boundary()) *facets++ = f;
         for (Cell_handle c : zone.cells()) *cells++ = c;
-        for (const Facet &f : zone.interior()) *interior++ = f;
+        for (const Facet &f : zone.inner_facets()) *interior++ = f;
         return {facets, cells, interior};
     }
     template <class Output>
