@@ -142,6 +142,30 @@ template <class R>
 class Projection_traits_yz_3 : public Projection_traits_xy_3<R> {};
 }  // namespace CGAL
 
+// CGAL's policies of location, and what else its class in space may be given, are passed over.
+static void parameters_without_meaning() {
+    using Policy = CGAL::Location_policy<int>;
+    using Located = deldrift::cgal::Delaunay_triangulation_3<K, Policy>;
+    using Locked = deldrift::cgal::Delaunay_triangulation_3<K, unsigned, Policy, int>;
+    static_assert(std::is_same_v<Located::Vertex::Info, Dt3::Vertex::Info>);
+    Locked t;
+    t.insert(Point_3(1, 2, 3))->info() = 7;
+    CHECK(t.nearest_vertex(Point_3(0, 0, 0))->info() == 7);
+    // In a plane there are no cells, and nothing is in conflict.
+    t.insert(Point_3(2, 2, 3));
+    t.insert(Point_3(2, 4, 3));
+    std::vector<Locked::Cell_handle> cells;
+    std::vector<Locked::Facet> facets;
+    t.find_conflicts(Point_3(0, 0, 0), nullptr, std::back_inserter(facets), std::back_inserter(cells));
+    CHECK(cells.empty() && facets.empty() && t.number_of_edges() == 0 && t.number_of_facets() == 0);
+    CHECK(t.all_edges().empty() && t.all_facets().empty() && t.all_vertex_handles().size() == 4);
+    CHECK(!t.is_edge(t.infinite_vertex(), *t.finite_vertices_begin()));
+    t.incident_cells(t.infinite_vertex(), std::back_inserter(cells));
+    CHECK(cells.empty());
+    CHECK_THROWS(t.insert_in_hole(Point_3(0, 0, 0), cells.begin(), cells.end(), nullptr, 0), DELDRIFT_INVALID_VALUE,
+                 "the 0 cells are not the 0 that are in conflict");
+}
+
 // Of triples of ids in ascending order.
 template <class Traits, class Points>
 static std::set<std::array<std::uint32_t, 3>> faces_of(const Points &points) {
@@ -189,5 +213,6 @@ static void kernels_say_what_points_are() {
 int main() {
     handles_are_in_order();
     voronoi_edges_are_between_circumcentres();
+    parameters_without_meaning();
     kernels_say_what_points_are();
 }
