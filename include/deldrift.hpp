@@ -205,8 +205,8 @@ public:
     // The ids of the vertices that are present, in ascending order.
     Vertices vertices() const { return Vertices(native(), id_count(), vertex_count()); }
     Cells cells() const { return Cells(ask<deldrift_cells_view>(deldrift_cells)); }
-    // The arrays that cells() shows, handed over: what cells() has given since the last change is valid for as long as the
-    // result lives. The triangulation goes on with copies.
+    // The arrays that cells() shows, handed over: what cells() has given since the last change is valid for as long as
+    // the result lives. The triangulation goes on with copies.
     [[nodiscard]] ReleasedCells release_cells() {
         deldrift_released_cells *owner = nullptr;
         deldrift_cells_view view;

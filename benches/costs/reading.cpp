@@ -171,6 +171,7 @@ std::vector<Call> reading_calls() {
              deldrift_released_cells *owner = nullptr;
              must(deldrift_cells(c.t, &view));
              c.meter.time([&] { must(deldrift_release_cells(c.t, &view, &owner)); });
+             c.meter.count(double(view.count));
              deldrift_free_cells(owner);
          }},
         {"deldrift_free_cells", "", [](Context &c) {
@@ -178,6 +179,7 @@ std::vector<Call> reading_calls() {
              deldrift_released_cells *owner = nullptr;
              must(deldrift_release_cells(c.t, &view, &owner));
              c.meter.time([&] { deldrift_free_cells(owner); });
+             c.meter.count(double(view.count));
          }},
         {"deldrift_copy_cells", "", [](Context &c) {
              const std::size_t n = c.cells();

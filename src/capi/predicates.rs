@@ -51,7 +51,8 @@ pub unsafe extern "C" fn deldrift_orientation(
 /// dimension: 2 or 3. points: dimension + 2 points, one after the other, 2 or 3 numbers each: those that the circle or
 /// sphere goes through, of orientation 1 (deldrift_orientation), and the one that is asked about. If their orientation
 /// is
-/// -1, the sign is the opposite one. If it is 0 there is no circle or sphere, and the sign has no meaning. Ties are not broken.
+/// -1, the sign is the opposite one. If it is 0 there is no circle or sphere, and the sign has no meaning. Ties are not
+/// broken.
 ///
 /// Cost: constant.
 ///

@@ -110,7 +110,7 @@ pub unsafe extern "C" fn deldrift_release_cells(
 /// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing, and neither does a
 /// misaligned pointer. May be called from any thread.
 ///
-/// Cost: constant.
+/// Cost: m at most, to free memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_free_cells(owner: *mut deldrift_released_cells) {
     given!(owner: Owned);

@@ -1,7 +1,7 @@
 //! The vertices in a ball.
 //!
-//! A vertex that is not the nearest to a place has a neighbour that is nearer, and so there is a path to the nearest one
-//! that does not leave the ball: the vertices in a ball are connected by edges.
+//! A vertex that is not the nearest to a place has a neighbour that is nearer, and so there is a path to the nearest
+//! one that does not leave the ball: the vertices in a ball are connected by edges.
 
 use crate::delaunay::{Dimension, IndexSet};
 use crate::error::Result;

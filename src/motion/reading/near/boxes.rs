@@ -2,10 +2,10 @@
 //!
 //! The cells that meet a convex set are connected by facets, if what is outside the hull counts as well: for a ghost
 //! cell, the open half-space beyond its facet.
-//! - The cells at one place are the star of a face, and so connected. The star of a face at a place near by is a part of it,
-//!   so along a path the connection does not break.
-//! - From a place outside, the facets that are seen are connected. On the straight way from there into the hull none comes
-//!   into sight that was not, and the last ones that are seen hold the place where the way enters.
+//! - The cells at one place are the star of a face, and so connected. The star of a face at a place near by is a part
+//!   of it, so along a path the connection does not break.
+//! - From a place outside, the facets that are seen are connected. On the straight way from there into the hull none
+//!   comes into sight that was not, and the last ones that are seen hold the place where the way enters.
 //!
 //! So a flood from the located centre of a box, over the cells whose bounding boxes meet it and the ghost cells beyond
 //! whose facets it has a corner, finds all cells that meet it, and with them all vertices in it. (Where the centre is a
