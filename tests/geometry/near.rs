@@ -189,7 +189,8 @@ fn check_floods<G: Dimension>() {
             MovingTriangulation::<G>::new(&draw::<G>(kind, n, rng), Options::default()).expect("good points");
         for _ in 0..3 {
             for round in 0..30 {
-                let centre = *rng.pick(&places(&t, rng));
+                let around = places(&t, rng);
+                let centre = *rng.pick(&around);
                 let (q, vertices) = (to_grid::<G>(&centre), present(&t));
                 let mut squares: Vec<_> = vertices.iter().map(|(_, p)| square(p, &q)).collect();
                 squares.sort_unstable();
