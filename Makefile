@@ -32,11 +32,11 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help quick test counts soak bench report memory large targets calibrate costs table records sizes lint header doc picture install
-.PHONY: examples
+.PHONY: examples cgal-examples
 .PHONY: compat demo deb dist packages wheel library benchmark clean faults tsan miri fuzz mutants coverage
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' Makefile
 
 quick: ## two minutes after a change of one line: format, clippy, unit tests, small oracles, the header's freshness
 	cargo fmt --check
@@ -152,6 +152,10 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/densities 1225 docs/densities.svg
 	build/examples/particle_fem 3.6 0.05 docs/particle_fem.svg
 	build/examples/particle_fem_cgal
+
+cgal-examples: library ## CGAL's examples with deldrift in its place, beside CGAL (ARGS=--write: docs/CGAL_EXAMPLES.md)
+	@.ci/packages g++ libcgal-dev libeigen3-dev
+	ffi-tests/cgal/examples $(ARGS)
 
 sizes: library ## how large the library is, and of what: tests/results/sizes.csv
 	@.ci/packages cmake

@@ -1,6 +1,6 @@
 // A plate that turns, with heat flowing through it: linear finite elements on a square whose sides are straight but for
 // the rounding of coordinates. The hull then goes over flat cells from vertex to vertex of a side. They are exactly
-// Delaunay, and have conductances of 1e15; deldrift_mask_without_flat_cells leaves them out.
+// Delaunay, and useless as elements; deldrift_mask_without_flat_cells leaves them out.
 //
 //   cc examples/plate.c -Iinclude target/release/libdeldrift.a -lm -lpthread -ldl -o plate && ./plate
 #include <deldrift.h>
@@ -86,7 +86,7 @@ int main(void) {
     deldrift_triangulation *t;
     turn(0);
     check(deldrift_create(2, positions, VERTICES, NULL, &t));
-    printf("angle  cells  flat  rounds without them, error  rounds with them, error\n");
+    printf("angle  cells  flat, greatest area  rounds without them, error  rounds with them, error\n");
     for (int step = 0; step <= 5; step++) {
         deldrift_cells_view cells;
         size_t count, n_flat = 0;
@@ -95,11 +95,15 @@ int main(void) {
         check(deldrift_cells(t, &cells));
         check(deldrift_volumes(t, areas, MOST, &count));
         check(deldrift_mask_without_flat_cells(t, 1e-9, mask, MOST, &count));
-        for (size_t c = 0; c < count; c++) n_flat += mask[c] == 0;
+        double greatest = 0;  // others have half a unit
+        for (size_t c = 0; c < count; c++) {
+            n_flat += mask[c] == 0;
+            if (mask[c] == 0) greatest = fmax(greatest, areas[c]);
+        }
         double error, error_of_all;
         const int rounds = solve(&cells, mask, &error), rounds_of_all = solve(&cells, all, &error_of_all);
-        printf("%5.1f %6zu %5zu %20d, %.0e %16d, %.0e\n", 0.1 * step, cells.count, n_flat, rounds, error, rounds_of_all,
-               error_of_all);
+        printf("%5.1f %6zu %5zu, %5.0e %25d, %.0e %16d, %.0e\n", 0.1 * step, cells.count, n_flat, greatest, rounds, error,
+               rounds_of_all, error_of_all);
     }
     deldrift_destroy(t);
 }

@@ -214,10 +214,18 @@ static bool are_equal(const deldrift_triangulation *a, const deldrift_triangulat
 
 static void keep_and_write(deldrift_triangulation *t) {
     deldrift_triangulation *copy, *loaded;
+    deldrift_released_cells *owner;
+    deldrift_cells_view released, cells;
     check(deldrift_clone(t, &copy));
+    check(deldrift_release_cells(copy, &released, &owner));  // before the next change
     check(deldrift_relocate_vertex(copy, 0, (double[]){0.5, 0.5}));
     expect(!are_equal(t, copy), "a clone goes on by itself");
     deldrift_destroy(copy);
+    check(deldrift_cells(t, &cells));
+    const size_t n_numbers = cells.count * cells.corners_per_cell;
+    expect(released.count == cells.count && memcmp(released.vertices, cells.vertices, n_numbers * sizeof(uint32_t)) == 0,
+           "cells that have been handed over outlive their triangulation");
+    deldrift_free_cells(owner);
 
     size_t size, count;
     check(deldrift_save(t, NULL, 0, &size));

@@ -166,6 +166,21 @@ std::vector<Call> reading_calls() {
              c.meter.time([&] { c.view(); });
              c.meter.count(before + double(c.n + c.cells()));
          }},
+        {"deldrift_release_cells", "", [](Context &c) {
+             deldrift_cells_view view;
+             deldrift_released_cells *owner = nullptr;
+             must(deldrift_cells(c.t, &view));
+             c.meter.time([&] { must(deldrift_release_cells(c.t, &view, &owner)); });
+             c.meter.count(double(view.count));
+             deldrift_free_cells(owner);
+         }},
+        {"deldrift_free_cells", "", [](Context &c) {
+             deldrift_cells_view view;
+             deldrift_released_cells *owner = nullptr;
+             must(deldrift_release_cells(c.t, &view, &owner));
+             c.meter.time([&] { deldrift_free_cells(owner); });
+             c.meter.count(double(view.count));
+         }},
         {"deldrift_copy_cells", "", [](Context &c) {
              const std::size_t n = c.cells();
              Ids vertices(n * c.corners() + 1), neighbours(n * c.corners() + 1);

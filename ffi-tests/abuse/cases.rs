@@ -65,6 +65,7 @@ fn call<T: AsRef<str>>(function: &Declaration, arguments: &[T]) -> String {
         ("deldrift_status", name) => format!("{name}({arguments})"),
         ("const char", name) => format!("told({name}({arguments}))"),
         (_, "deldrift_destroy") => format!("destroyed({arguments})"),
+        (_, "deldrift_free_cells") => format!("freed({arguments})"),
         (_, "deldrift_options_init") => format!("initialised({arguments})"),
         (returns, name) => panic!("{name} gives {returns}, which is no status"),
     }
@@ -141,9 +142,12 @@ impl Cases<'_> {
         let is_list = self.function.has("offsets");
         let is_legal = match role {
             Role::Handle => self.function.name == "deldrift_destroy",
-            Role::Hint | Role::Options | Role::ResearchOptions | Role::OutputIfAny | Role::NumbersIfAny => {
-                true
-            }
+            Role::Owner
+            | Role::Hint
+            | Role::Options
+            | Role::ResearchOptions
+            | Role::OutputIfAny
+            | Role::NumbersIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
@@ -157,8 +161,9 @@ impl Cases<'_> {
     }
 
     fn misaligned(&mut self, at: usize, role: Role, parameter: &Parameter) {
-        // What fills the options is in the header, and is the program's own.
-        if is_of_bytes(parameter) || self.function.name == "deldrift_options_init" {
+        // What fills the options is in the header, and is the program's own; what frees has no way to say anything.
+        let says_nothing = role == Role::Owner || self.function.name == "deldrift_options_init";
+        if is_of_bytes(parameter) || says_nothing {
             return;
         }
         let wrong = match role {

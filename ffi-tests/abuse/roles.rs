@@ -14,6 +14,8 @@ pub enum Role {
     /// A corner of a box: both are given, or none; and one that must be given, and may be anywhere.
     BoxCorner,
     OpenBoxCorner,
+    /// What owns arrays that have been handed over.
+    Owner,
     /// Numbers of any value.
     Numbers,
     /// Numbers of any value, or none.
@@ -65,6 +67,7 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
     let is_commit = function.name.starts_with("deldrift_commit");
     match (parameter.c_type.as_str(), parameter.name.as_str()) {
         ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,
+        ("deldrift_released_cells *", "owner") => Role::Owner,
         ("const double *", "position" | "positions" | "centre") => Role::Points,
         ("const double *", "points") if function.name == "deldrift_in_sphere" => Role::PointsOfSphere,
         ("const double *", "points") => Role::PointsOfSimplex,

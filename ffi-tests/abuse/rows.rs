@@ -47,6 +47,8 @@ pub const ROWS: &[Row] = &[
     row("deldrift_position", &["t", "1", "out.numbers"]),
     row("deldrift_copy_positions", &["t", "out.numbers", "n_ids", "&out.count"]),
     row("deldrift_cells", &["t", "&out.cells"]),
+    row("deldrift_release_cells", &["t", "&out.cells", "&out.owner"]),
+    row("deldrift_free_cells", &["spare_cells()"]),
     row("deldrift_copy_cells", &["t", "out.ids", "out.more_ids", "n_cells", "&out.count"]),
     row("deldrift_star", &["t", "1", "out.ids", "ROOM", "&out.count"]),
     row("deldrift_tolerance", &["t", "1", "out.numbers"]),

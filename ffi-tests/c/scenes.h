@@ -48,7 +48,7 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
     NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
     CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS,
-    CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
+    RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -67,7 +67,7 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
     "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
     "deldrift_mask_without_flat_cells",
-    "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu",
+    "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu",
     "deldrift_write_medit",
 };
 
@@ -287,6 +287,8 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     const uint32_t some_cell = n_cells > 0 ? 0 : DELDRIFT_NONE;
     size_t size = 0;
     const deldrift_field field = {"field", numbers_out, 1};
+    deldrift_cells_view released = {77, 0, NULL, NULL};
+    deldrift_released_cells *owner = NULL;
     const char *file = file_of_test();
     if (s->call.kind == LOAD) OK(deldrift_save(s->t, saved, sizeof saved, &size));
     if (s->call.kind == LOAD_FILE) OK(deldrift_save_file(s->t, file));
@@ -359,6 +361,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         case MASK_WITHOUT_FLAT_CELLS:
             status = deldrift_mask_without_flat_cells(s->t, 0.1, bytes_out, ROOM, &count);
             break;
+        case RELEASE_CELLS: status = deldrift_release_cells(s->t, &released, &owner); break;
         case CLONE: status = deldrift_clone(s->t, &made); break;
         case SAVE: status = deldrift_save(s->t, bytes_out, sizeof bytes_out, &count); break;
         case LOAD: status = deldrift_load(saved, size, &options, &made); break;
@@ -380,6 +383,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     *given = status;
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
+        if (owner != NULL || released.count != 77) *wrong = "an owner is given";
         if (!untouched || bytes_out[0] != 77 || numbers_out[0] != 77 || count != 0) *wrong = "an output is written";
         return status;
     }
@@ -412,6 +416,12 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             if (count > 0 && memcmp(more_out, view.neighbours, bytes) != 0) *wrong = "not a copy";
             break;
         }
+        case RELEASE_CELLS:
+            // What is handed over is the cells, as a set.
+            *given = released.count == cell_count(s->t) ? digest_of(&released.count, sizeof released.count) : 0;
+            for (size_t i = 0; i < released.count * (d + 1); i++) *given += released.vertices[i];
+            deldrift_free_cells(owner);
+            break;
         case ORDERED_STAR:
         case SAVE: *given = count; break;
         case CELLS_AROUND:

@@ -274,7 +274,12 @@ static void keep(const deldrift_triangulation *t, const places *p, const deldrif
     ask_about(made, p);
     DO(deldrift_destroy(made));
     GO(deldrift_clone(t, &made));
+    deldrift_cells_view cells;
+    deldrift_released_cells *owner;
+    GO(deldrift_release_cells(made, &cells, &owner));
     DO(deldrift_destroy(made));
+    note(cells.vertices, cells.count * cells.corners_per_cell * sizeof *cells.vertices);
+    DO(deldrift_free_cells(owner));
     GO(deldrift_save_file(t, tour_path()));
     note_file();
     GO(deldrift_load_file(tour_path(), options, &made));

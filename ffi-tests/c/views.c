@@ -63,7 +63,11 @@ static void calls_that_change_no_cell_leave_views(uint32_t dimension) {
 
 static void released_cells_outlive_changes_and_triangulations(uint32_t dimension) {
     double *positions = random_positions(dimension, COUNT, 12);
-    deldrift_triangulation *t = create(dimension, positions, COUNT, NULL), *other;
+    deldrift_triangulation *t = create(dimension, positions, COUNT, NULL);
+    deldrift_triangulation *other = create(dimension, positions, COUNT, NULL);
+    deldrift_changes all;
+    OK(deldrift_take_changes(t, &all));
+    OK(deldrift_take_changes(other, &all));
     enum { ROUNDS = 3 };
     copy copies[ROUNDS];
     deldrift_released_cells *owners[ROUNDS];
@@ -80,11 +84,22 @@ static void released_cells_outlive_changes_and_triangulations(uint32_t dimension
         for (uint32_t k = 0; k < COUNT * dimension; k++) positions[k] += 0.02 * (k % 5);
         OK(deldrift_commit_positions(t, positions, COUNT, NULL));
         OK(deldrift_validate(t, 3));
-        // The cells are those of a triangulation that has handed nothing over.
-        other = create(dimension, positions, COUNT, NULL);
-        CHECK(cell_count(other) == cell_count(t));
-        deldrift_destroy(other);
+        // Cells and changes are those of a copy that has handed nothing over.
+        OK(deldrift_commit_positions(other, positions, COUNT, NULL));
+        copy one = copy_of(t), its = copy_of(other);
+        CHECK(one.view.count == its.view.count);
+        const size_t bytes = one.view.count * (dimension + 1) * sizeof(uint32_t);
+        CHECK(memcmp(one.vertices, its.vertices, bytes) == 0 && memcmp(one.neighbours, its.neighbours, bytes) == 0);
+        free_copy(&one);
+        free_copy(&its);
+        deldrift_changes changes[2];
+        OK(deldrift_take_changes(t, &changes[0]));
+        OK(deldrift_take_changes(other, &changes[1]));
+        CHECK(changes[0].created_count == changes[1].created_count && changes[0].created_count > 0);
+        CHECK(changes[0].removed_count == changes[1].removed_count);
+        CHECK(changes[0].renumbered_count == changes[1].renumbered_count);
     }
+    deldrift_destroy(other);
     deldrift_destroy(t);
     for (int round = ROUNDS - 1; round >= 0; round--) {
         check_copy(&copies[round]);

@@ -366,6 +366,8 @@ static void space() {
                 t.nearest_vertex(Point_3(0.1, 0.9, 0.5))->info());
 }
 
+#include "zones.hpp"
+
 // ---------------------------------------------------------------------------- points from whatever gives them
 
 // Coordinates as they are read from text.
@@ -424,6 +426,8 @@ int main() {
     locate_on_edges();
     space();
     locate_in_space();
+    zones_in_plane();
+    zones_in_space();
     sequences<Dt2, 2>();
     sequences<Dt3, 3>();
 }

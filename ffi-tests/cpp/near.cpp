@@ -1,30 +1,9 @@
 // What is near, in C++: members against a pass over all vertices and cells.
+#include "check.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <deldrift.hpp>
-#include <iostream>
 #include <limits>
-#include <string>
-
-#define CHECK(condition)                                                                   \
-    do {                                                                                   \
-        if (!(condition)) {                                                                \
-            std::cerr << __FILE__ << ":" << __LINE__ << ": not so: " << #condition << "\n"; \
-            std::exit(1);                                                                  \
-        }                                                                                  \
-    } while (false)
-
-#define CHECK_THROWS(expression, wanted, text)                                                               \
-    do {                                                                                                     \
-        bool thrown = false;                                                                                 \
-        try {                                                                                                \
-            (void)(expression);                                                                              \
-        } catch (const deldrift::Error &error) {                                                             \
-            thrown = error.status() == (wanted) && std::string(error.what()).find(text) != std::string::npos; \
-        }                                                                                                    \
-        CHECK(thrown);                                                                                       \
-    } while (false)
 
 using deldrift::Triangulation;
 using Ids = std::vector<std::uint32_t>;

@@ -182,7 +182,8 @@ class ReleasedCells {
 public:
     ReleasedCells(deldrift_released_cells *owner, const deldrift_cells_view &view) noexcept
         : owner_(owner), view_(view) {}
-    Cells cells() const noexcept { return Cells(view_); }
+    // None of what has been moved from.
+    Cells cells() const noexcept { return Cells(owner_ ? view_ : deldrift_cells_view{}); }
 
 private:
     struct Free {

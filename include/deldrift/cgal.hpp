@@ -6,13 +6,15 @@
 //     for (Dt::Face_handle f : t.finite_face_handles()) std::cout << f->vertex(0)->point() << '\n';
 //
 // It needs no CGAL. Points, handles, iterators, circulators and members are called as there, and mean the same; cells
-// are oriented alike, and neighbor(i) is opposite vertex(i). docs/FROM_CGAL.md has the calls side by side. What
-// differs:
+// are oriented alike, and neighbor(i) is opposite vertex(i). docs/FROM_CGAL.md has the calls side by side, and
+// docs/CGAL_EXAMPLES.md CGAL's examples that write the same. What differs:
 //
 // - Where points are cocircular or cospherical, and cells not unique, other cells may be chosen than CGAL chooses.
 // - Handles are small values, not pointers. Those of vertices are valid until the vertex is removed; those of cells
 //   until the triangulation changes. Cells have no info: what has changed is told by take_changes().
 // - Where the vertices are on a line (in space: in a plane), there are no faces or cells, and no edges or facets.
+// - Cells in conflict with a point have it inside of their circle or sphere: what is on it exactly is not in conflict.
+//   Only they can be given to star_hole and insert_in_hole.
 // - A call that fails throws deldrift::Error and has no effect. Coordinates are finite and of magnitude up to 1e57.
 //
 // Besides the functions of CGAL there are stage_move() and commit_timestamp(), by which many vertices move at the
@@ -68,6 +70,11 @@ struct Kernel {
     using FT = double;
     using Point_2 = cgal::Point_2;
     using Point_3 = cgal::Point_3;
+    using Segment_2 = Simplex<Point_2, 2>;
+    using Triangle_2 = Simplex<Point_2, 3>;
+    using Segment_3 = Simplex<Point_3, 2>;
+    using Triangle_3 = Simplex<Point_3, 3>;
+    using Tetrahedron_3 = Simplex<Point_3, 4>;
 };
 
 }  // namespace deldrift::cgal

@@ -100,9 +100,9 @@ impl<T> Owned<T> {
         Owned { pointer }
     }
 
-    /// Frees it, unless it is NULL.
+    /// Frees it, unless it is NULL, or misaligned and so nothing that has been handed out.
     pub(super) fn free(self) {
-        if !self.pointer.is_null() {
+        if !self.pointer.is_null() && self.pointer.is_aligned() {
             // SAFETY: promised to `new`.
             drop(unsafe { Box::from_raw(self.pointer) });
         }

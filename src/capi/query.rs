@@ -18,8 +18,9 @@ const _: () = assert!(DELDRIFT_NONE == NO_CELL.get());
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
 /// until the next call that changes the triangulation.
 ///
-/// Calls that stage, that discard what is staged, that take changes, and deldrift_set_algorithm, change no cells: a view
-/// of them stays valid, unless it is older than the last change.
+/// Calls that stage, that discard what is staged, that take changes, and deldrift_set_algorithm, change no cells: a
+/// view that is not older than the last change stays valid. After deldrift_release_cells it is valid until its owner is
+/// freed.
 ///
 /// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
 /// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
@@ -72,15 +73,18 @@ enum Arrays {
     Space(OwnedCells<Space>),
 }
 
-/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner: they stay as they
-/// are, and valid, until the owner is handed to deldrift_free_cells, whatever becomes of t. A view that deldrift_cells has
-/// given since the last change of the cells is of these arrays, so that a program which has shown it to others, such as
-/// an interpreter, can call this before it makes a change. The triangulation makes copies for itself.
+/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner: they stay as
+/// they are, and valid, until the owner is handed to deldrift_free_cells, whatever becomes of t.
+///
+/// Views that deldrift_cells has given since the last change, or the last call of this function, are of these arrays:
+/// they are valid until this owner is freed, and no longer. So a program that has shown them to others, such as an
+/// interpreter, can call this before it makes a change. Views that are got afterwards are of copies, which belong to t.
+/// A commit that fails and deldrift_compact count as changes.
 ///
 /// Cost: m.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing is handed over, and
-/// views are as valid as before. Not to be called at the same time as any other call on t.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing is handed over,
+/// and views are as valid as before. Not to be called at the same time as any other call on t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_release_cells(
     t: *mut deldrift_triangulation,
@@ -103,10 +107,10 @@ pub unsafe extern "C" fn deldrift_release_cells(
     })
 }
 
-/// Frees arrays that deldrift_release_cells has handed over. NULL is legal and does nothing. May be called from any
-/// thread.
+/// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing, and neither does a
+/// misaligned pointer. May be called from any thread.
 ///
-/// Cost: constant.
+/// Cost: m at most, to free memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_free_cells(owner: *mut deldrift_released_cells) {
     given!(owner: Owned);

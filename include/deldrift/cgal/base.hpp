@@ -2,46 +2,34 @@
 #ifndef DELDRIFT_CGAL_BASE_HPP
 #define DELDRIFT_CGAL_BASE_HPP
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "given.hpp"
 #include "handles.hpp"
+#include "places.hpp"
 
 namespace deldrift::cgal::detail {
 
-// The info of vertices: the parameter itself, or that of the vertices of one of CGAL's data structures.
-template <class V, class = void>
-struct Info_of_vertex {
-    using type = void;
-};
-template <class V>
-struct Info_of_vertex<V, std::void_t<typename V::Info>> {
-    using type = typename V::Info;
-};
-template <class T, class = void>
-struct Info_of {
-    using type = T;
-};
-template <class T>
-struct Info_of<T, std::void_t<typename T::Vertex>> : Info_of_vertex<typename T::Vertex> {};
-
-template <std::uint32_t D, class P, class Info>
+template <std::uint32_t D, class K, class Info>
 class Base {
 protected:
-    using Mesh = detail::Mesh<D, P, Info>;
+    using Mesh = detail::Mesh<D, K, Info>;
     template <class Source>
     using handles = range<handle_iterator<Source>>;
 
 public:
-    using Point = P;
+    using Geom_traits = K;
+    using Point = typename Mesh::Point;
     using Vertex_handle = detail::Vertex_handle<Mesh, D>;
     using Vertex = Vertex_handle;
     using size_type = std::size_t;
@@ -50,16 +38,24 @@ public:
     using Finite_vertex_handles = handles<Finite_vertices<Mesh, D>>;
     using Point_iterator = handle_iterator<detail::Points<Mesh, D>>;
 
+    using All_vertices_iterator = handle_iterator<All_vertices<Mesh, D>>;
+    using All_vertex_handles = handles<All_vertices<Mesh, D>>;
+
     Base() : mesh_(std::make_unique<Mesh>()) {}
+    explicit Base(const K &traits) : traits_(traits), mesh_(std::make_unique<Mesh>()) {}
     // Vertices of a copy have the same ids, cells the same indices. Nothing is triangulated.
-    Base(const Base &other) : mesh_(std::make_unique<Mesh>(*other.mesh_)) {}
+    Base(const Base &other) : traits_(other.traits_), mesh_(std::make_unique<Mesh>(*other.mesh_)) {}
     Base(Base &&) noexcept = default;
     Base &operator=(Base other) noexcept {
         swap(other);
         return *this;
     }
 
-    void swap(Base &other) noexcept { mesh_.swap(other.mesh_); }
+    void swap(Base &other) noexcept {
+        std::swap(traits_, other.traits_);
+        mesh_.swap(other.mesh_);
+    }
+    const K &geom_traits() const noexcept { return traits_; }
     void clear() { mesh_ = std::make_unique<Mesh>(); }
 
     // One vertex. At the place of another one nothing is inserted, and that one returned.
@@ -67,6 +63,7 @@ public:
     Vertex_handle insert(const Point &p, Hint...) {
         return Vertex_handle(mesh_->insert(p, {}));
     }
+    Vertex_handle push_back(const Point &p) { return insert(p); }
     // Points, or pairs or tuples of point and info, all at once; returns how many vertices there are more. Each element
     // is read once, in order, before anything is inserted. The end may be of another type than the iterator.
     template <class Iterator, class End, class = std::enable_if_t<Is_sequence<Iterator, End>::value>>
@@ -110,9 +107,11 @@ public:
     size_type number_of_vertices() const { return triangulation().vertex_count(); }
     Vertex_handle infinite_vertex() const noexcept { return Vertex_handle(mesh_->infinite()); }
     bool is_infinite(Vertex_handle v) const noexcept { return v == infinite_vertex(); }
+    // Whether it is one of this triangulation.
+    bool is_vertex(Vertex_handle v) const noexcept { return v != nullptr && v.record_->mesh == mesh(); }
     bool is_vertex(const Point &p, Vertex_handle &v) const {
         v = nearest_vertex(p);
-        return v != nullptr && numbers_of<D>(v.point()) == numbers_of<D>(p);
+        return v != nullptr && Mesh::numbers_of(v.point()) == Mesh::numbers_of(p);
     }
     template <class... Hint>
     Vertex_handle nearest_vertex(const Point &p, Hint...) const {
@@ -138,6 +137,9 @@ public:
         return {{mesh()}, mesh_->by_id().size(), mesh_->by_id().size()};
     }
     Finite_vertex_handles finite_vertex_handles() const { return {finite_vertices_begin(), finite_vertices_end()}; }
+    All_vertices_iterator all_vertices_begin() const { return all_vertex_handles().begin(); }
+    All_vertices_iterator all_vertices_end() const { return all_vertex_handles().end(); }
+    All_vertex_handles all_vertex_handles() const { return all<All_vertices>(mesh_->by_id().size() + 1); }
     Point_iterator points_begin() const { return {{mesh()}, 0, mesh_->by_id().size()}; }
     Point_iterator points_end() const { return {{mesh()}, mesh_->by_id().size(), mesh_->by_id().size()}; }
     range<Point_iterator> points() const { return {points_begin(), points_end()}; }
@@ -153,50 +155,69 @@ protected:
     std::size_t n_cells() const { return mesh_->cells().count; }
     std::size_t n_facets_of_cells() const { return mesh_->cells().count * (D + 1); }
 
-    // The orientation of a finite cell with a point in the place of a corner.
-    int side_of_facet(Cell c, std::uint32_t corner, const std::array<double, D> &p) const {
-        std::array<double, (D + 1) * D> points;
-        for (std::uint32_t i = 0; i <= D; i++) {
-            const auto x = i == corner ? p : numbers_of<D>(c.vertex(static_cast<int>(i)).point());
-            std::copy(x.begin(), x.end(), points.begin() + i * D);
-        }
-        return orientation(D, points);
-    }
-
-    // Where a point is: at a vertex; in a finite cell, on those facets that are marked; in a ghost cell; or there are
-    // no cells.
-    struct Place {
-        deldrift_location_kind kind;
-        Vertex_handle vertex;
-        Cell cell;
-        std::array<bool, D + 1> on_facet;
-    };
-    Place place_of(const Point &p, Cell hint) const {
-        const std::array<double, D> x = numbers_of<D>(p);
-        const deldrift_location start{DELDRIFT_LOCATION_CELL, hint.id()};
-        const bool is_hint = hint != nullptr;
-        const deldrift_location found = triangulation().locate_points(x, is_hint ? &start : nullptr)[0];
-        Place place{found.kind, nullptr, nullptr, {}};
-        switch (found.kind) {
-        case DELDRIFT_LOCATION_VERTEX:
-            place.vertex = Vertex_handle(mesh_->by_id()[found.index]);
-            place.cell = place.vertex.cell();
-            break;
-        case DELDRIFT_LOCATION_CELL:
-            place.cell = Cell(mesh(), found.index);
-            for (std::uint32_t i = 0; i <= D; i++) place.on_facet[i] = side_of_facet(place.cell, i, x) == 0;
-            break;
-        case DELDRIFT_LOCATION_OUTSIDE:
-            for (std::uint32_t i = 0; i <= D; i++) {
-                const Cell finite(mesh(), found.index), ghost = finite.neighbor(static_cast<int>(i));
-                if (ghost.is_infinite() && side_of_facet(finite, i, x) < 0) place.cell = ghost;
-            }
-            break;
-        case DELDRIFT_LOCATION_NO_CELLS:
-            if (is_vertex(p, place.vertex)) place.kind = DELDRIFT_LOCATION_VERTEX;
-            break;
+    using Zone = detail::Zone<Mesh, D>;
+    // Of a point; near a cell, if one is given.
+    detail::Place<Mesh, D> place_of(const Point &p, Cell hint) const {
+        auto place = detail::place_of<Mesh, D>(mesh(), p, hint);
+        if (place.kind == DELDRIFT_LOCATION_NO_CELLS && is_vertex(p, place.vertex)) {
+            place.kind = DELDRIFT_LOCATION_VERTEX;
         }
         return place;
+    }
+    // The point is inserted if these are the cells that are in conflict with it.
+    template <class Iterator>
+    Vertex_handle insert_in_zone(const Point &p, Iterator first, Iterator last) {
+        std::vector<Cell> given(first, last);
+        std::sort(given.begin(), given.end());
+        const Zone zone(mesh(), p, given.empty() ? Cell() : given.front());
+        if (given.empty() || given != zone.cells()) {
+            throw Error(DELDRIFT_INVALID_VALUE, "the " + std::to_string(given.size()) + " cells are not the " +
+                                                    std::to_string(zone.cells().size()) +
+                                                    " that are in conflict with the point");
+        }
+        return insert(p);
+    }
+
+    // The cells with a vertex: of a finite one, ghost cells only if they are wanted; of the infinite one all that there
+    // are.
+    std::vector<Cell> star(Vertex_handle v, bool with_infinite) const {
+        std::vector<Cell> cells;
+        const deldrift_cells_view &rows = mesh_->cells();
+        if (is_infinite(v)) {
+            for (std::size_t k = 0; with_infinite && k < n_facets_of_cells(); k++) {
+                if (rows.neighbours[k] == DELDRIFT_NONE) cells.push_back(All_cells<Mesh, D>{mesh()}(n_cells() + k));
+            }
+            return cells;
+        }
+        const typename Mesh::Star star(*mesh_, v.id());
+        cells.reserve(star.size() + 8);
+        for (std::uint32_t index : star) {
+            const Cell c(mesh(), index);
+            cells.push_back(c);
+            for (std::uint32_t i = 0; with_infinite && i <= D; i++) {
+                const std::size_t k = std::size_t{index} * (D + 1) + i;
+                const bool is_ghost = rows.neighbours[k] == DELDRIFT_NONE && rows.vertices[k] != v.id();
+                if (is_ghost) cells.push_back(c.neighbor(static_cast<int>(i)));
+            }
+        }
+        return cells;
+    }
+    // A cell with all of these vertices, of which one may be infinite; none if there is none.
+    template <std::size_t N>
+    Cell cell_with(const std::array<Vertex_handle, N> &vertices) const {
+        std::array<std::uint32_t, N> ids{};
+        for (std::size_t i = 0; i < N; i++) ids[i] = vertices[i].id();
+        if (std::count(ids.begin(), ids.end(), DELDRIFT_NONE) == 0) {
+            const std::uint32_t cell = triangulation().find_simplices(N, ids)[0];
+            return cell == DELDRIFT_NONE ? Cell() : Cell(mesh(), cell);
+        }
+        auto sorted = ids;
+        std::sort(sorted.begin(), sorted.end());
+        if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() || n_cells() == 0) return nullptr;
+        for (Cell c : star(vertices[ids[0] == DELDRIFT_NONE ? 1 : 0], true)) {
+            if (std::all_of(vertices.begin(), vertices.end(), [&](auto v) { return c.has_vertex(v); })) return c;
+        }
+        return nullptr;
     }
 
     // The centre of the sphere through points, rounded: the solution of 2 (q - p) x = |q - p|^2 for the others q, by
@@ -218,10 +239,19 @@ protected:
         }
         return centre;
     }
+    // By the kernel, if it can.
     Point centre_of(Cell c) const {
-        std::array<std::array<double, D>, D + 1> points;
-        for (std::uint32_t i = 0; i <= D; i++) points[i] = numbers_of<D>(c.vertex(static_cast<int>(i)).point());
-        return point_of<D, Point>(centre_of(points));
+        if constexpr (D == 2 && Has_circumcenter_2<K>::value) {
+            return traits_.construct_circumcenter_2_object()(c.vertex(0).point(), c.vertex(1).point(),
+                                                             c.vertex(2).point());
+        } else if constexpr (D == 3 && Has_circumcenter_3<K>::value) {
+            return traits_.construct_circumcenter_3_object()(c.vertex(0).point(), c.vertex(1).point(),
+                                                             c.vertex(2).point(), c.vertex(3).point());
+        } else {
+            std::array<std::array<double, D>, D + 1> points;
+            for (std::uint32_t i = 0; i <= D; i++) points[i] = numbers_of(c, i);
+            return Coordinates<D, K>::point(centre_of(points));
+        }
     }
 
 private:
@@ -236,9 +266,9 @@ private:
     // Whether all vertices, of which there are two or more, are on a line: whether they are in each projection.
     bool is_on_a_line() const {
         auto i = points_begin();
-        const auto p = numbers_of<D>(*i), q = numbers_of<D>(*++i);
+        const auto p = Mesh::numbers_of(*i), q = Mesh::numbers_of(*++i);
         while (++i != points_end()) {
-            const auto r = numbers_of<D>(*i);
+            const auto r = Mesh::numbers_of(*i);
             for (std::uint32_t a = 0; a < D; a++) {
                 for (std::uint32_t b = 0; b < a; b++) {
                     if (orientation(2, std::array<double, 6>{p[a], p[b], q[a], q[b], r[a], r[b]}) != 0) return false;
@@ -248,6 +278,7 @@ private:
         return true;
     }
 
+    K traits_{};
     std::unique_ptr<Mesh> mesh_;
 };
 

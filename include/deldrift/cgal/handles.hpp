@@ -21,9 +21,12 @@ class Base;
 template <class Mesh, std::uint32_t D>
 class Vertex_handle {
 public:
+    using value_type = Vertex_handle;
     using Record = typename Mesh::Record;
     using Point = typename Mesh::Point;
     using Info = typename Mesh::Given_info;
+    using Cell_handle = detail::Cell_handle<Mesh, D>;
+    using Face_handle = Cell_handle;
 
     Vertex_handle() = default;
     Vertex_handle(std::nullptr_t) noexcept {}
@@ -36,14 +39,19 @@ public:
     // The id in deldrift's arrays, until a vertex is removed; DELDRIFT_NONE for the infinite vertex.
     std::uint32_t id() const noexcept { return record_->id; }
     // Some cell with this vertex.
-    Cell_handle<Mesh, D> cell() const;
-    Cell_handle<Mesh, D> face() const { return cell(); }
+    Cell_handle cell() const;
+    Cell_handle face() const { return cell(); }
 
     friend bool operator==(const Vertex_handle &a, const Vertex_handle &b) noexcept { return a.record_ == b.record_; }
     friend bool operator!=(const Vertex_handle &a, const Vertex_handle &b) noexcept { return !(a == b); }
     friend bool operator<(const Vertex_handle &a, const Vertex_handle &b) noexcept {
         return std::less<Record *>()(a.record_, b.record_);
     }
+    friend bool operator>(const Vertex_handle &a, const Vertex_handle &b) noexcept { return b < a; }
+    friend bool operator<=(const Vertex_handle &a, const Vertex_handle &b) noexcept { return !(b < a); }
+    friend bool operator>=(const Vertex_handle &a, const Vertex_handle &b) noexcept { return !(a < b); }
+    // For the containers of Boost.
+    friend std::size_t hash_value(const Vertex_handle &v) noexcept { return std::hash<Vertex_handle>()(v); }
 
 private:
     template <std::uint32_t E, class P, class Info>
@@ -58,7 +66,9 @@ private:
 template <class Mesh, std::uint32_t D>
 class Cell_handle {
 public:
-    using Vertex = Vertex_handle<Mesh, D>;
+    using value_type = Cell_handle;
+    using Vertex_handle = detail::Vertex_handle<Mesh, D>;
+    using Vertex = Vertex_handle;
     static constexpr std::uint32_t corners = D + 1;
 
     Cell_handle() = default;
@@ -120,6 +130,16 @@ public:
         return static_cast<int>(corners);
     }
 
+    // In the plane: the corner after i in counter-clockwise and in clockwise order.
+    static int ccw(int i) noexcept {
+        static_assert(D == 2);
+        return (i + 1) % 3;
+    }
+    static int cw(int i) noexcept {
+        static_assert(D == 2);
+        return (i + 2) % 3;
+    }
+
     bool is_infinite() const noexcept { return hull_corner_ < corners; }
     // The index in deldrift's arrays; of a ghost cell, that of the finite cell behind it.
     std::uint32_t id() const noexcept { return cell_; }
@@ -131,6 +151,11 @@ public:
     friend bool operator<(const Cell_handle &a, const Cell_handle &b) noexcept {
         return a.cell_ != b.cell_ ? a.cell_ < b.cell_ : a.hull_corner_ < b.hull_corner_;
     }
+    friend bool operator>(const Cell_handle &a, const Cell_handle &b) noexcept { return b < a; }
+    friend bool operator<=(const Cell_handle &a, const Cell_handle &b) noexcept { return !(b < a); }
+    friend bool operator>=(const Cell_handle &a, const Cell_handle &b) noexcept { return !(a < b); }
+    // For the containers of Boost.
+    friend std::size_t hash_value(const Cell_handle &c) noexcept { return std::hash<Cell_handle>()(c); }
 
 private:
     const std::uint32_t *row() const { return mesh_->cells().vertices + std::size_t{cell_} * corners; }
@@ -215,6 +240,16 @@ struct Finite_vertices {
     bool selects(std::size_t id) const { return mesh->by_id()[id] != nullptr; }
 };
 
+// The infinite vertex first.
+template <class Mesh, std::uint32_t D>
+struct All_vertices {
+    const Mesh *mesh = nullptr;
+    Vertex_handle<Mesh, D> operator()(std::size_t i) const {
+        return Vertex_handle<Mesh, D>(i == 0 ? mesh->infinite() : mesh->by_id()[i - 1]);
+    }
+    bool selects(std::size_t i) const { return i == 0 || mesh->by_id()[i - 1] != nullptr; }
+};
+
 template <class Mesh, std::uint32_t D>
 struct Points {
     const Mesh *mesh = nullptr;
@@ -254,6 +289,28 @@ struct Finite_facets {
     bool selects(std::size_t k) const {
         const std::uint32_t other = mesh->cells().neighbours[k];
         return other == DELDRIFT_NONE || k < std::size_t{other} * (D + 1);
+    }
+};
+
+// Facets of finite cells, then those between two ghost cells, each one once.
+template <class Mesh, std::uint32_t D>
+struct All_facets {
+    const Mesh *mesh = nullptr;
+    std::pair<Cell_handle<Mesh, D>, int> operator()(std::size_t k) const {
+        const std::size_t n = mesh->cells().count * (D + 1);
+        if (k < n) return Finite_facets<Mesh, D>{mesh}(k);
+        const std::size_t ghost = (k - n) / (D + 1);
+        return {{mesh, static_cast<std::uint32_t>(ghost / (D + 1)), static_cast<std::uint32_t>(ghost % (D + 1))},
+                static_cast<int>((k - n) % (D + 1))};
+    }
+    bool selects(std::size_t k) const {
+        const deldrift_cells_view &cells = mesh->cells();
+        const std::size_t n = cells.count * (D + 1);
+        if (k < n) return Finite_facets<Mesh, D>{mesh}.selects(k);
+        const std::size_t ghost = (k - n) / (D + 1), corner = (k - n) % (D + 1);
+        if (cells.neighbours[ghost] != DELDRIFT_NONE || corner == ghost % (D + 1)) return false;
+        const Cell_handle<Mesh, D> cell = (*this)(k).first;
+        return cell < cell.neighbor(static_cast<int>(corner));
     }
 };
 

@@ -16,54 +16,37 @@
 #include <vector>
 
 #include "../../deldrift.hpp"
+#include "kernel.hpp"
 
 namespace deldrift::cgal::detail {
-
-template <std::uint32_t D, class Point>
-std::array<double, D> numbers_of(const Point &p) {
-    static_assert(std::is_convertible_v<decltype(p.x()), double>, "coordinates must be doubles");
-    if constexpr (D == 2) {
-        return {static_cast<double>(p.x()), static_cast<double>(p.y())};
-    } else {
-        return {static_cast<double>(p.x()), static_cast<double>(p.y()), static_cast<double>(p.z())};
-    }
-}
-
-template <std::uint32_t D, class Point>
-Point point_of(const std::array<double, D> &x) {
-    if constexpr (D == 2) {
-        return Point(x[0], x[1]);
-    } else {
-        return Point(x[0], x[1], x[2]);
-    }
-}
 
 struct No_info {};
 
 // What a vertex handle points to. It stays where it is until the vertex is removed.
-template <std::uint32_t D, class P, class Info>
+template <std::uint32_t D, class K, class Info>
 class Mesh;
-template <std::uint32_t D, class P, class Info>
+template <std::uint32_t D, class K, class Info>
 struct Record {
-    P point;
+    typename Coordinates<D, K>::Point point;
     std::conditional_t<std::is_void_v<Info>, No_info, Info> info;
     // Null for one that is not in use, and for the infinite vertex its mesh.
-    const Mesh<D, P, Info> *mesh;
+    const Mesh<D, K, Info> *mesh;
     std::uint32_t id;
 };
 
 // Points at the same place are one vertex, as in CGAL. Calls that fail have no effect.
-template <std::uint32_t D, class P, class Info>
+template <std::uint32_t D, class K, class Info>
 class Mesh {
 public:
-    using Point = P;
-    using Record = detail::Record<D, P, Info>;
+    using Point = typename Coordinates<D, K>::Point;
+    using Numbers = std::array<double, D>;
+    using Record = detail::Record<D, K, Info>;
     using Given_info = decltype(Record::info);
     using Vertices = std::vector<std::pair<Point, Given_info>>;
 
-    Mesh() : t_(D, Positions(), options()), infinite_{point_of<D, P>({}), {}, this, DELDRIFT_NONE} {}
+    Mesh() : t_(D, Positions(), options()), infinite_{Coordinates<D, K>::point({}), {}, this, DELDRIFT_NONE} {}
     // All is copied, nothing triangulated: vertices have the same ids, cells the same indices, and what is staged is.
-    Mesh(const Mesh &other) : t_(other.t_.clone()), infinite_{point_of<D, P>({}), {}, this, DELDRIFT_NONE} {
+    Mesh(const Mesh &other) : t_(other.t_.clone()), infinite_{Coordinates<D, K>::point({}), {}, this, DELDRIFT_NONE} {
         by_id_.reserve(other.by_id_.size());
         for (const Record *record : other.by_id_) {
             if (record != nullptr) records_.push_back(Record{record->point, record->info, this, record->id});
@@ -74,6 +57,8 @@ public:
         for (const auto &[record, p] : other.staged_) staged_.emplace_back(by_id_[record->id], p);
     }
     Mesh &operator=(const Mesh &) = delete;
+
+    static Numbers numbers_of(const Point &p) { return Coordinates<D, K>::of(p); }
 
     const Triangulation &triangulation() const noexcept { return t_; }
     Triangulation &triangulation() noexcept { return t_; }
@@ -124,14 +109,14 @@ public:
 
     // The vertex at a place; null where there is none.
     Record *nearest(const Point &p) const {
-        const std::uint32_t id = t_.nearest_vertex(numbers_of<D>(p));
+        const std::uint32_t id = t_.nearest_vertex(numbers_of(p));
         return id == DELDRIFT_NONE ? nullptr : by_id_[id];
     }
 
     Record *insert(const Point &p, Given_info info) {
         Record *record = add(p, std::move(info));
         std::uint32_t id = 0;
-        const deldrift_status status = deldrift_insert_vertex(t_.native(), numbers_of<D>(p).data(), &id);
+        const deldrift_status status = deldrift_insert_vertex(t_.native(), numbers_of(p).data(), &id);
         if (status != DELDRIFT_OK) drop_last();
         if (status == DELDRIFT_COINCIDENT) return nearest(p);
         require_ok(status);
@@ -163,7 +148,7 @@ public:
 
     // The vertex at the place: this one, or one that is there already; then nothing has changed.
     Record *move_if_free(Record *record, const Point &p) {
-        const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, numbers_of<D>(p).data());
+        const deldrift_status status = deldrift_relocate_vertex(t_.native(), record->id, numbers_of(p).data());
         if (status == DELDRIFT_COINCIDENT) return nearest(p);
         require_ok(status);
         changed();
@@ -173,7 +158,7 @@ public:
 
     void stage_move(Record *record, const Point &p) {
         staged_.emplace_back(record, p);
-        const deldrift_status status = deldrift_move_vertex(t_.native(), record->id, numbers_of<D>(p).data());
+        const deldrift_status status = deldrift_move_vertex(t_.native(), record->id, numbers_of(p).data());
         if (status != DELDRIFT_OK) staged_.pop_back();
         require_ok(status);
     }
@@ -270,7 +255,7 @@ private:
                 } else {
                     add(p, info);
                 }
-                places.push_back(numbers_of<D>(p));
+                places.push_back(numbers_of(p));
             }
             if (t_.id_count() == 0) {
                 t_ = Triangulation(D, places, options());
@@ -299,7 +284,7 @@ private:
 
     // One index for each place at which there is no vertex yet.
     std::vector<std::size_t> different_places(const Vertices &vertices) const {
-        const auto place = [&](std::size_t i) { return numbers_of<D>(vertices[i].first); };
+        const auto place = [&](std::size_t i) { return numbers_of(vertices[i].first); };
         std::vector<std::size_t> order(vertices.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
@@ -310,7 +295,7 @@ private:
                     order.end());
         const auto is_taken = [&](std::size_t i) {
             const Record *record = nearest(vertices[i].first);
-            return record != nullptr && numbers_of<D>(record->point) == place(i);
+            return record != nullptr && numbers_of(record->point) == place(i);
         };
         order.erase(std::remove_if(order.begin(), order.end(), is_taken), order.end());
         std::sort(order.begin(), order.end());

@@ -2,6 +2,11 @@
 #ifndef DELDRIFT_CGAL_PLANE_HPP
 #define DELDRIFT_CGAL_PLANE_HPP
 
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
 #include "base.hpp"
 
 namespace deldrift::cgal {
@@ -79,14 +84,13 @@ struct At_edge {
 
 // K has Point_2. Info is that of vertices, or one of CGAL's data structures whose vertices have one.
 template <class K, class Info = void>
-class Delaunay_triangulation_2 : public detail::Base<2, typename K::Point_2, typename detail::Info_of<Info>::type> {
-    using Base = detail::Base<2, typename K::Point_2, typename detail::Info_of<Info>::type>;
+class Delaunay_triangulation_2 : public detail::Base<2, K, typename detail::Info_of<Info>::type> {
+    using Base = detail::Base<2, K, typename detail::Info_of<Info>::type>;
     using typename Base::Mesh;
     template <class Source>
     using handles = typename Base::template handles<Source>;
 
 public:
-    using Geom_traits = K;
     using typename Base::Point;
     using typename Base::size_type;
     using typename Base::Vertex_handle;
@@ -106,8 +110,18 @@ public:
     using Vertex_circulator = detail::Circulator<Face_handle, detail::At_vertex>;
     using Edge_circulator = detail::Circulator<Face_handle, detail::At_edge>;
 
+    // Finite ones.
+    using Vertex_iterator = typename Base::Finite_vertices_iterator;
+    using Face_iterator = Finite_faces_iterator;
+    using Edge_iterator = Finite_edges_iterator;
+    using All_edges_iterator = detail::handle_iterator<detail::All_facets<Mesh, 2>>;
+    using All_edges = handles<detail::All_facets<Mesh, 2>>;
+    using Segment = typename detail::Simplex_2<K, 2>::type;
+    using Triangle = typename detail::Simplex_2<K, 3>::type;
+    using Oriented_side = typename detail::Sides<K>::Oriented;
+
     Delaunay_triangulation_2() = default;
-    explicit Delaunay_triangulation_2(const K &) {}
+    explicit Delaunay_triangulation_2(const K &traits) : Base(traits) {}
     // Of points, or pairs or tuples of point and info, each of which is read once.
     template <class Iterator, class End, class = std::enable_if_t<detail::Is_sequence<Iterator, End>::value>>
     Delaunay_triangulation_2(Iterator first, End last) {
@@ -136,6 +150,15 @@ public:
     }
     Finite_edges_iterator finite_edges_begin() const { return finite_edges().begin(); }
     Finite_edges_iterator finite_edges_end() const { return finite_edges().end(); }
+    All_edges_iterator all_edges_begin() const { return all_edges().begin(); }
+    All_edges_iterator all_edges_end() const { return all_edges().end(); }
+    All_edges all_edges() const { return this->template all<detail::All_facets>(4 * this->n_facets_of_cells()); }
+    Vertex_iterator vertices_begin() const { return this->finite_vertices_begin(); }
+    Vertex_iterator vertices_end() const { return this->finite_vertices_end(); }
+    Face_iterator faces_begin() const { return finite_faces_begin(); }
+    Face_iterator faces_end() const { return finite_faces_end(); }
+    Edge_iterator edges_begin() const { return finite_edges_begin(); }
+    Edge_iterator edges_end() const { return finite_edges_end(); }
     Finite_edges finite_edges() const { return this->template all<detail::Finite_facets>(this->n_facets_of_cells()); }
 
     // In counter-clockwise order, infinite ones included; from a face with v, if one is given.
@@ -159,6 +182,28 @@ public:
     }
     bool is_infinite(const Edge &e) const { return is_infinite(e.first, e.second); }
     Face_handle infinite_face() const { return this->infinite_vertex().face(); }
+    // Whether these vertices, of which one may be infinite, have a common edge or face; which it is.
+    bool is_edge(Vertex_handle a, Vertex_handle b) const {
+        Face_handle f;
+        int i = 0;
+        return is_edge(a, b, f, i);
+    }
+    bool is_edge(Vertex_handle a, Vertex_handle b, Face_handle &f, int &i) const {
+        const Face_handle found = this->template cell_with<2>({a, b});
+        if (found == nullptr) return false;
+        f = found;
+        i = 3 - f.index(a) - f.index(b);
+        return true;
+    }
+    bool is_face(Vertex_handle a, Vertex_handle b, Vertex_handle c) const {
+        Face_handle f;
+        return is_face(a, b, c, f);
+    }
+    bool is_face(Vertex_handle a, Vertex_handle b, Vertex_handle c, Face_handle &f) const {
+        const Face_handle found = this->template cell_with<3>({a, b, c});
+        if (found != nullptr) f = found;
+        return found != nullptr;
+    }
     int mirror_index(Face_handle f, int i) const { return f.mirror_index(i); }
     Vertex_handle mirror_vertex(Face_handle f, int i) const { return f.neighbor(i).vertex(f.mirror_index(i)); }
     Edge mirror_edge(const Edge &e) const { return {e.first.neighbor(e.second), e.first.mirror_index(e.second)}; }
@@ -192,11 +237,100 @@ public:
     }
     Face_handle locate(const Point &p, Face_handle hint = {}) const { return this->place_of(p, hint).cell; }
 
-    // The centre of the circle through the corners of a finite face, rounded.
+    // The faces, infinite ones included, that go when p is inserted, decided exactly, and the edges around them in
+    // counter-clockwise order, each by the face that stays. There are none at the place of a vertex, nor where there
+    // are no faces. It is found fastest from a face nearby.
+    template <class Faces, class Edges>
+    std::pair<Faces, Edges> get_conflicts_and_boundary(const Point &p, Faces faces, Edges edges,
+                                                       Face_handle hint = {}) const {
+        const typename Base::Zone zone(this->mesh(), p, hint);
+        const std::vector<Edge> ring = ring_of(zone);
+        return {std::copy(zone.cells().begin(), zone.cells().end(), faces), std::copy(ring.begin(), ring.end(), edges)};
+    }
+    template <class Faces>
+    Faces get_conflicts(const Point &p, Faces faces, Face_handle hint = {}) const {
+        const typename Base::Zone zone(this->mesh(), p, hint);
+        return std::copy(zone.cells().begin(), zone.cells().end(), faces);
+    }
+    template <class Edges>
+    Edges get_boundary_of_conflicts(const Point &p, Edges edges, Face_handle hint = {}) const {
+        const std::vector<Edge> ring = ring_of(typename Base::Zone(this->mesh(), p, hint));
+        return std::copy(ring.begin(), ring.end(), edges);
+    }
+    // Inserts p, of which these are all faces and edges that get_conflicts_and_boundary gives; throws Error if they are
+    // not.
+    template <class Edges, class Faces>
+    Vertex_handle star_hole(const Point &p, Edges, Edges, Faces first, Faces last) {
+        return this->insert_in_zone(p, first, last);
+    }
+
+    // On which side of the circle through the corners, decided exactly; of an infinite face, of its edge of the hull.
+    Oriented_side side_of_oriented_circle(Face_handle f, const Point &p) const {
+        return static_cast<Oriented_side>(detail::side_of_sphere<Mesh, 2>(f, this->mesh(), Mesh::numbers_of(p)));
+    }
+    // On which side of the boundary of a finite face.
+    Oriented_side oriented_side(Face_handle f, const Point &p) const {
+        int least = 1;
+        for (std::uint32_t i = 0; i < 3; i++) {
+            least = std::min(least, detail::side_of_facet<Mesh, 2>(f, i, Mesh::numbers_of(p)));
+        }
+        return static_cast<Oriented_side>(least);
+    }
+
+    const Point &point(Vertex_handle v) const { return v.point(); }
+    const Point &point(Face_handle f, int i) const { return f.vertex(i).point(); }
+    Triangle triangle(Face_handle f) const { return Triangle(point(f, 0), point(f, 1), point(f, 2)); }
+    Segment segment(Face_handle f, int i) const { return Segment(point(f, ccw(i)), point(f, cw(i))); }
+    Segment segment(const Edge &e) const { return segment(e.first, e.second); }
+
+    // The centre of the circle through the corners of a finite face, rounded; by the kernel's
+    // construct_circumcenter_2_object, if it has that.
     Point dual(Face_handle f) const { return this->centre_of(f); }
     Point circumcenter(Face_handle f) const { return this->centre_of(f); }
+    // The edge of the Voronoi diagram across a finite edge: a segment, or a ray. The kernel is one of CGAL's.
+    template <class Traits = K>
+    typename Traits::Object_2 dual(const Edge &e) const {
+        typename Traits::Object_2 object;
+        const auto keep = [&](const auto &of_voronoi) {
+            object = this->geom_traits().construct_object_2_object()(of_voronoi);
+        };
+        visit_dual(e, keep);
+        return object;
+    }
+    // `stream << edge` for each edge of the Voronoi diagram.
+    template <class Stream>
+    Stream &draw_dual(Stream &stream) const {
+        for (const Edge &e : finite_edges()) visit_dual(e, [&](const auto &of_voronoi) { stream << of_voronoi; });
+        return stream;
+    }
 
 private:
+    // From the edge whose first vertex is the lowest.
+    static std::vector<Edge> ring_of(const typename Base::Zone &zone) {
+        std::map<Vertex_handle, Edge> from;
+        for (const auto &[f, i] : zone.boundary()) {
+            from.emplace(f.vertex(ccw(i)), Edge(f.neighbor(i), f.mirror_index(i)));
+        }
+        std::vector<Edge> ring;
+        for (auto at = from.begin(); ring.size() < from.size();) {
+            const Edge &e = at->second;
+            ring.push_back(e);
+            at = from.find(e.first.vertex(ccw(e.second)));
+        }
+        return ring;
+    }
+    template <class Visit>
+    void visit_dual(const Edge &e, Visit visit) const {
+        const auto &traits = this->geom_traits();
+        const Edge other = mirror_edge(e);
+        if (!is_infinite(e.first) && !is_infinite(other.first)) {
+            visit(traits.construct_segment_2_object()(dual(e.first), dual(other.first)));
+        } else {
+            const auto &[f, i] = is_infinite(e.first) ? other : e;
+            const auto away = traits.construct_bisector_2_object()(point(f, cw(i)), point(f, ccw(i)));
+            visit(traits.construct_ray_2_object()(dual(f), away));
+        }
+    }
     static Face_handle first_face(Vertex_handle v, Face_handle f) { return f == nullptr ? v.face() : f; }
 };
 

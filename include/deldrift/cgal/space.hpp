@@ -3,161 +3,28 @@
 #define DELDRIFT_CGAL_SPACE_HPP
 
 #include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "base.hpp"
+#include "edges.hpp"
+#include "links.hpp"
 
 namespace deldrift::cgal {
 
-namespace detail {
-
-// Three values, as CGAL names them.
-template <class First, class Second, class Third>
-struct Triple {
-    First first;
-    Second second;
-    Third third;
-    friend bool operator==(const Triple &a, const Triple &b) noexcept {
-        return a.first == b.first && a.second == b.second && a.third == b.third;
-    }
-    friend bool operator!=(const Triple &a, const Triple &b) noexcept { return !(a == b); }
-};
-
-// For corners i and j, the corner k by which i, j, k and the fourth one, l, are an even permutation: from a cell one
-// turns around the edge from i to j, counter-clockwise, through the facet opposite k.
-inline int next_around_edge(int i, int j) noexcept {
-    static constexpr signed char next[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
-    return next[i][j];
-}
-
-// The cells around the edge from s to t, without an end. At gives what it stands for, from a cell and the corners of s
-// and t in it.
-template <class Cell_handle, class At>
-class Edge_circulator_3 {
-    using Vertex_handle = typename Cell_handle::Vertex;
-
-public:
-    using value_type = std::decay_t<decltype(std::declval<At>()(std::declval<Cell_handle>(), 0, 0))>;
-    using reference = value_type;
-    using pointer = arrow<value_type>;
-    using difference_type = std::ptrdiff_t;
-    using size_type = std::size_t;
-    using iterator_category = std::bidirectional_iterator_tag;
-
-    Edge_circulator_3() = default;
-    Edge_circulator_3(Vertex_handle s, Vertex_handle t, Cell_handle c) : s_(s), t_(t), c_(c) {}
-    value_type operator*() const { return At()(c_, c_.index(s_), c_.index(t_)); }
-    pointer operator->() const { return pointer(**this); }
-    operator value_type() const { return **this; }
-    Edge_circulator_3 &operator++() {
-        c_ = c_.neighbor(next_around_edge(c_.index(s_), c_.index(t_)));
-        return *this;
-    }
-    Edge_circulator_3 &operator--() {
-        c_ = c_.neighbor(next_around_edge(c_.index(t_), c_.index(s_)));
-        return *this;
-    }
-    Edge_circulator_3 operator++(int) {
-        Edge_circulator_3 before = *this;
-        ++*this;
-        return before;
-    }
-    Edge_circulator_3 operator--(int) {
-        Edge_circulator_3 before = *this;
-        --*this;
-        return before;
-    }
-    friend bool operator==(const Edge_circulator_3 &a, const Edge_circulator_3 &b) noexcept { return a.c_ == b.c_; }
-    friend bool operator!=(const Edge_circulator_3 &a, const Edge_circulator_3 &b) noexcept { return !(a == b); }
-    friend bool operator==(const Edge_circulator_3 &a, std::nullptr_t) noexcept { return a.c_ == nullptr; }
-    friend bool operator!=(const Edge_circulator_3 &a, std::nullptr_t) noexcept { return a.c_ != nullptr; }
-
-private:
-    Vertex_handle s_, t_;
-    Cell_handle c_;
-};
-
-struct At_cell {
-    template <class Cell_handle>
-    Cell_handle operator()(Cell_handle c, int, int) const {
-        return c;
-    }
-};
-struct At_facet {
-    template <class Cell_handle>
-    std::pair<Cell_handle, int> operator()(Cell_handle c, int i, int j) const {
-        return {c, next_around_edge(i, j)};
-    }
-};
-
-// Asks for what is about to be read; cells around a vertex may lie anywhere.
-inline void prefetch(const void *place) noexcept {
-#ifdef __GNUC__
-    __builtin_prefetch(place);
-#else
-    (void)place;
-#endif
-}
-
-// The different ids of the corners of a star of few cells, without that of its vertex.
-class Few_ids {
-public:
-    // There are two more corners than cells at most.
-    static constexpr std::size_t max_cells = 96;
-
-    explicit Few_ids(std::uint32_t vertex) noexcept {
-        std::fill_n(table_, size, DELDRIFT_NONE);
-        enter(vertex);
-    }
-    // Whether an id is new is random, so nothing branches on it.
-    void enter(std::uint32_t id) noexcept {
-        std::size_t at = id * 2654435769u >> 24;
-        while (table_[at] != id && table_[at] != DELDRIFT_NONE) at = (at + 1) % size;
-        ids_[n_] = id;
-        n_ += table_[at] != id;
-        table_[at] = id;
-    }
-    const std::uint32_t *begin() const noexcept { return ids_ + 1; }
-    const std::uint32_t *end() const noexcept { return ids_ + n_; }
-
-private:
-    static constexpr std::size_t size = 256;
-    std::uint32_t table_[size], ids_[max_cells + 4];
-    std::size_t n_ = 0;
-};
-
-// Corners of the six edges of a cell.
-inline constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-// Edges of finite cells, each one once: from the cell of the lowest index around it.
-template <class Mesh, std::uint32_t D>
-struct Finite_edges_3 {
-    const Mesh *mesh = nullptr;
-    Triple<Cell_handle<Mesh, D>, int, int> operator()(std::size_t k) const {
-        return {{mesh, static_cast<std::uint32_t>(k / 6)}, edge_corners[k % 6][0], edge_corners[k % 6][1]};
-    }
-    bool selects(std::size_t k) const {
-        const auto [first, i, j] = (*this)(k);
-        Edge_circulator_3<Cell_handle<Mesh, D>, At_cell> around(first.vertex(i), first.vertex(j), first);
-        while (*++around != first) {
-            const Cell_handle<Mesh, D> c = *around;
-            if (!c.is_infinite() && c < first) return false;
-        }
-        return true;
-    }
-};
-
-}  // namespace detail
-
-// K has Point_3. Info is that of vertices, or one of CGAL's data structures whose vertices have one.
-template <class K, class Info = void>
-class Delaunay_triangulation_3 : public detail::Base<3, typename K::Point_3, typename detail::Info_of<Info>::type> {
-    using Base = detail::Base<3, typename K::Point_3, typename detail::Info_of<Info>::type>;
+// K has Point_3. Info is that of vertices, or one of CGAL's data structures whose vertices have one. What CGAL has
+// behind it, how to locate points and whether to lock, has no meaning here.
+template <class K, class Info = void, class = void, class = void>
+class Delaunay_triangulation_3 : public detail::Base<3, K, typename detail::Info_of<Info>::type> {
+    using Base = detail::Base<3, K, typename detail::Info_of<Info>::type>;
     using typename Base::Mesh;
     template <class Source>
     using handles = typename Base::template handles<Source>;
 
 public:
-    using Geom_traits = K;
     using typename Base::Point;
     using typename Base::size_type;
     using typename Base::Vertex_handle;
@@ -179,8 +46,22 @@ public:
     using Cell_circulator = detail::Edge_circulator_3<Cell_handle, detail::At_cell>;
     using Facet_circulator = detail::Edge_circulator_3<Cell_handle, detail::At_facet>;
 
+    using All_facets_iterator = detail::handle_iterator<detail::All_facets<Mesh, 3>>;
+    using All_facets = handles<detail::All_facets<Mesh, 3>>;
+    using All_edges_iterator = detail::handle_iterator<detail::All_edges_3<Mesh, 3>>;
+    using All_edges = handles<detail::All_edges_3<Mesh, 3>>;
+    // All, infinite ones included.
+    using Vertex_iterator = typename Base::All_vertices_iterator;
+    using Cell_iterator = All_cells_iterator;
+    using Facet_iterator = All_facets_iterator;
+    using Edge_iterator = All_edges_iterator;
+    using Segment = typename detail::Simplex_3<K, 2>::type;
+    using Triangle = typename detail::Simplex_3<K, 3>::type;
+    using Tetrahedron = typename detail::Simplex_3<K, 4>::type;
+    using Bounded_side = typename detail::Sides<K>::Bounded;
+
     Delaunay_triangulation_3() = default;
-    explicit Delaunay_triangulation_3(const K &) {}
+    explicit Delaunay_triangulation_3(const K &traits) : Base(traits) {}
     // Of points, or pairs or tuples of point and info, each of which is read once.
     template <class Iterator, class End, class = std::enable_if_t<detail::Is_sequence<Iterator, End>::value>>
     Delaunay_triangulation_3(Iterator first, End last) {
@@ -189,6 +70,22 @@ public:
 
     const Point &point(Vertex_handle v) const { return v.point(); }
     const Point &point(Cell_handle c, int i) const { return c.vertex(i).point(); }
+    Segment segment(Cell_handle c, int i, int j) const { return Segment(point(c, i), point(c, j)); }
+    Segment segment(const Edge &e) const { return segment(e.first, e.second, e.third); }
+    // Its corners are counter-clockwise as seen from the cell.
+    Triangle triangle(Cell_handle c, int i) const {
+        const auto corner = [i](int k) { return vertex_triple_index(i, k); };
+        return Triangle(point(c, corner(0)), point(c, corner(1)), point(c, corner(2)));
+    }
+    Triangle triangle(const Facet &f) const { return triangle(f.first, f.second); }
+    Tetrahedron tetrahedron(Cell_handle c) const {
+        return Tetrahedron(point(c, 0), point(c, 1), point(c, 2), point(c, 3));
+    }
+
+    // The corner k by which i, j, k and the fourth one are an even permutation; the k-th corner of the facet opposite
+    // i, counter-clockwise as seen from there, the lowest first.
+    static int next_around_edge(int i, int j) noexcept { return detail::next_around_edge(i, j); }
+    static int vertex_triple_index(int i, int k) noexcept { return detail::corner_of_facet(i, k); }
 
     size_type number_of_finite_cells() const { return this->n_cells(); }
     size_type number_of_cells() const { return this->n_cells() + n_hull_facets(); }
@@ -197,6 +94,11 @@ public:
     size_type number_of_finite_edges() const {
         const size_type n = this->n_cells();
         return n == 0 ? 0 : this->number_of_vertices() + number_of_finite_facets() - n - 1;
+    }
+    size_type number_of_facets() const { return 2 * number_of_cells(); }
+    // Of the hull there are as many edges as half of its facets' sides, and by Euler's relation two more vertices.
+    size_type number_of_edges() const {
+        return this->n_cells() == 0 ? 0 : number_of_finite_edges() + n_hull_facets() / 2 + 2;
     }
 
     Finite_cells_iterator finite_cells_begin() const { return finite_cell_handles().begin(); }
@@ -216,17 +118,44 @@ public:
     Finite_edges_iterator finite_edges_end() const { return finite_edges().end(); }
     Finite_edges finite_edges() const { return this->template all<detail::Finite_edges_3>(6 * this->n_cells()); }
 
-    // Of a finite vertex, to an output iterator, in no particular order; infinite ones included, except where the name
-    // says otherwise.
+    All_facets_iterator all_facets_begin() const { return all_facets().begin(); }
+    All_facets_iterator all_facets_end() const { return all_facets().end(); }
+    All_facets all_facets() const { return this->template all<detail::All_facets>(5 * this->n_facets_of_cells()); }
+    All_edges_iterator all_edges_begin() const { return all_edges().begin(); }
+    All_edges_iterator all_edges_end() const { return all_edges().end(); }
+    All_edges all_edges() const { return this->template all<detail::All_edges_3>(22 * this->n_cells()); }
+    Vertex_iterator vertices_begin() const { return this->all_vertices_begin(); }
+    Vertex_iterator vertices_end() const { return this->all_vertices_end(); }
+    Cell_iterator cells_begin() const { return all_cells_begin(); }
+    Cell_iterator cells_end() const { return all_cells_end(); }
+    Facet_iterator facets_begin() const { return all_facets_begin(); }
+    Facet_iterator facets_end() const { return all_facets_end(); }
+    Edge_iterator edges_begin() const { return all_edges_begin(); }
+    Edge_iterator edges_end() const { return all_edges_end(); }
+
+    // Of a vertex, to an output iterator, in no particular order; infinite ones included, except where the name says
+    // otherwise. Those of the infinite vertex are found in a pass over all cells.
     template <class Output>
     Output incident_cells(Vertex_handle v, Output out) const {
-        for (Cell_handle c : star(v, true)) *out++ = c;
+        for (Cell_handle c : this->star(v, true)) *out++ = c;
         return out;
     }
     template <class Output>
     Output finite_incident_cells(Vertex_handle v, Output out) const {
-        for (Cell_handle c : star(v, false)) *out++ = c;
+        for (Cell_handle c : this->star(v, false)) *out++ = c;
         return out;
+    }
+    template <class Output>
+    Output incident_vertices(Vertex_handle v, Output out) const {
+        return adjacent_vertices(v, out);
+    }
+    template <class Output>
+    Output incident_edges(Vertex_handle v, Output out) const {
+        return edges_of(v, true, out);
+    }
+    template <class Output>
+    Output finite_incident_edges(Vertex_handle v, Output out) const {
+        return edges_of(v, false, out);
     }
     template <class Output>
     Output adjacent_vertices(Vertex_handle v, Output out) const {
@@ -252,11 +181,47 @@ public:
         return n;
     }
 
-    // Around an edge, infinite cells included.
+    // Around an edge, infinite cells included; from the edge's cell, or another one, or one of its facets.
     Cell_circulator incident_cells(Cell_handle c, int i, int j) const { return {c.vertex(i), c.vertex(j), c}; }
     Cell_circulator incident_cells(const Edge &e) const { return incident_cells(e.first, e.second, e.third); }
+    Cell_circulator incident_cells(Cell_handle c, int i, int j, Cell_handle start) const {
+        return {c.vertex(i), c.vertex(j), start};
+    }
+    Cell_circulator incident_cells(const Edge &e, Cell_handle start) const {
+        return incident_cells(e.first, e.second, e.third, start);
+    }
     Facet_circulator incident_facets(Cell_handle c, int i, int j) const { return {c.vertex(i), c.vertex(j), c}; }
     Facet_circulator incident_facets(const Edge &e) const { return incident_facets(e.first, e.second, e.third); }
+    Facet_circulator incident_facets(Cell_handle c, int i, int j, Cell_handle start, int k) const {
+        const Vertex_handle s = c.vertex(i), t = c.vertex(j);
+        // A facet is that of the cell from which one turns through it.
+        const bool is_of_start = next_around_edge(start.index(s), start.index(t)) == k;
+        return {s, t, is_of_start ? start : start.neighbor(k)};
+    }
+    Facet_circulator incident_facets(Cell_handle c, int i, int j, const Facet &start) const {
+        return incident_facets(c, i, j, start.first, start.second);
+    }
+    Facet_circulator incident_facets(const Edge &e, const Facet &start) const {
+        return incident_facets(e.first, e.second, e.third, start);
+    }
+
+    // Whether these vertices, of which one may be infinite, have a common edge, facet or cell; which corners they are
+    // of a cell with it.
+    bool is_edge(Vertex_handle a, Vertex_handle b, Cell_handle &c, int &i, int &j) const {
+        return are_in_cell<2>({a, b}, c, {&i, &j});
+    }
+    bool is_edge(Vertex_handle a, Vertex_handle b) const { return this->template cell_with<2>({a, b}) != nullptr; }
+    bool is_facet(Vertex_handle a, Vertex_handle b, Vertex_handle d, Cell_handle &c, int &i, int &j, int &k) const {
+        return are_in_cell<3>({a, b, d}, c, {&i, &j, &k});
+    }
+    bool is_cell(Vertex_handle a, Vertex_handle b, Vertex_handle d, Vertex_handle e, Cell_handle &c, int &i, int &j,
+                 int &k, int &l) const {
+        return are_in_cell<4>({a, b, d, e}, c, {&i, &j, &k, &l});
+    }
+    bool is_cell(Vertex_handle a, Vertex_handle b, Vertex_handle d, Vertex_handle e, Cell_handle &c) const {
+        int i = 0, j = 0, k = 0, l = 0;
+        return is_cell(a, b, d, e, c, i, j, k, l);
+    }
 
     using Base::is_infinite;
     bool is_infinite(Cell_handle c) const noexcept { return c.is_infinite(); }
@@ -308,32 +273,68 @@ public:
     }
     Cell_handle locate(const Point &p, Cell_handle hint = {}) const { return this->place_of(p, hint).cell; }
 
-    // The centre of the sphere through the corners of a finite cell, rounded.
+    // The centre of the sphere through the corners of a finite cell, rounded; by the kernel's
+    // construct_circumcenter_3_object, if it has that.
     Point dual(Cell_handle c) const { return this->centre_of(c); }
+    // Inside of the sphere of a finite cell, outside or on it, decided exactly; of an infinite one, beyond its facet.
+    Bounded_side side_of_sphere(Cell_handle c, const Point &p) const {
+        return static_cast<Bounded_side>(detail::side_of_sphere<Mesh, 3>(c, this->mesh(), Mesh::numbers_of(p)));
+    }
+
+    // The cells, infinite ones included, that go when p is inserted, decided exactly, and the facets of these that they
+    // have in common with others; then, if wanted, those that they have in common with each other. There are none at
+    // the place of a vertex, nor where there are no cells. It is found fastest from a cell nearby.
+    template <class Facets, class Cells>
+    std::pair<Facets, Cells> find_conflicts(const Point &p, Cell_handle hint, Facets facets, Cells cells) const {
+        const typename Base::Zone zone(this->mesh(), p, hint);
+        for (const Facet &f : zone.boundary()) *facets++ = f;
+        for (Cell_handle c : zone.cells()) *cells++ = c;
+        return {facets, cells};
+    }
+    template <class Facets, class Cells, class Interior>
+    detail::Triple<Facets, Cells, Interior> find_conflicts(const Point &p, Cell_handle hint, Facets facets, Cells cells,
+                                                           Interior interior) const {
+        const typename Base::Zone zone(this->mesh(), p, hint);
+        for (const Facet &f : zone.boundary()) *facets++ = f;
+        for (Cell_handle c : zone.cells()) *cells++ = c;
+        for (const Facet &f : zone.inner_facets()) *interior++ = f;
+        return {facets, cells, interior};
+    }
+    template <class Output>
+    Output vertices_on_conflict_zone_boundary(const Point &p, Cell_handle hint, Output out) const {
+        std::set<Vertex_handle> vertices;
+        for (const auto &[c, i] : typename Base::Zone(this->mesh(), p, hint).boundary()) {
+            for (int k = 1; k < 4; k++) vertices.insert(c.vertex((i + k) % 4));
+        }
+        return std::copy(vertices.begin(), vertices.end(), out);
+    }
+    // Inserts p, of which these are all cells that find_conflicts gives; throws Error if they are not.
+    template <class Cells>
+    Vertex_handle insert_in_hole(const Point &p, Cells first, Cells last, Cell_handle, int) {
+        return this->insert_in_zone(p, first, last);
+    }
 
 private:
+    template <std::size_t N>
+    bool are_in_cell(const std::array<Vertex_handle, N> &vertices, Cell_handle &c,
+                     const std::array<int *, N> &corners) const {
+        const Cell_handle found = this->template cell_with<N>(vertices);
+        if (found == nullptr) return false;
+        c = found;
+        for (std::size_t i = 0; i < N; i++) *corners[i] = c.index(vertices[i]);
+        return true;
+    }
     size_type n_hull_facets() const {
         const std::uint32_t *first = this->mesh()->cells().neighbours;
         return static_cast<size_type>(std::count(first, first + this->n_facets_of_cells(), DELDRIFT_NONE));
     }
-    std::vector<Cell_handle> star(Vertex_handle v, bool with_infinite) const {
-        const typename Mesh::Star star(*this->mesh(), v.id());
-        const deldrift_cells_view &rows = this->mesh()->cells();
-        std::vector<Cell_handle> cells;
-        cells.reserve(star.size() + 8);
-        for (std::uint32_t index : star) {
-            const Cell_handle c(this->mesh(), index);
-            cells.push_back(c);
-            for (int i = 0; with_infinite && i < 4; i++) {
-                const std::size_t k = std::size_t{index} * 4 + static_cast<std::size_t>(i);
-                if (rows.neighbours[k] == DELDRIFT_NONE && rows.vertices[k] != v.id()) cells.push_back(c.neighbor(i));
-            }
-        }
-        return cells;
-    }
     // Calls visit with each neighbour of a vertex, once.
     template <class Visit>
     void visit_link(Vertex_handle v, bool with_infinite, Visit visit) const {
+        if (this->is_infinite(v)) {
+            visit_hull(visit);
+            return;
+        }
         const typename Mesh::Star star(*this->mesh(), v.id());
         const deldrift_cells_view &cells = this->mesh()->cells();
         const auto &by_id = this->mesh()->by_id();
@@ -358,6 +359,28 @@ private:
         }
         if (with_infinite && is_on_hull(v, star)) visit(this->infinite_vertex());
     }
+    template <class Visit>
+    void visit_hull(Visit visit) const {
+        std::set<Vertex_handle> vertices;
+        for (Cell_handle c : this->star(this->infinite_vertex(), true)) {
+            for (int i = 0; i < 4; i++) vertices.insert(c.vertex(i));
+        }
+        for (Vertex_handle v : vertices) {
+            if (!this->is_infinite(v)) visit(v);
+        }
+    }
+    // Each one once, of the first cell of the star that has it.
+    template <class Output>
+    Output edges_of(Vertex_handle v, bool with_infinite, Output out) const {
+        std::set<Vertex_handle> others;
+        for (Cell_handle c : this->star(v, with_infinite)) {
+            for (int i = 0; i < 4; i++) {
+                const bool is_new = c.vertex(i) != v && others.insert(c.vertex(i)).second;
+                if (is_new && (with_infinite || !this->is_infinite(c.vertex(i)))) *out++ = Edge(c, c.index(v), i);
+            }
+        }
+        return out;
+    }
     bool is_on_hull(Vertex_handle v, const typename Mesh::Star &star) const {
         const deldrift_cells_view &cells = this->mesh()->cells();
         bool is_on_hull = false;
@@ -372,7 +395,7 @@ private:
     // Each one once, from the lower of its two cells; if only finite ones are wanted, infinite cells have none.
     template <class Output>
     Output facets_of(Vertex_handle v, bool with_infinite, Output out) const {
-        for (Cell_handle c : star(v, with_infinite)) {
+        for (Cell_handle c : this->star(v, with_infinite)) {
             for (int i = 0; i < 4; i++) {
                 if (c.vertex(i) == v) continue;
                 const Cell_handle other = c.neighbor(i);
