@@ -10,7 +10,7 @@ from typing import Any, Callable, Mapping, Optional, TypeVar
 import numpy as np
 
 from . import _library
-from ._arrays import COUNTS_REFERENCES, Handle, Lease, Released, Version, address, choice, taken
+from ._arrays import COUNTS_REFERENCES, Handle, Lease, Released, Version, address, choice, taken, whole
 from ._callbacks import Callbacks
 from ._errors import Busy, Closed, InternalError, InvalidOption, raise_for
 
@@ -36,13 +36,14 @@ def check(status: int, names: Mapping[str, str] = NO_NAMES, callbacks: Optional[
 
 def make_options(algorithm: str, threads: int, coincidence: str, callbacks: Optional[Callbacks]) -> _library.Options:
     """deldrift_options of Python's arguments."""
-    if not isinstance(threads, int) or not 0 <= threads < 1 << 32:
+    number = whole("threads", threads)
+    if not 0 <= number < 1 << 32:
         raise InvalidOption(
-            f"threads is {threads!r}, and must be a number of threads, or 0 for all that pay", "threads"
+            f"threads is {number}, and must be a number of threads, or 0 for all that pay", "threads", None, number
         )
     options = _library.Options(ctypes.sizeof(_library.Options))
     options.algorithm = choice("algorithm", algorithm, _library.ALGORITHMS, InvalidOption)
-    options.threads = threads
+    options.threads = number
     options.coincidence = choice("coincidence", coincidence, _library.COINCIDENCES, InvalidOption)
     if callbacks is not None:
         options.progress, options.cancel = callbacks.on_progress, callbacks.on_cancel

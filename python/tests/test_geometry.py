@@ -240,3 +240,38 @@ def test_sizes(tri):
     assert tri.nvertices == 150
     assert tri.nbytes > 150 * tri.ndim * 8
     assert repr(tri) == f"<deldrift.Delaunay of 150 points in {tri.ndim}D, {tri.nsimplex} simplices>"
+
+
+def test_everything_of_no_points(ndim, tmp_path):
+    tri = deldrift.Delaunay(np.empty((0, ndim)))
+    low, high = np.zeros(ndim), np.ones(ndim)
+    for empty in (
+        *(
+            tri.volumes(),
+            tri.edges(),
+            *tri.boundary(),
+            *tri.circumcentres(),
+            tri.transform,
+            tri.equations,
+            tri.coplanar,
+        ),
+        *(tri.vertices_in_box(low, high), tri.vertices_in_ball(low, np.inf), tri.mask_without_flat(0), *tri.changes()),
+        *(tri.alpha_mask(1), tri.mirror_indices(), tri.voronoi_volumes((low, high)), tri.voronoi_facets((low, high))),
+        *(
+            tri.simplices_with(np.empty((0, 2), int)),
+            tri.simplices_around([]),
+            tri.conflicts(low),
+            tri.vertex_to_simplex,
+        ),
+    ):
+        assert len(empty) == 0
+    assert tri.vertex_neighbor_vertices[0].tolist() == tri.vertex_simplices()[0].tolist() == [0]
+    assert tri.find_simplex(low) == tri.find_simplex(low, tol=1) == -1
+    assert np.isnan(tri.interpolate([], [low])) and np.isnan(tri.barycentric([low])).all()
+    assert tri.locate(low) == (3, -1)
+    assert tri.nearest_vertices([low], k=2).tolist() == [[-1, -1]]
+    assert tri.plane_distance(low).shape == (0,)
+    tri.save(tmp_path / "nothing")
+    assert deldrift.load(tmp_path / "nothing").ndim == ndim
+    tri.validate()
+    assert tri.move(np.empty((0, ndim))).moved == 0
