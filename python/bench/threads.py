@@ -1,4 +1,4 @@
-"""Whether threads that work on triangulations of their own hinder each other: `python python/bench/threads.py [THREADS]`.
+"""Whether threads that work on triangulations of their own hinder each other: `python bench/threads.py [THREADS]`.
 
 Threads are compared with as many processes that do the same, in turn, so that other load on the machine meets both. 1.0
 is as fast as processes, which have no lock in common.
