@@ -22,6 +22,7 @@ from scipy import spatial
 
 import deldrift
 from deldrift import _library
+from step import step
 
 HERE = pathlib.Path(__file__).resolve().parent
 SPACINGS = 1e-3
@@ -32,12 +33,6 @@ def seconds(run):
     start = time.perf_counter()
     result = run()
     return time.perf_counter() - start, result
-
-
-def cpu_seconds(run):
-    start = time.thread_time()
-    run()
-    return time.thread_time() - start
 
 
 def points_of(count, ndim, seed=1):
@@ -52,11 +47,6 @@ def frames_of(count, ndim, amplitude, number):
     for _ in range(number):
         frames.append(frames[-1] + scale * rng.standard_normal((count, ndim)))
     return np.array(frames)
-
-
-def step(tri, positions):
-    tri.move(positions)
-    return tri.simplices, tri.neighbors, tri.changes()
 
 
 def beside_scipy(count, ndim, rounds):
@@ -96,24 +86,21 @@ def one_beside_c(ndim, amplitude, scratch, number=50):
     with open(data, "wb") as file:
         np.array([ndim, 100_000, len(frames)], np.uint64).tofile(file)
         frames.tofile(file)
-    tri = deldrift.Delaunay(frames[0], threads=1)
-    step(tri, frames[0])
-    of_c, of_python = [], []
-    with subprocess.Popen([scratch / "step", data], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-
-        def step_in_c():
-            process.stdin.write(b"\n")
-            process.stdin.flush()
-            return float(process.stdout.readline())
-
-        for k in range(1, len(frames) - BLOCK, BLOCK):
-            block = frames[k : k + BLOCK]
-            of_c.append([step_in_c() for _ in block])
-            of_python.append([cpu_seconds(lambda: step(tri, positions)) for positions in block])
+    commands = [scratch / "step", data], [sys.executable, HERE / "step.py", data]
+    processes = [subprocess.Popen(each, stdin=subprocess.PIPE, stdout=subprocess.PIPE) for each in commands]
+    blocks = [[[asked(process) for _ in range(BLOCK)] for process in processes] for _ in range(number // BLOCK)]
+    for process in processes:
+        process.communicate()
     # The first block finds out which algorithm pays, and the first step of each finds caches with what is the other's.
-    of_c, of_python = np.array(of_c)[1:, 1:], np.array(of_python)[1:, 1:]
-    ratio = np.median(np.median(of_python, axis=1) / np.median(of_c, axis=1))
-    return np.median(of_c), np.median(of_python), ratio
+    medians = np.median(np.array(blocks)[1:, :, 1:], axis=2)
+    return *np.median(medians, axis=0), np.median(medians[:, 1] / medians[:, 0])
+
+
+def asked(process):
+    """How long the next step of a process takes."""
+    process.stdin.write(b"\n")
+    process.stdin.flush()
+    return float(process.stdout.readline())
 
 
 def compile_step(scratch):
