@@ -48,6 +48,7 @@ test: ## all tests, two steps at a time: Rust; C, C++, valgrind, sanitizers; ins
 	@.ci/packages $(BENCHMARK_NEEDS) $(PAGE_NEEDS) $(EXAMPLE_NEEDS) pkg-config valgrind dpkg-dev
 	-@.ci/packages chromium
 	-@.ci/packages libtet1.5-dev
+	-@.ci/packages libqhull-dev
 	-@.ci/packages clang lld mold
 	tests/run
 
@@ -145,6 +146,7 @@ examples: library ## all examples, and their pictures in docs; particle finite e
 	build/examples/solver docs/solver.svg
 	build/examples/tour
 	build/examples/comparison
+	build/examples/plate
 	build/examples/heat 4000 100 docs/heat.svg
 	build/examples/smoothing 60 docs/smoothing.svg
 	build/examples/densities 1225 docs/densities.svg
@@ -207,6 +209,9 @@ compat: library ## Triangle's and TetGen's calling conventions: libdeldrift_tria
 demo: ## finite-element programs of others run with deldrift in place of Triangle, TetGen, qhull; needs a network
 	-@.ci/packages libgetfem-dev python3-getfem
 	-@.ci/packages python3-matplotlib
+	-@.ci/packages libqhull-dev
+	-@.ci/packages octave
+	-@.ci/packages gdal-bin
 	$(MAKE) compat
 	compat/demo/run build/compat $(ARGS)
 

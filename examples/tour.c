@@ -85,6 +85,74 @@ static void ask_for_places(const deldrift_triangulation *t) {
     expect(tolerance > 0 && tolerance < 1.0 / SIDE, "a vertex may move by less than the spacing");
 }
 
+static void ask_what_is_near(deldrift_triangulation *t) {
+    static double positions[2 * VERTICES];
+    static uint32_t found[MOST];
+    const double place[] = {0.3, 0.7}, width = 2.0 / SIDE;
+    const double low[] = {place[0] - width, -INFINITY}, high[] = {place[0] + width, INFINITY};
+    uint32_t nearest, near[6], vertex;
+    size_t count, n_between = 0, n_cells, n_conflicts;
+    check(deldrift_copy_positions(t, positions, VERTICES, &count));
+    check(deldrift_nearest_vertex(t, place, &nearest));
+    check(deldrift_nearest_vertices(t, place, 1, 6, near));
+    const double *farthest = positions + 2 * near[5];
+    const double radius = hypot(farthest[0] - place[0], farthest[1] - place[1]);
+    check(deldrift_vertices_in_ball(t, place, 1.000001 * radius * radius, found, MOST, &count));
+    expect(near[0] == nearest && count == 6, "the six nearest vertices are those in the circle to the sixth");
+    for (size_t v = 0; v < VERTICES; v++) n_between += low[0] <= positions[2 * v] && positions[2 * v] <= high[0];
+    check(deldrift_vertices_in_box(t, low, high, found, MOST, &count));
+    expect(count == n_between && count > SIDE, "a strip is a box without an end");
+
+    // A vertex here would remove some triangles, and have two more around it.
+    check(deldrift_conflicts(t, place, NULL, found, MOST, &n_conflicts));
+    check(deldrift_cell_count(t, &n_cells));
+    check(deldrift_insert_vertex(t, place, &vertex));
+    check(deldrift_star(t, vertex, NULL, 0, &count));
+    expect(count == n_conflicts + 2, "what an insertion would do is known before");
+    check(deldrift_remove_vertex(t, vertex));
+    check(deldrift_compact(t, NULL, 0, &count));
+    check(deldrift_cell_count(t, &count));
+    expect(count == n_cells, "and undone by a removal");
+}
+
+static void ask_for_corners(deldrift_triangulation *t) {
+    static double positions[2 * VERTICES];
+    static uint32_t cells[VERTICES];
+    static uint8_t mask[MOST];
+    const double place[] = {0.3, 0.7};
+    uint32_t edge_cells[2], twin, hidden, shown;
+    double weights[3], there[2] = {0, 0};
+    size_t count;
+    check(deldrift_copy_positions(t, positions, VERTICES, &count));
+    check(deldrift_cell_of_each_vertex(t, cells, VERTICES, &count));
+    deldrift_cells_view view;
+    check(deldrift_cells(t, &view));
+    const uint32_t *row = view.vertices + 3 * cells[7];
+    expect(row[0] == 7 || row[1] == 7 || row[2] == 7, "each vertex has a triangle");
+    const uint32_t pairs[] = {row[0], row[1], 0, VERTICES - 1};
+    check(deldrift_find_simplices(t, 2, pairs, 2, edge_cells));
+    expect(edge_cells[0] != DELDRIFT_NONE && edge_cells[1] == DELDRIFT_NONE, "edges are told from other pairs");
+
+    deldrift_location at;
+    check(deldrift_locate(t, place, &at));
+    check(deldrift_barycentric(t, place, &at.index, 1, weights));
+    for (int i = 0; i < 3; i++) {
+        const double *corner = positions + 2 * view.vertices[3 * at.index + i];
+        there[0] += weights[i] * corner[0], there[1] += weights[i] * corner[1];
+    }
+    expect(is_near(there[0], place[0]) && is_near(there[1], place[1]), "a place is a mean of corners");
+    check(deldrift_mask_without_flat_cells(t, 1e-9, mask, MOST, &count));
+    size_t n_left = 0;
+    for (size_t c = 0; c < count; c++) n_left += mask[c];
+    expect(n_left == count, "no side of this set is straight but for rounding, so all triangles stay");
+
+    check(deldrift_insert_vertex(t, positions + 14, &twin));
+    check(deldrift_hidden_vertices(t, &hidden, &shown, 1, &count));
+    expect(count == 1 && hidden == twin && shown == 7, "vertices at the place of others are listed");
+    check(deldrift_remove_vertex(t, twin));
+    check(deldrift_compact(t, NULL, 0, &count));
+}
+
 static void ask_for_geometry(const deldrift_triangulation *t) {
     static uint32_t vertices[3 * MOST], neighbours[3 * MOST], edges[2 * MOST], facets[2 * MOST], entries[2 * MOST];
     static uint32_t offsets[VERTICES + 1], star[MOST], mirror;
@@ -146,10 +214,18 @@ static bool are_equal(const deldrift_triangulation *a, const deldrift_triangulat
 
 static void keep_and_write(deldrift_triangulation *t) {
     deldrift_triangulation *copy, *loaded;
+    deldrift_released_cells *owner;
+    deldrift_cells_view released, cells;
     check(deldrift_clone(t, &copy));
+    check(deldrift_release_cells(copy, &released, &owner));  // before the next change
     check(deldrift_relocate_vertex(copy, 0, (double[]){0.5, 0.5}));
     expect(!are_equal(t, copy), "a clone goes on by itself");
     deldrift_destroy(copy);
+    check(deldrift_cells(t, &cells));
+    const size_t n_numbers = cells.count * cells.corners_per_cell;
+    expect(released.count == cells.count && memcmp(released.vertices, cells.vertices, n_numbers * sizeof(uint32_t)) == 0,
+           "cells that have been handed over outlive their triangulation");
+    deldrift_free_cells(owner);
 
     size_t size, count;
     check(deldrift_save(t, NULL, 0, &size));
@@ -179,6 +255,10 @@ static void ask_for_signs(void) {
     expect(sign == 0, "points on a line are known as such");
     check(deldrift_orientation(2, (double[]){0, 0, 1, 1e-300, 2, 2.1e-300}, &sign));
     expect(sign == 1, "and those that are almost on one, too");
+    check(deldrift_in_sphere(2, (double[]){0, 0, 1e9, 0, 0, 1e9, 1e9, 1e9}, &sign));
+    expect(sign == 0, "the fourth corner of a square is on the circle through the others");
+    check(deldrift_in_sphere(2, (double[]){0, 0, 1e9, 0, 0, 1e9, 1e9, 999999999.9999999}, &sign));
+    expect(sign == 1, "and inside, if it is moved by a last bit");
 }
 
 int main(void) {
@@ -196,6 +276,8 @@ int main(void) {
     check(deldrift_create(2, positions, VERTICES, &options, &t));
     change_one_at_a_time(t);
     ask_for_places(t);
+    ask_what_is_near(t);
+    ask_for_corners(t);
     ask_for_geometry(t);
     keep_and_write(t);
     ask_for_signs();

@@ -60,6 +60,25 @@ fn the_tour_sees_what_it_expects() {
     assert!(found == expected && expected > 15.0 && said.lines().count() == 1, "{said}");
 }
 
+/// With the mask there are as many cells at each angle, and the temperature is the one that is known.
+#[test]
+fn the_turned_plate_has_its_temperature_without_flat_cells() {
+    let folder = fresh_folder("plate");
+    let said = succeed(&mut command(build(&repository("examples/plate.c"), &folder, Linkage::Static, &[])));
+    let rows: Vec<Vec<f64>> = said
+        .lines()
+        .skip(1)
+        .map(|line| line.split([' ', ',']).filter_map(|field| field.parse().ok()).collect())
+        .collect();
+    assert_eq!(rows.len(), 6, "{said}");
+    for row in &rows {
+        let [_, cells, flat, greatest, rounds, error, _, error_of_all] = row[..] else { panic!("{said}") };
+        assert_eq!(cells - flat, 3200.0, "{said}");
+        assert!(rounds < 200.0 && error < 1e-9 && greatest < 1e-12, "{said}");
+        assert!(flat == 0.0 || flat > 100.0 && error_of_all > 1e-3, "{said}");
+    }
+}
+
 #[test]
 fn algorithms_of_research_have_the_same_triangles() {
     let folder = fresh_folder("comparison");

@@ -62,7 +62,8 @@
  *
  * Ownership. What deldrift_create made must be given to deldrift_destroy, once. Arrays that are passed in
  * are read during the call and not kept. Views (deldrift_cells_view, deldrift_changes) belong to
- * the triangulation and end with the next call on it that takes it as non-const, or with its destruction.
+ * the triangulation and end with the next call on it that takes it as non-const, or with its destruction; but see
+ * deldrift_cells_view for calls that change no cells, and deldrift_release_cells for views that outlive any.
  * Strings belong to the library.
  *
  * Threads. Functions that take `const deldrift_triangulation *` may run on the same triangulation from
@@ -285,6 +286,10 @@ typedef uint32_t deldrift_interpolation;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+/// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
+/// deldrift_free_cells.
+typedef struct deldrift_released_cells deldrift_released_cells;
+
 /// A triangulation: opaque, made by deldrift_create, unmade by deldrift_destroy.
 typedef struct deldrift_triangulation deldrift_triangulation;
 
@@ -415,6 +420,10 @@ typedef struct deldrift_changes {
 
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
 /// until the next call that changes the triangulation.
+///
+/// Calls that stage, that discard what is staged, that take changes, and deldrift_set_algorithm, change no cells: a
+/// view that is not older than the last change stays valid. After deldrift_release_cells it is valid until its owner is
+/// freed.
 ///
 /// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
 /// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
@@ -728,8 +737,8 @@ deldrift_status deldrift_compact(deldrift_triangulation *t,
 /// alike. The first call lists all cells as created.
 ///
 /// A program that never calls this pays nothing for it; one that does pays in proportion to what has changed, and may
-/// call it as often or as rarely as it likes. Ends all views; deldrift_cells takes constant
-/// time after it.
+/// call it as often or as rarely as it likes. Ends the lists of the call before; a view of the cells stays valid unless
+/// it is older than the last change. deldrift_cells takes constant time after it.
 ///
 /// Cost: what has changed; of the first call n + m.
 ///
@@ -843,6 +852,28 @@ deldrift_status deldrift_copy_positions(const deldrift_triangulation *t,
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_cells(const deldrift_triangulation *t,
                                deldrift_cells_view *view);
+
+/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner: they stay as
+/// they are, and valid, until the owner is handed to deldrift_free_cells, whatever becomes of t.
+///
+/// Views that deldrift_cells has given since the last change, or the last call of this function, are of these arrays:
+/// they are valid until this owner is freed, and no longer. So a program that has shown them to others, such as an
+/// interpreter, can call this before it makes a change. Views that are got afterwards are of copies, which belong to t.
+/// A commit that fails and deldrift_compact count as changes.
+///
+/// Cost: m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing is handed over,
+/// and views are as valid as before. Not to be called at the same time as any other call on t.
+deldrift_status deldrift_release_cells(deldrift_triangulation *t,
+                                       deldrift_cells_view *view,
+                                       deldrift_released_cells **owner);
+
+/// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing, and neither does a
+/// misaligned pointer. May be called from any thread.
+///
+/// Cost: m at most, to free memory.
+void deldrift_free_cells(deldrift_released_cells *owner);
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.
 ///
@@ -984,8 +1015,8 @@ deldrift_status deldrift_hidden_vertices(const deldrift_triangulation *t,
 ///
 /// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
 ///
-/// Cost: count times that of deldrift_nearest_vertex, and the stars of the k vertices. While there are no cells, count
-/// times n.
+/// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
+/// While there are no cells, count times n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
@@ -1023,8 +1054,8 @@ deldrift_status deldrift_vertices_in_ball(const deldrift_triangulation *t,
 /// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
 /// long.
 ///
-/// Cost: that of deldrift_locate, the cells that the box meets, the facets of the hull that are seen from it, and k log k
-/// for the k vertices in it; n log n at most but for the first. While there are no cells, n.
+/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
+/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -1036,8 +1067,8 @@ deldrift_status deldrift_vertices_in_box(const deldrift_triangulation *t,
                                          size_t *count);
 
 /// The cells that the insertion of a vertex at a position would remove, in no particular order: those whose circle or
-/// sphere has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a vertex,
-/// and while there are no cells, there are none.
+/// sphere has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a
+/// vertex, and while there are no cells, there are none.
 ///
 /// position: 2 or 3 numbers. hint: where to begin to look for it, as for deldrift_locate_points; NULL if nothing is
 /// known. cells: a buffer with room for capacity indices. count: receives their number, which is also written when the
@@ -1115,27 +1146,27 @@ deldrift_status deldrift_mask_by_circumradius(const deldrift_triangulation *t,
                                               size_t capacity,
                                               size_t *count);
 
-/// Which cells are more than what the rounding of a straight or flat side has made: 0 for cells along the convex hull that
-/// are flat, 1 for the others, in the order of deldrift_cells.
+/// Which cells are more than what the rounding of a straight or flat side has made: 0 for cells along the convex hull
+/// that are flat, 1 for the others, in the order of deldrift_cells.
 ///
-/// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times its
-/// longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with room
-/// for capacity bytes. count: receives the number of cells, which is also written when the buffer is too small. NULL with
-/// capacity 0 asks for the count alone.
+/// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times
+/// its longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with
+/// room for capacity bytes. count: receives the number of cells, which is also written when the buffer is too small.
+/// NULL with capacity 0 asks for the count alone.
 ///
-/// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes over
-/// flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or volumes.
-/// Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out and keeps all others:
-/// deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept, as leaving them out
-/// would leave holes.
+/// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes
+/// over flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or
+/// volumes. Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out and keeps
+/// all others: deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept, as
+/// leaving them out would leave holes.
 ///
 /// Rounded: a cell whose quotient of height and edge is tolerance but for a part of 1.1e-9 + 2e-15 / tolerance may get
-/// either. One pass over the cells.
+/// either.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a tolerance that is negative
-/// or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a tolerance that is
+/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 deldrift_status deldrift_mask_without_flat_cells(const deldrift_triangulation *t,
                                                  double tolerance,
                                                  uint8_t *mask,
@@ -1267,12 +1298,12 @@ deldrift_status deldrift_cell_of_each_vertex(const deldrift_triangulation *t,
 /// Cells that have given vertices as corners, to cells: for each of count simplices the index of one, DELDRIFT_NONE if
 /// there is none. So it tells which edges of a list are in the triangulation, and which facets.
 ///
-/// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as many
-/// ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with two
-/// corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
+/// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as
+/// many ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with
+/// two corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
 ///
-/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than a
-/// quarter of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
+/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than an
+/// eighth of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for
 /// another number of corners, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
@@ -1531,22 +1562,24 @@ deldrift_status deldrift_interpolate(const deldrift_triangulation *t,
                                      double *results);
 
 /// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
-/// for each corner in the order of deldrift_cells. They are what deldrift_interpolate multiplies values with, for programs
-/// that keep them.
+/// for each corner in the order of deldrift_cells. They are for programs that keep weights, to carry values with them
+/// more than once; deldrift_interpolate has others of its own, which may differ in last bits, and more where a cell is
+/// flat.
 ///
 /// positions: 2 or 3 numbers each. cells: count indices into deldrift_cells, as deldrift_locate_points gives them;
-/// DELDRIFT_NONE is no cell, for which the row is NaN. Both are read during the call only. weights: receives count rows.
-/// All may be NULL if count is 0. A position may be outside of its cell: then some of its coordinates are negative.
+/// DELDRIFT_NONE is no cell, for which the row is NaN. Both are read during the call only. weights: receives count
+/// rows. All may be NULL if count is 0. A position may be outside of its cell: then some of its coordinates are
+/// negative.
 ///
-/// The sign of each is exact, and so is 0; the value has a relative error of at most 2.1e-9, and of some last bits
-/// unless the cell is nearly flat. (Where an area or volume is below the least normal number, 2.2e-308, it is less
-/// accurate.) A row adds up to 1 but for these errors.
+/// The sign of each is exact, and so is 0; the value has a relative error of at most 2.5e-13, however flat the cell.
+/// (Where an area, a volume or the value itself is below the least normal number, 2.2e-308, it is less accurate.) What
+/// is beyond the range of numbers is infinite. A row adds up to 1 but for these errors.
 ///
 /// Cost: count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing is
-/// written.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing
+/// is written.
 deldrift_status deldrift_barycentric(const deldrift_triangulation *t,
                                      const double *positions,
                                      const uint32_t *cells,
@@ -1707,14 +1740,15 @@ deldrift_status deldrift_orientation(uint32_t dimension,
 /// Whether a point is inside the circle or sphere through others, exactly, to *sign: 1 inside, -1 outside, 0 on it.
 ///
 /// dimension: 2 or 3. points: dimension + 2 points, one after the other, 2 or 3 numbers each: those that the circle or
-/// sphere goes through, of orientation 1 (deldrift_orientation), and the one that is asked about. If their orientation is
-/// -1, the sign is the opposite one. If it is 0, it is that of the determinant alone. Ties are not broken.
+/// sphere goes through, of orientation 1 (deldrift_orientation), and the one that is asked about. If their orientation
+/// is
+/// -1, the sign is the opposite one. If it is 0 there is no circle or sphere, and the sign has no meaning. Ties are not
+/// broken.
 ///
 /// Cost: constant.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. Constant time, some ten nanoseconds except close to 0. May be called from any number of threads
-/// at once.
+/// DELDRIFT_OUT_OF_RANGE. May be called from any number of threads at once.
 deldrift_status deldrift_in_sphere(uint32_t dimension,
                                    const double *points,
                                    int32_t *sign);

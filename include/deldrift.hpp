@@ -205,6 +205,14 @@ public:
     // The ids of the vertices that are present, in ascending order.
     Vertices vertices() const { return Vertices(native(), id_count(), vertex_count()); }
     Cells cells() const { return Cells(ask<deldrift_cells_view>(deldrift_cells)); }
+    // The arrays that cells() shows, handed over: what cells() has given since the last change is valid for as long as
+    // the result lives. The triangulation goes on with copies.
+    [[nodiscard]] ReleasedCells release_cells() {
+        deldrift_released_cells *owner = nullptr;
+        deldrift_cells_view view;
+        require_ok(deldrift_release_cells(native(), &view, &owner));
+        return {owner, view};
+    }
     // Since the last call; all lists end with the next change.
     deldrift_changes take_changes() {
         deldrift_changes changes;
@@ -305,7 +313,7 @@ public:
         require_ok(deldrift_find_simplices(native(), corners_per_simplex, vertices.data(), count, cells.data()));
         return cells;
     }
-    // Of hidden ones as of the vertices that represent them.
+    // Hidden vertices have the edges of those that represent them.
     bool is_edge(std::uint32_t vertex, std::uint32_t other) const {
         const std::uint32_t edge[] = {vertex, other};
         return find_simplices(2, edge)[0] != DELDRIFT_NONE;
@@ -411,14 +419,14 @@ public:
         require_ok(deldrift_nearest_vertices(native(), numbers.data(), count, k, vertices.data()));
         return vertices;
     }
-    // Ascending, hidden ones included.
+    // In ascending order, hidden vertices included.
     std::vector<std::uint32_t> vertices_in_ball(span<const double> centre, double squared_radius) const {
         expect("centre", centre.size(), dimension_);
         return found([&](std::uint32_t *vertices, std::size_t capacity, std::size_t *count) {
             return deldrift_vertices_in_ball(native(), centre.data(), squared_radius, vertices, capacity, count);
         });
     }
-    // Sides may be infinite.
+    // In ascending order, hidden vertices included; sides of the box may be infinite.
     std::vector<std::uint32_t> vertices_in_box(span<const double> low, span<const double> high) const {
         expect("low", low.size(), dimension_);
         expect("high", high.size(), dimension_);

@@ -250,6 +250,15 @@ enum Call {
     VoronoiVolumes,
     VoronoiFacets,
     Interpolate(Interpolation),
+    NearestVertices,
+    VerticesInBall,
+    VerticesInBox,
+    Conflicts(Goal),
+    /// Of two edges, or of as many as half the vertices.
+    FindSimplices(bool),
+    CellOfEachVertex,
+    Barycentric,
+    MaskWithoutFlatCells,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -276,6 +285,10 @@ impl Call {
         calls.extend([Call::VertexCells, Call::MirrorIndices, Call::VoronoiVolumes, Call::VoronoiFacets]);
         calls.extend([Interpolation::Linear, Interpolation::NaturalNeighbour].map(Call::Interpolate));
         calls.extend([Call::CellsAround(false), Call::CellsAround(true)]);
+        calls.extend([Call::NearestVertices, Call::VerticesInBall, Call::VerticesInBox]);
+        calls.extend([Goal::Near, Goal::Far, Goal::Shared].map(Call::Conflicts));
+        calls.extend([Call::FindSimplices(false), Call::FindSimplices(true)]);
+        calls.extend([Call::CellOfEachVertex, Call::Barycentric, Call::MaskWithoutFlatCells]);
         calls.extend([Call::Clone, Call::Save, Call::Load]);
         calls
     }
@@ -288,6 +301,8 @@ impl Call {
             Call::Insert(_) => "insert_vertex".to_string(),
             Call::Remove(_) => "remove_vertex".to_string(),
             Call::CellsAround(_) => "CellsAround".to_string(),
+            Call::Conflicts(_) => "Conflicts".to_string(),
+            Call::FindSimplices(_) => "FindSimplices".to_string(),
             other => format!("{other:?}"),
         }
     }
@@ -326,6 +341,7 @@ enum Given {
     Report(u64, u64, u64),
     Where(Option<VertexId>),
     Numbers(Vec<u64>),
+    Ids(Vec<VertexId>),
     Pairs(Vec<[VertexId; 2]>),
     Lists(Rows<VertexId>),
     Nearest(Option<VertexId>),
@@ -568,6 +584,45 @@ impl<G: Dimension> Scene<G> {
                     t.interpolate(method, values, &places, None, |result| n += u64::from(result.is_some())),
                 )?;
                 Given::Numbers(vec![n])
+            }
+            Call::NearestVertices => {
+                let mut sum = 0u64;
+                let add = |v: VertexId| sum = sum.wrapping_mul(31).wrapping_add(u64::from(v.get()));
+                given(t.nearest_vertices(&points[12..15], 10, add))?;
+                Given::Numbers(vec![sum])
+            }
+            Call::VerticesInBall => Given::Ids(given(t.vertices_in_ball(&points[12], 0.09))?),
+            Call::VerticesInBox => {
+                let (low, high) = (point::<G>(|_| 0.3), point::<G>(|axis| 0.6 + axis as f64));
+                Given::Ids(given(t.vertices_in_box(&low, &high))?)
+            }
+            Call::Conflicts(to) => {
+                let found = given(t.conflicts(&goal(to), None))?;
+                let rows = t.cells()?.corners;
+                Given::Cells(found.iter().map(|&c| sorted(rows[c].as_ref())).collect())
+            }
+            Call::FindSimplices(is_of_many) => {
+                let n = if is_of_many { present.len() / 2 * 2 } else { 4 };
+                let mut sum = 0u64;
+                let add =
+                    |cell: Option<CellId>| sum = sum.wrapping_mul(31).wrapping_add(u64::from(cell.is_some()));
+                given(t.find_simplices(&present[..n], 2, add))?;
+                Given::Numbers(vec![sum])
+            }
+            Call::CellOfEachVertex => {
+                let n = given(
+                    t.cell_of_each_vertex().map(|cells| cells.filter(|&cell| cell != CellId::NONE).count()),
+                )?;
+                Given::Numbers(vec![n as u64])
+            }
+            Call::Barycentric => {
+                let (mut n, cells) = (0, [CellId::new(0), CellId::NONE]);
+                given(t.barycentric(&points[12..14], &cells, |row| n += u64::from(row.is_some())))?;
+                Given::Numbers(vec![n])
+            }
+            Call::MaskWithoutFlatCells => {
+                let mask = given(t.mask_without_flat_cells(0.1))?;
+                Given::Numbers(vec![mask.iter().map(|&stays| u64::from(stays)).sum(), mask.len() as u64])
             }
             Call::Tolerance => {
                 let tolerance = given(t.tolerance(vertex(12)))?;

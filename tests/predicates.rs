@@ -602,6 +602,47 @@ fn compare_distance_is_exact() {
     assert!(total.cases >= 1_000_000 && total.big >= 100_000 && total.zero >= 40_000);
 }
 
+/// Squares next to that of the distance, and far from it.
+fn check_is_within_distance<const D: usize>(family: Family, n_cases: usize, random: &mut Random) -> Tally {
+    let mut tally = Tally::default();
+    for _ in 0..n_cases {
+        let points: [[f64; D]; 2] = family.points(random);
+        let [a, q] = &points;
+        let near = squared_distance(a, q);
+        let squared = match random.below(8) {
+            0 => 0.0,
+            1 => near * random.unit().abs() * 2.0,
+            _ => nudged(near, random.integer(3)),
+        };
+        let expected = exact_order_to_square(&points, squared, &mut tally) != Ordering::Greater;
+        assert_eq!(is_within_distance(q, a, squared), expected, "{points:?} {squared:e}");
+        assert_eq!(is_within_distance(a, q, squared), expected, "{points:?} {squared:e}");
+    }
+    tally
+}
+
+#[test]
+fn is_within_distance_is_exact() {
+    let families = [
+        (Uniform, 50_000),
+        (Lattice, 100_000),
+        (DistantLattice, 100_000),
+        (Sphere, 50_000),
+        (ExactSphere, 50_000),
+        (Extreme, 50_000),
+        (LeastBits, 50_000),
+        (ExtremeDegenerate, 50_000),
+    ];
+    let mut random = Random::new(12);
+    let mut total = Tally::default();
+    for (family, n_cases) in families {
+        total.add(&check_is_within_distance::<2>(family, n_cases, &mut random));
+        total.add(&check_is_within_distance::<3>(family, n_cases, &mut random));
+    }
+    println!("{} cases, {} ties", total.cases, total.zero);
+    assert!(total.cases >= 1_000_000 && total.zero >= 40_000);
+}
+
 #[test]
 fn is_collinear3_is_exact() {
     let families = [

@@ -424,6 +424,50 @@ fn compare_distance_is_exact() {
     check_compare_distance::<3>(&mut random);
 }
 
+/// Squares next to that of the distance, and any; where that underflows the least numbers are next to it.
+fn check_is_within_distance<const D: usize>(random: &mut Random) {
+    let (mut tally, mut n_within) = (Tally::default(), 0);
+    for family in FAMILIES {
+        for _ in 0..N_CASES {
+            let mut points: [[f64; D]; 2] = family.points(random);
+            // Squares of powers of two are numbers: these apart along an axis, distances tie.
+            let apart = power_of_two(random.below(727) as i32 - 537);
+            let is_apart = random.below(4) == 0;
+            if is_apart {
+                let axis = random.below(D);
+                points[0][axis] = 0.0;
+                points[1] = points[0];
+                points[1][axis] = apart * random.sign();
+            }
+            let [a, q] = &points;
+            let near = squared_distance(a, q);
+            let squared = match random.below(7) {
+                _ if is_apart => apart * apart,
+                0 => magnitude(random),
+                1 => LEAST * random.below(3) as f64,
+                2 => [f64::MAX, f64::INFINITY, MAX_MAGNITUDE * MAX_MAGNITUDE][random.below(3)],
+                _ => near + random.below(3) as f64 * LEAST,
+            };
+            for squared in [squared, squared.next_up(), squared.next_down().max(0.0)] {
+                let expected = exact_order_to_square(&points, squared, &mut tally) != Ordering::Greater;
+                assert_eq!(is_within_distance(q, a, squared), expected, "{points:?} {squared:e}");
+                assert_eq!(is_within_distance(a, q, squared), expected, "{points:?} {squared:e}");
+                n_within += usize::from(expected);
+            }
+        }
+    }
+    println!("{D}D: {} cases, {n_within} within, {} ties", tally.cases, tally.zero);
+    assert!(tally.cases >= 300_000 && tally.zero >= 30_000);
+    assert!(n_within >= 50_000 && tally.cases - n_within >= 50_000);
+}
+
+#[test]
+fn is_within_distance_is_exact() {
+    let mut random = Random::new(18);
+    check_is_within_distance::<2>(&mut random);
+    check_is_within_distance::<3>(&mut random);
+}
+
 #[test]
 fn is_collinear3_is_exact() {
     let mut random = Random::new(19);
@@ -479,6 +523,9 @@ fn products_that_vanish() {
     assert!(insphere(&f, &[0.0; 3], &x, &y, &z, &[LEAST, LEAST, -LEAST]) < 0.0);
 
     assert_eq!(compare_distance(&[0.0; 2], &[LEAST, 0.0], &[0.0, tiny]), Ordering::Less);
+    assert!(is_within_distance(&[0.0; 2], &[LEAST, 0.0], LEAST));
+    assert!(!is_within_distance(&[0.0; 2], &[LEAST, 0.0], 0.0));
+    assert!(is_within_distance(&[LEAST, tiny], &[LEAST, tiny], 0.0));
     assert!(!is_collinear3(&[0.0; 3], &x, &y));
     assert!(is_collinear3(&[0.0; 3], &x, &[1.0, 0.0, 0.0]));
 }

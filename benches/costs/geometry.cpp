@@ -121,6 +121,18 @@ std::vector<Call> geometry_calls() {
                  return deldrift_mask_by_circumradius(c.t, radius < infinity ? radius : 1, mask.data(), n, count);
              });
          }},
+        {"deldrift_mask_without_flat_cells", "a tolerance of 1e-9", [](Context &c) {
+             std::vector<std::uint8_t> mask(c.cells() + 1);
+             of_cells(c, [&](std::size_t n, std::size_t *count) {
+                 return deldrift_mask_without_flat_cells(c.t, 1e-9, mask.data(), n, count);
+             });
+         }},
+        {"deldrift_mask_without_flat_cells", "an infinite tolerance", [](Context &c) {
+             std::vector<std::uint8_t> mask(c.cells() + 1);
+             of_cells(c, [&](std::size_t n, std::size_t *count) {
+                 return deldrift_mask_without_flat_cells(c.t, infinity, mask.data(), n, count);
+             });
+         }},
         {"deldrift_mask_boundary", "every second cell", [](Context &c) {
              std::vector<std::uint8_t> mask(c.cells() + 1);
              for (std::size_t i = 0; i < mask.size(); i += 2) mask[i] = 1;
@@ -234,6 +246,25 @@ std::vector<Call> geometry_calls() {
          }},
         {"deldrift_interpolate", "natural neighbours, at vertices, for one in eight", [](Context &c) {
              interpolate(c, DELDRIFT_INTERPOLATION_NATURAL_NEIGHBOUR, c.many(c.some(), &Context::elsewhere));
+         }},
+        {"deldrift_barycentric", "near vertices, in a cell of each", [](Context &c) {
+             Ids cells(c.n);
+             std::size_t count;
+             must(deldrift_cell_of_each_vertex(c.t, cells.data(), c.n, &count));
+             const Points p = c.all_nearby();
+             std::vector<double> weights(c.n * c.corners());
+             c.meter.time([&] { must(deldrift_barycentric(c.t, p.data(), cells.data(), c.n, weights.data())); });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_in_sphere", "on it", [](Context &c) {
+             std::int32_t sign;
+             Points p(c.dimension, 0.0);
+             for (std::size_t i = 0; i <= c.dimension; ++i)
+                 for (std::size_t k = 0; k < c.dimension; ++k) p.push_back(i == k || i == c.dimension ? 1.0 / 3 : 0.0);
+             c.meter.time([&] {
+                 for (std::size_t i = 0; i < c.n; ++i) must(deldrift_in_sphere(c.dimension, p.data(), &sign));
+             }, c.n);
+             c.meter.count(double(c.n));
          }},
         {"deldrift_orientation", "nearly flat", [](Context &c) {
              std::int32_t sign;

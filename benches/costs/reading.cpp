@@ -48,6 +48,31 @@ void locate_points(Context &c, const Points &p) {
     c.meter.count(double(locations.size()));
 }
 
+void nearest_vertices(Context &c, const Points &p) {
+    constexpr std::size_t k = 8;
+    const std::size_t count = p.size() / c.dimension;
+    Ids found(count * k);
+    c.meter.time([&] { must(deldrift_nearest_vertices(c.t, p.data(), count, k, found.data())); });
+    // What is read are the stars of those that are found.
+    double stars = 0;
+    for (const std::uint32_t v : found)
+        if (v != DELDRIFT_NONE) stars += double(c.star(v));
+    c.meter.count(double(count) + stars);
+}
+
+/// A call about the neighbourhood of one vertex in eight, which finds few vertices; what is read are their stars.
+template <typename One>
+void in_parts(Context &c, One one) {
+    Ids room(c.n);
+    for (std::size_t i = 0; i < c.some(); ++i) {
+        std::size_t count;
+        c.meter.time([&] { must(one(c.some_vertex(i), room.data(), &count)); });
+        double stars = 1;
+        for (std::size_t k = 0; k < count; ++k) stars += double(c.star(room[k]));
+        c.meter.count(stars);
+    }
+}
+
 }  // namespace
 
 std::vector<Call> reading_calls() {
@@ -141,6 +166,21 @@ std::vector<Call> reading_calls() {
              c.meter.time([&] { c.view(); });
              c.meter.count(before + double(c.n + c.cells()));
          }},
+        {"deldrift_release_cells", "", [](Context &c) {
+             deldrift_cells_view view;
+             deldrift_released_cells *owner = nullptr;
+             must(deldrift_cells(c.t, &view));
+             c.meter.time([&] { must(deldrift_release_cells(c.t, &view, &owner)); });
+             c.meter.count(double(view.count));
+             deldrift_free_cells(owner);
+         }},
+        {"deldrift_free_cells", "", [](Context &c) {
+             deldrift_cells_view view;
+             deldrift_released_cells *owner = nullptr;
+             must(deldrift_release_cells(c.t, &view, &owner));
+             c.meter.time([&] { deldrift_free_cells(owner); });
+             c.meter.count(double(view.count));
+         }},
         {"deldrift_copy_cells", "", [](Context &c) {
              const std::size_t n = c.cells();
              Ids vertices(n * c.corners() + 1), neighbours(n * c.corners() + 1);
@@ -225,6 +265,77 @@ std::vector<Call> reading_calls() {
                  for (double &x : p) x = 3 * x + 5;
                  must(deldrift_nearest_vertex(c.t, p.data(), &nearest));
              });
+         }},
+        {"deldrift_hidden_vertices", "", [](Context &c) {
+             std::size_t n;
+             must(deldrift_hidden_vertices(c.t, nullptr, nullptr, 0, &n));
+             Ids vertices(n + 1), representatives(n + 1);
+             c.meter.time([&] {
+                 must(deldrift_hidden_vertices(c.t, vertices.data(), representatives.data(), n, &n));
+             });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_cell_of_each_vertex", "", [](Context &c) {
+             fill<std::uint32_t>(c, c.n, double(c.n), [&](std::uint32_t *to, std::size_t *count) {
+                 return deldrift_cell_of_each_vertex(c.t, to, c.n, count);
+             });
+         }},
+        {"deldrift_nearest_vertices", "8 of places anywhere, as many as vertices",
+         [](Context &c) { nearest_vertices(c, c.many(c.n, &Context::anywhere)); }},
+        {"deldrift_nearest_vertices", "8 near vertices, by id",
+         [](Context &c) { nearest_vertices(c, c.all_nearby()); }},
+        {"deldrift_vertices_in_ball", "to the next vertex, for one vertex in eight", [](Context &c) {
+             in_parts(c, [&](std::uint32_t v, std::uint32_t *to, std::size_t *count) {
+                 return deldrift_vertices_in_ball(c.t, c.place(v), c.spacing[v] * c.spacing[v], to, c.n, count);
+             });
+         }},
+        {"deldrift_vertices_in_ball", "around all", [](Context &c) {
+             fill<std::uint32_t>(c, c.n, double(c.n), [&](std::uint32_t *to, std::size_t *count) {
+                 return deldrift_vertices_in_ball(c.t, c.points.data(), 1e300, to, c.n, count);
+             });
+         }},
+        {"deldrift_vertices_in_box", "to the next vertex, for one vertex in eight", [](Context &c) {
+             in_parts(c, [&](std::uint32_t v, std::uint32_t *to, std::size_t *count) {
+                 Points low(c.place(v), c.place(v) + c.dimension), high(low);
+                 for (unsigned k = 0; k < c.dimension; ++k) low[k] -= c.spacing[v], high[k] += c.spacing[v];
+                 return deldrift_vertices_in_box(c.t, low.data(), high.data(), to, c.n, count);
+             });
+         }},
+        {"deldrift_vertices_in_box", "all but the outermost", [](Context &c) {
+             const auto [low, high] = c.box(-0.01);
+             Ids room(c.n);
+             std::size_t count;
+             c.meter.time([&, low = low.data(), high = high.data()] {
+                 must(deldrift_vertices_in_box(c.t, low, high, room.data(), c.n, &count));
+             });
+             c.meter.count(double(c.n));
+         }},
+        {"deldrift_conflicts", "near vertices, for one in eight", [](Context &c) {
+             Ids room(c.cells() + 1);
+             for (std::size_t i = 0; i < c.some(); ++i) {
+                 const Points p = c.nearby(c.some_vertex(i));
+                 std::size_t count;
+                 c.meter.time([&] {
+                     must(deldrift_conflicts(c.t, p.data(), nullptr, room.data(), room.size(), &count));
+                 });
+                 c.meter.count(1 + double(count));
+             }
+         }},
+        {"deldrift_find_simplices", "edges, one vertex in eight and the next one, one by one", [](Context &c) {
+             for (std::size_t i = 0; i < c.some(); ++i) {
+                 const std::uint32_t edge[2] = {c.some_vertex(i), (c.some_vertex(i) + 1) % std::uint32_t(c.n)};
+                 std::uint32_t cell;
+                 c.meter.time([&] { must(deldrift_find_simplices(c.t, 2, edge, 1, &cell)); });
+                 c.meter.count(1 + double(std::min(c.star(edge[0]), c.star(edge[1]))));
+             }
+         }},
+        {"deldrift_find_simplices", "edges, all vertices and the next ones", [](Context &c) {
+             Ids edges, cells(c.n);
+             for (std::uint32_t v = 0; v < c.n; ++v) edges.insert(edges.end(), {v, (v + 1) % std::uint32_t(c.n)});
+             double least = 0;
+             for (std::uint32_t v = 0; v < c.n; ++v) least += double(std::min(c.star(v), c.star(edges[2 * v + 1])));
+             c.meter.time([&] { must(deldrift_find_simplices(c.t, 2, edges.data(), c.n, cells.data())); });
+             c.meter.count(double(c.n + c.cells()) + least);
          }},
         {"deldrift_validate", "level 1", validate<1>},
         {"deldrift_validate", "level 2", validate<2>},

@@ -1,8 +1,9 @@
 // TetGen's calling convention, as far as deldrift serves it: for programs that call TetGen as a library and have no
 // tetgen.h of their own. compat/README.md says which switches are served, and by whom.
 //
-// The layout is that of TetGen 1.5, of 392 bytes. Fields are named as there. Arrays that the function makes come from
-// new[]; a tetgenio deletes its own.
+// The layout is that of TetGen 1.5.0, of 392 bytes. Fields are named as there. Programs with the header of TetGen 1.5.1
+// or 1.6 keep that one: their layouts are served as well. Arrays that the function makes come from new[]; a tetgenio
+// deletes its own.
 #ifndef DELDRIFT_TETGEN_H
 #define DELDRIFT_TETGEN_H
 

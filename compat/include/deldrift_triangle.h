@@ -27,9 +27,9 @@ struct triangulateio {
     int numberofcorners;
     int numberoftriangleattributes;
 
-    int *segmentlist;
-    int *segmentmarkerlist;
-    int numberofsegments; /* out: edges of the hull */
+    int *segmentlist;       /* out, with switch c: the edges of the hull, counter-clockwise, the end of each first */
+    int *segmentmarkerlist; /* 1 */
+    int numberofsegments;   /* out: edges of the hull; in: not looked at without switch p */
 
     double *holelist;
     int numberofholes;

@@ -3,6 +3,7 @@
 
 #include <climits>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <new>
 #include <optional>
@@ -40,7 +41,8 @@ struct Call {
     tetgenio *in, *out, *addin, *bgmin;
 };
 
-void check(const tetgenio &in) {
+template <class Io>
+void check(const Io &in) {
     if (in.numberofpoints < 4) fail(bad_input, "in has fewer than four points");
     if (in.pointlist == nullptr) fail(bad_input, "in->pointlist is NULL");
     if (in.firstnumber != 0 && in.firstnumber != 1) fail(bad_input, "in->firstnumber is neither 0 nor 1");
@@ -49,13 +51,22 @@ void check(const tetgenio &in) {
         fail(bad_input, "in->pointattributelist is NULL");
 }
 
-// The cells of the original, with an output of its own.
+// The cells of the original, with an output of its own. Its input is numbered from 0: TetGen 1.5 and 1.6 write past the
+// end of the markers of faces where z is given for points that are numbered from 1.
+template <class Io>
 class Original {
 public:
-    Original(Function function, const TetgenSwitches &switches, tetgenio &in) {
+    Original(Function function, const TetgenSwitches &switches, const Io &in) {
+        struct Lent {
+            Io io;
+            ~Lent() { io.pointlist = nullptr; }
+        } lent;
+        lent.io.pointlist = in.pointlist;
+        lent.io.numberofpoints = in.numberofpoints;
         std::string plain = switches.for_cells();
         const double start = processor_time();
-        function(plain.data(), &in, &out_, nullptr, nullptr);
+        function(plain.data(), reinterpret_cast<tetgenio *>(&lent.io), reinterpret_cast<tetgenio *>(&out_), nullptr,
+                 nullptr);
         seconds_ = processor_time() - start;
     }
     double seconds() const { return seconds_; }
@@ -66,18 +77,28 @@ public:
     }
 
 private:
-    tetgenio out_;
+    Io out_;
     double seconds_ = 0;
 };
 
 // Writes the cells, sorted if that was asked for. The seconds that writing took.
-double write(const TetgenSwitches &switches, const Cells &cells, const tetgenio &in, tetgenio &out,
+template <class Io>
+double write(const TetgenSwitches &switches, const Cells &cells, const Io &in, Io &out,
              const std::vector<std::uint32_t> &representative) {
     std::optional<OwnedCells> in_order;
     if (sorted()) in_order = sorted_cells(cells);
     const double start = processor_time();
     write_tetrahedra(switches, in_order ? in_order->view() : cells, in, out, representative);
     return processor_time() - start;
+}
+
+// The points that stay where the cells are the original's: each that is in one stands for itself. Of points at one
+// place it need not be the first.
+std::vector<std::uint32_t> representatives_in(const Cells &cells, int n_points) {
+    constexpr std::uint32_t none = UINT32_MAX;
+    std::vector<std::uint32_t> representative(static_cast<std::size_t>(n_points), none);
+    for (std::size_t i = 0; i < 4 * cells.count; i++) representative[cells.vertices[i]] = cells.vertices[i];
+    return representative;
 }
 
 void report_difference(const Difference &difference, std::size_t n_cells) {
@@ -94,7 +115,8 @@ void check_status(deldrift_status status) {
 }
 
 // Serves a call by deldrift, or compares with the original, whose cells are returned then.
-void serve(const TetgenSwitches &switches, tetgenio &in, tetgenio &out, Function compared) {
+template <class Io>
+void serve(const TetgenSwitches &switches, Io &in, Io &out, Function compared) {
     check(in);
     const std::size_t n_points = static_cast<std::size_t>(in.numberofpoints);
     const double start = processor_time();
@@ -110,24 +132,25 @@ void serve(const TetgenSwitches &switches, tetgenio &in, tetgenio &out, Function
     if (compared == nullptr) {
         seconds += write(switches, cells, in, out, representative);
     } else {
-        const Original original(compared, switches, in);
+        const Original<Io> original(compared, switches, in);
         const Difference found = difference(cells, original.cells(), representative);
         if (tally.compared(cells.count, found.count)) report_difference(found, cells.count);
         tally.original_served(original.seconds(), n_points, original.cells().count);
-        seconds += write(switches, original.cells(), in, out, representative);
+        const std::vector<std::uint32_t> shown = representatives_in(original.cells(), in.numberofpoints);
+        seconds += write(switches, original.cells(), in, out, shown);
     }
     tally.served(triangulation.how(), seconds, n_points, view.count);
 }
 
 // By the original, with its own output, or in sorted order.
-void serve_by_original(const Call &call, const TetgenSwitches &switches, Function function) {
-    tetgenio &in = *call.in, &out = *call.out;
+template <class Io>
+void serve_by_original(const Call &call, const TetgenSwitches &switches, Io &in, Io &out, Function function) {
     double seconds = 0;
     if (sorted()) {
         check(in);
-        const Original original(function, switches, in);
+        const Original<Io> original(function, switches, in);
         seconds = original.seconds();
-        write(switches, original.cells(), in, out, {});
+        write(switches, original.cells(), in, out, representatives_in(original.cells(), in.numberofpoints));
     } else {
         const double start = processor_time();
         function(call.switches, call.in, call.out, call.addin, call.bgmin);
@@ -143,27 +166,44 @@ void pass_on(const Call &call, const char *why, Function original) {
     original(call.switches, call.in, call.out, call.addin, call.bgmin);
 }
 
+template <class Io>
+void serve_by_either(const Call &call, const TetgenSwitches &switches, Function original) {
+    Io &in = *reinterpret_cast<Io *>(call.in), &out = *reinterpret_cast<Io *>(call.out);
+    if (mode() == Mode::original && original != nullptr) serve_by_original(call, switches, in, out, original);
+    else serve(switches, in, out, original);
+}
+
 void dispatch(const Call &call, const void *caller) {
     if (call.switches == nullptr) fail(bad_input, "switches is NULL");
     if (call.in == nullptr) fail(bad_input, "in is NULL");
     if (call.out == nullptr) fail(bad_input, "out is NULL");
     const TetgenSwitches switches(call.switches);
-    const bool is_known = has_layout_of_1_5(call.out);
+    Layout layout = layout_of(call.out);
+    // Where no list is asked for that has another place, one of the two is as good as the other.
+    if (layout == Layout::v1_5_1_or_1_6 && !switches.lists_faces()) layout = Layout::v1_6;
+    const bool is_known = layout != Layout::unknown && layout != Layout::v1_5_1_or_1_6;
     Function original = nullptr;
     if (switches.unserved != '\0' || !is_known || mode() != Mode::deldrift)
         original = reinterpret_cast<Function>(original_of(mangled, caller));
+    if (layout == Layout::v1_5_1_or_1_6) layout = told_apart(reinterpret_cast<const void *>(original));
     if (switches.unserved != '\0') {
         char why[] = "switch ? is not served by deldrift, and there is no TetGen to pass the call to";
         why[7] = switches.unserved;
         return pass_on(call, why, original);
     }
-    if (!is_known) return pass_on(call, "out is not a tetgenio of TetGen 1.5 that has been initialised", original);
+    if (layout == Layout::unknown)
+        return pass_on(call, "out is not a tetgenio of TetGen 1.5 or 1.6 that has been initialised", original);
+    if (layout == Layout::v1_5_1_or_1_6)
+        return pass_on(call, "out may be a tetgenio of TetGen 1.5.1 or 1.6, and there is no TetGen to tell which; "
+                             "DELDRIFT_COMPAT_TETGEN=1.5.1 or 1.6 says it", original);
     if (mode() != Mode::deldrift && original == nullptr) {
         static std::once_flag once;
         std::call_once(once, complain, name, "DELDRIFT_COMPAT asks for TetGen, and there is none; deldrift serves");
     }
-    if (mode() == Mode::original && original != nullptr) return serve_by_original(call, switches, original);
-    serve(switches, *call.in, *call.out, original);
+    const Function asked = mode() == Mode::deldrift ? nullptr : original;
+    if (layout == Layout::v1_5_0) serve_by_either<TetgenIo150>(call, switches, asked);
+    else if (layout == Layout::v1_5_1) serve_by_either<TetgenIo151>(call, switches, asked);
+    else serve_by_either<TetgenIo16>(call, switches, asked);
 }
 
 } // namespace

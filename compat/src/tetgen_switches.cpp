@@ -5,8 +5,8 @@
 
 namespace compat {
 
-// Messages (Q, V), names of files (I), and exact arithmetic (X).
-static constexpr char without_effect[] = "QVIX";
+// Messages (Q, V), and exact arithmetic (X).
+static constexpr char without_effect[] = "QVX";
 
 // Dashes, braces and spaces are passed over by the original as well.
 static bool is_without_effect(char which) {
@@ -30,7 +30,8 @@ TetgenSwitches::TetgenSwitches(const char *switches) {
         case 'v': voronoi = true; break;
         case 'J': jettison = false; break;
         case 'B': markers = false; break;
-        case 'N': points = false; break;
+        case 'N':
+        case 'I': points = false; break;
         case 'E': tetrahedra = false; break;
         case 'F': any_faces = false; break;
         default:

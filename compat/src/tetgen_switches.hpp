@@ -13,12 +13,15 @@ struct TetgenSwitches {
     bool voronoi = false;    // v
     bool jettison = true;    // not J: points that share the place of another are left out
     bool markers = true;     // not B
-    bool points = true;      // not N
+    bool points = true;      // neither N nor I
     bool tetrahedra = true;  // not E
     bool any_faces = true;   // not F, which also takes edges away
     char unserved = '\0';    // the first switch that deldrift does not serve, if there is any
 
     explicit TetgenSwitches(const char *switches);
+
+    // Whether lists are asked for that have another place in each layout.
+    bool lists_faces() const { return any_faces || voronoi; }
 
     // For the original, to give cells that can be compared: from zero, with neighbours and all points, quiet, and what
     // else is computed.

@@ -52,16 +52,28 @@ private:
     std::size_t count_ = 0;
 };
 
+// The points of the input, whatever its layout.
+struct Points {
+    template <class Io>
+    explicit Points(const Io &in)
+        : first_number(in.firstnumber), mesh_dimension(in.mesh_dim), count(static_cast<std::size_t>(in.numberofpoints)),
+          n_attributes(static_cast<std::size_t>(in.numberofpointattributes)), positions(in.pointlist),
+          attributes(in.pointattributelist), markers(in.pointmarkerlist) {}
+
+    int first_number, mesh_dimension;
+    std::size_t count, n_attributes;
+    const double *positions, *attributes;
+    const int *markers;
+};
+
 class Writer {
 public:
-    Writer(const TetgenSwitches &switches, const Cells &cells, const tetgenio &in,
+    Writer(const TetgenSwitches &switches, const Cells &cells, const Points &in,
            const std::vector<std::uint32_t> &representative)
-        : switches_(switches), cells_(cells), in_(in), first_(switches.zero_based ? 0 : in.firstnumber),
-          n_attributes_(static_cast<std::size_t>(in.numberofpointattributes)) {
-        const std::size_t n_points = static_cast<std::size_t>(in.numberofpoints);
-        number_of_.resize(n_points);
-        shown_.reserve(n_points);
-        for (std::size_t i = 0; i < n_points; i++) {
+        : switches_(switches), cells_(cells), in_(in), first_(switches.zero_based ? 0 : in.first_number) {
+        number_of_.resize(in.count);
+        shown_.reserve(in.count);
+        for (std::size_t i = 0; i < in.count; i++) {
             number_of_[i] = static_cast<int>(shown_.size()) + first_;
             const bool is_left_out = switches.jettison && !representative.empty() && representative[i] != i;
             if (!is_left_out) shown_.push_back(static_cast<std::uint32_t>(i));
@@ -90,12 +102,13 @@ public:
         }
     }
 
-    void hand_over(tetgenio &out) {
-        out.firstnumber = in_.firstnumber;
-        out.mesh_dim = in_.mesh_dim;
+    template <class Io>
+    void hand_over(Io &out) {
+        out.firstnumber = in_.first_number;
+        out.mesh_dim = in_.mesh_dimension;
         if (switches_.points) {
             out.numberofpoints = static_cast<int>(shown_.size());
-            out.numberofpointattributes = in_.numberofpointattributes;
+            out.numberofpointattributes = static_cast<int>(in_.n_attributes);
         }
         points_.hand_over(out.pointlist);
         attributes_.hand_over(out.pointattributelist);
@@ -114,7 +127,8 @@ public:
     }
 
 private:
-    void hand_over_voronoi(tetgenio &out) {
+    template <class Io>
+    void hand_over_voronoi(Io &out) {
         out.numberofvpoints = static_cast<int>(cells_.count);
         out.numberofvedges = static_cast<int>(n_faces_);
         out.numberofvfacets = static_cast<int>(n_edges_);
@@ -126,20 +140,21 @@ private:
         out.vcelllist = cell_lists_.release();
     }
 
-    const double *position(std::uint32_t vertex) const { return in_.pointlist + std::size_t{3} * vertex; }
+    const double *position(std::uint32_t vertex) const { return in_.positions + std::size_t{3} * vertex; }
     int numbered(std::size_t index) const { return static_cast<int>(index) + first_; }
 
     void make_points() {
-        const bool with_markers = switches_.markers && in_.pointmarkerlist != nullptr;
+        const bool with_markers = switches_.markers && in_.markers != nullptr;
         points_.allocate(3 * shown_.size());
-        if (n_attributes_ > 0) attributes_.allocate(n_attributes_ * shown_.size());
+        const std::size_t n_attributes = in_.n_attributes;
+        if (n_attributes > 0) attributes_.allocate(n_attributes * shown_.size());
         if (with_markers) markers_.allocate(shown_.size());
         for (std::size_t i = 0; i < shown_.size(); i++) {
             const std::size_t from = shown_[i];
-            for (unsigned axis = 0; axis < 3; axis++) points_[3 * i + axis] = in_.pointlist[3 * from + axis];
-            for (std::size_t k = 0; k < n_attributes_; k++)
-                attributes_[i * n_attributes_ + k] = in_.pointattributelist[from * n_attributes_ + k];
-            if (with_markers) markers_[i] = in_.pointmarkerlist[from];
+            for (unsigned axis = 0; axis < 3; axis++) points_[3 * i + axis] = in_.positions[3 * from + axis];
+            for (std::size_t k = 0; k < n_attributes; k++)
+                attributes_[i * n_attributes + k] = in_.attributes[from * n_attributes + k];
+            if (with_markers) markers_[i] = in_.markers[from];
         }
     }
 
@@ -265,9 +280,9 @@ private:
 
     const TetgenSwitches &switches_;
     const Cells &cells_;
-    const tetgenio &in_;
+    const Points in_;
     int first_;
-    std::size_t n_attributes_, n_faces_ = 0, n_hull_ = 0, n_edges_ = 0;
+    std::size_t n_faces_ = 0, n_hull_ = 0, n_edges_ = 0;
     std::vector<int> number_of_;       // of each point of in; points left out have that of the next
     std::vector<std::uint32_t> shown_; // points that are not left out
     NewArray<double> points_, attributes_, centres_;
@@ -279,11 +294,19 @@ private:
 
 } // namespace
 
-void write_tetrahedra(const TetgenSwitches &switches, const Cells &cells, const tetgenio &in, tetgenio &out,
+template <class Io>
+void write_tetrahedra(const TetgenSwitches &switches, const Cells &cells, const Io &in, Io &out,
                       const std::vector<std::uint32_t> &representative) {
-    Writer writer(switches, cells, in, representative);
+    Writer writer(switches, cells, Points(in), representative);
     writer.make();
     writer.hand_over(out);
 }
+
+template void write_tetrahedra(const TetgenSwitches &, const Cells &, const TetgenIo150 &, TetgenIo150 &,
+                               const std::vector<std::uint32_t> &);
+template void write_tetrahedra(const TetgenSwitches &, const Cells &, const TetgenIo151 &, TetgenIo151 &,
+                               const std::vector<std::uint32_t> &);
+template void write_tetrahedra(const TetgenSwitches &, const Cells &, const TetgenIo16 &, TetgenIo16 &,
+                               const std::vector<std::uint32_t> &);
 
 } // namespace compat

@@ -2,12 +2,14 @@
 #include <deldrift_triangle.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
 #include <mutex>
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cells.hpp"
 #include "kept.hpp"
@@ -33,8 +35,10 @@ using Function = int (*)(char *, triangulateio *, triangulateio *, triangulateio
 Tally tally(name);
 
 constexpr int done = 0, failed = 1;
+constexpr std::uint32_t no_point = UINT32_MAX;
 
 struct Call {
+    const char *symbol; // that the function was called by
     char *switches;
     triangulateio *in, *out, *vorout;
 };
@@ -88,7 +92,7 @@ public:
             for (double *array : {each->pointlist, each->pointattributelist, each->normlist}) std::free(array);
             for (int *array : {each->pointmarkerlist, each->trianglelist, each->neighborlist, each->edgelist})
                 std::free(array);
-            std::free(each->edgemarkerlist);
+            for (int *array : {each->edgemarkerlist, each->segmentlist, each->segmentmarkerlist}) std::free(array);
         }
     }
 
@@ -108,11 +112,13 @@ private:
 };
 
 // Writes the cells, sorted if that was asked for. The seconds that writing took.
-double write(const Call &call, const TriangleSwitches &switches, const Cells &cells) {
+double write(const Call &call, const TriangleSwitches &switches, const Cells &cells,
+             const std::vector<std::uint32_t> &representative) {
     std::optional<OwnedCells> in_order;
     if (sorted()) in_order = sorted_cells(cells);
     const double start = processor_time();
-    write_triangulation(switches, in_order ? in_order->view() : cells, *call.in, *call.out, call.vorout);
+    write_triangulation(switches, in_order ? in_order->view() : cells, representative, *call.in, *call.out,
+                        call.vorout);
     return processor_time() - start;
 }
 
@@ -132,20 +138,24 @@ int serve(const Call &call, const TriangleSwitches &switches, Function compared)
         complain(name, "%s", deldrift_last_error());
         return give_nothing(call);
     }
-    const Cells cells{3, view.count, view.vertices, view.neighbours};
+    const Cells cells{3, switches.carves_all() ? 0 : view.count, view.vertices, view.neighbours};
+    std::vector<std::uint32_t> representative;
+    if (switches.jettison || compared != nullptr) representative = representatives(triangulation.get(), n_points);
+    // No point is in a triangle any more. Where there were none from the start, nothing has been taken away.
+    if (switches.carves_all() && view.count > 0) representative.assign(n_points, no_point);
     double seconds = processor_time() - start;
     int returned = done;
     if (compared == nullptr) {
-        seconds += write(call, switches, cells);
+        seconds += write(call, switches, cells, representative);
     } else {
         const Original original(compared, switches, *call.in);
-        const Difference found = difference(cells, original.cells(), representatives(triangulation.get(), n_points));
+        const Difference found = difference(cells, original.cells(), representative);
         if (tally.compared(cells.count, found.count)) report_difference(found, cells.count);
         tally.original_served(original.seconds(), n_points, original.cells().count);
-        seconds += write(call, switches, original.cells());
+        seconds += write(call, switches, original.cells(), representative);
         returned = original.returned();
     }
-    tally.served(triangulation.how(), seconds, n_points, view.count);
+    tally.served(triangulation.how(), seconds, n_points, cells.count);
     return returned;
 }
 
@@ -153,10 +163,12 @@ int serve(const Call &call, const TriangleSwitches &switches, Function compared)
 int serve_by_original(const Call &call, const TriangleSwitches &switches, Function function) {
     if (sorted() && is_valid(call, switches)) {
         const Original original(function, switches, *call.in);
-        write(call, switches, original.cells());
-        tally.original_served(original.seconds(), static_cast<std::size_t>(call.in->numberofpoints),
-                              original.cells().count);
-        return original.returned();
+        if (original.cells().count > 0) {
+            write(call, switches, original.cells(), {});
+            tally.original_served(original.seconds(), static_cast<std::size_t>(call.in->numberofpoints),
+                                  original.cells().count);
+            return original.returned();
+        }
     }
     const double start = processor_time();
     const int returned = function(call.switches, call.in, call.out, call.vorout);
@@ -166,21 +178,29 @@ int serve_by_original(const Call &call, const TriangleSwitches &switches, Functi
     return returned;
 }
 
-int pass_on(const Call &call, char unserved, Function original) {
+int pass_on(const Call &call, const std::string &unserved, Function original) {
     if (original == nullptr) {
-        complain(name, "switch %c is not served by deldrift, and there is no Triangle to pass the call to", unserved);
+        complain(name, "%s is not served by deldrift, and there is no Triangle to pass the call to", unserved.c_str());
         return give_nothing(call);
     }
     tally.passed_on();
     return original(call.switches, call.in, call.out, call.vorout);
 }
 
+// Empty if deldrift serves the call.
+std::string what_is_unserved(const TriangleSwitches &switches, const triangulateio *in) {
+    if (switches.unserved != '\0') return std::string("switch ") + switches.unserved;
+    const char *of_input = in != nullptr ? switches.unserved_input(*in) : nullptr;
+    return of_input != nullptr ? of_input : "";
+}
+
 int dispatch(const Call &call, const void *caller) {
     const TriangleSwitches switches(call.switches);
+    const std::string unserved = what_is_unserved(switches, call.in);
     Function original = nullptr;
-    if (switches.unserved != '\0' || mode() != Mode::deldrift)
-        original = reinterpret_cast<Function>(original_of(name, caller));
-    if (switches.unserved != '\0') return pass_on(call, switches.unserved, original);
+    if (!unserved.empty() || mode() != Mode::deldrift)
+        original = reinterpret_cast<Function>(original_of(call.symbol, caller));
+    if (!unserved.empty()) return pass_on(call, unserved, original);
     if (mode() != Mode::deldrift && original == nullptr) {
         static std::once_flag once;
         std::call_once(once, complain, name, "DELDRIFT_COMPAT asks for Triangle, and there is none; deldrift serves");
@@ -189,21 +209,32 @@ int dispatch(const Call &call, const void *caller) {
     return is_valid(call, switches) ? serve(call, switches, original) : give_nothing(call);
 }
 
+int handle(const Call &call, const void *caller) {
+    if (call.switches == nullptr) {
+        complain(name, "switches is NULL");
+        return give_nothing(call);
+    }
+    try {
+        return dispatch(call, caller);
+    } catch (const std::bad_alloc &) {
+        complain(name, "not enough memory");
+        return give_nothing(call);
+    }
+}
+
 } // namespace
 
 } // namespace compat
 
 extern "C" [[gnu::visibility("default")]] int triangulate(char *switches, triangulateio *in, triangulateio *out,
                                                            triangulateio *vorout) {
-    const compat::Call call{switches, in, out, vorout};
-    if (switches == nullptr) {
-        compat::complain(compat::name, "switches is NULL");
-        return compat::give_nothing(call);
-    }
-    try {
-        return compat::dispatch(call, __builtin_return_address(0));
-    } catch (const std::bad_alloc &) {
-        compat::complain(compat::name, "not enough memory");
-        return compat::give_nothing(call);
-    }
+    return compat::handle({compat::name, switches, in, out, vorout}, __builtin_return_address(0));
+}
+
+// The function by the name that it has where Triangle is compiled as C++, as libigl does.
+#define MANGLED "_Z11triangulatePcP13triangulateioS1_S1_"
+extern "C" int triangulate_of_cxx(char *, triangulateio *, triangulateio *, triangulateio *) __asm__(MANGLED);
+extern "C" [[gnu::visibility("default")]] int triangulate_of_cxx(char *switches, triangulateio *in,
+                                                                  triangulateio *out, triangulateio *vorout) {
+    return compat::handle({MANGLED, switches, in, out, vorout}, __builtin_return_address(0));
 }

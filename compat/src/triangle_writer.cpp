@@ -1,6 +1,8 @@
 #include "triangle_writer.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "array.hpp"
 #include "circumcentre.hpp"
@@ -11,22 +13,29 @@ namespace {
 
 class Writer {
 public:
-    Writer(const TriangleSwitches &switches, const Cells &cells, const triangulateio &in)
+    Writer(const TriangleSwitches &switches, const Cells &cells, const std::vector<std::uint32_t> &representative,
+           const triangulateio &in)
         : switches_(switches), cells_(cells), in_(in), first_(switches.zero_based ? 0 : 1),
           n_points_(static_cast<std::size_t>(in.numberofpoints)),
           n_attributes_(static_cast<std::size_t>(in.numberofpointattributes)) {
         for (std::size_t i = 0; i < 3 * cells.count; i++) n_hull_ += cells.neighbours[i] == no_cell;
         n_edges_ = (3 * cells.count + n_hull_) / 2;
+        n_shown_ = n_points_;
+        if (switches.jettison) leave_out(representative);
     }
 
     void allocate(const triangulateio &out, const triangulateio *vorout) {
         if (switches_.points) {
-            points_.allocate(out.pointlist, 2 * n_points_);
-            if (n_attributes_ > 0) attributes_.allocate(out.pointattributelist, n_points_ * n_attributes_);
-            if (switches_.markers) markers_.allocate(out.pointmarkerlist, n_points_);
+            points_.allocate(out.pointlist, 2 * n_shown_);
+            if (n_attributes_ > 0) attributes_.allocate(out.pointattributelist, n_shown_ * n_attributes_);
+            if (switches_.markers) markers_.allocate(out.pointmarkerlist, n_shown_);
         }
         if (switches_.triangles) triangles_.allocate(out.trianglelist, 3 * cells_.count);
         if (switches_.neighbours) neighbours_.allocate(out.neighborlist, 3 * cells_.count);
+        if (switches_.lists_segments()) {
+            segments_.allocate(out.segmentlist, 2 * n_hull_);
+            if (switches_.markers) segment_markers_.allocate(out.segmentmarkerlist, n_hull_);
+        }
         if (switches_.edges) {
             edges_.allocate(out.edgelist, 2 * n_edges_);
             if (switches_.markers) edge_markers_.allocate(out.edgemarkerlist, n_edges_);
@@ -40,14 +49,17 @@ public:
     }
 
     void fill() {
-        if (points_) fill_points();
         if (triangles_) number(cells_.vertices, triangles_.data());
+        if (triangles_ && !number_of_.empty()) renumber(triangles_.data(), 3 * cells_.count);
         if (neighbours_) number(cells_.neighbours, neighbours_.data());
+        if (segments_) fill_segments();
         if (edges_) fill_edges();
         if (switches_.voronoi) {
             fill_centres();
             fill_voronoi_edges();
         }
+        // Last, as the caller's array may be that of the input, from which points are left out then.
+        if (points_) fill_points();
     }
 
     void hand_over(triangulateio &out, triangulateio *vorout) {
@@ -58,13 +70,20 @@ public:
         neighbours_.hand_over(out.neighborlist);
         edges_.hand_over(out.edgelist);
         edge_markers_.hand_over(out.edgemarkerlist);
-        out.numberofpoints = in_.numberofpoints;
+        segments_.hand_over(out.segmentlist);
+        segment_markers_.hand_over(out.segmentmarkerlist);
+        out.numberofpoints = static_cast<int>(n_shown_);
         out.numberofpointattributes = in_.numberofpointattributes;
         out.numberoftriangles = static_cast<int>(cells_.count);
         out.numberofcorners = 3;
         out.numberoftriangleattributes = 0;
         out.numberofedges = static_cast<int>(n_edges_);
         out.numberofsegments = static_cast<int>(n_hull_);
+        if (switches_.lists_segments()) {
+            out.numberofholes = out.numberofregions = 0;
+            out.holelist = switches_.planar_graph ? in_.holelist : nullptr;
+            out.regionlist = switches_.planar_graph ? in_.regionlist : nullptr;
+        }
         if (vorout == nullptr) return;
         vorout->numberofpoints = static_cast<int>(cells_.count);
         vorout->numberofpointattributes = in_.numberofpointattributes;
@@ -79,6 +98,26 @@ public:
     }
 
 private:
+    // Points that are in no triangle. Where all points are on a line, or all triangles have been taken away, there is
+    // none to be in.
+    void leave_out(const std::vector<std::uint32_t> &representative) {
+        std::vector<std::uint8_t> is_shown(n_points_, 0);
+        for (std::size_t i = 0; i < 3 * cells_.count; i++) is_shown[cells_.vertices[i]] = 1;
+        for (std::size_t i = 0; cells_.count == 0 && i < n_points_; i++)
+            is_shown[i] = representative.empty() || representative[i] == i;
+        n_shown_ = 0;
+        for (std::uint8_t shown : is_shown) n_shown_ += shown;
+        if (n_shown_ == n_points_) return;
+        number_of_.resize(n_points_);
+        int next = first_;
+        for (std::size_t i = 0; i < n_points_; i++) number_of_[i] = is_shown[i] != 0 ? next++ : left_out;
+    }
+
+    // Numbers of points to those without the points left out.
+    void renumber(int *numbers, std::size_t count) const {
+        for (std::size_t i = 0; i < count; i++) numbers[i] = number_of_[static_cast<std::size_t>(numbers[i] - first_)];
+    }
+
     // Indices from zero to Triangle's numbers, in which no cell is -1 whatever the first number is.
     void number(const std::uint32_t *indices, int *numbers) const {
         static_assert(sizeof(int) == sizeof *indices && no_cell == UINT32_MAX);
@@ -90,6 +129,10 @@ private:
 
     const double *position(std::uint32_t vertex) const { return in_.pointlist + std::size_t{2} * vertex; }
     int numbered(std::uint32_t index) const { return static_cast<int>(index + static_cast<std::uint32_t>(first_)); }
+
+    int number_of_point(std::uint32_t vertex) const {
+        return number_of_.empty() ? numbered(vertex) : number_of_[vertex];
+    }
 
     // For each edge: its number, its first cell, and the corner opposite. The edge goes from the next corner to the one
     // after. Every place is visited, with the number of the next edge, and what is written there stays only if the
@@ -117,25 +160,77 @@ private:
 
     // Vertices of the hull are marked 1, unless the caller has marked them.
     void fill_points() {
-        std::memcpy(points_.data(), in_.pointlist, 2 * n_points_ * sizeof(double));
-        if (attributes_)
-            std::memcpy(attributes_.data(), in_.pointattributelist, n_points_ * n_attributes_ * sizeof(double));
+        copy_shown(in_.pointlist, 2, points_.data());
+        if (attributes_) copy_shown(in_.pointattributelist, n_attributes_, attributes_.data());
         if (!markers_) return;
-        for (std::size_t i = 0; i < n_points_; i++)
-            markers_[i] = in_.pointmarkerlist != nullptr ? in_.pointmarkerlist[i] : 0;
+        if (in_.pointmarkerlist != nullptr) copy_shown(in_.pointmarkerlist, 1, markers_.data());
+        else std::fill_n(markers_.data(), n_shown_, 0);
         for (std::size_t c = 0; c < cells_.count; c++) {
             for (unsigned corner = 0; corner < 3; corner++) {
                 if (cells_.neighbours[3 * c + corner] != no_cell) continue;
-                int &marker = markers_[edge_start(static_cast<std::uint32_t>(c), corner)];
+                const int number = number_of_point(edge_start(static_cast<std::uint32_t>(c), corner));
+                int &marker = markers_[static_cast<std::size_t>(number - first_)];
                 if (marker == 0) marker = 1;
             }
         }
     }
 
+    // Rows of the points that are not left out.
+    template <class T>
+    void copy_shown(const T *from, std::size_t width, T *to) const {
+        if (number_of_.empty()) std::copy_n(from, n_points_ * width, to);
+        for (std::size_t i = 0; i < number_of_.size(); i++)
+            if (number_of_[i] != left_out) to = std::copy_n(from + i * width, width, to);
+    }
+
+    // The edges of the hull, counter-clockwise from the point that is first by x, then by y; the end of each first.
+    void fill_segments() {
+        if (n_hull_ == 0) return;
+        HullEdge edge = first_hull_edge();
+        for (std::size_t n = 0; n < n_hull_; n++, edge = next_on_hull(edge)) {
+            segments_[2 * n] = number_of_point(edge_end(edge.cell, edge.corner));
+            segments_[2 * n + 1] = number_of_point(edge_start(edge.cell, edge.corner));
+            if (segment_markers_) segment_markers_[n] = 1;
+        }
+    }
+
+    struct HullEdge {
+        std::uint32_t cell;
+        unsigned corner; // opposite
+    };
+
+    HullEdge first_hull_edge() const {
+        HullEdge first{no_cell, 0};
+        const double *least = nullptr;
+        for (std::uint32_t c = 0; c < cells_.count; c++) {
+            for (unsigned corner = 0; corner < 3; corner++) {
+                if (cells_.neighbours[std::size_t{3} * c + corner] != no_cell) continue;
+                const double *start = position(edge_start(c, corner));
+                if (least != nullptr && !std::lexicographical_compare(start, start + 2, least, least + 2)) continue;
+                least = start;
+                first = {c, corner};
+            }
+        }
+        return first;
+    }
+
+    // Turns around the edge's end, from cell to cell.
+    HullEdge next_on_hull(HullEdge edge) const {
+        const std::uint32_t end = edge_end(edge.cell, edge.corner);
+        edge.corner = (edge.corner + 1) % 3;
+        for (;;) {
+            const std::uint32_t next = cells_.neighbours[std::size_t{3} * edge.cell + edge.corner];
+            if (next == no_cell) return edge;
+            unsigned at = 0;
+            while (cells_.vertices[std::size_t{3} * next + at] != end) at++;
+            edge = {next, (at + 2) % 3};
+        }
+    }
+
     void fill_edges() {
         for_each_edge([&](std::size_t n, std::uint32_t cell, unsigned corner, std::uint32_t neighbour) {
-            edges_[2 * n] = numbered(edge_start(cell, corner));
-            edges_[2 * n + 1] = numbered(edge_end(cell, corner));
+            edges_[2 * n] = number_of_point(edge_start(cell, corner));
+            edges_[2 * n + 1] = number_of_point(edge_end(cell, corner));
             if (edge_markers_) edge_markers_[n] = neighbour == no_cell;
         });
     }
@@ -181,18 +276,22 @@ private:
     const Cells &cells_;
     const triangulateio &in_;
     int first_;
-    std::size_t n_points_, n_attributes_, n_hull_ = 0, n_edges_ = 0;
+    std::size_t n_points_, n_attributes_, n_hull_ = 0, n_edges_ = 0, n_shown_ = 0;
+    static constexpr int left_out = -1;
+    std::vector<int> number_of_; // of each point in the output, or left_out; empty where none is left out
     MallocArray<double> points_, attributes_, centres_, centre_attributes_, norms_;
-    MallocArray<int> markers_, triangles_, neighbours_, edges_, edge_markers_, voronoi_edges_;
+    MallocArray<int> markers_, triangles_, neighbours_, segments_, segment_markers_;
+    MallocArray<int> edges_, edge_markers_, voronoi_edges_;
 };
 
 } // namespace
 
-void write_triangulation(const TriangleSwitches &switches, const Cells &cells, const triangulateio &in,
+void write_triangulation(const TriangleSwitches &switches, const Cells &cells,
+                         const std::vector<std::uint32_t> &representative, const triangulateio &in,
                          triangulateio &out, triangulateio *vorout) {
     // The caller may pass one structure as in and out.
     const triangulateio given = in;
-    Writer writer(switches, cells, given);
+    Writer writer(switches, cells, representative, given);
     writer.allocate(out, vorout);
     writer.fill();
     writer.hand_over(out, vorout);

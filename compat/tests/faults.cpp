@@ -33,22 +33,29 @@ int posix_memalign(void **block, std::size_t alignment, std::size_t size) {
 namespace {
 
 // Calls with the n-th allocation refused; whether that was reached. A triangulation is kept from call to call.
-bool triangulate_fails_at(long n, const Points &points, std::size_t n_cells) {
+// The last point is at the place of the first, and j leaves it out.
+bool triangulate_fails_at(long n, Points points, std::size_t n_cells) {
     triangulateio in{}, out{}, vorout{};
-    in.pointlist = const_cast<double *>(points.data());
+    points.insert(points.end(), {points[0], points[1]});
+    in.pointlist = points.data();
     in.numberofpoints = static_cast<int>(points.size() / 2);
-    char switches[] = "Qznve";
+    char switches[] = "Qznvecj";
     before_failure = n;
     const int returned = triangulate(switches, &in, &out, &vorout);
     const bool reached = before_failure < 0;
     before_failure = -1;
     CHECK(returned == (out.numberoftriangles == 0 ? 1 : 0));
-    if (out.numberoftriangles == 0) CHECK(reached && out.trianglelist == nullptr && vorout.pointlist == nullptr);
-    else CHECK(static_cast<std::size_t>(out.numberoftriangles) == n_cells);
+    if (out.numberoftriangles == 0) {
+        CHECK(reached && out.trianglelist == nullptr && vorout.pointlist == nullptr);
+    } else {
+        CHECK(static_cast<std::size_t>(out.numberoftriangles) == n_cells);
+        CHECK(out.numberofpoints == in.numberofpoints - 1);
+    }
     for (triangulateio *each : {&out, &vorout}) {
         for (double *array : {each->pointlist, each->pointattributelist, each->normlist}) std::free(array);
         for (int *array : {each->pointmarkerlist, each->trianglelist, each->neighborlist}) std::free(array);
         for (int *array : {each->edgelist, each->edgemarkerlist}) std::free(array);
+        for (int *array : {each->segmentlist, each->segmentmarkerlist}) std::free(array);
     }
     return reached;
 }

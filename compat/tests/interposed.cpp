@@ -10,6 +10,9 @@
 
 #include "check.hpp"
 
+extern "C" int triangulate_of_cxx(char *, triangulateio *, triangulateio *, triangulateio *)
+    __asm__("_Z11triangulatePcP13triangulateioS1_S1_");
+
 namespace {
 
 using Triangulate = int (*)(char *, triangulateio *, triangulateio *, triangulateio *);
@@ -18,8 +21,8 @@ using Tetrahedralize = void (*)(char *, tetgenio *, tetgenio *);
 void call_directly(char *switches, tetgenio *in, tetgenio *out) { tetrahedralize(switches, in, out); }
 
 struct Original {
-    int *calls, *is_wrong, *returns;
-    Triangulate call_triangulate;
+    int *calls, *cxx_calls, *is_wrong, *returns;
+    Triangulate call_triangulate, call_triangulate_of_cxx;
     Tetrahedralize call_tetrahedralize;
 };
 
@@ -31,10 +34,12 @@ Original find(const char *module) {
         CHECK(found != nullptr);
         return found;
     };
-    Original original{static_cast<int *>(symbol("original_calls")), static_cast<int *>(symbol("original_is_wrong")),
-                      static_cast<int *>(symbol("original_returns")), &triangulate, &call_directly};
+    const auto number = [&symbol](const char *name) { return static_cast<int *>(symbol(name)); };
+    Original original{number("original_calls"), number("original_cxx_calls"), number("original_is_wrong"),
+                      number("original_returns"), &triangulate, &triangulate_of_cxx, &call_directly};
     if (module == nullptr) return original;
     original.call_triangulate = reinterpret_cast<Triangulate>(symbol("call_triangulate"));
+    original.call_triangulate_of_cxx = reinterpret_cast<Triangulate>(symbol("call_triangulate_of_cxx"));
     original.call_tetrahedralize = reinterpret_cast<Tetrahedralize>(symbol("call_tetrahedralize"));
     return original;
 }
@@ -59,6 +64,51 @@ bool reaches_original(const Original &original, const char *switches, const Poin
     return *original.calls != before;
 }
 
+// Each of the two names is served, and passed on to the original of that name.
+void check_name_of_cxx(const Original &original, const Points &points) {
+    triangulateio in{}, out{};
+    in.pointlist = const_cast<double *>(points.data());
+    in.numberofpoints = static_cast<int>(points.size() / 2);
+    char refined[] = "Qzq", plain[] = "Qz";
+    const int before = *original.cxx_calls;
+    *original.returns = 5;
+    CHECK(original.call_triangulate_of_cxx(refined, &in, &out, nullptr) == 5 && *original.cxx_calls == before + 1);
+    original.call_triangulate(refined, &in, &out, nullptr);
+    CHECK(*original.cxx_calls == before + 1);
+    for (int *array : {out.trianglelist, out.neighborlist}) std::free(array);
+    triangulateio result{};
+    CHECK(original.call_triangulate_of_cxx(plain, &in, &result, nullptr) == 0 && *original.cxx_calls == before + 1);
+    CellSet cells;
+    for (int c = 0; c < result.numberoftriangles; c++) insert_cell(cells, result.trianglelist + 3 * c, 3, 0);
+    CHECK(cells == fresh_cells(2, points));
+    for (int *array : {result.trianglelist, result.pointmarkerlist}) std::free(array);
+    std::free(result.pointlist);
+}
+
+// With p the lists of the input decide whether a call is passed on.
+void check_lists_of_graph(const Original &original, const Points &points) {
+    std::vector<int> segment{0, 1};
+    std::vector<double> place{0.5, 0.5, 0, 0};
+    triangulateio in{};
+    in.pointlist = const_cast<double *>(points.data());
+    in.numberofpoints = static_cast<int>(points.size() / 2);
+    in.segmentlist = segment.data();
+    in.holelist = in.regionlist = place.data();
+    for (const auto count : {&triangulateio::numberofsegments, &triangulateio::numberofholes,
+                             &triangulateio::numberofregions}) {
+        for (const int n : {0, 1}) {
+            in.*count = n;
+            const int before = *original.calls;
+            char switches[] = "QpczNB";
+            triangulateio out{};
+            original.call_triangulate(switches, &in, &out, nullptr);
+            CHECK(*original.calls == before + n);
+            for (int *array : {out.trianglelist, out.neighborlist, out.segmentlist}) std::free(array);
+        }
+        in.*count = 0;
+    }
+}
+
 } // namespace
 
 int main(int count, char **arguments) {
@@ -70,10 +120,14 @@ int main(int count, char **arguments) {
     CellSet cells;
     // Own calls come from the original only where it was asked for; others always go to it.
     CHECK(reaches_original(original, "Qzn", points, cells) == !is_default && cells == expected);
-    CHECK(reaches_original(original, "Qzp", points, cells) && cells == expected);
+    CHECK(reaches_original(original, "Qzq", points, cells) && cells == expected);
     *original.is_wrong = 1;
     reaches_original(original, "Qzn", points, cells);
     CHECK((cells == expected) == is_default);
+    if (is_default) {
+        check_name_of_cxx(original, points);
+        check_lists_of_graph(original, points);
+    }
 
     Points space = random_points(3, 50, 2);
     for (const char *switches : {"Qz", "Qzp", "Qzq1.4"}) {

@@ -12,6 +12,7 @@
 
 extern "C" {
 int original_calls = 0;
+int original_cxx_calls = 0; // of them, those by the name that Triangle has where it is compiled as C++
 int original_is_wrong = 0;
 int original_returns = 0;
 }
@@ -50,6 +51,14 @@ extern "C" int triangulate(char *, triangulateio *in, triangulateio *out, triang
     return original_returns;
 }
 
+extern "C" int triangulate_of_cxx(char *, triangulateio *, triangulateio *, triangulateio *)
+    __asm__("_Z11triangulatePcP13triangulateioS1_S1_");
+extern "C" int triangulate_of_cxx(char *, triangulateio *, triangulateio *, triangulateio *) {
+    original_calls++;
+    original_cxx_calls++;
+    return original_returns;
+}
+
 void tetrahedralize(char *, tetgenio *, tetgenio *out, tetgenio *, tetgenio *) {
     original_calls++;
     out->numberoftetrahedra = 0;
@@ -58,6 +67,11 @@ void tetrahedralize(char *, tetgenio *, tetgenio *out, tetgenio *, tetgenio *) {
 // The call returns here, so that its origin can be told; the next one need not.
 extern "C" int call_triangulate(char *switches, triangulateio *in, triangulateio *out, triangulateio *vorout) {
     volatile int returned = triangulate(switches, in, out, vorout);
+    return returned;
+}
+
+extern "C" int call_triangulate_of_cxx(char *switches, triangulateio *in, triangulateio *out, triangulateio *vorout) {
+    volatile int returned = triangulate_of_cxx(switches, in, out, vorout);
     return returned;
 }
 

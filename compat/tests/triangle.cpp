@@ -31,6 +31,7 @@ public:
             for (double *array : {each->pointlist, each->pointattributelist, each->normlist}) std::free(array);
             for (int *array : {each->pointmarkerlist, each->trianglelist, each->neighborlist}) std::free(array);
             for (int *array : {each->edgelist, each->edgemarkerlist}) std::free(array);
+            for (int *array : {each->segmentlist, each->segmentmarkerlist}) std::free(array);
         }
     }
     CellSet cells(int first) const {
@@ -49,7 +50,8 @@ double cross(const double *a, const double *b, const double *c) {
 
 void cells_are_those_of_a_new_triangulation() {
     for (const Points &points : {random_points(2, 3, 1), random_points(2, 5000, 2), lattice_points(2, 300, 12, 3)}) {
-        for (const char *switches : {"Qz", "Q", "QzP", "QPIz", "-Qz", "Qz{}", "zQiF", "VQXlz"}) {
+        for (const char *switches : {"Qz", "Q", "QzP", "QPIz", "-Qz", "Qz{}", "zQiF", "VQXlz", "QzA", "QzS12YYsO",
+                                     "zCghH"}) {
             const Call call(switches, points);
             const int first = std::strchr(switches, 'z') != nullptr ? 0 : 1;
             CHECK(call.cells(first) == fresh_cells(2, points));
@@ -194,6 +196,97 @@ void voronoi_edges_are_dual() {
     }
 }
 
+// The segments of c are the edges of the hull, from the first point by x counter-clockwise, the end of each first.
+void segments_enclose_the_hull() {
+    for (const char *switches : {"Qczne", "Qpczne", "QpcAzne"}) {
+        const Points points = lattice_points(2, 80, 9, 15);
+        const Call call(switches, points), plain("Qzne", points);
+        CHECK(call.cells(0) == plain.cells(0) && call.out.numberofsegments == plain.out.numberofsegments);
+        CHECK(call.out.numberofholes == 0 && call.out.numberofregions == 0);
+        const auto point = [&](int v) { return &points[2 * static_cast<std::size_t>(v)]; };
+        const int n = call.out.numberofsegments, *segments = call.out.segmentlist;
+        const double *first = point(segments[1]);
+        for (std::size_t p = 0; p < points.size(); p += 2)
+            CHECK(!std::lexicographical_compare(&points[p], &points[p] + 2, first, first + 2));
+        std::set<std::pair<int, int>> hull, listed;
+        for (int e = 0; e < call.out.numberofedges; e++)
+            if (call.out.edgemarkerlist[e] == 1) hull.insert({call.out.edgelist[2 * e + 1], call.out.edgelist[2 * e]});
+        for (int s = 0; s < n; s++) {
+            CHECK(segments[2 * s] == segments[2 * ((s + 1) % n) + 1] && call.out.segmentmarkerlist[s] == 1);
+            listed.insert({segments[2 * s], segments[2 * s + 1]});
+        }
+        CHECK(listed == hull && listed.size() == static_cast<std::size_t>(n));
+    }
+    const Points points = random_points(2, 30, 16);
+    const Call unmarked("QcB", points), unlisted("QcP", points);
+    CHECK(unmarked.out.segmentlist != nullptr && unmarked.out.segmentmarkerlist == nullptr);
+    CHECK(unlisted.out.segmentlist == nullptr && unlisted.out.numberofsegments == unmarked.out.numberofsegments);
+}
+
+// Without segments nothing separates a triangle from the outside, so p leaves none, and j no point. Points on a line
+// have no triangle to be taken away.
+void graphs_without_segments_are_carved_away() {
+    const Points points = random_points(2, 100, 17), line{0, 0, 1, 1, 2, 2, 3, 3, 3, 3};
+    const std::vector<int> markers(100, 4);
+    const Call call("Qzpnev", points, 0, nullptr, markers.data()), jettisoned("Qzpj", points), flat("Qzpj", line);
+    CHECK(call.out.numberoftriangles == 0 && call.out.numberofsegments == 0 && call.out.numberofedges == 0);
+    CHECK(call.out.numberofpoints == 100 && call.vorout.numberofpoints == 0 && call.out.segmentlist != nullptr);
+    CHECK(std::equal(markers.begin(), markers.end(), call.out.pointmarkerlist));
+    CHECK(jettisoned.out.numberofpoints == 0 && jettisoned.out.pointlist != nullptr);
+    CHECK(flat.out.numberofpoints == 4);
+}
+
+// Of points at one place the first stays, and the numbers of those after the others close up.
+void points_in_no_triangle_are_jettisoned() {
+    Points unique = random_points(2, 60, 18), points = unique, attributes = random_points(1, 63, 19);
+    points.insert(points.begin() + 40, points.begin() + 6, points.begin() + 12);
+    std::vector<int> markers(63);
+    for (int i = 0; i < 63; i++) markers[static_cast<std::size_t>(i)] = 100 + i;
+    for (const int first : {0, 1}) {
+        const Call call(first == 0 ? "Qjznec" : "Qjnec", points, 1, attributes.data(), markers.data());
+        const Call plain(first == 0 ? "Qznec" : "Qnec", unique);
+        CHECK(call.out.numberofpoints == 60 && call.cells(first) == fresh_cells(2, unique));
+        CHECK(std::memcmp(call.out.pointlist, unique.data(), 120 * sizeof(double)) == 0);
+        for (int i = 0; i < 60; i++) {
+            const int from = i < 20 ? i : i + 3;
+            CHECK(call.out.pointmarkerlist[i] == 100 + from);
+            CHECK(call.out.pointattributelist[i] == attributes[static_cast<std::size_t>(from)]);
+        }
+        CHECK(call.out.numberofsegments == plain.out.numberofsegments);
+        CHECK(std::equal(plain.out.segmentlist, plain.out.segmentlist + 2 * plain.out.numberofsegments,
+                         call.out.segmentlist));
+        const auto edges = [](const triangulateio &io) {
+            std::set<std::pair<int, int>> set;
+            for (const int *e = io.edgelist; e < io.edgelist + 2 * io.numberofedges; e += 2)
+                set.insert(std::minmax(e[0], e[1]));
+            return set;
+        };
+        CHECK(edges(call.out) == edges(plain.out));
+    }
+    const Call nothing_to_do("Qjz", unique);
+    CHECK(nothing_to_do.out.numberofpoints == 60 && nothing_to_do.cells(0) == fresh_cells(2, unique));
+    const Call flat("Qjz", {0, 0, 1, 1, 0, 0, 2, 2, 1, 1});
+    CHECK(flat.out.numberofpoints == 3 && flat.out.pointlist[5] == 2);
+}
+
+// One structure may be input and output, with the arrays of the input.
+void points_are_left_out_in_place() {
+    Points unique = random_points(2, 40, 20), points = unique;
+    points.insert(points.begin() + 20, points.begin(), points.begin() + 8);
+    triangulateio io{};
+    io.pointlist = points.data();
+    io.numberofpoints = 44;
+    char switches[] = "Qjz";
+    CHECK(triangulate(switches, &io, &io, nullptr) == 0);
+    CHECK(io.pointlist == points.data() && io.numberofpoints == 40);
+    CHECK(std::equal(unique.begin(), unique.end(), points.begin()));
+    CellSet cells;
+    for (int c = 0; c < io.numberoftriangles; c++) insert_cell(cells, io.trianglelist + 3 * c, 3, 0);
+    CHECK(cells == fresh_cells(2, unique));
+    std::free(io.trianglelist);
+    std::free(io.pointmarkerlist);
+}
+
 void given_arrays_are_filled() {
     const Points points = random_points(2, 50, 13);
     std::vector<int> room(3 * 100), neighbours(3 * 100);
@@ -239,6 +332,7 @@ void bad_input_gives_nothing() {
         std::free(out.pointlist);
         std::free(out.pointmarkerlist);
         std::free(out.trianglelist);
+        for (int *array : {out.segmentlist, out.segmentmarkerlist}) std::free(array);
         CHECK(returned == (nothing ? 1 : 0));
         return nothing;
     };
@@ -248,8 +342,14 @@ void bad_input_gives_nothing() {
     in.numberofpoints = 10;
     CHECK(!gives_nothing("Qz", &in));
     CHECK(gives_nothing("Qz", nullptr) && gives_nothing("Qzv", &in, false));
-    for (const char *switches : {"Qzp", "Qzr", "Qzq30a0.1", "Qzc", "Qzj", "Qzo2", "QzD", "Qzu"})
+    for (const char *switches : {"Qzr", "Qzq30a0.1", "Qzo2", "QzD", "QzL", "Qzu", "Qzw", "QzpW", "Qzk"})
         CHECK(gives_nothing(switches, &in));
+    for (int triangulateio::*count : {&triangulateio::numberofsegments, &triangulateio::numberofholes,
+                                      &triangulateio::numberofregions}) {
+        in.*count = 1;
+        CHECK(!gives_nothing("Qzc", &in) && gives_nothing("Qzp", &in) && gives_nothing("QzpcA", &in));
+        in.*count = 0;
+    }
     for (const int count : {0, 1, 2, -1}) {
         in.numberofpoints = count;
         CHECK(gives_nothing("Qz", &in));
@@ -282,6 +382,10 @@ int main() {
     edges_come_once_with_their_triangle_on_the_left();
     voronoi_vertices_are_circumcentres();
     voronoi_edges_are_dual();
+    segments_enclose_the_hull();
+    graphs_without_segments_are_carved_away();
+    points_in_no_triangle_are_jettisoned();
+    points_are_left_out_in_place();
     given_arrays_are_filled();
     degenerate_input_has_no_triangles();
     centres_of_flat_triangles_are_finite();

@@ -65,6 +65,7 @@ fn call<T: AsRef<str>>(function: &Declaration, arguments: &[T]) -> String {
         ("deldrift_status", name) => format!("{name}({arguments})"),
         ("const char", name) => format!("told({name}({arguments}))"),
         (_, "deldrift_destroy") => format!("destroyed({arguments})"),
+        (_, "deldrift_free_cells") => format!("freed({arguments})"),
         (_, "deldrift_options_init") => format!("initialised({arguments})"),
         (returns, name) => panic!("{name} gives {returns}, which is no status"),
     }
@@ -141,9 +142,12 @@ impl Cases<'_> {
         let is_list = self.function.has("offsets");
         let is_legal = match role {
             Role::Handle => self.function.name == "deldrift_destroy",
-            Role::Hint | Role::Options | Role::ResearchOptions | Role::OutputIfAny | Role::NumbersIfAny => {
-                true
-            }
+            Role::Owner
+            | Role::Hint
+            | Role::Options
+            | Role::ResearchOptions
+            | Role::OutputIfAny
+            | Role::NumbersIfAny => true,
             Role::Ids => self.function.name == "deldrift_move_vertices",
             Role::Buffer => {
                 self.function.name != "deldrift_compact" && n_buffers > 1 && (!is_list || name == "offsets")
@@ -157,8 +161,9 @@ impl Cases<'_> {
     }
 
     fn misaligned(&mut self, at: usize, role: Role, parameter: &Parameter) {
-        // What fills the options is in the header, and is the program's own.
-        if is_of_bytes(parameter) || self.function.name == "deldrift_options_init" {
+        // What fills the options is in the header, and is the program's own; what frees has no way to say anything.
+        let says_nothing = role == Role::Owner || self.function.name == "deldrift_options_init";
+        if is_of_bytes(parameter) || says_nothing {
             return;
         }
         let wrong = match role {
@@ -181,6 +186,7 @@ impl Cases<'_> {
                 self.coordinates(at, name, valid, count.map_or("1", |count| self.row.arguments[count]));
             }
             Role::PointsOfSimplex => self.coordinates(at, name, valid, "(dimension + 1)"),
+            Role::PointsOfSphere => self.coordinates(at, name, valid, "(dimension + 2)"),
             Role::BoxCorner => {
                 self.coordinates(at, name, valid, "1");
                 let (wrong, other) = if name == "low" { ("3.0", "high") } else { ("-1.0", "high") };
@@ -188,16 +194,31 @@ impl Cases<'_> {
                 let message = format!("\"{other}[0] is \"");
                 self.refused("value", at, "beyond the other corner", &wrong, "INVALID_VALUE", &message);
             }
+            Role::OpenBoxCorner => {
+                let last = |value: &str| format!("bad({valid}, dimension - 1, {value})");
+                let message = format!("\"{name}[%u] is NaN\", dimension - 1");
+                self.refused("nan", at, "NaN", &last("NAN"), "INVALID_VALUE", &message);
+                for value in ["INFINITY", "-INFINITY"] {
+                    self.legal("infinite", at, &value.to_lowercase(), &last(value));
+                }
+                self.legal("range", at, "2e57", &last("2e57"));
+                let beyond = if name == "low" { "3.0" } else { "-3.0" };
+                self.legal("value", at, "beyond the other corner", &last(beyond));
+            }
             Role::Numbers | Role::NumbersIfAny => {
                 self.legal("nan", at, "NaN", &format!("bad({valid}, 0, NAN)"));
                 self.legal("infinite", at, "infinity", &format!("bad({valid}, 0, INFINITY)"));
             }
             Role::Ids => self.ids(at),
-            Role::CellIds => {
+            Role::CellIds | Role::CellIdsIfAny => {
                 self.legal("value", at, "one twice", "bad_ids(1, 0)");
                 for (given, value) in
                     [("the number of them", "(uint32_t)n_cells"), ("UINT32_MAX", "UINT32_MAX")]
                 {
+                    if value == "UINT32_MAX" && role == Role::CellIdsIfAny {
+                        self.legal("id", at, "DELDRIFT_NONE", "bad_ids(1, DELDRIFT_NONE)");
+                        continue;
+                    }
                     let message = format!("\"cells[1] is %u\", (unsigned){value}");
                     self.refused("id", at, given, &format!("bad_ids(1, {value})"), "NO_SUCH_FACET", &message);
                 }
@@ -386,11 +407,21 @@ impl Cases<'_> {
             }
             Role::Method => self.refused("value", at, "2", "2", "INVALID_VALUE", "\"method[0] is 2\""),
             Role::Status => self.legal("value", at, "UINT32_MAX", "(deldrift_status)UINT32_MAX"),
-            Role::SquaredRadius => {
-                self.refused("nan", at, "NaN", "NAN", "INVALID_VALUE", "\"squared_radius[0] is NaN\"");
-                self.refused("value", at, "-1", "-1", "INVALID_VALUE", "\"squared_radius[0] is -1\"");
+            Role::Magnitude => {
+                for (column, given, said) in [("nan", "NAN", "NaN"), ("value", "-1", "-1")] {
+                    let message = format!("\"{name}[0] is {said}\"");
+                    self.refused(column, at, said, given, "INVALID_VALUE", &message);
+                }
                 self.legal("infinite", at, "infinity", "INFINITY");
                 self.legal("zero", at, "0", "0");
+            }
+            Role::Corners => {
+                for (given, value) in
+                    [("0", "0"), ("two more than dimensions", "dimension + 2"), ("UINT32_MAX", "UINT32_MAX")]
+                {
+                    let message = format!("\"{name}[0] is %u\", (unsigned)({value})");
+                    self.refused("value", at, given, value, "INVALID_VALUE", &message);
+                }
             }
             Role::Count | Role::FixedCount | Role::CountOfEach | Role::Size => self.count(at, role, name),
             Role::Capacity => self.capacity(at),
@@ -445,6 +476,7 @@ impl Cases<'_> {
                 if !is_creation {
                     let message = match role {
                         // Numbers of each entry count in its size.
+                        Role::CountOfEach if name == "k" => "\"vertices cannot have \"",
                         Role::CountOfEach => "\"values cannot have \"",
                         _ => "\"4611686018427387903\"",
                     };
@@ -456,6 +488,11 @@ impl Cases<'_> {
 
     fn capacity(&mut self, at: usize) {
         for (column, given, value) in [("zero", "0", "0"), ("value", "1", "1")] {
+            // There is one hidden vertex.
+            if value == "1" && self.function.name == "deldrift_hidden_vertices" {
+                self.legal(column, at, given, value);
+                continue;
+            }
             let message = format!("\"capacity is {value}, but \"");
             self.refused(column, at, given, value, "BUFFER_TOO_SMALL", &message);
         }
@@ -480,7 +517,8 @@ impl Cases<'_> {
         let roles = self.roles();
         let is_array = |k: usize| {
             let role = roles[k];
-            let is_read = matches!(role, Role::Points | Role::BoxCorner | Role::Numbers | Role::NumbersIfAny);
+            let is_read = matches!(role, Role::Points | Role::BoxCorner | Role::OpenBoxCorner)
+                || matches!(role, Role::Numbers | Role::NumbersIfAny);
             is_read || matches!(role, Role::Mask | Role::Hint | Role::Buffer | Role::Output)
         };
         let element = |k: usize| {

@@ -17,6 +17,7 @@ enum { COUNT = 13, REMOVED = 5, HIDDEN = 12, STAGED = 7, LEAVING = 6, COMING = C
 // All that calls write to.
 typedef struct {
     deldrift_triangulation *handle;
+    deldrift_released_cells *owner;
     size_t count;
     uint64_t timestamp;
     uint32_t number;
@@ -41,7 +42,7 @@ static size_t n_ids, n_cells, n_edges;
 static uint32_t inner_cell, inner_corner;
 
 // Arguments, which are made again before each call.
-static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3];
+static double points[(COUNT + 2) * 3], moved[(COUNT + 2) * 3], values[(COUNT + 2) * 3], inside[(COUNT + 2) * 3];
 static double outside[ROOM], low[ROOM], high[ROOM];
 static uint32_t ids[3];
 static uint8_t mask[ROOM], saved[BYTES];
@@ -159,6 +160,20 @@ static deldrift_triangulation *spare(void) {
     return made;
 }
 
+static deldrift_released_cells *spare_cells(void) {
+    deldrift_triangulation *made = spare();
+    deldrift_released_cells *owner = NULL;
+    deldrift_cells_view view;
+    OK(deldrift_release_cells(made, &view, &owner));
+    deldrift_destroy(made);
+    return owner;
+}
+
+static deldrift_status freed(deldrift_released_cells *owner) {
+    deldrift_free_cells(owner);
+    return DELDRIFT_OK;
+}
+
 // Arguments and outputs as they are before every call.
 static void before(void) {
     uint64_t seed = 3;
@@ -166,6 +181,7 @@ static void before(void) {
     memcpy(points + HIDDEN * dimension, points + 3 * dimension, dimension * sizeof *points);
     for (size_t i = 0; i < sizeof points / sizeof *points; i++) moved[i] = points[i] + 0.01 * next_random(&seed);
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) values[i] = (double)i;
+    for (size_t i = 0; i < sizeof inside / sizeof *inside; i++) inside[i] = 0.5;
     for (size_t i = 0; i < 3; i++) {
         low[i] = -1;
         high[i] = 2;
@@ -218,6 +234,12 @@ static void use_base(bool is_staged) {
     OK(deldrift_id_count(t, &n_ids));
 }
 
+// Ends what a call has handed out.
+static void end_outputs(void) {
+    if (out.handle != untouched.handle) deldrift_destroy(out.handle);
+    if (out.owner != untouched.owner) deldrift_free_cells(out.owner);
+}
+
 // After a call: `message` is what has to be said, NULL if the call is legal.
 static void after(const char *function, const char *argument, const char *column, const char *given,
                   deldrift_status status, deldrift_status expected, const char *message, bool is_staged,
@@ -225,7 +247,7 @@ static void after(const char *function, const char *argument, const char *column
     report(function, argument, column, given, status);
     if (expected == DELDRIFT_OK) {
         if (status != DELDRIFT_OK) wrong(function, argument, given, deldrift_last_error());
-        if (status == DELDRIFT_OK && out.handle != untouched.handle) deldrift_destroy(out.handle);
+        if (status == DELDRIFT_OK) end_outputs();
         // What it may have changed is made again.
         use_base(is_staged);
         return;
@@ -284,7 +306,7 @@ static void all_others_work(const char *column, const char *given) {
         deldrift_status status = call(k);
         report(functions[k].name, "", column, given, status);
         if (status != DELDRIFT_OK) wrong(functions[k].name, "", given, deldrift_last_error());
-        if (out.handle != untouched.handle) deldrift_destroy(out.handle);
+        end_outputs();
     }
 }
 
@@ -302,7 +324,7 @@ static void *from_a_thread(void *unused) {
         deldrift_status status = call(k);
         report(f->name, "", "thread", "between calls", status);
         if (status != DELDRIFT_OK) wrong(f->name, "", "from another thread", deldrift_last_error());
-        if (out.handle != untouched.handle) deldrift_destroy(out.handle);
+        end_outputs();
     }
     return unused;
 }

@@ -7,18 +7,23 @@ use super::declarations::{Declaration, Parameter};
 pub enum Role {
     /// The triangulation.
     Handle,
-    /// Coordinates of points: of so many as the argument `count` says, of one, of those of a simplex.
+    /// Coordinates of points: of so many as the argument `count` says, of one, of those of a simplex, of one more.
     Points,
     PointsOfSimplex,
-    /// A corner of a box: both are given, or none.
+    PointsOfSphere,
+    /// A corner of a box: both are given, or none; and one that must be given, and may be anywhere.
     BoxCorner,
+    OpenBoxCorner,
+    /// What owns arrays that have been handed over.
+    Owner,
     /// Numbers of any value.
     Numbers,
     /// Numbers of any value, or none.
     NumbersIfAny,
     Ids,
-    /// Indices of cells.
+    /// Indices of cells, and of cells if there are any.
     CellIds,
+    CellIdsIfAny,
     Mask,
     Hint,
     Options,
@@ -37,7 +42,10 @@ pub enum Role {
     Algorithm,
     Method,
     Status,
-    SquaredRadius,
+    /// A number that is not negative, and may be infinite.
+    Magnitude,
+    /// How many corners each of several simplices has.
+    Corners,
     /// How many entries an array has that is read.
     Count,
     /// That is not for the caller to choose.
@@ -59,12 +67,18 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
     let is_commit = function.name.starts_with("deldrift_commit");
     match (parameter.c_type.as_str(), parameter.name.as_str()) {
         ("deldrift_triangulation *" | "const deldrift_triangulation *", "t") => Role::Handle,
-        ("const double *", "position" | "positions") => Role::Points,
+        ("deldrift_released_cells *", "owner") => Role::Owner,
+        ("const double *", "position" | "positions" | "centre") => Role::Points,
+        ("const double *", "points") if function.name == "deldrift_in_sphere" => Role::PointsOfSphere,
         ("const double *", "points") => Role::PointsOfSimplex,
+        ("const double *", "low" | "high") if function.name == "deldrift_vertices_in_box" => {
+            Role::OpenBoxCorner
+        }
         ("const double *", "low" | "high") => Role::BoxCorner,
         ("const double *", "values") => Role::Numbers,
         ("const double *", "outside") => Role::NumbersIfAny,
         ("const uint32_t *", "vertices") => Role::Ids,
+        ("const uint32_t *", "cells") if function.name == "deldrift_barycentric" => Role::CellIdsIfAny,
         ("const uint32_t *", "cells") => Role::CellIds,
         ("const uint8_t *", "mask") => Role::Mask,
         ("const deldrift_location *", "hint") => Role::Hint,
@@ -82,12 +96,13 @@ pub fn role(function: &Declaration, parameter: &Parameter) -> Role {
         ("deldrift_algorithm" | "deldrift_research_algorithm", _) => Role::Algorithm,
         ("deldrift_interpolation", _) => Role::Method,
         ("deldrift_status", _) => Role::Status,
-        ("double", "squared_radius") => Role::SquaredRadius,
+        ("uint32_t", "corners_per_simplex") => Role::Corners,
+        ("double", "squared_radius" | "tolerance") => Role::Magnitude,
         ("size_t", "count") if function.name == "deldrift_commit_positions" => Role::FixedCount,
         ("size_t", "count" | "vertex_count" | "cell_count") => Role::Count,
         ("size_t", "vertex_field_count" | "cell_field_count") => Role::Count,
         ("size_t", "value_count" | "mask_count" | "offset_count") => Role::FixedCount,
-        ("size_t", "n_values") => Role::CountOfEach,
+        ("size_t", "n_values" | "k") => Role::CountOfEach,
         ("size_t", "size") => Role::Size,
         ("size_t", "capacity") => Role::Capacity,
         (c_type, "report") if is_commit && c_type.ends_with('*') => Role::OutputIfAny,

@@ -201,10 +201,12 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     CHECK(strlen(deldrift_last_error()) > 0);
     OK(deldrift_copy_positions(s.t, numbers_out, ROOM / 3, &count));
     OK(deldrift_coincident_representative(s.t, 30, &number));
+    OK(deldrift_hidden_vertices(s.t, ids_out, more_out, ROOM, &count));
     OK(deldrift_validate(s.t, 3));
     int32_t sign;
-    static const double flat[12] = {0, 0, 0, 1, 1e-300, 0, 0, 1, 0, 1, 1, 1e-300};
+    static const double flat[15] = {0, 0, 0, 1, 1e-300, 0, 0, 1, 0, 1, 1, 1e-300, 1, 1e-300, 1};
     OK(deldrift_orientation(dimension, flat, &sign));
+    OK(deldrift_in_sphere(dimension, flat, &sign));
     OK(deldrift_research_within_safe_region(s.t, &timestamp));
     OK(deldrift_research_set_algorithm(s.t, DELDRIFT_RESEARCH_PLACEMENT, NULL));
     OK(deldrift_set_algorithm(s.t, DELDRIFT_TOLERANCE));
@@ -267,7 +269,8 @@ int main(void) {
         other_functions_ask_for_nothing(dimension);
         for (size_t which = 0; which < N_SETTINGS; which++) {
             for (kind k = 0; k < N_KINDS; k++) {
-                bool is_of_one = k == RELOCATE || k == INSERT || k == REMOVE || k == LOCATE || k == LOCATE_POINTS || k == NEAREST;
+                bool is_of_one = k == RELOCATE || k == INSERT || k == REMOVE || k == LOCATE || k == LOCATE_POINTS ||
+                                 k == NEAREST || k == NEAREST_VERTICES || k == CONFLICTS;
                 // Moves and edits that are staged already would be in the way.
                 if (SETTINGS[which].edits && (k == STAGE_REMOVALS || k == MOVE_ALL)) continue;
                 if (dimension == 3 && k == ORDERED_STAR) continue;

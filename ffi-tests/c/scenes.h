@@ -46,7 +46,9 @@ typedef enum { CREATE, RELOCATE, INSERT, REMOVE, MOVE, MOVE_SOME, MOVE_ALL, STAG
     MASK_BOUNDARY, HULL_FACETS, EDGES, VERTEX_NEIGHBOURS, VERTEX_CELLS, MIRROR_INDICES, MIRROR_INDEX, ORDERED_STAR,
     CELLS_AROUND, CELLS_AROUND_ALL, UPDATE_CIRCUMCENTRES, UPDATE_VOLUMES, UPDATE_MASK,
     VORONOI_VOLUMES, VORONOI_FACETS, INTERPOLATE, INTERPOLATE_NATURAL,
-    CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
+    NEAREST_VERTICES, VERTICES_IN_BALL, VERTICES_IN_BOX, CONFLICTS, FIND_SIMPLICES, FIND_SIMPLICES_ALL,
+    CELL_OF_EACH_VERTEX, BARYCENTRIC, MASK_WITHOUT_FLAT_CELLS,
+    RELEASE_CELLS, CLONE, SAVE, LOAD, SAVE_FILE, LOAD_FILE, WRITE_VTU, WRITE_MEDIT, N_KINDS } kind;
 
 static const char *const NAMES[N_KINDS] = {
     "deldrift_create", "deldrift_relocate_vertex", "deldrift_insert_vertex", "deldrift_remove_vertex",
@@ -62,7 +64,10 @@ static const char *const NAMES[N_KINDS] = {
     "deldrift_update_circumcentres", "deldrift_update_volumes", "deldrift_update_mask_by_circumradius",
     "deldrift_voronoi_volumes", "deldrift_voronoi_facets",
     "deldrift_interpolate", "deldrift_interpolate, natural",
-    "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu",
+    "deldrift_nearest_vertices", "deldrift_vertices_in_ball", "deldrift_vertices_in_box", "deldrift_conflicts",
+    "deldrift_find_simplices", "deldrift_find_simplices, all", "deldrift_cell_of_each_vertex", "deldrift_barycentric",
+    "deldrift_mask_without_flat_cells",
+    "deldrift_release_cells", "deldrift_clone", "deldrift_save", "deldrift_load", "deldrift_save_file", "deldrift_load_file", "deldrift_write_vtu",
     "deldrift_write_medit",
 };
 
@@ -279,8 +284,11 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
         OK(deldrift_is_present(s->t, v, &present));
         if (present) vertices[n_vertices++] = v;
     }
+    const uint32_t some_cell = n_cells > 0 ? 0 : DELDRIFT_NONE;
     size_t size = 0;
     const deldrift_field field = {"field", numbers_out, 1};
+    deldrift_cells_view released = {77, 0, NULL, NULL};
+    deldrift_released_cells *owner = NULL;
     const char *file = file_of_test();
     if (s->call.kind == LOAD) OK(deldrift_save(s->t, saved, sizeof saved, &size));
     if (s->call.kind == LOAD_FILE) OK(deldrift_save_file(s->t, file));
@@ -342,6 +350,18 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             status = deldrift_interpolate(s->t, s->call.kind == INTERPOLATE_NATURAL, s->points, id_count, 1, at, 1,
                                           NULL, NULL, numbers_out);
             break;
+        case NEAREST_VERTICES: status = deldrift_nearest_vertices(s->t, to, 1, 9, ids_out); break;
+        case VERTICES_IN_BALL: status = deldrift_vertices_in_ball(s->t, at, 0.09, ids_out, ROOM, &count); break;
+        case VERTICES_IN_BOX: status = deldrift_vertices_in_box(s->t, low, high, ids_out, ROOM, &count); break;
+        case CONFLICTS: status = deldrift_conflicts(s->t, to, NULL, ids_out, ROOM, &count); break;
+        case FIND_SIMPLICES: status = deldrift_find_simplices(s->t, 2, vertices, 2, ids_out); break;
+        case FIND_SIMPLICES_ALL: status = deldrift_find_simplices(s->t, 2, vertices, n_vertices / 2, ids_out); break;
+        case CELL_OF_EACH_VERTEX: status = deldrift_cell_of_each_vertex(s->t, ids_out, ROOM, &count); break;
+        case BARYCENTRIC: status = deldrift_barycentric(s->t, at, &some_cell, 1, numbers_out); break;
+        case MASK_WITHOUT_FLAT_CELLS:
+            status = deldrift_mask_without_flat_cells(s->t, 0.1, bytes_out, ROOM, &count);
+            break;
+        case RELEASE_CELLS: status = deldrift_release_cells(s->t, &released, &owner); break;
         case CLONE: status = deldrift_clone(s->t, &made); break;
         case SAVE: status = deldrift_save(s->t, bytes_out, sizeof bytes_out, &count); break;
         case LOAD: status = deldrift_load(saved, size, &options, &made); break;
@@ -363,6 +383,7 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
     *given = status;
     if (status != DELDRIFT_OK) {
         bool untouched = made == none && report.timestamp == 77 && out == 77 && ids_out[0] == 77 && more_out[0] == 77;
+        if (owner != NULL || released.count != 77) *wrong = "an owner is given";
         if (!untouched || bytes_out[0] != 77 || numbers_out[0] != 77 || count != 0) *wrong = "an output is written";
         return status;
     }
@@ -395,10 +416,17 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             if (count > 0 && memcmp(more_out, view.neighbours, bytes) != 0) *wrong = "not a copy";
             break;
         }
+        case RELEASE_CELLS:
+            // What is handed over is the cells, as a set.
+            *given = released.count == cell_count(s->t) ? digest_of(&released.count, sizeof released.count) : 0;
+            for (size_t i = 0; i < released.count * (d + 1); i++) *given += released.vertices[i];
+            deldrift_free_cells(owner);
+            break;
         case ORDERED_STAR:
         case SAVE: *given = count; break;
         case CELLS_AROUND:
         case CELLS_AROUND_ALL:
+        case CONFLICTS:
         case STAR: *given = digest_of_cells(s->t, ids_out, count); break;
         case INTERPOLATE:
         case INTERPOLATE_NATURAL:
@@ -416,7 +444,19 @@ static deldrift_status make_call(scene *s, size_t first, later too, uint64_t *gi
             if (s->call.kind == CIRCUMCENTRES || s->call.kind == UPDATE_CIRCUMCENTRES) count *= d;
             for (size_t i = 0; i < count; i++) *given += digest_of(&numbers_out[i], sizeof *numbers_out);
             break;
+        case NEAREST_VERTICES: *given = digest_of(ids_out, 9 * sizeof *ids_out); break;
+        case VERTICES_IN_BALL:
+        case VERTICES_IN_BOX: *given = digest_of(ids_out, count * sizeof *ids_out); break;
+        case FIND_SIMPLICES: count = 2; // fall through
+        case FIND_SIMPLICES_ALL:
+            if (s->call.kind == FIND_SIMPLICES_ALL) count = n_vertices / 2; // fall through
+        case CELL_OF_EACH_VERTEX:
+            // Which cell it is depends on the order of cells.
+            for (size_t i = 0; i < count; i++) *given = mixed(*given, ids_out[i] == DELDRIFT_NONE);
+            break;
+        case BARYCENTRIC: *given = isnan(numbers_out[0]) != 0; break;
         case UPDATE_MASK: count = n_cells; // fall through
+        case MASK_WITHOUT_FLAT_CELLS:
         case MASK_BY_CIRCUMRADIUS:
             for (size_t i = 0; i < count; i++) *given += bytes_out[i];
             break;

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-enum { TOUR_POINTS = 48, TOUR_STEPS = 160, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
+enum { TOUR_POINTS = 48, TOUR_STEPS = 224, TOUR_ROOM = 1 << 14, TOUR_FILE = 1 << 18 };
 
 // What a tour is given.
 typedef struct {
@@ -190,12 +190,43 @@ static void ask_about(const deldrift_triangulation *t, const places *p) {
     }
     TRY(deldrift_coincident_representative(t, 4, &one));
     note(&one, sizeof one);
+    GO(deldrift_hidden_vertices(t, ids, more_ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    note(more_ids, count * sizeof *more_ids);
+    GO(deldrift_nearest_vertices(t, p->later, p->n, 7, ids));
+    note(ids, p->n * 7 * sizeof *ids);
+    for (size_t k = 0; k < 2; k++) {
+        GO(deldrift_vertices_in_ball(t, p->later + k * d, p->squared_radius, ids, TOUR_ROOM, &count));
+        note(ids, count * sizeof *ids);
+        GO(deldrift_conflicts(t, p->later + k * d, &location, ids, TOUR_ROOM, &count));
+        note(ids, count * sizeof *ids);
+    }
+    GO(deldrift_vertices_in_box(t, p->low, p->high, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    GO(deldrift_cell_of_each_vertex(t, ids, TOUR_ROOM, &count));
+    note(ids, count * sizeof *ids);
+    for (size_t k = 0; k < p->n; k++) {
+        const uint32_t kind = tour_out.locations[k].kind;
+        const bool is_cell = kind == DELDRIFT_LOCATION_CELL || kind == DELDRIFT_LOCATION_OUTSIDE;
+        ids[k] = is_cell ? tour_out.locations[k].index : DELDRIFT_NONE;
+    }
+    GO(deldrift_barycentric(t, p->later, ids, p->n, numbers));
+    note(numbers, p->n * corners * sizeof *numbers);
+    // Facets, of few cells and of all.
+    for (size_t part = 1; part <= 2; part++) {
+        const size_t n = part == 1 && n_cells > 3 ? 3 : n_cells;
+        for (size_t k = 0; k < n; k++) memcpy(more_ids + k * d, cells.vertices + k * corners, d * sizeof *ids);
+        GO(deldrift_find_simplices(t, d, more_ids, n, ids));
+        note(ids, n * sizeof *ids);
+    }
     GO(deldrift_circumcentres(t, numbers, more, TOUR_ROOM / 3, &count));
     note(numbers, count * d * sizeof *numbers);
     note(more, count * sizeof *more);
     GO(deldrift_volumes(t, numbers, TOUR_ROOM, &count));
     note(numbers, count * sizeof *numbers);
     GO(deldrift_mask_by_circumradius(t, p->squared_radius, bytes, TOUR_ROOM, &count));
+    note(bytes, count);
+    GO(deldrift_mask_without_flat_cells(t, 0.25, bytes, TOUR_ROOM, &count));
     note(bytes, count);
     GO(deldrift_mask_boundary(t, bytes, n_cells, ids, more_ids, bytes + TOUR_ROOM / 2, TOUR_ROOM / 3, &count));
     note(ids, count * d * sizeof *ids);
@@ -243,7 +274,12 @@ static void keep(const deldrift_triangulation *t, const places *p, const deldrif
     ask_about(made, p);
     DO(deldrift_destroy(made));
     GO(deldrift_clone(t, &made));
+    deldrift_cells_view cells;
+    deldrift_released_cells *owner;
+    GO(deldrift_release_cells(made, &cells, &owner));
     DO(deldrift_destroy(made));
+    note(cells.vertices, cells.count * cells.corners_per_cell * sizeof *cells.vertices);
+    DO(deldrift_free_cells(owner));
     GO(deldrift_save_file(t, tour_path()));
     note_file();
     GO(deldrift_load_file(tour_path(), options, &made));
@@ -279,6 +315,8 @@ static void make_tour(const places *p, record *made) {
     int32_t sign = 7;
     for (size_t k = 0; k < 4; k++) {
         GO(deldrift_orientation(d, p->at + k * d, &sign));
+        note(&sign, sizeof sign);
+        GO(deldrift_in_sphere(d, p->at + k * d, &sign));
         note(&sign, sizeof sign);
     }
     deldrift_triangulation *t = NULL;

@@ -1,30 +1,9 @@
 // What is near, in C++: members against a pass over all vertices and cells.
+#include "check.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <deldrift.hpp>
-#include <iostream>
 #include <limits>
-#include <string>
-
-#define CHECK(condition)                                                                   \
-    do {                                                                                   \
-        if (!(condition)) {                                                                \
-            std::cerr << __FILE__ << ":" << __LINE__ << ": not so: " << #condition << "\n"; \
-            std::exit(1);                                                                  \
-        }                                                                                  \
-    } while (false)
-
-#define CHECK_THROWS(expression, wanted, text)                                                               \
-    do {                                                                                                     \
-        bool thrown = false;                                                                                 \
-        try {                                                                                                \
-            (void)(expression);                                                                              \
-        } catch (const deldrift::Error &error) {                                                             \
-            thrown = error.status() == (wanted) && std::string(error.what()).find(text) != std::string::npos; \
-        }                                                                                                    \
-        CHECK(thrown);                                                                                       \
-    } while (false)
 
 using deldrift::Triangulation;
 using Ids = std::vector<std::uint32_t>;
@@ -171,7 +150,18 @@ static void signs_are_exact() {
     CHECK_THROWS(deldrift::in_sphere(4, {}), DELDRIFT_INVALID_DIMENSION, "dimension");
 }
 
+static void released_cells_stay() {
+    Triangulation t(2, points);
+    const std::uint32_t *shown = t.cells().vertices().data();
+    const Ids before(t.cells().vertices().begin(), t.cells().vertices().end());
+    const deldrift::ReleasedCells released = t.release_cells();
+    t = Triangulation(2, {});
+    CHECK(released.cells().vertices().data() == shown);
+    CHECK(std::equal(before.begin(), before.end(), released.cells().vertices().begin()));
+}
+
 int main() {
+    released_cells_stay();
     vertices_are_found();
     hidden_vertices_are_listed();
     simplices_are_found();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -172,6 +173,23 @@ public:
 private:
     std::vector<std::uint32_t> indices_;
     std::uint32_t vertex_;
+    deldrift_cells_view view_;
+};
+
+// Cells that stay as they are and valid for as long as this lives, whatever becomes of their triangulation; see
+// deldrift_release_cells.
+class ReleasedCells {
+public:
+    ReleasedCells(deldrift_released_cells *owner, const deldrift_cells_view &view) noexcept
+        : owner_(owner), view_(view) {}
+    // None of what has been moved from.
+    Cells cells() const noexcept { return Cells(owner_ ? view_ : deldrift_cells_view{}); }
+
+private:
+    struct Free {
+        void operator()(deldrift_released_cells *owner) const noexcept { deldrift_free_cells(owner); }
+    };
+    std::unique_ptr<deldrift_released_cells, Free> owner_;
     deldrift_cells_view view_;
 };
 

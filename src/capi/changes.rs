@@ -79,8 +79,8 @@ impl<C> From<Changes<'_, C>> for deldrift_changes {
 /// alike. The first call lists all cells as created.
 ///
 /// A program that never calls this pays nothing for it; one that does pays in proportion to what has changed, and may
-/// call it as often or as rarely as it likes. Ends all views; deldrift_cells takes constant
-/// time after it.
+/// call it as often or as rarely as it likes. Ends the lists of the call before; a view of the cells stays valid unless
+/// it is older than the last change. deldrift_cells takes constant time after it.
 ///
 /// Cost: what has changed; of the first call n + m.
 ///

@@ -10,7 +10,7 @@ use super::status::{Failure, deldrift_status};
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::in_its_dimension;
-use crate::motion::{BoundaryFacet, MovingTriangulation, check_tolerance};
+use crate::motion::{BoundaryFacet, MovingTriangulation, check_not_negative};
 
 /// The circumcentres and squared circumradii of all cells, in the order of deldrift_cells.
 ///
@@ -107,27 +107,27 @@ pub unsafe extern "C" fn deldrift_mask_by_circumradius(
     })
 }
 
-/// Which cells are more than what the rounding of a straight or flat side has made: 0 for cells along the convex hull that
-/// are flat, 1 for the others, in the order of deldrift_cells.
+/// Which cells are more than what the rounding of a straight or flat side has made: 0 for cells along the convex hull
+/// that are flat, 1 for the others, in the order of deldrift_cells.
 ///
-/// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times its
-/// longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with room
-/// for capacity bytes. count: receives the number of cells, which is also written when the buffer is too small. NULL with
-/// capacity 0 asks for the count alone.
+/// tolerance: 0 or more, such as 1e-9; 0 is all cells. A cell is flat if its least height is at most tolerance times
+/// its longest edge. It has 0 if it is flat, and has a facet on the hull or on a cell that has 0. mask: a buffer with
+/// room for capacity bytes. count: receives the number of cells, which is also written when the buffer is too small.
+/// NULL with capacity 0 asks for the count alone.
 ///
-/// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes over
-/// flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or volumes.
-/// Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out and keeps all others:
-/// deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept, as leaving them out
-/// would leave holes.
+/// Vertices that were meant to be on one line or plane are not, once their coordinates are rounded, and the hull goes
+/// over flat cells from one to the other. They are exactly Delaunay, and useless where a program divides by areas or
+/// volumes. Where no vertices but those of a side are nearly in line with it, the mask leaves these cells out and keeps
+/// all others: deldrift_mask_boundary then gives the sides as they were meant. Flat cells elsewhere are kept, as
+/// leaving them out would leave holes.
 ///
 /// Rounded: a cell whose quotient of height and edge is tolerance but for a part of 1.1e-9 + 2e-15 / tolerance may get
-/// either. One pass over the cells.
+/// either.
 ///
 /// Cost: m. After a change the first call also does what the first deldrift_cells does.
 ///
-/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a tolerance that is negative
-/// or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for a tolerance that is
+/// negative or NaN, DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
     t: *const deldrift_triangulation,
@@ -139,7 +139,7 @@ pub unsafe extern "C" fn deldrift_mask_without_flat_cells(
     given!(t: Reading, mask[capacity]: Buffer, count: Output);
     t.read(|t| {
         in_its_dimension!(t => {
-            check_tolerance(tolerance)?;
+            check_not_negative("tolerance", tolerance)?;
             mask.fill(count, t.cell_count(), || Ok(t.mask_without_flat_cells(tolerance)?))
         })
     })

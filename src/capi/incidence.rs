@@ -1,6 +1,7 @@
 //! What meets what: edges, neighbours and cells of vertices, mirror indices, ordered stars.
 
 use super::handle::{Reading, deldrift_triangulation, tell};
+use super::interpolation::check_product;
 use super::pointers::{Array, Buffer, Output, fill_all, fit, given, write_all};
 use super::query::{DELDRIFT_NONE, check_facet, dimension_of};
 use super::status::{Failure, deldrift_status};
@@ -130,12 +131,12 @@ pub unsafe extern "C" fn deldrift_cell_of_each_vertex(
 /// Cells that have given vertices as corners, to cells: for each of count simplices the index of one, DELDRIFT_NONE if
 /// there is none. So it tells which edges of a list are in the triangulation, and which facets.
 ///
-/// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as many
-/// ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with two
-/// corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
+/// corners_per_simplex: 1 (a cell of each vertex), 2 (edges), 3 (triangles) or, in 3D, 4. vertices: count rows of as
+/// many ids, in any order; NULL if count is 0. A hidden vertex stands for the one that represents it. A simplex with
+/// two corners at the same place is in no cell. cells: receives count indices; NULL if count is 0.
 ///
-/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than a
-/// quarter of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
+/// Cost: for each simplex the least number of cells that a corner of it has, or, where there are more simplices than an
+/// eighth of the vertices, n + m and that. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_INVALID_VALUE for
 /// another number of corners, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_STAGED_VERTEX,
@@ -154,6 +155,7 @@ pub unsafe extern "C" fn deldrift_find_simplices(
     t.read(|t| {
         in_its_dimension!(t => {
             t.check_corners(n_corners)?;
+            check_product::<u32>("vertices", count, n_corners)?;
             let vertices = VertexId::of_numbers(vertices.get()?);
             let places = cells.places(count)?;
             let mut made = Vec::new();

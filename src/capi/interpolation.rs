@@ -71,10 +71,10 @@ pub unsafe extern "C" fn deldrift_interpolate(
                 let (argument, given, coming) = ("value_count", value_count, t.staged_edits().0);
                 return Err(Error::WrongCount { argument, given, wanted, coming }.into());
             }
-            check_product("values", value_count, n_values)?;
+            check_product::<f64>("values", value_count, n_values)?;
             let values = values.get()?;
             let positions = positions.of(t)?;
-            check_product("results", count, n_values)?;
+            check_product::<f64>("results", count, n_values)?;
             let hint = hint_at(hint)?;
             let outside = (!outside.is_null()).then(|| outside.get()).transpose()?;
             let places = results.places(n_results)?;
@@ -93,22 +93,24 @@ pub unsafe extern "C" fn deldrift_interpolate(
 }
 
 /// The barycentric coordinates of count positions, each in a cell that is given: rows of 3 (2D) or 4 (3D) numbers, one
-/// for each corner in the order of deldrift_cells. They are what deldrift_interpolate multiplies values with, for programs
-/// that keep them.
+/// for each corner in the order of deldrift_cells. They are for programs that keep weights, to carry values with them
+/// more than once; deldrift_interpolate has others of its own, which may differ in last bits, and more where a cell is
+/// flat.
 ///
 /// positions: 2 or 3 numbers each. cells: count indices into deldrift_cells, as deldrift_locate_points gives them;
-/// DELDRIFT_NONE is no cell, for which the row is NaN. Both are read during the call only. weights: receives count rows.
-/// All may be NULL if count is 0. A position may be outside of its cell: then some of its coordinates are negative.
+/// DELDRIFT_NONE is no cell, for which the row is NaN. Both are read during the call only. weights: receives count
+/// rows. All may be NULL if count is 0. A position may be outside of its cell: then some of its coordinates are
+/// negative.
 ///
-/// The sign of each is exact, and so is 0; the value has a relative error of at most 2.1e-9, and of some last bits
-/// unless the cell is nearly flat. (Where an area or volume is below the least normal number, 2.2e-308, it is less
-/// accurate.) A row adds up to 1 but for these errors.
+/// The sign of each is exact, and so is 0; the value has a relative error of at most 2.5e-13, however flat the cell.
+/// (Where an area, a volume or the value itself is below the least normal number, 2.2e-308, it is less accurate.) What
+/// is beyond the range of numbers is infinite. A row adds up to 1 but for these errors.
 ///
 /// Cost: count. After a change the first call also does what the first deldrift_cells does.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing is
-/// written.
+/// DELDRIFT_OUT_OF_RANGE, DELDRIFT_NO_SUCH_FACET if there is no cell of an index, DELDRIFT_OUT_OF_MEMORY; then nothing
+/// is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_barycentric(
     t: *const deldrift_triangulation,
@@ -123,7 +125,7 @@ pub unsafe extern "C" fn deldrift_barycentric(
             let positions = positions.of(t)?;
             let cells = CellId::of_numbers(cells.get()?);
             let n_corners = dimension_of(t) + 1;
-            check_product("weights", count, n_corners)?;
+            check_product::<f64>("weights", count, n_corners)?;
             given!(weights[count * n_corners]: Buffer);
             let mut rows = weights.places(count * n_corners)?.chunks_exact_mut(n_corners);
             t.barycentric(positions, cells, |found| {
@@ -154,8 +156,8 @@ fn method_of(code: InterpolationCode) -> Result<Interpolation, Failure> {
     })
 }
 
-/// `count` rows of `n_values` numbers must have a length.
-fn check_product(argument: &'static str, count: usize, n_values: usize) -> Result<(), Failure> {
-    let size = n_values.saturating_mul(size_of::<f64>());
+/// `count` rows of `n_values` entries must have a length.
+pub(super) fn check_product<T>(argument: &'static str, count: usize, n_values: usize) -> Result<(), Failure> {
+    let size = n_values.saturating_mul(size_of::<T>());
     count.checked_mul(n_values).map(|_| ()).ok_or(Wrong::TooLarge { count, size }.in_argument(argument))
 }

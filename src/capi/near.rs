@@ -1,9 +1,10 @@
 //! What is near a place: the nearest vertices, those in a ball or a box, the cells that a new vertex would remove.
 
 use super::handle::{Reading, deldrift_triangulation};
+use super::interpolation::check_product;
 use super::location::{deldrift_location, hint_at};
 use super::pointers::{Buffer, Input, Output, Point, Points, given, write_all};
-use super::status::{Wrong, deldrift_status};
+use super::status::deldrift_status;
 use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
 use crate::machine::memory;
@@ -17,8 +18,8 @@ use crate::machine::memory;
 ///
 /// It is fastest if each position is near the one before it. The first id of a row is that of deldrift_nearest_vertex.
 ///
-/// Cost: count times that of deldrift_nearest_vertex, and the stars of the k vertices. While there are no cells, count
-/// times n.
+/// Cost: count times that of deldrift_nearest_vertex, the stars of the k vertices, and k log k; with k = 0 constant.
+/// While there are no cells, count times n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NOT_FINITE,
 /// DELDRIFT_OUT_OF_RANGE, DELDRIFT_OUT_OF_MEMORY; then nothing is written.
@@ -35,10 +36,7 @@ pub unsafe extern "C" fn deldrift_nearest_vertices(
     t.read(|t| {
         in_its_dimension!(t => {
             let positions = positions.of(t)?;
-            if count.checked_mul(k).is_none() {
-                let size = k.saturating_mul(size_of::<u32>());
-                return Err(Wrong::TooLarge { count, size }.in_argument("vertices"));
-            }
+            check_product::<u32>("vertices", count, k)?;
             let places = vertices.places(n_found)?;
             let mut made = Vec::new();
             memory::reserve_exact(&mut made, n_found)?;
@@ -88,8 +86,8 @@ pub unsafe extern "C" fn deldrift_vertices_in_ball(
 /// which is also written when the buffer is too small. NULL with capacity 0 asks for the count alone, which takes as
 /// long.
 ///
-/// Cost: that of deldrift_locate, the cells that the box meets, the facets of the hull that are seen from it, and k log k
-/// for the k vertices in it; n log n at most but for the first. While there are no cells, n.
+/// Cost: that of deldrift_locate, the cells whose bounding boxes meet the box, the facets of the hull that are seen
+/// from it, and k log k for the k vertices in it; n log n at most but for the first. While there are no cells, n.
 ///
 /// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_INVALID_VALUE for NaN,
 /// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
@@ -112,8 +110,8 @@ pub unsafe extern "C" fn deldrift_vertices_in_box(
 }
 
 /// The cells that the insertion of a vertex at a position would remove, in no particular order: those whose circle or
-/// sphere has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a vertex,
-/// and while there are no cells, there are none.
+/// sphere has the position inside, exactly, with ties broken as for a vertex of the highest id. At the place of a
+/// vertex, and while there are no cells, there are none.
 ///
 /// position: 2 or 3 numbers. hint: where to begin to look for it, as for deldrift_locate_points; NULL if nothing is
 /// known. cells: a buffer with room for capacity indices. count: receives their number, which is also written when the

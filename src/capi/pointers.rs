@@ -88,6 +88,27 @@ impl<'a, T> Output<'a, T> {
     }
 }
 
+/// What a call has handed out for another one to free.
+pub(super) struct Owned<T> {
+    pointer: *mut T,
+}
+
+impl<T> Owned<T> {
+    /// # Safety
+    /// `pointer` is NULL, or from [`Box::into_raw`], and nothing uses it after this.
+    pub(super) unsafe fn new(_argument: &'static str, pointer: *mut T) -> Self {
+        Owned { pointer }
+    }
+
+    /// Frees it, unless it is NULL, or misaligned and so nothing that has been handed out.
+    pub(super) fn free(self) {
+        if !self.pointer.is_null() && self.pointer.is_aligned() {
+            // SAFETY: promised to `new`.
+            drop(unsafe { Box::from_raw(self.pointer) });
+        }
+    }
+}
+
 /// Values that are read, as many as their count.
 #[derive(Clone, Copy)]
 pub(super) struct Array<'a, T> {

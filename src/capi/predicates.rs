@@ -2,7 +2,7 @@
 
 use super::guard;
 use super::pointers::{Input, Output, given};
-use super::status::deldrift_status;
+use super::status::{Failure, deldrift_status};
 use crate::delaunay::{Dimension, Plane, Space};
 use crate::error::{Error, Result};
 use crate::motion::check_position;
@@ -27,68 +27,74 @@ pub unsafe extern "C" fn deldrift_orientation(
     points: *const f64,
     sign: *mut i32,
 ) -> deldrift_status {
+    let in_plane = {
+        let points = points.cast();
+        given!(points: Input);
+        points
+    };
+    let in_space = {
+        let points = points.cast();
+        given!(points: Input);
+        points
+    };
     given!(sign: Output);
-    guard::enter(|| {
-        let sign = sign.place()?;
-        let orientation = match dimension {
-            2 => {
-                let points = points.cast();
-                given!(points: Input);
-                orientation_in_plane(points.get()?)?
-            }
-            3 => {
-                let points = points.cast();
-                given!(points: Input);
-                orientation_in_space(points.get()?)?
-            }
-            given => return Err(Error::InvalidDimension { given }.into()),
-        };
-        sign.write(sign_of(orientation));
-        Ok(())
-    })
+    tell(
+        dimension,
+        sign,
+        || in_plane.get().map(orientation_in_plane),
+        || in_space.get().map(orientation_in_space),
+    )
 }
 
 /// Whether a point is inside the circle or sphere through others, exactly, to *sign: 1 inside, -1 outside, 0 on it.
 ///
 /// dimension: 2 or 3. points: dimension + 2 points, one after the other, 2 or 3 numbers each: those that the circle or
-/// sphere goes through, of orientation 1 (deldrift_orientation), and the one that is asked about. If their orientation is
-/// -1, the sign is the opposite one. If it is 0, it is that of the determinant alone. Ties are not broken.
+/// sphere goes through, of orientation 1 (deldrift_orientation), and the one that is asked about. If their orientation
+/// is
+/// -1, the sign is the opposite one. If it is 0 there is no circle or sphere, and the sign has no meaning. Ties are not
+/// broken.
 ///
 /// Cost: constant.
 ///
 /// Errors: DELDRIFT_INVALID_DIMENSION, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_NOT_FINITE,
-/// DELDRIFT_OUT_OF_RANGE. Constant time, some ten nanoseconds except close to 0. May be called from any number of threads
-/// at once.
+/// DELDRIFT_OUT_OF_RANGE. May be called from any number of threads at once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn deldrift_in_sphere(
     dimension: u32,
     points: *const f64,
     sign: *mut i32,
 ) -> deldrift_status {
+    let in_plane = {
+        let points = points.cast();
+        given!(points: Input);
+        points
+    };
+    let in_space = {
+        let points = points.cast();
+        given!(points: Input);
+        points
+    };
     given!(sign: Output);
-    guard::enter(|| {
-        let sign = sign.place()?;
-        let side = match dimension {
-            2 => {
-                let points = points.cast();
-                given!(points: Input);
-                side_of_circle(points.get()?)?
-            }
-            3 => {
-                let points = points.cast();
-                given!(points: Input);
-                side_of_sphere(points.get()?)?
-            }
-            given => return Err(Error::InvalidDimension { given }.into()),
-        };
-        sign.write(sign_of(side));
-        Ok(())
-    })
+    tell(dimension, sign, || in_plane.get().map(side_of_circle), || in_space.get().map(side_of_sphere))
 }
 
-/// The sign of a determinant.
-fn sign_of(determinant: f64) -> i32 {
-    i32::from(determinant > 0.0) - i32::from(determinant < 0.0)
+/// Writes the sign of a determinant of points of the plane or of space, which has been made or refused.
+fn tell(
+    dimension: u32,
+    sign: Output<'_, i32>,
+    in_plane: impl FnOnce() -> Result<Result<f64>, Failure>,
+    in_space: impl FnOnce() -> Result<Result<f64>, Failure>,
+) -> deldrift_status {
+    guard::enter(|| {
+        let sign = sign.place()?;
+        let determinant = match dimension {
+            2 => in_plane()??,
+            3 => in_space()??,
+            given => return Err(Error::InvalidDimension { given }.into()),
+        };
+        sign.write(i32::from(determinant > 0.0) - i32::from(determinant < 0.0));
+        Ok(())
+    })
 }
 
 fn check_points<G: Dimension>(points: &[G::Point]) -> Result<()> {
@@ -101,33 +107,33 @@ fn check_points<G: Dimension>(points: &[G::Point]) -> Result<()> {
 fn orientation_in_plane(points: &[[f64; 2]; 3]) -> Result<f64> {
     check_points::<Plane>(points)?;
     let [a, b, c] = points;
-    Ok(orient2d(&of_plane(), a, b, c))
+    Ok(orient2d(&filter_of_plane(), a, b, c))
 }
 
 fn orientation_in_space(points: &[[f64; 3]; 4]) -> Result<f64> {
     check_points::<Space>(points)?;
     let [a, b, c, d] = points;
-    Ok(orient3d(&of_space(), a, b, c, d))
+    Ok(orient3d(&filter_of_space(), a, b, c, d))
 }
 
 fn side_of_circle(points: &[[f64; 2]; 4]) -> Result<f64> {
     check_points::<Plane>(points)?;
     let [a, b, c, d] = points;
-    Ok(incircle(&of_plane(), a, b, c, d))
+    Ok(incircle(&filter_of_plane(), a, b, c, d))
 }
 
 fn side_of_sphere(points: &[[f64; 3]; 5]) -> Result<f64> {
     check_points::<Space>(points)?;
     let [a, b, c, d, e] = points;
-    Ok(insphere(&of_space(), a, b, c, d, e))
+    Ok(insphere(&filter_of_space(), a, b, c, d, e))
 }
 
-/// The filter of no box, which leaves the bound to the points' own extents.
-fn of_plane() -> StaticFilter {
+/// The filter of a box without points in the plane: it leaves the bound to the extents of the points that are given.
+fn filter_of_plane() -> StaticFilter {
     StaticFilter::plane([1.0; 2], [-1.0; 2])
 }
 
-/// The filter of no box in space.
-fn of_space() -> StaticFilter {
+/// The filter of a box without points in space: it leaves the bound to the extents of the points that are given.
+fn filter_of_space() -> StaticFilter {
     StaticFilter::space([1.0; 3], [-1.0; 3])
 }

@@ -1,12 +1,14 @@
 //! Queries: cells, and what is where. None changes the triangulation.
 
-use super::handle::{Reading, deldrift_triangulation, tell};
-use super::pointers::{Buffer, Output, fill_all, given, start_of, write_all};
+use super::handle::{Changing, Reading, deldrift_triangulation, tell};
+use super::pointers::{Buffer, Output, Owned, fill_all, given, start_of, write_all};
 use super::status::{Failure, deldrift_status};
-use crate::delaunay::{Dimension, IndexSet};
+use crate::delaunay::{Dimension, IndexSet, Plane, Space};
+use crate::either::AnyTriangulation;
 use crate::ids::{CellId, VertexId};
 use crate::in_its_dimension;
-use crate::motion::{CellsView, Level, MovingTriangulation, NO_CELL, cells_at};
+use crate::machine::memory;
+use crate::motion::{CellsView, Level, MovingTriangulation, NO_CELL, OwnedCells, cells_at};
 
 /// No cell, no vertex: the neighbour of a cell across a facet of the convex hull, the nearest vertex of
 /// an empty triangulation.
@@ -15,6 +17,10 @@ const _: () = assert!(DELDRIFT_NONE == NO_CELL.get());
 
 /// The cells of a triangulation: triangles in 2D, tetrahedra in 3D. Read-only, without a copy, valid
 /// until the next call that changes the triangulation.
+///
+/// Calls that stage, that discard what is staged, that take changes, and deldrift_set_algorithm, change no cells: a
+/// view that is not older than the last change stays valid. After deldrift_release_cells it is valid until its owner is
+/// freed.
 ///
 /// Cells are positively oriented: the vertices of a triangle are in counter-clockwise order; of a
 /// tetrahedron a, b, c, d, the determinant of the rows b - a, c - a, d - a is positive.
@@ -50,6 +56,65 @@ pub unsafe extern "C" fn deldrift_cells(
 ) -> deldrift_status {
     given!(t: Reading, view: Output);
     tell!(t, view => view_of_cells(t)?)
+}
+
+/// Arrays of cells that a program has taken over: opaque, made by deldrift_release_cells, unmade by
+/// deldrift_free_cells.
+#[derive(Debug)]
+pub struct deldrift_released_cells {
+    arrays: Option<Arrays>,
+}
+
+/// The arrays of either dimension, which are only kept: a view reads them.
+#[derive(Debug)]
+#[expect(dead_code, reason = "what owns is not looked at")]
+enum Arrays {
+    Plane(OwnedCells<Plane>),
+    Space(OwnedCells<Space>),
+}
+
+/// Hands the arrays of deldrift_cells over to the program, to *view, with an owner for them, to *owner: they stay as
+/// they are, and valid, until the owner is handed to deldrift_free_cells, whatever becomes of t.
+///
+/// Views that deldrift_cells has given since the last change, or the last call of this function, are of these arrays:
+/// they are valid until this owner is freed, and no longer. So a program that has shown them to others, such as an
+/// interpreter, can call this before it makes a change. Views that are got afterwards are of copies, which belong to t.
+/// A commit that fails and deldrift_compact count as changes.
+///
+/// Cost: m.
+///
+/// Errors: DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT, DELDRIFT_OUT_OF_MEMORY; then nothing is handed over,
+/// and views are as valid as before. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_release_cells(
+    t: *mut deldrift_triangulation,
+    view: *mut deldrift_cells_view,
+    owner: *mut *mut deldrift_released_cells,
+) -> deldrift_status {
+    given!(t: Changing, view: Output, owner: Output);
+    t.change(|t| {
+        let (view, owner) = (view.place()?, owner.place()?);
+        let shown = in_its_dimension!(t => view_of_cells(t)?);
+        // Room for the owner first: what has been handed over is not put back.
+        let mut room = memory::boxed(deldrift_released_cells { arrays: None })?;
+        room.arrays = Some(match t {
+            AnyTriangulation::Plane(t) => Arrays::Plane(t.release_cells()?),
+            AnyTriangulation::Space(t) => Arrays::Space(t.release_cells()?),
+        });
+        view.write(shown);
+        owner.write(Box::into_raw(room));
+        Ok(())
+    })
+}
+
+/// Frees arrays that deldrift_release_cells has handed over, once. NULL is legal and does nothing, and neither does a
+/// misaligned pointer. May be called from any thread.
+///
+/// Cost: m at most, to free memory.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_free_cells(owner: *mut deldrift_released_cells) {
+    given!(owner: Owned);
+    owner.free();
 }
 
 /// A copy of the cells: see deldrift_cells_view for what the rows mean.

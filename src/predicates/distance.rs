@@ -29,7 +29,7 @@ pub fn compare_distance<P: AsRef<[f64]>>(q: &P, a: &P, b: &P) -> Ordering {
 pub fn is_within_distance<P: AsRef<[f64]>>(q: &P, a: &P, squared: f64) -> bool {
     let own = squared_distance(q, a);
     let difference = own - squared;
-    // As in `compare_distance`, with one distance that is rounded.
+    // One squared distance is rounded, with a relative error of 5 u and an underflow: see `compare_distance`.
     let bound = 6.0 * (f64::EPSILON / 2.0) * own + UNDERFLOW;
     if difference.abs() > bound { difference < 0.0 } else { is_exactly_within_distance(q, a, squared) }
 }

@@ -33,6 +33,9 @@ use std::cmp::Ordering;
 /// By how much a rounded determinant must exceed its bound to be used as a value.
 const SHARP: f64 = (1u64 << 30) as f64;
 
+/// By how much a rounded determinant must exceed its bound to be used where quotients of volumes are weights.
+const VERY_SHARP: f64 = (1u64 << 43) as f64;
+
 /// Determinants and differences above these have not suffered from underflow.
 const LEAST_VOLUME: f64 = 1e-250;
 const LEAST_EXTENT: f64 = 1e-60;
@@ -43,7 +46,19 @@ const MARGIN: f64 = 1.0 / (1u64 << 27) as f64;
 /// Measures of a positively oriented cell, given by its `D + 1` corners.
 pub trait Measures: Sized {
     /// Area or volume: positive, with a relative error of at most 10⁻⁹ unless it is below the least normal number.
-    fn volume(cell: &[&Self]) -> f64;
+    #[inline(always)]
+    fn volume(cell: &[&Self]) -> f64 {
+        Self::volume_by(cell, SHARP)
+    }
+
+    /// Area or volume, with a relative error of at most 1.2·10⁻¹³ unless it is below the least normal number.
+    #[inline(always)]
+    fn sharp_volume(cell: &[&Self]) -> f64 {
+        Self::volume_by(cell, VERY_SHARP)
+    }
+
+    /// Area or volume, from integers unless the rounded determinant exceeds so many times its bound.
+    fn volume_by(cell: &[&Self], sharp: f64) -> f64;
 
     /// Circumcentre and squared circumradius. A coordinate is off by at most 10⁻⁹ circumradii and its own rounding, the
     /// square by 4·10⁻⁹ of itself. What is beyond the range of numbers is infinite.
@@ -88,12 +103,12 @@ impl<const D: usize> Rounded<D> {
 
 impl Measures for [f64; 2] {
     #[inline(always)]
-    fn volume(cell: &[&Self]) -> f64 {
+    fn volume_by(cell: &[&Self], sharp: f64) -> f64 {
         let &[a, b, c] = cell else { unreachable!("a triangle") };
         let (u, v) = (minus(b, a), minus(c, a));
         let [bound, _] = semi_static_bounds_2d(greatest([&u, &v]));
         let det = minor(&u, &v);
-        if det > SHARP * bound { 0.5 * det } else { exact_volume([a, b, c], |[u, v]| big_minor(u, v), 0.5) }
+        if det > sharp * bound { 0.5 * det } else { exact_volume([a, b, c], |[u, v]| big_minor(u, v), 0.5) }
     }
 
     #[inline(always)]
@@ -112,13 +127,13 @@ impl Measures for [f64; 2] {
 
 impl Measures for [f64; 3] {
     #[inline(always)]
-    fn volume(cell: &[&Self]) -> f64 {
+    fn volume_by(cell: &[&Self], sharp: f64) -> f64 {
         let &[a, b, c, d] = cell else { unreachable!("a tetrahedron") };
         let (u, v, w) = (minus(b, a), minus(c, a), minus(d, a));
         let [bound, _] = semi_static_bounds_3d(greatest([&u, &v, &w]));
         let det = super::space::volume(&u, &v, &w);
         let sixth = 1.0 / 6.0;
-        if det > SHARP * bound {
+        if det > sharp * bound {
             det * sixth
         } else {
             exact_volume([a, b, c, d], |[u, v, w]| big_volume(u, v, w), sixth)

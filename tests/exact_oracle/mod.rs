@@ -277,6 +277,26 @@ pub fn exact_distance_order<const D: usize>(points: &[[f64; D]; 3], tally: &mut 
     order
 }
 
+/// Compares the square of the distance of two points with a number that is not negative.
+pub fn exact_order_to_square<const D: usize>(
+    points: &[[f64; D]; 2],
+    squared: f64,
+    tally: &mut Tally,
+) -> Ordering {
+    let (unit, _) = common_unit(points);
+    let square: BigInt = big_differences(points)[0].iter().map(|x| x * x).sum();
+    let order = if squared == f64::INFINITY {
+        Ordering::Less
+    } else {
+        let (mantissa, exponent) = decode(squared);
+        // In the unit of either, whichever is less.
+        let shift = 2 * unit - exponent;
+        (square << shift.max(0)).cmp(&(BigInt::from(mantissa) << (-shift).max(0)))
+    };
+    tally.count(true, order == Ordering::Equal);
+    order
+}
+
 /// Whether the points are on a line.
 pub fn is_exactly_collinear(points: &[[f64; 3]; 3], tally: &mut Tally) -> bool {
     fn is_collinear<T: Integer>(rows: &[Vec<T>]) -> bool {

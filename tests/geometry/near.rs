@@ -178,6 +178,62 @@ fn vertices_in_boxes_are_those_of_a_large_set() {
     check_large_boxes::<Space>();
 }
 
+/// Small balls and boxes in sets that are large enough for floods to come to an end: lattices as well, with ties and
+/// flat sides, and after commits that have moved, inserted and removed vertices.
+fn check_floods<G: Dimension>() {
+    let rng = &mut Rng::new(8);
+    let (mut n_in_balls, mut n_in_boxes) = (0, 0);
+    for kind in [Kind::Random, Kind::Lattice, Kind::RoundedSphere, Kind::Clusters, Kind::Duplicates] {
+        let n = if kind == Kind::Duplicates { 3000 } else { 6000 };
+        let mut t =
+            MovingTriangulation::<G>::new(&draw::<G>(kind, n, rng), Options::default()).expect("good points");
+        for _ in 0..3 {
+            for round in 0..30 {
+                let around = places(&t, rng);
+                let centre = *rng.pick(&around);
+                let (q, vertices) = (to_grid::<G>(&centre), present(&t));
+                let mut squares: Vec<_> = vertices.iter().map(|(_, p)| square(p, &q)).collect();
+                squares.sort_unstable();
+                // Up to some ten vertices are in it, of which some are on its boundary.
+                let squared = squares[round / 3] as f64 * QUANTUM * QUANTUM;
+                let found = t.vertices_in_ball(&centre, squared).expect("a good ball");
+                let is_in = |(_, p): &&(VertexId, Grid)| is_at_most(square(p, &q), squared);
+                let expected: Vec<_> = vertices.iter().filter(is_in).map(|&(v, _)| v).collect();
+                assert_eq!(found, expected, "{kind:?} {centre:?} {squared:e}");
+                n_in_balls += found.len();
+                let half = squared.sqrt();
+                let (low, high) = (point::<G>(|k| centre[k] - half), point::<G>(|k| centre[k] + half));
+                let is_in = |v: VertexId| {
+                    let p = t.position(v).expect("present");
+                    (0..G::D).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis])
+                };
+                let expected: Vec<_> = vertices.iter().map(|&(v, _)| v).filter(|&v| is_in(v)).collect();
+                assert_eq!(t.vertices_in_box(&low, &high).expect("numbers"), expected, "{kind:?}");
+                n_in_boxes += expected.len();
+            }
+            let goals: Vec<_> = VertexId::range(0..t.id_count())
+                .map(|v| {
+                    if rng.one_in(4) {
+                        draw_one::<G>(kind, n, rng)
+                    } else {
+                        t.position(v).unwrap_or_default()
+                    }
+                })
+                .collect();
+            t.move_all(&goals).expect("good places");
+            t.stage_insertions(&[draw_one::<G>(kind, n, rng)]).expect("a good place");
+            t.commit_timestamp().expect("room");
+        }
+    }
+    assert!(n_in_balls > 1000 && n_in_boxes > 1000, "{n_in_balls} {n_in_boxes}");
+}
+
+#[test]
+fn floods_of_large_sets_find_all() {
+    check_floods::<Plane>();
+    check_floods::<Space>();
+}
+
 fn check_conflicts<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
     for q in places(t, rng) {
         let near = if rng.one_in(2) { Some(Location::Cell(CellId::at(rng.below(9)))) } else { None };
@@ -254,6 +310,8 @@ fn check_simplices<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
         let refused = t.find_simplices(&[], bad, |_| {});
         assert!(matches!(refused, Err(Error::InvalidValue { argument: "corners_per_simplex", .. })));
     }
+    let refused = t.find_simplices(&[vertices[0].0], 2, |_| {});
+    assert!(matches!(refused, Err(Error::WrongCount { given: 1, wanted: 2, .. })));
     let refused = t.find_simplices(&[vertices[0].0, VertexId::at(t.id_count())], 2, |_| {});
     assert!(matches!(refused, Err(Error::NoSuchVertex { index: 1, .. })));
 }
@@ -276,6 +334,25 @@ fn an_edge_of_a_hub_is_found_by_its_other_end() {
         let mut found = None;
         t.find_simplices(&[VertexId::new(0), other], 2, |cell| found = cell).expect("present");
         assert_eq!(found.is_some(), there.contains(&vec![VertexId::new(0), other]));
+    }
+}
+
+/// Two vertices of thousands of cells each: where they share an edge, and where they do not.
+#[test]
+fn an_edge_between_two_hubs_is_found() {
+    for middle in [false, true] {
+        let ring = (0..1500).map(|k| (k as f64 / 1500.0 * std::f64::consts::TAU).sin_cos());
+        let mut points: Vec<[f64; 3]> = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+        points.extend(ring.map(|(x, y)| [100.0 * x, 100.0 * y, 0.0]));
+        if middle {
+            points.push([0.0; 3]);
+        }
+        let t = MovingTriangulation::<Space>::new(&points, Options::default()).expect("good points");
+        let hubs = [0, 1].map(VertexId::new);
+        assert!(hubs.map(|v| t.vertex_cells().expect("room").row(v).len()).iter().all(|&n| n > 1000));
+        let mut found = None;
+        t.find_simplices(&hubs, 2, |cell| found = cell).expect("present");
+        assert_eq!(found.is_some(), !middle);
     }
 }
 
@@ -332,9 +409,11 @@ fn check_weights<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
                 continue;
             }
             let wanted = quotient(&part, &whole, 0);
-            assert!((weight - wanted).abs() <= 2.1e-9 * wanted.abs(), "{weight}, not {wanted}");
+            assert!((weight - wanted).abs() <= 2.5e-13 * wanted.abs(), "{weight}, not {wanted}");
         }
     }
+    let refused = t.barycentric(&[G::Point::default()], &[], |_| {});
+    assert!(matches!(refused, Err(Error::WrongCount { given: 0, wanted: 1, .. })));
     let bad = CellId::at(t.cell_count());
     let refused = t.barycentric(&[G::Point::default()], &[bad], |_| {});
     assert!(matches!(refused, Err(Error::NoSuchCell { argument: "cells", index: 0, .. })));
@@ -344,4 +423,25 @@ fn check_weights<G: Dimension>(t: &MovingTriangulation<G>, rng: &mut Rng) {
 fn weights_are_quotients_of_determinants() {
     on_all_kinds::<Plane>(check_weights);
     on_all_kinds::<Space>(check_weights);
+}
+
+/// Quotients that are below the least number or above the greatest one keep their signs.
+#[test]
+fn weights_out_of_the_range_of_numbers_have_signs() {
+    let weights_of = |corners: [[f64; 2]; 3], place: [f64; 2]| {
+        let t = MovingTriangulation::<Plane>::new(&corners, Options::default()).expect("good points");
+        let mut by_vertex = [0.0; 3];
+        let row = t.cells().expect("room").corners[CellId::new(0)];
+        t.barycentric(&[place], &[CellId::new(0)], |weights| {
+            row.iter().zip(weights.expect("a cell")).for_each(|(v, &w)| by_vertex[v.index()] = w);
+        })
+        .expect("a good place");
+        by_vertex
+    };
+    let large = [[-1e57, 0.0], [1e57, 0.0], [0.0, 1e57]];
+    assert_eq!(weights_of(large, [0.0, 1e-300]), [0.5, 0.5, f64::from_bits(1)]);
+    assert_eq!(weights_of(large, [0.0, -1e-300]), [0.5, 0.5, -f64::from_bits(1)]);
+    assert_eq!(weights_of(large, [0.0, 0.0])[2], 0.0);
+    let flat = [[-1e57, 0.0], [1e57, 0.0], [0.0, 1e-260]];
+    assert_eq!(weights_of(flat, [0.0, 1e57]), [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY]);
 }

@@ -213,6 +213,61 @@ fn voronoi_cells_are_those_of_half_spaces() {
     cells_are_those_of_half_spaces::<Space>();
 }
 
+/// Few vertices in a plane that is parallel to an axis, or on a line in it, up to a hundred boxes away: their cells have
+/// facets that are planes, half-planes and strips as a whole, and beyond faces of the box in part or altogether.
+#[test]
+fn voronoi_cells_of_few_vertices_in_a_plane_are_those_of_half_spaces() {
+    let rng = &mut Rng::new(31);
+    let (low, high): (Vector, Vector) = ([-3.0, -3.0, -2.0], [4.0, 4.0, 3.0]);
+    let whole = box_volume::<Space>(&[low, high]);
+    let mut n_parted = 0;
+    for round in 0..4000 {
+        let (n, axis, size) = (2 + rng.below(4), rng.below(3), [1.0, 10.0, 100.0][rng.below(3)]);
+        let draw = |rng: &mut Rng| {
+            point::<Space>(|_| {
+                let x = size * 10.0 * (rng.unit() - 0.5);
+                // Some are whole numbers, so that bisectors are parallel to axes, or meet edges of the box.
+                if rng.one_in(3) { x.round().clamp(-5.0, 5.0) } else { x }
+            })
+        };
+        let (first, second) = (draw(rng), draw(rng));
+        let is_line = rng.one_in(4);
+        let points: Vec<Vector> = (0..n)
+            .map(|k| {
+                let mut p = if is_line {
+                    let along = k as f64 * 0.5;
+                    point::<Space>(|k| first[k] + along * (second[k] - first[k]))
+                } else {
+                    draw(rng)
+                };
+                p[axis] = first[axis];
+                p
+            })
+            .collect();
+        let is_twice = (1..n).any(|k| points[..k].contains(&points[k]));
+        let t = MovingTriangulation::<Space>::new(&points, Options::default()).expect("good points");
+        if is_twice || t.cell_count() > 0 {
+            continue;
+        }
+        let volumes = t.voronoi_volumes(Some([&low, &high])).expect("room");
+        for v in 0..n {
+            let mut cell = of_box(&low, &high);
+            for w in (0..n).filter(|&w| w != v) {
+                let middle = [0, 1, 2].map(|axis| 0.5 * (points[v][axis] + points[w][axis]));
+                cell = cut(&cell, &minus(&points[w], &points[v]), &middle, VertexId::at(w));
+            }
+            let expected = volume(&cell);
+            assert!(
+                (volumes[v] - expected).abs() < 1e-8 * whole,
+                "{round}: {}, not {expected}, of {v} in {points:?}",
+                volumes[v]
+            );
+            n_parted += usize::from(expected > 1e-8 && expected < whole - 1e-8);
+        }
+    }
+    assert!(n_parted > 1000, "{n_parted}");
+}
+
 fn cells_without_a_box<G: Dimension>() {
     let rng = &mut Rng::new(7);
     let points = clouds::<G>(300, rng).swap_remove(0);

@@ -8,7 +8,9 @@ use super::{ALGORITHMS, Carried, Chosen, History, flattened, options};
 use deldrift::capi::deldrift_status::*;
 use deldrift::capi::*;
 use std::collections::BTreeSet;
+use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
+use std::slice;
 
 impl History<'_> {
     pub(super) fn insert(&mut self) {
@@ -306,7 +308,19 @@ impl History<'_> {
         }
         let (kept, gone) = if way == 0 && self.s.below(2) == 0 { (t, other) } else { (other, t) };
         self.t = kept;
+        let (mut view, mut owner) = (MaybeUninit::uninit(), null_mut());
+        self.is_ok(c!(deldrift_release_cells(gone, view.as_mut_ptr(), &mut owner)));
+        // SAFETY: it has been written.
+        let view: deldrift_cells_view = unsafe { view.assume_init() };
+        let numbers = || {
+            let n = view.count * view.corners_per_cell as usize;
+            // SAFETY: the owner keeps them, as many as the view says; there may be none, and no address.
+            if n == 0 { &[][..] } else { unsafe { slice::from_raw_parts(view.vertices, n) } }
+        };
+        let before = numbers().to_vec();
         c!(deldrift_destroy(gone));
+        assert_eq!(numbers(), before, "cells that have been handed over");
+        c!(deldrift_free_cells(owner));
         self.check();
     }
 

@@ -307,7 +307,7 @@ impl History<'_> {
     }
 
     /// Whether sums of squares and products are far from the ends of the range.
-    fn is_moderate(&self) -> bool {
+    pub(super) fn is_moderate(&self) -> bool {
         self.m.positions.iter().flatten().flatten().all(|&x| x == 0.0 || (1e-20..1e20).contains(&x.abs()))
     }
 

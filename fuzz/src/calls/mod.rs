@@ -6,6 +6,7 @@ pub mod check;
 pub mod files;
 mod geometry;
 pub mod model;
+mod near;
 pub mod places;
 mod read;
 mod refuse;
@@ -259,7 +260,8 @@ impl<'a> History<'a> {
             23..=26 => self.read(),
             27 | 28 => self.read_geometry(),
             29 => self.write_files(),
-            _ => self.refuse(),
+            30 => self.refuse(),
+            _ => self.read_near(),
         }
         (self.fault, self.cancel_after) = (None, None);
         self.callback.calls_back.set(false);

@@ -54,6 +54,7 @@ impl History<'_> {
         self.expect(wanted, || c!(deldrift_coincident_representative(t, v, &mut out)));
         self.expect(wanted, || c!(deldrift_stage_removals(t, &v, 1)));
         self.expect(wanted, || c!(deldrift_cells_around(t, &v, 1, null_mut(), 0, &mut count)));
+        self.expect(wanted, || c!(deldrift_find_simplices(t, 1, &v, 1, &mut out)));
         if self.m.d == 2 {
             self.expect(wanted, || c!(deldrift_ordered_star(t, v, null_mut(), 0, &mut count)));
         }
@@ -93,8 +94,17 @@ impl History<'_> {
             c!(deldrift_locate_points(t, numbers.as_ptr(), 3, null(), places.as_mut_ptr()))
         });
         self.expect(wanted, || c!(deldrift_nearest_vertex(t, p, &mut id)));
+        let (mut ids, mut weights, mut found) = ([77; 6], [77.0; 12], 77);
+        let (to, cells) = (ids.as_mut_ptr(), [DELDRIFT_NONE; 3]);
+        self.expect(wanted, || c!(deldrift_nearest_vertices(t, numbers.as_ptr(), 3, 2, to)));
+        self.expect(wanted, || c!(deldrift_vertices_in_ball(t, p, 1.0, null_mut(), 0, &mut found)));
+        self.expect(wanted, || c!(deldrift_conflicts(t, p, null(), null_mut(), 0, &mut found)));
+        let (positions, to) = (numbers.as_ptr(), weights.as_mut_ptr());
+        self.expect(wanted, || c!(deldrift_barycentric(t, positions, cells.as_ptr(), 3, to)));
+        assert_eq!((ids, weights, found), ([77; 6], [77.0; 12], 77), "an output of a call that failed");
         if d == 2 {
             self.expect(wanted, || c!(deldrift_orientation(2, numbers.as_ptr(), &mut sign)));
+            self.expect(wanted, || c!(deldrift_in_sphere(2, numbers.as_ptr(), &mut sign)));
         }
         let mut created = null_mut();
         self.expect(wanted, || c!(deldrift_create(d as u32, numbers.as_ptr(), 3, null(), &mut created)));
@@ -137,6 +147,15 @@ impl History<'_> {
         self.expect(odd, || c!(deldrift_stage_insertions(t, misaligned(&number), 1, &mut 0)));
         self.expect(odd, || c!(deldrift_stage_removals(t, misaligned(&id), 1)));
         self.expect(odd, || c!(deldrift_commit_timestamp(t, misaligned(&deldrift_commit_report::default()))));
+        self.expect(null_argument, || c!(deldrift_nearest_vertices(t, null(), 1, 1, &mut 0)));
+        self.expect(null_argument, || c!(deldrift_nearest_vertices(t, [0.5; 3].as_ptr(), 1, 1, null_mut())));
+        self.expect(null_argument, || {
+            c!(deldrift_vertices_in_box(t, null(), null(), null_mut(), 0, &mut out))
+        });
+        self.expect(null_argument, || c!(deldrift_find_simplices(t, 2, null(), 1, &mut 0)));
+        self.expect(null_argument, || c!(deldrift_hidden_vertices(t, null_mut(), null_mut(), 1, &mut out)));
+        self.expect(odd, || c!(deldrift_barycentric(t, misaligned(&number), &id, 1, &mut 0.0)));
+        self.expect(odd, || c!(deldrift_find_simplices(t, 1, misaligned(&id), 1, &mut 0)));
         self.expect(odd, || c!(deldrift_edges(t, null_mut(), 0, misaligned(&count))));
         assert_eq!((number, id, count, out), (0.5, 77, 77, 77), "an output of a call that failed");
     }
@@ -185,6 +204,11 @@ impl History<'_> {
         self.expect(overflow, || c!(deldrift_move_vertices(t, &id, &number, huge)));
         self.expect(overflow, || c!(deldrift_stage_removals(t, &id, huge)));
         self.expect(overflow, || c!(deldrift_cells_around(t, &id, huge, null_mut(), 0, &mut count)));
+        self.expect(overflow, || c!(deldrift_nearest_vertices(t, &number, huge, 1, &mut 0)));
+        self.expect(overflow, || c!(deldrift_find_simplices(t, 2, &id, huge, &mut 0)));
+        self.expect(overflow, || c!(deldrift_barycentric(t, &number, &id, huge, &mut 0.0)));
+        let place = [0.5; 3];
+        self.expect(overflow, || c!(deldrift_nearest_vertices(t, place.as_ptr(), 1, huge, &mut 0)));
         let more = vec![0.5; (n + 1) * 3];
         self.expect(DELDRIFT_WRONG_COUNT, || c!(deldrift_move_vertices(t, null(), more.as_ptr(), n + 1)));
         if self.m.staged.is_empty() {
@@ -225,6 +249,20 @@ impl History<'_> {
         let [low, high] = [low.as_ptr(), high.as_ptr()];
         self.expect(wanted, || c!(deldrift_voronoi_volumes(t, low, high, null_mut(), 0, &mut count)));
         self.expect(wanted, || c!(deldrift_voronoi_facets(t, low, high, null_mut(), 0, &mut count)));
+        let (mut found, mut weight) = (77, 77.0);
+        let nowhere = [0.0, f64::NAN, 0.0];
+        self.expect(wanted, || c!(deldrift_vertices_in_ball(t, low, square, null_mut(), 0, &mut count)));
+        self.expect(wanted, || {
+            c!(deldrift_vertices_in_box(t, low, nowhere.as_ptr(), null_mut(), 0, &mut count))
+        });
+        self.expect(wanted, || c!(deldrift_mask_without_flat_cells(t, square, null_mut(), 0, &mut count)));
+        self.expect(wanted, || c!(deldrift_find_simplices(t, 0, null(), 0, &mut found)));
+        self.expect(wanted, || c!(deldrift_find_simplices(t, d as u32 + 2, null(), 0, &mut found)));
+        let no_cell = self.cells().0.len() as u32;
+        self.expect(DELDRIFT_NO_SUCH_FACET, || c!(deldrift_barycentric(t, low, &no_cell, 1, &mut weight)));
+        let mut sign = 77;
+        self.expect(DELDRIFT_INVALID_DIMENSION, || c!(deldrift_in_sphere(4, low, &mut sign)));
+        assert_eq!((found, weight, sign), (77, 77.0, 77), "an output of a call that failed");
         let values = vec![0.0; n + 1];
         let (values, place, mut result) = (values.as_ptr(), [0.5; 3], 77.0);
         self.expect(wanted, || {

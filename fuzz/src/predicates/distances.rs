@@ -10,19 +10,24 @@ use num_bigint::BigInt;
 use std::cmp::Ordering::{Equal, Greater, Less};
 
 pub fn orders(s: &mut Source) {
-    fn check<const D: usize>(p: [[f64; D]; 3]) {
+    fn check<const D: usize>(p: [[f64; D]; 3], ulps: i64) {
         let expected = exact_distance_order(&p, &mut Tally::default());
         tally::SIGNS.add(1);
         let [a, b, q] = &p;
         assert_eq!(compare_distance(q, a, b), expected, "compare_distance {p:?}");
         assert_eq!(compare_distance(q, b, a), expected.reverse(), "compare_distance {p:?}");
+        // Next to the square of the distance.
+        let squared = squared_distance(q, a);
+        let squared = if squared < f64::MIN_POSITIVE { squared } else { nudged(squared, ulps) };
+        let is_within = exact_order_to_square(&[*a, *q], squared, &mut Tally::default()) != Greater;
+        assert_eq!(is_within_distance(q, a, squared), is_within, "is_within_distance {p:?} {squared:e}");
     }
     if s.below(2) == 0 {
-        check(points::<2, 3>(s));
-        return;
+        let p = points::<2, 3>(s);
+        return check(p, s.within(3));
     }
     let p = points::<3, 3>(s);
-    check(p);
+    check(p, s.within(3));
     let [a, b, c] = &p;
     let collinear = is_exactly_collinear(&p, &mut Tally::default());
     assert_eq!(is_collinear3(a, b, c), collinear, "is_collinear3 {p:?}");

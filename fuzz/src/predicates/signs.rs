@@ -4,7 +4,7 @@ use super::super::exact_oracle::{Tally, bounding_box, exact_sign, is_inside_by_p
 use super::super::source::Source;
 use super::super::tally;
 use super::points::points;
-use deldrift::capi::{deldrift_orientation, deldrift_status};
+use deldrift::capi::{deldrift_in_sphere, deldrift_orientation, deldrift_status};
 use deldrift::internals::predicates::*;
 use std::array::from_fn;
 use std::cmp::Ordering::{self, Equal, Greater, Less};
@@ -199,8 +199,15 @@ pub fn perturbed_in_space(s: &mut Source) {
     }
 }
 
-/// The function of the header.
+/// The functions of the header.
 pub fn by_c(s: &mut Source) {
+    fn check_in_sphere<const D: usize, const N: usize>(p: [[f64; D]; N]) {
+        let mut found = 7;
+        // SAFETY: as many numbers as the dimension says, and a place for the sign.
+        let status = unsafe { deldrift_in_sphere(D as u32, p.as_ptr().cast(), &mut found) };
+        assert_eq!(status, deldrift_status::DELDRIFT_OK, "{p:?}");
+        assert_eq!(found.cmp(&0), exact(&p), "deldrift_in_sphere {p:?}");
+    }
     fn check<const D: usize, const N: usize>(p: [[f64; D]; N]) {
         let mut found = 7;
         // SAFETY: as many numbers as the dimension says, and a place for the sign.
@@ -208,5 +215,11 @@ pub fn by_c(s: &mut Source) {
         assert_eq!(status, deldrift_status::DELDRIFT_OK, "{p:?}");
         assert_eq!(found.cmp(&0), exact(&p), "deldrift_orientation {p:?}");
     }
-    if s.below(2) == 0 { check(points::<2, 3>(s)) } else { check(points::<3, 4>(s)) }
+    if s.below(2) == 0 {
+        check(points::<2, 3>(s));
+        check_in_sphere(points::<2, 4>(s));
+    } else {
+        check(points::<3, 4>(s));
+        check_in_sphere(points::<3, 5>(s));
+    }
 }

@@ -4,7 +4,7 @@ use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::ids::VertexId;
 use crate::machine::memory;
-use crate::motion::state::cells::Cells;
+use crate::motion::state::cells::{Cells, OwnedCells};
 use crate::motion::state::changes::{Changes, Taken};
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
@@ -32,6 +32,25 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn cells(&self) -> Result<CellsView<'_, G>> {
         let cells = self.cell_arrays()?;
         Ok(CellsView { corners: cells.corners(), neighbours: cells.neighbours() })
+    }
+
+    /// The arrays that [`cells`](Self::cells) shows, as the caller's own: for programs that have shown them to others,
+    /// who may look at them for longer than until the next change. The triangulation goes on with copies.
+    ///
+    /// ```
+    /// use deldrift::{Plane, motion::{MovingTriangulation, Options}};
+    ///
+    /// let mut t = MovingTriangulation::<Plane>::new(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], Options::default())?;
+    /// let cells = t.release_cells()?;
+    /// t.remove_vertex(cells.corners[0][0])?;
+    /// assert_eq!((cells.corners.len(), t.cell_count()), (1, 0));
+    /// # Ok::<(), deldrift::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory); then nothing has been handed over.
+    pub fn release_cells(&mut self) -> Result<OwnedCells<G>> {
+        self.mesh.views.cells_mut(&self.mesh.kernel)?.hand_over()
     }
 
     pub(in crate::motion) fn cell_arrays(&self) -> Result<&Cells<G>> {

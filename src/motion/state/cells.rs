@@ -42,6 +42,15 @@ pub(in crate::motion) fn are_most(n_changed: usize, n_slots: usize) -> bool {
 /// Memory for this number of changes is always kept.
 const KEPT_CHANGES: usize = 64;
 
+/// Rows of cells that a caller owns.
+#[derive(Clone, Debug)]
+pub struct OwnedCells<G: Dimension> {
+    /// Vertex ids of each cell, positively oriented.
+    pub corners: Vec<G::Vertices>,
+    /// Index of the neighbour opposite each corner, [`NO_CELL`] on the hull.
+    pub neighbours: Vec<G::Neighbours>,
+}
+
 /// The arrays behind a view.
 #[derive(Debug)]
 pub(in crate::motion) struct Cells<G: Dimension> {
@@ -341,6 +350,15 @@ impl<G: Dimension> Cells<G> {
         slots.extend(Slot::range(0..n));
         memory::lengthen(&mut orderings, n, Ordering::SAME)?;
         Ok(Cells { corners, neighbours, index_of, slots, orderings, ..Cells::default() })
+    }
+
+    /// The rows, in place of which there are copies now.
+    pub(in crate::motion) fn hand_over(&mut self) -> Result<OwnedCells<G>> {
+        let (corners, neighbours) = (memory::copy_of(&self.corners)?, memory::copy_of(&self.neighbours)?);
+        Ok(OwnedCells {
+            corners: std::mem::replace(&mut self.corners, corners),
+            neighbours: std::mem::replace(&mut self.neighbours, neighbours),
+        })
     }
 
     pub(in crate::motion) fn memory_bytes(&self) -> usize {

@@ -55,3 +55,11 @@ pub(crate) fn check_position<G: Dimension>(
     }
     Ok(checked)
 }
+
+/// A bound must be a number that is not negative.
+pub(crate) fn check_not_negative(argument: &'static str, value: f64) -> Result<()> {
+    if value >= 0.0 {
+        return Ok(());
+    }
+    Err(Error::InvalidValue { argument, index: 0, value, wanted: "0 or more" })
+}

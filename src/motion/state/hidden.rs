@@ -65,6 +65,12 @@ impl Hidden {
         left.min(right)
     }
 
+    /// What is on top of the branches of a vertex, [`VertexId::NONE`] for an empty one. From a representative on, each
+    /// vertex behind it is so reached once, and from one of a lower id.
+    pub(in crate::motion) fn tops_below(&self, vertex: VertexId) -> [VertexId; 2] {
+        self.branches(vertex)
+    }
+
     /// Visits a representative and all behind it, in no particular order.
     #[inline(always)]
     pub(in crate::motion) fn for_all_at(&self, representative: VertexId, mut visit: impl FnMut(VertexId)) {

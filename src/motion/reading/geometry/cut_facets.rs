@@ -18,8 +18,10 @@
 //! # Corners at infinity
 //!
 //! One has a direction, of which the signs of the coordinates are known. A face along which that goes has all or
-//! nothing of the side that leads to the corner; if none does, as in the middle of a plane that is a facet as a whole,
-//! either will do, unless the plane is parallel to the face.
+//! nothing of the side that leads to the corner. If none does, as in the middle of a plane that is a facet as a whole,
+//! the corner is *open* unless the plane is parallel to the face: a part of what is far away in its direction is on
+//! either side of the face. Then it goes if the corners before and after it do, so that what stays is convex; if one of
+//! them does, either will do. These are not open to the same face.
 //!
 //! # Cost
 //!
@@ -272,9 +274,17 @@ impl CutFacet {
         } else if others.iter().all(|&k| self.normal[k] == 0) {
             others.iter().for_each(|&k| also[k] = Some(self.at[k]));
         } else {
+            // It is open.
             return 0;
         }
         self.meet(corner.sides, clip, also, from, |meeting| meeting.sign(axis))
+    }
+
+    /// Whether a corner is open to the faces of an axis.
+    fn is_open(&self, corner: &Corner, axis: usize) -> bool {
+        let is_parallel = (0..3).all(|k| k == axis || self.normal[k] == 0);
+        let has_line = corner.sides.iter().any(|side| *side != Side::AtInfinity);
+        corner.is_far() && corner.direction[axis] == 0 && !has_line && !is_parallel
     }
 
     /// The faces that some corner may be beyond, by their bits: no corner that is new is beyond others.
@@ -297,6 +307,12 @@ impl CutFacet {
             memory::reserve(&mut self.is_beyond, self.corners.len())?;
             for corner in &self.corners {
                 self.is_beyond.push(self.is_beyond(corner, face, clip, centres));
+            }
+            let n = self.corners.len();
+            for k in 0..n {
+                if self.is_open(&self.corners[k], face.axis) {
+                    self.is_beyond[k] = self.is_beyond[(k + n - 1) % n] && self.is_beyond[(k + 1) % n];
+                }
             }
             if self.is_beyond.iter().all(|&is_beyond| is_beyond) {
                 self.corners.clear();

@@ -1,33 +1,34 @@
 //! Cells that only the rounding of a straight or flat side has made.
 //!
 //! Vertices that were meant to be on one line or plane are not, once their coordinates are rounded: then the hull goes
-//! from one to the other over flat cells, which are exactly Delaunay, and useless for a stiffness matrix. They are found
-//! from the hull inwards: a cell goes if it is flat, and has a facet on the hull or on a cell that goes. So it does not
-//! matter in which order they are looked at.
+//! from one to the other over flat cells, which are exactly Delaunay, and useless for a stiffness matrix. They are
+//! found from the hull inwards: a cell goes if it is flat, and has a facet on the hull or on a cell that goes. So it
+//! does not matter in which order they are looked at.
 //!
-//! A cell is flat if its least height is at most the tolerance times its longest edge. With the longest edge L, twice the
-//! greatest area of a facet F, and the volume V, the least height of a tetrahedron is 6 V / F. Where F itself is at most
-//! the tolerance times L², all vertices are within the tolerance of a line, and the cell is flat whatever the rounded
-//! quotient says.
+//! A cell is flat if its least height is at most the tolerance times its longest edge. With the longest edge L, twice
+//! the greatest area of a facet F, and the volume V, the least height of a tetrahedron is 6 V / F. Where F itself is at
+//! most the tolerance times L², all vertices are within the tolerance times L of a line, and the cell is flat whatever
+//! the rounded quotient says.
 //!
 //! # Accuracy
 //!
 //! V has a relative error of 10⁻⁹ at most. A component of a cross product of edges is the difference of two products of
-//! at most L², each of which is off by 3 u; so F is off by less than √3 · 7 u L² < 2·10⁻¹⁵ L², and where it is above the
-//! tolerance times L², by a part of less than 2·10⁻¹⁵ over the tolerance. Of cells so small that a volume could underflow
-//! the corners are scaled by a power of two first.
+//! at most L², each of which is off by 3 u; so F is off by less than √3 · 7 u L² < 2·10⁻¹⁵ L², and where it is above
+//! the tolerance times L², by a part of less than 2·10⁻¹⁵ over the tolerance. Of cells so small that a volume could
+//! underflow the corners are scaled by a power of two first.
 
 use crate::delaunay::Dimension;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::ids::CellId;
 use crate::machine::memory;
 use crate::motion::reading::geometry::clipping::{Vector, cross, dot, in_space, minus};
 use crate::motion::state::cells::NO_CELL;
+use crate::motion::state::checking::check_not_negative;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::Measures;
 
-/// Cells of an extent below 2 to this are scaled before they are measured, to about 2 to the second one: squares of cross
-/// products do not underflow then.
+/// Cells of an extent below 2 to this are scaled before they are measured, to about 2 to the second one: squares of
+/// cross products do not underflow then.
 const LEAST_EXTENT: i32 = -200;
 const SCALED_EXTENT: i32 = -150;
 
@@ -51,9 +52,10 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] if the tolerance is negative or NaN, [`Error::OutOfMemory`].
+    /// [`Error::InvalidValue`](crate::Error::InvalidValue) if the tolerance is negative or NaN,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn mask_without_flat_cells(&self, tolerance: f64) -> Result<Vec<u8>> {
-        check_tolerance(tolerance)?;
+        check_not_negative("tolerance", tolerance)?;
         let cells = self.cell_arrays()?;
         let (neighbours, slots) = (cells.neighbours(), cells.slots());
         let (mut mask, mut waiting) = (Vec::new(), Vec::new());
@@ -73,15 +75,6 @@ impl<G: Dimension> MovingTriangulation<G> {
         }
         Ok(mask)
     }
-}
-
-/// A tolerance must be a number that is not negative.
-pub(crate) fn check_tolerance(tolerance: f64) -> Result<()> {
-    if tolerance.is_nan() || tolerance < 0.0 {
-        let (argument, value, wanted) = ("tolerance", tolerance, "0 or more");
-        return Err(Error::InvalidValue { argument, index: 0, value, wanted });
-    }
-    Ok(())
 }
 
 /// Whether the least height of a cell is at most `tolerance` times its longest edge.

@@ -4,6 +4,7 @@ use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
 use crate::ids::{CellId, Slot};
 use crate::machine::prefetch::{AHEAD, prefetch};
+use crate::motion::state::checking::check_not_negative;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::Measures;
 
@@ -133,7 +134,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         &self,
         squared_radius: f64,
     ) -> Result<impl ExactSizeIterator<Item = bool> + '_> {
-        check_squared_radius(squared_radius)?;
+        check_not_negative("squared_radius", squared_radius)?;
         self.measures_of_all(
             #[inline(always)]
             move |cell| G::Point::is_circumradius_within(cell, squared_radius),
@@ -150,19 +151,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         cells: &'t [CellId],
         squared_radius: f64,
     ) -> Result<impl ExactSizeIterator<Item = bool> + 't> {
-        check_squared_radius(squared_radius)?;
+        check_not_negative("squared_radius", squared_radius)?;
         self.measures_of(
             cells,
             #[inline(always)]
             move |cell| G::Point::is_circumradius_within(cell, squared_radius),
         )
     }
-}
-
-/// A bound must be a number that is not negative.
-fn check_squared_radius(value: f64) -> Result<()> {
-    if value.is_nan() || value < 0.0 {
-        return Err(Error::InvalidValue { argument: "squared_radius", index: 0, value, wanted: "0 or more" });
-    }
-    Ok(())
 }

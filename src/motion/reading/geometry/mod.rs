@@ -41,7 +41,6 @@ mod voronoi_cells;
 mod weights;
 
 pub use boundary::BoundaryFacet;
-pub(crate) use flat_sides::check_tolerance;
 pub use incidence::Rows;
 pub use interpolation::{Interpolation, VertexValues};
 pub use star::OrderedStar;

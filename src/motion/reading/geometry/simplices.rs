@@ -13,7 +13,7 @@ use crate::motion::state::mesh::Standing;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// From so many simplices for each vertex on, listing the cells of all vertices is faster.
-const LEAST_SHARE: f64 = 0.25;
+const LEAST_PER_VERTEX: f64 = 0.125;
 
 /// How many cells of a star are looked at first.
 const FIRST_CELLS: usize = 64;
@@ -36,8 +36,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for another number of corners, [`Error::NoSuchVertex`], [`Error::RemovedVertex`],
-    /// [`Error::OutOfMemory`].
+    /// [`Error::InvalidValue`] for another number of corners, [`Error::WrongCount`] if the last row is not whole,
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::StagedVertex`], [`Error::OutOfMemory`].
     pub fn find_simplices(
         &self,
         vertices: &[VertexId],
@@ -45,6 +45,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         mut found: impl FnMut(Option<CellId>),
     ) -> Result<()> {
         self.check_corners(n_corners)?;
+        let (given, wanted) = (vertices.len(), vertices.len().next_multiple_of(n_corners));
+        if given != wanted {
+            return Err(Error::WrongCount { argument: "the length of vertices", given, wanted, coming: 0 });
+        }
         for (index, &vertex) in vertices.iter().enumerate() {
             self.present_site("vertices", index, vertex)?;
         }
@@ -53,7 +57,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             rows.for_each(|_| found(None));
             return Ok(());
         }
-        if rows.len() as f64 > LEAST_SHARE * self.vertex_count() as f64 {
+        if rows.len() as f64 > LEAST_PER_VERTEX * self.vertex_count() as f64 {
             return self.find_in_lists(rows, found);
         }
         let index_of = self.cell_arrays()?.index_of();

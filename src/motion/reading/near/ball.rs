@@ -1,13 +1,13 @@
 //! The vertices in a ball.
 //!
-//! A vertex that is not the nearest to a place has a neighbour that is nearer, and so is a path to the nearest one that
-//! does not leave the ball: the vertices in a ball are connected by edges.
+//! A vertex that is not the nearest to a place has a neighbour that is nearer, and so there is a path to the nearest
+//! one that does not leave the ball: the vertices in a ball are connected by edges.
 
 use crate::delaunay::{Dimension, IndexSet};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
-use crate::motion::reading::near::{Link, most_cells};
-use crate::motion::state::checking::check_position;
+use crate::motion::reading::near::{Around, most_cells};
+use crate::motion::state::checking::{check_not_negative, check_position};
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::is_within_distance;
 
@@ -25,14 +25,12 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::OutOfRange`], [`Error::InvalidValue`] if the squared radius is negative or NaN,
-    /// [`Error::OutOfMemory`].
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange),
+    /// [`Error::InvalidValue`](crate::Error::InvalidValue) if the squared radius is negative or NaN,
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn vertices_in_ball(&self, centre: &G::Point, squared_radius: f64) -> Result<Vec<VertexId>> {
         let q = check_position::<G>("centre", 0, centre)?;
-        if squared_radius.is_nan() || squared_radius < 0.0 {
-            let (argument, value, wanted) = ("squared_radius", squared_radius, "0 or more");
-            return Err(Error::InvalidValue { argument, index: 0, value, wanted });
-        }
+        check_not_negative("squared_radius", squared_radius)?;
         let kernel = &self.mesh.kernel;
         let is_in = |s: SiteId| is_within_distance(&q, &kernel.site(s).point, squared_radius);
         let mut found = IndexSet::new();
@@ -56,15 +54,15 @@ impl<G: Dimension> MovingTriangulation<G> {
                 found.insert(s)?;
             }
         }
-        let (mut link, mut next, mut n_cells) = (Link::default(), 0, 0);
+        let (mut around, mut next, mut n_cells) = (Around::default(), 0, 0);
         while let Some(&s) = found.as_slice().get(next) {
             next += 1;
-            for &x in link.list(&self.mesh.kernel, s)? {
+            for &x in around.list(&self.mesh.kernel, s)? {
                 if is_in(x) {
                     found.insert(x)?;
                 }
             }
-            n_cells += link.star.as_slice().len();
+            n_cells += around.star.as_slice().len();
             if n_cells > most_cells(&self.mesh.kernel) {
                 return Ok(false);
             }

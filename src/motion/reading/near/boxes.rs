@@ -1,28 +1,34 @@
 //! The vertices in a box.
 //!
 //! The cells that meet a convex set are connected by facets, if what is outside the hull counts as well: for a ghost
-//! cell, the open half-space beyond its facet. From a place in the set that is outside, the facets that are seen are
-//! connected; on the straight way from there into the hull none comes into sight that was not, and the last ones that are
-//! seen hold the place where the way enters. So a flood from the located centre of a box over the cells whose bounding
-//! box meets it, and the ghost cells beyond whose facet it has a corner, finds all cells that meet it, and with them all
-//! vertices in it.
+//! cell, the open half-space beyond its facet.
+//! - The cells at one place are the star of a face, and so connected. The star of a face at a place near by is a part
+//!   of it, so along a path the connection does not break.
+//! - From a place outside, the facets that are seen are connected. On the straight way from there into the hull none
+//!   comes into sight that was not, and the last ones that are seen hold the place where the way enters.
+//!
+//! So a flood from the located centre of a box, over the cells whose bounding boxes meet it and the ghost cells beyond
+//! whose facets it has a corner, finds all cells that meet it, and with them all vertices in it. (Where the centre is a
+//! vertex, the flood may begin at a ghost cell there that does not meet the box; the cell behind it has the vertex as a
+//! corner, and is looked at next.)
 
 use crate::delaunay::{Dimension, IndexSet};
 use crate::error::{Error, Result};
 use crate::ids::{Slot, VertexId};
+use crate::machine::memory;
 use crate::motion::reading::near::most_cells;
 use crate::motion::triangulation::MovingTriangulation;
 
 /// A closed box.
 #[derive(Clone, Copy)]
-struct Box<G: Dimension> {
+struct Extent<G: Dimension> {
     low: G::Point,
     high: G::Point,
 }
 
-impl<G: Dimension> Box<G> {
+impl<G: Dimension> Extent<G> {
     /// What it shares with another; `None` if that is nothing.
-    fn met(mut self, low: &G::Point, high: &G::Point) -> Option<Self> {
+    fn intersection(mut self, low: &G::Point, high: &G::Point) -> Option<Self> {
         for axis in 0..G::D {
             self.low[axis] = self.low[axis].max(low[axis]);
             self.high[axis] = self.high[axis].min(high[axis]);
@@ -35,7 +41,7 @@ impl<G: Dimension> Box<G> {
     }
 
     /// A place in the middle.
-    fn middle(&self) -> G::Point {
+    fn centre(&self) -> G::Point {
         let mut middle = self.low;
         (0..G::D).for_each(|axis| middle[axis] = f64::midpoint(self.low[axis], self.high[axis]));
         middle
@@ -72,19 +78,21 @@ impl<G: Dimension> MovingTriangulation<G> {
                 return Err(Error::InvalidValue { argument, index, value, wanted });
             }
         }
-        let wanted = Box::<G> { low: *low, high: *high };
+        let wanted = Extent::<G> { low: *low, high: *high };
         let kernel = &self.mesh.kernel;
         if !kernel.has_cells() {
             return self.find_in_box(&wanted);
         }
         // All sites are in the box for which the kernel's filter holds.
-        let Some(inner) = wanted.met(&kernel.lower(), &kernel.upper()) else { return Ok(Vec::new()) };
-        let mut cells = IndexSet::new();
+        let Some(inner) = wanted.intersection(&kernel.lower(), &kernel.upper()) else {
+            return Ok(Vec::new());
+        };
+        let mut cells = Vec::new();
         if !self.flood_box(&inner, &mut cells)? {
             return self.find_in_box(&wanted);
         }
         let mut found = IndexSet::new();
-        for &cell in cells.as_slice().iter().filter(|&&cell| !kernel.complex().cell(cell).is_ghost()) {
+        for &cell in cells.iter().filter(|&&cell| !kernel.complex().cell(cell).is_ghost()) {
             let corners = kernel.complex().cell(cell).corners;
             for &s in corners.as_ref().iter().filter(|&&s| wanted.has(&kernel.site(s).point)) {
                 found.insert(s)?;
@@ -94,31 +102,37 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// The vertices that are in a box, by a pass over all.
-    fn find_in_box(&self, wanted: &Box<G>) -> Result<Vec<VertexId>> {
+    fn find_in_box(&self, wanted: &Extent<G>) -> Result<Vec<VertexId>> {
         let kernel = &self.mesh.kernel;
         self.vertices_at(kernel.live_sites().filter(|&s| wanted.has(&kernel.site(s).point)))
     }
 
-    /// Lists cells, among them all that meet a box, of which the corners are in range of the kernel's filter; whether all have been found, before a pass over the sites takes
-    /// less.
-    fn flood_box(&self, wanted: &Box<G>, cells: &mut IndexSet<Slot>) -> Result<bool> {
+    /// Lists cells, among them all that meet a box whose corners are in range of the kernel's filter; whether all have
+    /// been found, before a pass over the sites takes less.
+    fn flood_box(&self, wanted: &Extent<G>, cells: &mut Vec<Slot>) -> Result<bool> {
         let kernel = &self.mesh.kernel;
-        let middle = wanted.middle();
-        let filter = kernel.filter_for(&middle);
-        cells.insert(self.slot_at(kernel.locate(&middle, Slot::NONE)))?;
+        let centre = wanted.centre();
+        let filter = kernel.filter_for(&centre);
+        let first = self.slot_at(kernel.locate(&centre, Slot::NONE));
+        let mut seen = IndexSet::new();
+        seen.insert(first)?;
+        memory::push(cells, first)?;
         let mut next = 0;
-        while let Some(&cell) = cells.as_slice().get(next) {
+        while let Some(&cell) = cells.get(next) {
             next += 1;
             for i in 0..=G::D {
                 let across = kernel.complex().cell(cell).neighbour(i).cell();
+                if !seen.insert(across)? {
+                    continue;
+                }
                 let may_meet = if kernel.complex().cell(across).is_ghost() {
                     (0..1 << G::D)
                         .any(|bits| kernel.orientation_beyond(&filter, across, &wanted.corner(bits)) > 0.0)
                 } else {
-                    self.is_beside(across, wanted)
+                    self.may_reach(across, wanted)
                 };
                 if may_meet {
-                    cells.insert(across)?;
+                    memory::push(cells, across)?;
                 }
             }
             if next > most_cells(kernel) {
@@ -129,7 +143,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     }
 
     /// Whether the bounding box of a finite cell meets a box.
-    fn is_beside(&self, cell: Slot, wanted: &Box<G>) -> bool {
+    fn may_reach(&self, cell: Slot, wanted: &Extent<G>) -> bool {
         let places = self.mesh.kernel.places(cell);
         (0..G::D).all(|axis| {
             let along = || places[..=G::D].iter().map(|p| p[axis]);

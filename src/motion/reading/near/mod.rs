@@ -7,8 +7,9 @@
 //! | `boxes` | the vertices in a box |
 //! | `conflicts` | the cells that a new vertex would remove |
 //!
-//! All is found by floods from a located cell, at the cost of what is found, and decided by exact signs. A flood that
-//! has looked at as many cells as would pay for a pass over all vertices is given up for that pass.
+//! All is found by floods from a located cell, from neighbour to neighbour, at about the cost of what is found, and
+//! decided by exact signs. A flood that has looked at as many cells as would pay for a pass over all vertices is given
+//! up for that pass.
 
 mod ball;
 mod boxes;
@@ -23,22 +24,23 @@ use crate::machine::memory;
 use crate::machine::prefetch::prefetch;
 use crate::motion::triangulation::MovingTriangulation;
 
-/// A flood that has looked at more cells than this share of the sites takes longer than a pass over these.
-const LEAST_SHARE: f64 = 0.25;
+/// A flood that has looked at more cells than this share of the sites takes longer than a pass over these: of 100,000
+/// random vertices a cell takes as long as some twenty sites, in the plane and in space.
+const MOST_CELLS_PER_SITE: f64 = 0.05;
 
 /// The most cells that a flood looks at before all vertices are.
 fn most_cells<G: Dimension>(kernel: &Delaunay<G>) -> usize {
-    (LEAST_SHARE * kernel.sites().len() as f64) as usize
+    (MOST_CELLS_PER_SITE * kernel.sites().len() as f64) as usize
 }
 
 /// The sites that share a cell with one, itself included; kept as scratch from one to the next.
 #[derive(Debug, Default)]
-struct Link {
+struct Around {
     star: IndexSet<Slot>,
     sites: IndexSet<SiteId>,
 }
 
-impl Link {
+impl Around {
     /// Lists those of a site.
     fn list<G: Dimension>(&mut self, kernel: &Delaunay<G>, s: SiteId) -> Result<&[SiteId]> {
         self.sites.clear();

@@ -1,8 +1,8 @@
 //! The vertices nearest to a place.
 //!
-//! Some neighbour of a vertex that is not the nearest is nearer. So a walk along edges ends at the nearest one, and of the
-//! vertices in order of distance each is a neighbour of an earlier one, but for those that are nearest: these are on an
-//! empty sphere around the place, so they are connected by edges. Distances are compared exactly.
+//! Some neighbour of a vertex that is not the nearest is nearer. So a walk along edges ends at the nearest one, and of
+//! the vertices in order of distance each is a neighbour of an earlier one, but for those that are nearest: these are
+//! on an empty sphere around the place, so they are connected by edges. Distances are compared exactly.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -12,7 +12,7 @@ use crate::delaunay::{Dimension, IndexSet, Place};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
 use crate::machine::memory;
-use crate::motion::reading::near::Link;
+use crate::motion::reading::near::Around;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
 use crate::predicates::compare_distance;
@@ -63,7 +63,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange).
+    /// [`Error::NotFinite`](crate::Error::NotFinite), [`Error::OutOfRange`](crate::Error::OutOfRange),
+    /// [`Error::OutOfMemory`](crate::Error::OutOfMemory).
     pub fn nearest_vertex(&self, position: &G::Point) -> Result<Option<VertexId>> {
         let q = check_position::<G>("position", 0, position)?;
         if !self.mesh.kernel.has_cells() {
@@ -100,8 +101,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         for (index, position) in positions.iter().enumerate() {
             check_position::<G>("positions", index, position)?;
         }
+        if k == 0 {
+            return Ok(());
+        }
         let mut near = Slot::NONE;
-        let (mut link, mut seen) = (Link::default(), IndexSet::new());
+        let (mut around, mut seen) = (Around::default(), IndexSet::new());
         for q in positions {
             let mut waiting = BinaryHeap::new();
             seen.clear();
@@ -117,14 +121,11 @@ impl<G: Dimension> MovingTriangulation<G> {
                     memory::enter(&mut waiting, self.candidate(q, s))?;
                 }
             }
-            for _ in 0..k {
-                let Some(next) = waiting.pop() else {
-                    found(VertexId::NONE);
-                    continue;
-                };
-                found(next.vertex);
-                if next.vertex == self.mesh.kernel.site(next.site).id {
-                    self.enter_around(&next, &mut link, &mut seen, &mut waiting)?;
+            for n_wanted in (0..k).rev() {
+                let next = waiting.pop();
+                found(next.as_ref().map_or(VertexId::NONE, |next| next.vertex));
+                if let Some(next) = next.filter(|_| n_wanted > 0) {
+                    self.enter_after(&next, &mut around, &mut seen, &mut waiting)?;
                 }
             }
         }
@@ -136,23 +137,23 @@ impl<G: Dimension> MovingTriangulation<G> {
         Candidate { q, point: &site.point, vertex: site.id, site: s }
     }
 
-    /// Has what can follow a representative wait: those hidden behind it, and its neighbours.
-    fn enter_around<'t>(
+    /// Has what can follow a vertex wait: of those hidden at its place the ones below it in their tree, as there may be
+    /// thousands of which few are wanted; and the neighbours of a representative.
+    fn enter_after<'t>(
         &'t self,
         next: &Candidate<'t, G::Point>,
-        link: &mut Link,
+        around: &mut Around,
         seen: &mut IndexSet<SiteId>,
         waiting: &mut BinaryHeap<Candidate<'t, G::Point>>,
     ) -> Result<()> {
-        let &Candidate { q, point, vertex: representative, site } = next;
-        let mut entered = Ok(());
-        self.mesh.hidden.for_all_at(representative, |vertex| {
-            if vertex != representative && entered.is_ok() {
-                entered = memory::enter(waiting, Candidate { q, point, vertex, site });
-            }
-        });
-        entered?;
-        for &x in link.list(&self.mesh.kernel, site)? {
+        let &Candidate { q, point, vertex, site } = next;
+        for top in self.mesh.hidden.tops_below(vertex).into_iter().filter(|&top| top != VertexId::NONE) {
+            memory::enter(waiting, Candidate { q, point, vertex: top, site })?;
+        }
+        if vertex != self.mesh.kernel.site(site).id {
+            return Ok(());
+        }
+        for &x in around.list(&self.mesh.kernel, site)? {
             if seen.insert(x)? {
                 memory::enter(waiting, self.candidate(q, x))?;
             }
@@ -177,7 +178,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         };
         nearest.insert(best)?;
-        let mut link = Link::default();
+        let mut around = Around::default();
         // Those before this one have been looked around.
         let (mut next, mut n_stars) = (0, 0);
         while let Some(&s) = nearest.as_slice().get(next) {
@@ -193,7 +194,7 @@ impl<G: Dimension> MovingTriangulation<G> {
                 next = 0;
                 continue;
             }
-            for &x in link.list(&self.mesh.kernel, s)? {
+            for &x in around.list(&self.mesh.kernel, s)? {
                 match self.compare(q, x, best) {
                     Ordering::Less => {
                         best = x;
