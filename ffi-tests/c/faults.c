@@ -172,7 +172,6 @@ static void the_first_calls_need_no_more_than_others(void) {
     CHECK(t == NULL && n_refused >= 2 && n_written == 0);
 }
 
-// All functions whose documentation does not name DELDRIFT_OUT_OF_MEMORY.
 static deldrift_released_cells *released_cells(deldrift_triangulation *t) {
     deldrift_cells_view view;
     deldrift_released_cells *owner;
@@ -180,6 +179,7 @@ static deldrift_released_cells *released_cells(deldrift_triangulation *t) {
     return owner;
 }
 
+// All functions whose documentation does not name DELDRIFT_OUT_OF_MEMORY.
 static void other_functions_ask_for_nothing(uint32_t dimension) {
     const call some = {COMMIT_SOME, DELDRIFT_AUTO, 0};
     scene s = make_scene(dimension, some, &SETTINGS[6]);
