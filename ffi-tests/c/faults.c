@@ -172,6 +172,13 @@ static void the_first_calls_need_no_more_than_others(void) {
     CHECK(t == NULL && n_refused >= 2 && n_written == 0);
 }
 
+static deldrift_released_cells *released_cells(deldrift_triangulation *t) {
+    deldrift_cells_view view;
+    deldrift_released_cells *owner;
+    OK(deldrift_release_cells(t, &view, &owner));
+    return owner;
+}
+
 // All functions whose documentation does not name DELDRIFT_OUT_OF_MEMORY.
 static void other_functions_ask_for_nothing(uint32_t dimension) {
     const call some = {COMMIT_SOME, DELDRIFT_AUTO, 0};
@@ -182,7 +189,9 @@ static void other_functions_ask_for_nothing(uint32_t dimension) {
     bool present;
     double position[3];
     deldrift_commit_report report;
+    deldrift_released_cells *const owner = released_cells(s.t);
     count_requests(0, ALL_LATER);
+    deldrift_free_cells(owner);
     deldrift_options options;
     deldrift_options_init(&options);
     CHECK(strlen(deldrift_version()) > 0 && strlen(deldrift_status_string(DELDRIFT_OK)) > 0);

@@ -116,8 +116,8 @@ public:
 
 private:
     void add_finite(const Place<Mesh, D> &place) {
-        const deldrift_location near{DELDRIFT_LOCATION_CELL, place.cell.id()};
-        for (std::uint32_t cell : mesh_->triangulation().conflicts(p_, &near)) cells_.emplace_back(mesh_, cell);
+        const deldrift_location hint{DELDRIFT_LOCATION_CELL, place.cell.id()};
+        for (std::uint32_t cell : mesh_->triangulation().conflicts(p_, &hint)) cells_.emplace_back(mesh_, cell);
         std::sort(cells_.begin(), cells_.end());
     }
     // A ghost cell goes if its facet is seen from the point; a facet whose plane the point is on, if the cell behind it

@@ -272,7 +272,7 @@ public:
     Oriented_side oriented_side(Face_handle f, const Point &p) const {
         int least = 1;
         for (std::uint32_t i = 0; i < 3; i++) {
-            least = std::min(least, detail::side_of_facet<Mesh, 2>(f, i, Mesh::numbers_of(p)));
+            least = (std::min)(least, detail::side_of_facet<Mesh, 2>(f, i, Mesh::numbers_of(p)));
         }
         return static_cast<Oriented_side>(least);
     }
