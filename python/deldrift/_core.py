@@ -1,4 +1,4 @@
-"""What all methods of a triangulation use: its handle, who may use it when, and arrays lent to NumPy."""
+"""What all methods of a triangulation use: its handle, which calls may run at once, and arrays lent to NumPy."""
 
 from __future__ import annotations
 
