@@ -50,6 +50,7 @@ test: ## all tests, two steps at a time: Rust; C, C++, valgrind, sanitizers; ins
 	-@.ci/packages libtet1.5-dev
 	-@.ci/packages libqhull-dev
 	-@.ci/packages clang lld mold
+	-@.ci/packages python3-numpy python3-scipy python3-pytest
 	tests/run
 
 counts: ## what has changed in the counts of work since they were recorded, with AVX2 and without; RECORD=1 records them
@@ -60,8 +61,9 @@ soak: ## random histories against fresh builds, on two threads: cpp-bench/result
 	cargo bench --bench soak -- $(or $(ARGS),--hours $(HOURS) --csv cpp-bench/results/soak.csv)
 	$(if $(ARGS),,.ci/records write cpp-bench/results/environment_soak.txt "make soak HOURS=$(HOURS)")
 
-bench: benchmark ## deldrift beside CGAL: tables, cpp-bench/results/bench.csv and structured.csv (PRESET=quick or full)
+bench: benchmark ## deldrift beside CGAL, and the Python package beside scipy: tables, cpp-bench/results/bench.csv and structured.csv (PRESET=quick or full)
 	cpp-bench/run --preset $(PRESET) $(ARGS)
+	$(if $(ARGS),,@python/bench/run $(PRESET))
 
 report: benchmark ## the experiments of RR-6750, beside CGAL: cpp-bench/results/report/index.html (PRESET=quick or full)
 	@.ci/packages $(PAGE_NEEDS)
