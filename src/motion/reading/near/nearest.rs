@@ -84,7 +84,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
     /// let t = MovingTriangulation::<Plane>::new(&corners, Options::default())?;
     /// let mut found = Vec::new();
-    /// t.nearest_vertices(&[[0.9, 0.1]], 3, |vertex| found.push(vertex))?;
+    /// t.nearest_vertices(&[[0.75, 0.25]], 3, |vertex| found.push(vertex))?;
     /// assert_eq!(found, [1, 0, 3].map(VertexId::new));
     /// # Ok::<(), deldrift::Error>(())
     /// ```
