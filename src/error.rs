@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::ids::{CellId, VertexId};
+use crate::ids::{CellId, SegmentId, VertexId};
 
 /// The reason for which a call had no effect.
 ///
@@ -82,6 +82,17 @@ pub enum Error {
         /// What is staged.
         staged: StagedEdit,
     },
+    /// There is no segment of this id, or its removal is staged.
+    NoSuchSegment {
+        /// Parameter at fault.
+        argument: &'static str,
+        /// Which entry of it.
+        index: usize,
+        /// What was given.
+        segment: SegmentId,
+        /// How many ids have been given: valid ones are below it.
+        ids: usize,
+    },
     /// There is no cell of this index.
     NoSuchCell {
         /// Parameter at fault.
@@ -141,6 +152,13 @@ pub enum Error {
         /// The higher id of the two.
         other: VertexId,
     },
+    /// Something is in the way of a segment, or it has not two ends.
+    Conflict {
+        /// The first that was found.
+        conflict: Conflict,
+        /// How many others there are.
+        others: usize,
+    },
     /// More vertices than ids of 32 bits can name.
     TooManyVertices {
         /// Number asked for.
@@ -171,6 +189,50 @@ pub enum StagedEdit {
     Removal,
 }
 
+/// Why a segment cannot be an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Conflict {
+    /// Two segments cross at a place that is an end of neither.
+    Crossing {
+        /// Their ids, ascending.
+        segments: [SegmentId; 2],
+    },
+    /// A vertex is on a segment, and not one of its ends.
+    OnSegment {
+        /// The segment.
+        segment: SegmentId,
+        /// The vertex, the lowest one at the place.
+        vertex: VertexId,
+    },
+    /// An end of a segment is not there, or is removed.
+    EndRemoved {
+        /// The segment.
+        segment: SegmentId,
+        /// The end.
+        vertex: VertexId,
+    },
+    /// Both ends of a segment are at the same place.
+    EndsMeet {
+        /// The segment.
+        segment: SegmentId,
+    },
+}
+
+impl fmt::Display for Conflict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Conflict::Crossing { segments: [one, other] } => write!(f, "segments {one} and {other} cross"),
+            Conflict::OnSegment { segment, vertex } => write!(f, "vertex {vertex} is on segment {segment}"),
+            Conflict::EndRemoved { segment, vertex } => {
+                write!(f, "vertex {vertex}, an end of segment {segment}, is removed")
+            }
+            Conflict::EndsMeet { segment } => {
+                write!(f, "both ends of segment {segment} are at the same place")
+            }
+        }
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -195,6 +257,12 @@ impl fmt::Display for Error {
                 };
                 write!(f, "{argument}[{index}] is {vertex}, a vertex whose {staged} is staged: {until}")
             }
+            Error::NoSuchSegment { argument, index, segment, ids } => {
+                write!(
+                    f,
+                    "{argument}[{index}] is {segment}, which is no segment that can be removed; {ids} ids have been given"
+                )
+            }
             Error::NoSuchCell { argument, index, cell, cells } => {
                 write!(f, "{argument}[{index}] is {cell}, but there are {cells} cells")
             }
@@ -217,6 +285,10 @@ impl fmt::Display for Error {
             }
             Error::Coincident { vertex, other } => {
                 write!(f, "vertices {vertex} and {other} are at the same place, which the options reject")
+            }
+            Error::Conflict { conflict, others: 0 } => write!(f, "{conflict}"),
+            Error::Conflict { conflict, others } => {
+                write!(f, "{conflict}, and there are {others} more conflicts")
             }
             Error::TooManyVertices { given, limit } => {
                 write!(f, "{given} vertices are asked for, and {limit} is the limit")

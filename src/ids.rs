@@ -156,6 +156,8 @@ ids! {
     VertexId;
     /// A finite cell, as programs know it: its index in the arrays of [`CellsView`](crate::motion::CellsView).
     CellId;
+    /// A segment, as programs know it. The numbers begin with 0.
+    SegmentId;
     /// A site: a place of vertices, by its index in the kernel. Site 0 stands for the ghost vertex.
     SiteId;
     /// A place for a cell in the kernel.

@@ -53,8 +53,8 @@ mod simd;
 pub use damage::{Damage, LoadError};
 pub use delaunay::{Dimension, Plane, Shape, Space};
 pub use either::{AnyTriangulation, points_of};
-pub use error::{Error, Result, StagedEdit};
-pub use ids::{CellId, VertexId};
+pub use error::{Conflict, Error, Result, StagedEdit};
+pub use ids::{CellId, SegmentId, VertexId};
 pub use predicates::Coordinates;
 
 /// The parts below [`motion`], for the crate's own tests and benchmarks. They trust their arguments, wrong indices are

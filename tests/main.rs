@@ -26,6 +26,7 @@ mod predicates_suites;
 mod repair;
 mod saving;
 mod saving_format;
+mod segments;
 mod small;
 mod suites;
 mod threads;

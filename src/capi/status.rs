@@ -250,6 +250,7 @@ impl Failure {
                 Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
                 Error::StagedVertex { .. } => DELDRIFT_STAGED_VERTEX,
                 Error::NoSuchCell { .. } => DELDRIFT_NO_SUCH_FACET,
+                Error::NoSuchSegment { .. } | Error::Conflict { .. } => DELDRIFT_INVALID_VALUE,
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,

@@ -33,6 +33,14 @@ impl<C: Corners> Row<C> {
         Row { slot, corners: cell.corners, neighbours: cell.neighbours }
     }
 
+    /// The cells have other slots now, by their old ones.
+    pub(crate) fn renumber_slots(&mut self, index: &[Slot]) {
+        self.slot = index[self.slot];
+        for facet in self.neighbours.as_mut() {
+            *facet = Facet::new(index[facet.cell()], facet.index());
+        }
+    }
+
     /// Whether the slot held no cell.
     #[inline(always)]
     pub(crate) fn is_free(&self) -> bool {
@@ -113,6 +121,11 @@ impl<C: Corners> Complex<C> {
             return Ok(());
         }
         memory::reserve(&mut self.record.rows, n)
+    }
+
+    /// What a slot holds.
+    pub(crate) fn row(&self, slot: Slot) -> Row<C> {
+        Row::of(slot, self.cell(slot))
     }
 
     /// Whether a record is kept.

@@ -49,5 +49,6 @@ pub use report::CommitReport;
 pub use state::cells::{NO_CELL, NO_CORNER, OwnedCells};
 pub use state::changes::{Changes, NO_VERTEX};
 pub(crate) use state::checking::{check_not_negative, check_position};
+pub use state::segments::Segment;
 pub use state::views::CellsView;
 pub use triangulation::{MAX_VERTICES, MovingTriangulation};

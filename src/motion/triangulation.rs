@@ -181,8 +181,12 @@ impl<G: Dimension> MovingTriangulation<G> {
         &mut self,
         change: impl FnOnce(&mut Self) -> Result<T>,
     ) -> Result<T> {
-        self.mesh.begin()?;
-        let done = change(self).and_then(|done| self.mesh.views.prepare(&self.mesh.kernel).map(|()| done));
+        self.mesh.begin(false)?;
+        let done = change(self).and_then(|done| {
+            self.mesh.lay_segments()?;
+            self.mesh.views.prepare(&self.mesh.kernel)?;
+            Ok(done)
+        });
         match done {
             Ok(done) => {
                 self.mesh.publish();

@@ -46,8 +46,8 @@ impl<G: Dimension> MovingTriangulation<G> {
     fn commit(&mut self, moves: &mut Moves<'_, G>) -> Result<CommitReport> {
         let mut report = CommitReport::default();
         let before = self.mesh.evaluations();
-        self.mesh.begin()?;
-        let advanced = self.edit_and_advance(moves, &mut report);
+        self.mesh.begin(true)?;
+        let advanced = self.edit_and_advance(moves, &mut report).and_then(|()| self.mesh.lay_segments());
         if let Err(error) = advanced.and_then(|()| self.mesh.views.prepare(&self.mesh.kernel)) {
             self.undo();
             return Err(error);
@@ -55,6 +55,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.mesh.publish();
         self.enter_evaluations(&mut report, before);
         self.end_edits();
+        if let Some(segments) = &mut self.mesh.segments {
+            segments.end_staging();
+        }
         self.statistics.timestamp += 1;
         self.count(report);
         report.timestamp = self.statistics.timestamp;

@@ -152,7 +152,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
             // Once more from the beginning.
             self.undo();
-            self.mesh.begin()?;
+            self.mesh.begin(true)?;
             (report.inserted, report.removed) = (0, 0);
         }
         self.rebuild_edited(moves, report)?;

@@ -29,7 +29,7 @@ impl<G: Dimension> MovingTriangulation<G> {
     /// [`Error::DuplicateMove`] if a move of the vertex is staged; [`Error::Coincident`] if the options reject that.
     #[inline]
     pub fn relocate_vertex(&mut self, vertex: VertexId, position: &G::Point) -> Result<()> {
-        if self.relocate_within_tolerance(vertex, position) {
+        if self.mesh.segments.is_none() && self.relocate_within_tolerance(vertex, position) {
             return Ok(());
         }
         self.relocate_checked(vertex, position)

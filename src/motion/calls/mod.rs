@@ -7,3 +7,4 @@ pub(in crate::motion) mod compaction;
 pub(in crate::motion) mod editing;
 pub(in crate::motion) mod immediate;
 pub(in crate::motion) mod moves;
+pub(in crate::motion) mod segments;

@@ -133,6 +133,9 @@ impl<G: Dimension> MovingTriangulation<G> {
     pub fn discard_moves(&mut self) -> usize {
         let n = self.staging.clear();
         self.discard_edits();
+        if let Some(segments) = &mut self.mesh.segments {
+            segments.discard();
+        }
         n
     }
 

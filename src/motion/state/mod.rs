@@ -16,6 +16,7 @@ pub(in crate::motion) mod ordering;
 pub(in crate::motion) mod origins;
 pub(in crate::motion) mod places;
 pub(in crate::motion) mod repair;
+pub(in crate::motion) mod segments;
 pub(in crate::motion) mod staging;
 pub(in crate::motion) mod transaction;
 pub(in crate::motion) mod views;

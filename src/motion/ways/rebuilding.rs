@@ -97,7 +97,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         is_ready: Result<()>,
         report: &mut CommitReport,
     ) -> Result<()> {
-        let built = is_ready.and_then(|()| self.build(&mut next));
+        let built = is_ready.and_then(|()| {
+            let built = self.build(&mut next)?;
+            self.mesh.lay_segments_in(&mut next, &built.0)?;
+            Ok(built)
+        });
         match built {
             Ok((hidden, stride, keeps_sites)) => {
                 report.rebuilds += 1;

@@ -14,9 +14,11 @@
 //!
 //! Memory is reserved before a change, so [`undo`](Mesh::undo) needs none, and cannot fail.
 
-use crate::delaunay::Dimension;
+use crate::delaunay::{Delaunay, Dimension};
 use crate::error::Result;
-use crate::ids::VertexId;
+use crate::ids::{SiteId, VertexId};
+use crate::machine::memory;
+use crate::motion::state::hidden::Hidden;
 use crate::motion::state::mesh::Mesh;
 use crate::motion::state::transaction::{Counts, Event, VertexBefore};
 
@@ -24,14 +26,46 @@ use crate::motion::state::transaction::{Counts, Event, VertexBefore};
 const REPLACED_TO_SORT: f64 = 2.0;
 
 impl<G: Dimension> Mesh<G> {
-    /// Begins a change.
-    pub(in crate::motion) fn begin(&mut self) -> Result<()> {
+    /// Begins a change, which is a commit or not.
+    pub(in crate::motion) fn begin(&mut self, is_commit: bool) -> Result<()> {
         self.kernel.begin()?;
         self.transaction.begin(Counts {
             present: self.n_present,
             visibilities: self.views.visibilities_mut().shortened_len(self.site_of.len()),
         });
-        Ok(())
+        let Some(segments) = &mut self.segments else { return Ok(()) };
+        let lifted = segments.lift(&mut self.kernel, is_commit);
+        if lifted.is_err() {
+            self.undo();
+        }
+        lifted
+    }
+
+    /// Lays the segments, when the vertices are where they go, unless a new kernel has them.
+    pub(in crate::motion) fn lay_segments(&mut self) -> Result<()> {
+        let Some(segments) = &mut self.segments else { return Ok(()) };
+        let is_new = self.transaction.has_rebuilt();
+        if is_new
+            || (segments.are_at_rest() && self.kernel.complex().rows().is_empty() && self.kernel.has_cells())
+        {
+            return Ok(());
+        }
+        segments.lay(&mut self.kernel, &self.site_of)
+    }
+
+    /// Lays the segments in a new kernel that hides these vertices.
+    pub(in crate::motion) fn lay_segments_in(
+        &mut self,
+        next: &mut Delaunay<G>,
+        hidden: &Hidden,
+    ) -> Result<()> {
+        let Some(segments) = &mut self.segments else { return Ok(()) };
+        let mut site_of = Vec::new();
+        memory::lengthen(&mut site_of, self.site_of.len(), SiteId::NONE)?;
+        for s in next.live_sites() {
+            hidden.for_all_at(next.site(s).id, |v| site_of[v.index()] = s);
+        }
+        segments.lay(next, &site_of)
     }
 
     /// Keeps the site of a vertex before it gets one of its own, or loses it.
@@ -50,6 +84,9 @@ impl<G: Dimension> Mesh<G> {
         }
         self.kernel.end();
         self.transaction.end();
+        if let Some(segments) = &mut self.segments {
+            segments.keep();
+        }
         if self.transaction.wants_order() {
             // For speed alone: without the memory for it the cells stay as they are.
             let _ = self.sort_cells(REPLACED_TO_SORT);

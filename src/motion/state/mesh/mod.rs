@@ -16,6 +16,7 @@ use crate::motion::options::CoincidencePolicy;
 use crate::motion::report::Evaluations;
 use crate::motion::state::goals::Moves;
 use crate::motion::state::hidden::Hidden;
+use crate::motion::state::segments::Segments;
 use crate::motion::state::transaction::Transaction;
 use crate::motion::state::views::Views;
 use crate::predicates::exact_calls;
@@ -38,6 +39,8 @@ pub(in crate::motion) struct Mesh<G: Dimension> {
     pub(in crate::motion) sorted_stride: f64,
     pub(in crate::motion) transaction: Transaction<G>,
     pub(in crate::motion) views: Views<G>,
+    /// Segments that have to be edges, once there was one.
+    pub(in crate::motion) segments: Option<Box<Segments<G>>>,
     /// By what is decided between two ways to the same cells.
     pub(in crate::motion) constants: &'static Constants,
     /// Whether the program takes changes.
@@ -62,6 +65,7 @@ impl<G: Dimension> Mesh<G> {
             sorted_stride: 0.0,
             transaction: Transaction::default(),
             views: Views::default(),
+            segments: None,
             constants: TABLE.of::<G>(),
             takes_changes: false,
         }
@@ -77,6 +81,10 @@ impl<G: Dimension> Mesh<G> {
             sorted_stride: self.sorted_stride,
             transaction: Transaction::default(),
             views: self.views.copied(&self.kernel)?,
+            segments: match &self.segments {
+                Some(segments) => Some(memory::boxed(segments.copied()?)?),
+                None => None,
+            },
             constants: self.constants,
             takes_changes: self.takes_changes,
         })
@@ -116,6 +124,9 @@ impl<G: Dimension> Mesh<G> {
     pub(in crate::motion) fn sort_cells(&mut self, replaced: f64) -> Result<()> {
         if let Some(index) = self.kernel.sort_cells(replaced)? {
             self.views.renumber_slots(&index);
+            if let Some(segments) = &mut self.segments {
+                segments.renumber_slots(&index);
+            }
         }
         Ok(())
     }
@@ -140,5 +151,6 @@ impl<G: Dimension> Mesh<G> {
             + self.hidden.memory_bytes()
             + self.transaction.memory_bytes()
             + self.views.memory_bytes()
+            + self.segments.as_ref().map_or(0, |segments| segments.memory_bytes())
     }
 }

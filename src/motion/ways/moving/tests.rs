@@ -44,7 +44,7 @@ fn aimed<G: Dimension>(n: usize, rng: &mut Rng) -> (MovingTriangulation<G>, Vec<
     }
     let fixed = t.regions.fixed();
     let beyond = VertexId::range(0..n).filter(|&v| !fixed[v].holds(&places[v])).collect();
-    t.mesh.begin().expect("room");
+    t.mesh.begin(true).expect("room");
     (t, places, beyond)
 }
 
@@ -149,7 +149,7 @@ fn threads_share_the_moves() {
         let (first, second) =
             (points::<Space>(2_000, &mut Rng::new(1)), points::<Space>(2_000, &mut Rng::new(2)));
         let mut t = MovingTriangulation::<Space>::new(&first, options()).expect("room");
-        t.mesh.begin().expect("room");
+        t.mesh.begin(true).expect("room");
         assert_eq!(t.mesh.move_everything(&mut Moves::lent(&second)).expect("good places"), 2_000);
         assert_eq!([&positions(&t)[..], origins(&t)], [&second[..], &first[..]]);
     }

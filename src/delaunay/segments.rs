@@ -1,0 +1,378 @@
+//! Edges that have to be there: from the Delaunay triangulation of the plane to a constrained one.
+//!
+//! In the *constrained Delaunay triangulation* of sites and segments, each segment is an edge, and the circle of a cell
+//! has no site inside that is seen from the cell's inside, where segments are opaque (Chew, 10.1007/BF01553881). Ties are
+//! broken by vertex id as everywhere, so it is a function of sites and segments alone.
+//!
+//! **A segment that is missing** crosses cells; those are taken away, and the polygons on its two sides are triangulated.
+//! Every corner of a polygon sees a place on the segment through the cell that it was opposite in. So of the corners on
+//! one side that one makes a cell with the segment whose circle has no other of them inside: nothing can be between, as
+//! what enters such a triangle without a corner in it would hide the corner. The two edges that the cell adds have
+//! polygons of the same kind beyond them (Anglada, 10.1016/S0097-8493(97)00004-1). What is made is again constrained
+//! Delaunay, whatever the order in which segments are entered.
+//!
+//! **Segments are walked along first**, all that are missing, before any cell is replaced. Then it is known whether one has
+//! a site on it or crosses another, which is told; and the rows of all cells that will be replaced are kept as they are in
+//! the Delaunay triangulation. To put them back is to have that again, slot by slot: what moves vertices does so, and
+//! never sees a segment.
+//!
+//! Cost: of a segment that is there, the cells around one end; of others, the cells crossed, and for k of them up to k²
+//! tests of circles, though few are that lopsided.
+
+use super::locate::{list_ring, next_of_three, previous_of_three};
+use super::{Delaunay, Dimension};
+use crate::complex::{Corners, Facet, INFINITE, Row};
+use crate::error::Result;
+use crate::ids::{SiteId, Slot};
+use crate::machine::memory;
+
+/// What is in the way of a segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum InTheWay {
+    /// A site on it.
+    Site(SiteId),
+    /// An edge that has to be there, too.
+    Edge([SiteId; 2]),
+}
+
+/// The cells that segments take the place of, as they are in the Delaunay triangulation.
+#[derive(Debug)]
+pub(crate) struct Replaced<G: Dimension> {
+    rows: Vec<Row<G::Corners>>,
+}
+
+impl<G: Dimension> Default for Replaced<G> {
+    fn default() -> Self {
+        Replaced { rows: Vec::new() }
+    }
+}
+
+impl<G: Dimension> Replaced<G> {
+    /// Whether no segment was missing.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.rows.clear();
+    }
+
+    pub(crate) fn copied(&self) -> Result<Self> {
+        Ok(Replaced { rows: memory::copy_of(&self.rows)? })
+    }
+
+    /// The cells have other slots now, by their old ones.
+    pub(crate) fn renumber_slots(&mut self, index: &[Slot]) {
+        self.rows.iter_mut().for_each(|row| row.renumber_slots(index));
+    }
+
+    pub(crate) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.rows)
+    }
+}
+
+/// What a segment passes on its way.
+#[derive(Clone, Copy, Debug)]
+enum Passed {
+    /// Into this cell.
+    Cell(Slot),
+    /// The edge between these sites, the one on the right first.
+    Edge([SiteId; 2]),
+    /// A site on the segment.
+    Site(SiteId),
+    /// The other end.
+    End,
+}
+
+/// Scratch memory of one segment after the other.
+#[derive(Debug, Default)]
+pub(crate) struct Crossing {
+    cells: Vec<Slot>,
+    /// The corners of the polygon to the left, from the first end to the second, both ends left out; and to the right.
+    left: Vec<SiteId>,
+    right: Vec<SiteId>,
+    /// Directed edges on the boundary of the cells, with the facets that they touch.
+    rim: Vec<([SiteId; 2], Facet)>,
+    /// Directed edges of the cells that are made.
+    made: Vec<([SiteId; 2], Facet)>,
+    /// Edges with a polygon to their left, and which part of the list of corners that is.
+    waiting: Vec<([SiteId; 2], [usize; 2])>,
+}
+
+impl Crossing {
+    pub(crate) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.cells)
+            + memory::bytes_of(&self.left)
+            + memory::bytes_of(&self.right)
+            + memory::bytes_of(&self.rim)
+            + memory::bytes_of(&self.made)
+            + memory::bytes_of(&self.waiting)
+    }
+}
+
+/// Orientations along segments, in the plane; in space there are none.
+impl<G: Dimension> Delaunay<G> {
+    /// The orientation of three sites of the plane.
+    fn turn(&self, [a, b, c]: [SiteId; 3]) -> f64 {
+        let place = |s| self.place(s);
+        G::orient(&self.filter, &[place(a), place(b), place(c)])
+    }
+
+    /// Whether `b`, which is on a line with `u` and `v`, is on the same side of `u` as `v`.
+    fn is_towards(&self, [u, v, b]: [SiteId; 3]) -> bool {
+        let [u, v, b] = [u, v, b].map(|s| self.place(s));
+        let axis = if u[0] == v[0] { 1 } else { 0 };
+        (v[axis] > u[axis]) == (b[axis] > u[axis])
+    }
+
+    /// Follows the segment from `u` to `v` through the cells, which are a triangulation, constrained or not.
+    fn follow_segment(&self, [u, v]: [SiteId; 2], mut pass: impl FnMut(Passed) -> Result<()>) -> Result<()> {
+        let mut from = u;
+        'sites: loop {
+            // The cell around the site through whose opposite edge the segment goes, or the next site on it.
+            let (mut on, mut through) = (None, None);
+            list_ring(&self.complex, self.site(from).cell, from, |slot, i| {
+                let cell = self.complex.cell(slot);
+                if cell.is_ghost() {
+                    return Ok(());
+                }
+                let [a, b] = [next_of_three(i), previous_of_three(i)].map(|k| cell.corners[k]);
+                let [to_a, to_b] = [a, b].map(|s| self.turn([from, v, s]));
+                for (s, turn) in [(a, to_a), (b, to_b)] {
+                    if turn == 0.0 && self.is_towards([from, v, s]) {
+                        on = Some(s);
+                    }
+                }
+                if to_a < 0.0 && to_b > 0.0 {
+                    through = Some((slot, i, [a, b]));
+                }
+                Ok(())
+            })?;
+            if let Some(s) = on {
+                if s == v {
+                    return pass(Passed::End);
+                }
+                pass(Passed::Site(s))?;
+                from = s;
+                continue;
+            }
+            // Both ends are sites, so the segment is in the hull.
+            let Some((mut cell, mut corner, [mut a, mut b])) = through else { return pass(Passed::End) };
+            pass(Passed::Cell(cell))?;
+            loop {
+                pass(Passed::Edge([a, b]))?;
+                let across = self.complex.cell(cell).neighbour(corner);
+                (cell, corner) = (across.cell(), across.index());
+                pass(Passed::Cell(cell))?;
+                let apex = self.complex.cell(cell).corners[corner];
+                if apex == v {
+                    return pass(Passed::End);
+                }
+                let turn = self.turn([from, v, apex]);
+                if turn == 0.0 {
+                    pass(Passed::Site(apex))?;
+                    from = apex;
+                    continue 'sites;
+                }
+                // The edge that is left through next is opposite the corner on the apex's side.
+                let gone = if turn > 0.0 {
+                    std::mem::replace(&mut b, apex)
+                } else {
+                    std::mem::replace(&mut a, apex)
+                };
+                corner = self.complex.cell(cell).index_of(gone);
+            }
+        }
+    }
+
+    /// Whether two sites share an edge.
+    pub(crate) fn is_edge(&self, [u, v]: [SiteId; 2]) -> Result<bool> {
+        let mut is_there = false;
+        list_ring(&self.complex, self.site(u).cell, u, |slot, _| {
+            is_there |= self.complex.cell(slot).corners.as_ref().contains(&v);
+            Ok(())
+        })?;
+        Ok(is_there)
+    }
+
+    /// Looks along a segment that is missing, while no cell has been replaced. Tells what is in the way; if nothing is,
+    /// keeps the cells that it crosses.
+    pub(crate) fn look_along(
+        &mut self,
+        ends: [SiteId; 2],
+        has_to_be: impl Fn([SiteId; 2]) -> bool,
+        replaced: &mut Replaced<G>,
+        mut is_in_the_way: impl FnMut(InTheWay) -> Result<()>,
+    ) -> Result<()> {
+        let (mut cells, mut is_free) = (Vec::new(), true);
+        self.follow_segment(ends, |passed| {
+            let found = match passed {
+                Passed::Cell(cell) => return memory::push(&mut cells, cell),
+                Passed::Edge(edge) if has_to_be(edge) => InTheWay::Edge(edge),
+                Passed::Site(site) => InTheWay::Site(site),
+                Passed::Edge(_) | Passed::End => return Ok(()),
+            };
+            is_free = false;
+            is_in_the_way(found)
+        })?;
+        if is_free {
+            // A cell that two segments cross is marked the second time.
+            for cell in cells {
+                if self.complex.mark(cell) == 0 {
+                    memory::push(&mut replaced.rows, self.complex.row(cell))?;
+                    self.complex.set_mark(cell, 1);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Clears the marks that [`look_along`](Self::look_along) has left.
+    pub(crate) fn end_looking(&mut self, replaced: &Replaced<G>) {
+        replaced.rows.iter().for_each(|row| self.complex.set_mark(row.slot, 0));
+    }
+
+    /// Enters a segment that has been [looked along](Self::look_along). What is in its way now is a segment that has been
+    /// entered since: that is told, and the segment is not entered.
+    pub(crate) fn enter_segment(
+        &mut self,
+        ends: [SiteId; 2],
+        has_to_be: impl Fn([SiteId; 2]) -> bool,
+        crossing: &mut Crossing,
+        mut is_in_the_way: impl FnMut(InTheWay) -> Result<()>,
+    ) -> Result<()> {
+        let Crossing { cells, left, right, .. } = crossing;
+        cells.clear();
+        left.clear();
+        right.clear();
+        let mut is_free = true;
+        self.follow_segment(ends, |passed| match passed {
+            Passed::Cell(cell) => memory::push(cells, cell),
+            Passed::Edge([a, b]) => {
+                if has_to_be([a, b]) {
+                    is_free = false;
+                    is_in_the_way(InTheWay::Edge([a, b]))?;
+                }
+                for (side, s) in [(&mut *right, a), (&mut *left, b)] {
+                    if side.last() != Some(&s) {
+                        memory::push(side, s)?;
+                    }
+                }
+                Ok(())
+            }
+            Passed::Site(_) | Passed::End => Ok(()),
+        })?;
+        if !is_free || cells.is_empty() {
+            return Ok(());
+        }
+        self.list_rim(ends, crossing)?;
+        self.complex.note_all(crossing.cells.iter().copied())?;
+        crossing.right.reverse();
+        crossing.made.clear();
+        memory::reserve(&mut crossing.made, 3 * crossing.cells.len())?;
+        let mut n = 0;
+        for (corners, base) in [(0, ends), (1, [ends[1], ends[0]])] {
+            n = self.fill_side(base, corners, n, crossing)?;
+        }
+        debug_assert_eq!(n, crossing.cells.len());
+        self.glue_made(crossing);
+        Ok(())
+    }
+
+    /// Lists the boundary of the cells that a segment crosses: the edges that it does not cross.
+    fn list_rim(&self, ends: [SiteId; 2], crossing: &mut Crossing) -> Result<()> {
+        let Crossing { cells, rim, .. } = crossing;
+        rim.clear();
+        memory::reserve(rim, cells.len() + 2)?;
+        // 0 for the ends, else on which side a site is.
+        let side = |s: SiteId| {
+            let turn = if ends.contains(&s) { 0.0 } else { self.turn([ends[0], ends[1], s]) };
+            i32::from(turn > 0.0) - i32::from(turn < 0.0)
+        };
+        for &slot in &*cells {
+            let cell = self.complex.cell(slot);
+            for i in 0..3 {
+                let edge = [next_of_three(i), previous_of_three(i)].map(|k| cell.corners[k]);
+                if side(edge[0]) * side(edge[1]) >= 0 {
+                    memory::push(rim, (edge, cell.neighbour(i)))?;
+                }
+            }
+        }
+        rim.sort_unstable_by_key(|&(edge, _)| edge);
+        Ok(())
+    }
+
+    /// Triangulates the polygon to the left of an edge into the slots from the `n`-th of the crossing on; returns the
+    /// next one. `corners`: 0 for the list to the left of the segment, 1 for that to the right, reversed.
+    fn fill_side(
+        &mut self,
+        base: [SiteId; 2],
+        corners: usize,
+        mut n: usize,
+        crossing: &mut Crossing,
+    ) -> Result<usize> {
+        let Crossing { cells, left, right, made, waiting, .. } = crossing;
+        let corners = if corners == 0 { &*left } else { &*right };
+        waiting.clear();
+        memory::reserve(waiting, corners.len() + 1)?;
+        waiting.push((base, [0, corners.len()]));
+        while let Some(([a, b], [first, end])) = waiting.pop() {
+            if first == end {
+                continue;
+            }
+            let mut best = first;
+            for k in first + 1..end {
+                let mut cell = G::Corners::filled(a);
+                (cell[1], cell[2]) = (b, corners[best]);
+                let (place, id) = (*self.place(corners[k]), self.site(corners[k]).id);
+                if G::is_in_sphere(&self.filter, self.view(), &cell, &place, id) {
+                    best = k;
+                }
+            }
+            let (slot, c) = (cells[n], corners[best]);
+            n += 1;
+            let mut row = G::Corners::filled(a);
+            (row[1], row[2]) = (b, c);
+            self.complex.put(slot, row);
+            for (i, s) in [a, b, c].into_iter().enumerate() {
+                self.sites[s].cell = slot;
+                let edge = [next_of_three(i), previous_of_three(i)].map(|k| row[k]);
+                made.push((edge, Facet::new(slot, i)));
+            }
+            waiting.push(([a, c], [first, best]));
+            waiting.push(([c, b], [best + 1, end]));
+        }
+        Ok(n)
+    }
+
+    /// Glues the cells that have been made to each other and to those around them.
+    fn glue_made(&mut self, crossing: &mut Crossing) {
+        let Crossing { rim, made, .. } = crossing;
+        made.sort_unstable_by_key(|&(edge, _)| edge);
+        let find = |list: &[([SiteId; 2], Facet)], edge: [SiteId; 2]| {
+            list.binary_search_by_key(&edge, |&(edge, _)| edge).ok().map(|k| list[k].1)
+        };
+        for &(edge @ [x, y], facet) in &*made {
+            let other = find(made, [y, x]).or_else(|| find(rim, edge)).expect("an edge has two sides");
+            self.complex.glue(facet, other);
+        }
+        self.recent = made[0].1.cell();
+    }
+
+    /// Puts back the cells that segments have taken the place of: then the cells are the Delaunay triangulation.
+    pub(crate) fn put_back_replaced(&mut self, replaced: &Replaced<G>) -> Result<()> {
+        self.complex.note_all(replaced.rows.iter().map(|row| row.slot))?;
+        self.complex.undo_rows(replaced.rows.iter().copied());
+        for row in &replaced.rows {
+            for i in 0..G::Corners::N {
+                if row.corners[i] != INFINITE {
+                    self.sites[row.corners[i]].cell = row.slot;
+                }
+            }
+        }
+        if let Some(row) = replaced.rows.first() {
+            self.recent = row.slot;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,61 @@
+//! Segments that programs stage, and ask about.
+
+use crate::delaunay::Plane;
+use crate::error::{Conflict, Error, Result};
+use crate::ids::SegmentId;
+use crate::machine::memory;
+use crate::motion::state::segments::Segment;
+use crate::motion::triangulation::MovingTriangulation;
+
+impl MovingTriangulation<Plane> {
+    /// Stages segments between vertices, all of them or, on an error, none; returns the id of the first, which those of
+    /// the others follow. From the next commit on each is an edge. Ends may be vertices whose insertion is staged.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::RemovedVertex`], [`Error::OutOfMemory`].
+    pub fn stage_segments(&mut self, segments: &[Segment]) -> Result<SegmentId> {
+        for (index, &vertex) in segments.iter().flat_map(|segment| &segment.ends).enumerate() {
+            if !self.edits.is_coming(vertex) {
+                self.present_site("ends", index, vertex)?;
+            }
+        }
+        memory::made(&mut self.mesh.segments)?.stage(segments.iter().copied())
+    }
+
+    /// Stages the removal of segments: from the next commit on they are no longer edges that have to be there.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchSegment`], [`Error::OutOfMemory`]; then none is staged.
+    pub fn stage_segment_removals(&mut self, removals: &[SegmentId]) -> Result<()> {
+        let segments = memory::made(&mut self.mesh.segments)?;
+        let before = segments.n_leaving();
+        for (index, &segment) in removals.iter().enumerate() {
+            let staged = match segments.get(segment) {
+                Some(_) if !segments.is_leaving(segment) => segments.stage_removal(segment),
+                _ => {
+                    Err(Error::NoSuchSegment { argument: "segments", index, segment, ids: segments.n_ids() })
+                }
+            };
+            if let Err(error) = staged {
+                segments.truncate_removals(before);
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// The segments in force, with their ids, ascending.
+    pub fn segments(&self) -> impl Iterator<Item = (SegmentId, Segment)> {
+        self.mesh.segments.iter().flat_map(|segments| segments.laid())
+    }
+
+    /// The conflicts for which the last change of all was refused that had some.
+    pub fn conflicts_of_segments(&self) -> &[Conflict] {
+        self.mesh.segments.as_ref().map_or(&[], |segments| segments.conflicts())
+    }
+
+    /// Whether some cell is not one of the Delaunay triangulation.
+    pub fn is_constrained(&self) -> bool {
+        self.mesh.segments.as_ref().is_some_and(|segments| segments.have_replaced_cells())
+    }
+}

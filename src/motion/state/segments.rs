@@ -1,0 +1,320 @@
+//! Segments between vertices, which have to be edges, and what becomes of them in a change.
+//!
+//! ```text
+//! lift: the cells that segments have taken the place of are put back
+//! the vertices move, come and go, in the Delaunay triangulation
+//! lay: all segments that are missing are looked along, and then entered
+//! ```
+//!
+//! What is in the way of a segment is a *conflict*. If there is any, the change is undone; all are told.
+//!
+//! Invariant between changes: the cells are the constrained Delaunay triangulation of sites and segments, and
+//! `replaced` holds those of the Delaunay triangulation that are not among them.
+
+use crate::delaunay::{Crossing, Delaunay, Dimension, InTheWay, Replaced};
+use crate::error::{Conflict, Error, Result};
+use crate::ids::{SegmentId, SiteId, Slot, VertexId};
+use crate::machine::memory;
+
+/// A segment between two vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Segment {
+    /// Its ends.
+    pub ends: [VertexId; 2],
+    /// What the program knows it by: any number.
+    pub marker: i32,
+}
+
+/// The segments of a mesh.
+#[derive(Debug)]
+pub(in crate::motion) struct Segments<G: Dimension> {
+    /// By id; `None` for those removed. Those that are staged come behind.
+    all: Vec<Option<Segment>>,
+    /// How many of them are in force; those behind are staged.
+    n_laid: usize,
+    /// Those that the next commit removes.
+    leaving: Vec<SegmentId>,
+    replaced: Replaced<G>,
+    /// What will be `replaced` after the change.
+    next: Replaced<G>,
+    crossing: Crossing,
+    /// The sites of the ends of each segment, the lower one first, with its id; sorted.
+    edges: Vec<([SiteId; 2], SegmentId)>,
+    conflicts: Vec<Conflict>,
+    /// Whether the change lays what is staged: it is a commit.
+    takes_staged: bool,
+}
+
+impl<G: Dimension> Default for Segments<G> {
+    fn default() -> Self {
+        Segments {
+            all: Vec::new(),
+            n_laid: 0,
+            leaving: Vec::new(),
+            replaced: Replaced::default(),
+            next: Replaced::default(),
+            crossing: Crossing::default(),
+            edges: Vec::new(),
+            conflicts: Vec::new(),
+            takes_staged: false,
+        }
+    }
+}
+
+/// Two sites, the lower one first.
+fn ordered([s, t]: [SiteId; 2]) -> [SiteId; 2] {
+    if s < t { [s, t] } else { [t, s] }
+}
+
+/// The segments that have to be at an edge.
+fn at_edge(edges: &[([SiteId; 2], SegmentId)], edge: [SiteId; 2]) -> &[([SiteId; 2], SegmentId)] {
+    let edge = ordered(edge);
+    let first = edges.partition_point(|&(other, _)| other < edge);
+    let n = edges[first..].iter().take_while(|&&(other, _)| other == edge).count();
+    &edges[first..first + n]
+}
+
+impl<G: Dimension> Segments<G> {
+    /// Stages segments for the next commit; returns the id of the first, which those of the others follow.
+    pub(in crate::motion) fn stage(
+        &mut self,
+        segments: impl ExactSizeIterator<Item = Segment>,
+    ) -> Result<SegmentId> {
+        let first = SegmentId::at(self.all.len());
+        memory::reserve(&mut self.all, segments.len())?;
+        self.all.extend(segments.map(Some));
+        Ok(first)
+    }
+
+    /// Stages the removal of a segment that is in force.
+    pub(in crate::motion) fn stage_removal(&mut self, segment: SegmentId) -> Result<()> {
+        memory::push(&mut self.leaving, segment)
+    }
+
+    /// Whether the removal of a segment is staged.
+    pub(in crate::motion) fn is_leaving(&self, segment: SegmentId) -> bool {
+        self.leaving.contains(&segment)
+    }
+
+    /// Forgets what is staged.
+    pub(in crate::motion) fn discard(&mut self) {
+        self.all.truncate(self.n_laid);
+        self.leaving.clear();
+    }
+
+    /// Takes the last removals out of what is staged, but for so many.
+    pub(in crate::motion) fn truncate_removals(&mut self, n: usize) {
+        self.leaving.truncate(n);
+    }
+
+    /// How many removals are staged.
+    pub(in crate::motion) fn n_leaving(&self) -> usize {
+        self.leaving.len()
+    }
+
+    /// The ids that have been given.
+    pub(in crate::motion) fn n_ids(&self) -> usize {
+        self.all.len()
+    }
+
+    /// A segment that is in force.
+    pub(in crate::motion) fn get(&self, segment: SegmentId) -> Option<Segment> {
+        self.all[..self.n_laid].get(segment.index()).copied().flatten()
+    }
+
+    /// The segments in force, with their ids, ascending.
+    pub(in crate::motion) fn laid(&self) -> impl Iterator<Item = (SegmentId, Segment)> {
+        let all = self.all[..self.n_laid].iter();
+        SegmentId::range(0..self.n_laid)
+            .zip(all)
+            .filter_map(|(id, segment)| segment.map(|segment| (id, segment)))
+    }
+
+    /// Whether some cell is not of the Delaunay triangulation.
+    pub(in crate::motion) fn have_replaced_cells(&self) -> bool {
+        !self.replaced.is_empty()
+    }
+
+    /// The conflicts of the last change that had some.
+    pub(in crate::motion) fn conflicts(&self) -> &[Conflict] {
+        &self.conflicts
+    }
+
+    /// A change begins, which is a commit or not: puts back the cells that segments have taken the place of.
+    pub(in crate::motion) fn lift(&mut self, kernel: &mut Delaunay<G>, takes_staged: bool) -> Result<()> {
+        self.next.clear();
+        self.takes_staged = takes_staged;
+        kernel.put_back_replaced(&self.replaced)
+    }
+
+    /// Whether nothing that a segment depends on has changed, where no row of the kernel's cells has.
+    pub(in crate::motion) fn are_at_rest(&self) -> bool {
+        let are_staged = self.all.len() > self.n_laid || !self.leaving.is_empty();
+        self.replaced.is_empty() && !(self.takes_staged && are_staged)
+    }
+
+    /// Enters the segments that are missing in the Delaunay triangulation of a kernel: those in force, or, in a commit,
+    /// those that will be. `site_of` is by vertex id.
+    pub(in crate::motion) fn lay(&mut self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) -> Result<()> {
+        self.next.clear();
+        self.conflicts.clear();
+        self.list_edges(site_of)?;
+        if kernel.has_cells() {
+            let looked = self.look_along(kernel);
+            kernel.end_looking(&self.next);
+            looked?;
+            if self.conflicts.is_empty() {
+                self.enter(kernel)?;
+            }
+        } else {
+            self.look_along_line(kernel)?;
+        }
+        match self.conflicts.first() {
+            Some(&conflict) => Err(Error::Conflict { conflict, others: self.conflicts.len() - 1 }),
+            None => Ok(()),
+        }
+    }
+
+    /// Lists the edges that have to be there, and the conflicts of ends alone.
+    fn list_edges(&mut self, site_of: &[SiteId]) -> Result<()> {
+        let Segments { all, n_laid, leaving, edges, conflicts, takes_staged, .. } = self;
+        edges.clear();
+        let n = if *takes_staged { all.len() } else { *n_laid };
+        memory::reserve(edges, n)?;
+        leaving.sort_unstable();
+        for (id, segment) in SegmentId::range(0..n).zip(&*all) {
+            let Some(segment) = segment else { continue };
+            if *takes_staged && leaving.binary_search(&id).is_ok() {
+                continue;
+            }
+            let sites = segment.ends.map(|v| site_of[v.index()]);
+            if let Some(k) = (0..2).find(|&k| sites[k] == SiteId::NONE) {
+                memory::push(conflicts, Conflict::EndRemoved { segment: id, vertex: segment.ends[k] })?;
+            } else if sites[0] == sites[1] {
+                memory::push(conflicts, Conflict::EndsMeet { segment: id })?;
+            } else {
+                edges.push((ordered(sites), id));
+            }
+        }
+        edges.sort_unstable();
+        Ok(())
+    }
+
+    /// Looks along all segments that are missing.
+    fn look_along(&mut self, kernel: &mut Delaunay<G>) -> Result<()> {
+        let Segments { edges, next, conflicts, .. } = self;
+        let edges = &*edges;
+        for k in 0..edges.len() {
+            let (edge, id) = edges[k];
+            // Several segments may be at one edge.
+            if (k > 0 && edges[k - 1].0 == edge) || kernel.is_edge(edge)? {
+                continue;
+            }
+            let mut sites = Vec::new();
+            kernel.look_along(
+                edge,
+                |other| !at_edge(edges, other).is_empty(),
+                next,
+                |found| match found {
+                    InTheWay::Site(s) => memory::push(&mut sites, s),
+                    InTheWay::Edge(other) => at_edge(edges, other).iter().try_for_each(|&(_, other)| {
+                        memory::push(
+                            conflicts,
+                            Conflict::Crossing { segments: [id.min(other), id.max(other)] },
+                        )
+                    }),
+                },
+            )?;
+            for s in sites {
+                let vertex = kernel.site(s).id;
+                memory::push(conflicts, Conflict::OnSegment { segment: id, vertex })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Enters all segments that are missing.
+    fn enter(&mut self, kernel: &mut Delaunay<G>) -> Result<()> {
+        if self.next.is_empty() {
+            return Ok(());
+        }
+        let Segments { edges, crossing, conflicts, .. } = self;
+        let edges = &*edges;
+        for k in 0..edges.len() {
+            let (edge, id) = edges[k];
+            if (k > 0 && edges[k - 1].0 == edge) || kernel.is_edge(edge)? {
+                continue;
+            }
+            kernel.enter_segment(
+                edge,
+                |other| !at_edge(edges, other).is_empty(),
+                crossing,
+                |found| match found {
+                    InTheWay::Site(_) => Ok(()),
+                    InTheWay::Edge(other) => at_edge(edges, other).iter().try_for_each(|&(_, other)| {
+                        memory::push(
+                            conflicts,
+                            Conflict::Crossing { segments: [id.min(other), id.max(other)] },
+                        )
+                    }),
+                },
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Finds the vertices on segments while all are on one line.
+    fn look_along_line(&mut self, kernel: &Delaunay<G>) -> Result<()> {
+        for &([s, t], segment) in &self.edges {
+            let [p, q] = [s, t].map(|s| kernel.site(s).point);
+            let axis = if p[0] == q[0] { 1 } else { 0 };
+            let (low, high) = (p[axis].min(q[axis]), p[axis].max(q[axis]));
+            for other in kernel.live_sites() {
+                let site = kernel.site(other);
+                if low < site.point[axis] && site.point[axis] < high {
+                    memory::push(&mut self.conflicts, Conflict::OnSegment { segment, vertex: site.id })?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The change stays.
+    pub(in crate::motion) fn keep(&mut self) {
+        std::mem::swap(&mut self.replaced, &mut self.next);
+        self.next.clear();
+    }
+
+    /// A commit has laid what was staged.
+    pub(in crate::motion) fn end_staging(&mut self) {
+        for segment in self.leaving.drain(..) {
+            self.all[segment.index()] = None;
+        }
+        self.n_laid = self.all.len();
+    }
+
+    /// The cells have other slots now, by their old ones.
+    pub(in crate::motion) fn renumber_slots(&mut self, index: &[Slot]) {
+        self.replaced.renumber_slots(index);
+    }
+
+    pub(in crate::motion) fn copied(&self) -> Result<Self> {
+        Ok(Segments {
+            all: memory::copy_of(&self.all)?,
+            n_laid: self.n_laid,
+            leaving: memory::copy_of(&self.leaving)?,
+            replaced: self.replaced.copied()?,
+            ..Segments::default()
+        })
+    }
+
+    pub(in crate::motion) fn memory_bytes(&self) -> usize {
+        memory::bytes_of(&self.all)
+            + memory::bytes_of(&self.leaving)
+            + self.replaced.memory_bytes()
+            + self.next.memory_bytes()
+            + self.crossing.memory_bytes()
+            + memory::bytes_of(&self.edges)
+            + memory::bytes_of(&self.conflicts)
+    }
+}

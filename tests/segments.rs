@@ -1,0 +1,231 @@
+//! Constrained Delaunay triangulations of moving vertices: against the definition in exact integers, and against fresh
+//! builds, by every algorithm.
+
+use crate::common::exact::{Grid, is_inside, orientation};
+use crate::common::inputs::{KINDS, Kind, draw, draw_one, to_grid};
+use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
+use deldrift::motion::{Algorithm, MovingTriangulation, NO_CELL, Options, Segment};
+use deldrift::{CellId, Conflict, Error, Plane, SegmentId, VertexId};
+use std::collections::BTreeSet;
+
+type Triangulation = MovingTriangulation<Plane>;
+
+fn grid(t: &Triangulation, v: VertexId) -> Grid {
+    to_grid::<Plane>(&t.position(v).expect("present"))
+}
+
+/// The segments in force, by the vertices that represent their ends.
+fn edges_wanted(t: &Triangulation) -> BTreeSet<[VertexId; 2]> {
+    let shown = |v| t.coincident_representative(v).expect("present");
+    t.segments()
+        .map(|(_, segment)| {
+            let mut ends = segment.ends.map(shown);
+            ends.sort();
+            ends
+        })
+        .collect()
+}
+
+/// Checks the definition: all segments are edges, and all other edges between two cells are locally Delaunay, ties
+/// broken.
+fn check_definition(t: &Triangulation, context: &dyn Fn() -> String) {
+    check_adjacency(t, context);
+    let wanted = edges_wanted(t);
+    let view = t.cells().expect("room");
+    let mut edges = BTreeSet::new();
+    for (cell, (row, neighbours)) in
+        CellId::range(0..view.corners.len()).zip(view.corners.iter().zip(view.neighbours))
+    {
+        let points = row.map(|v| grid(t, v));
+        assert!(orientation(&[&points[0], &points[1], &points[2]]) > 0, "{}: {row:?}", context());
+        for i in 0..3 {
+            let mut edge = [row[(i + 1) % 3], row[(i + 2) % 3]];
+            edge.sort();
+            edges.insert(edge);
+            let across = neighbours[i];
+            if across == NO_CELL || across < cell || wanted.contains(&edge) {
+                continue;
+            }
+            let apex = view.corners[across].into_iter().find(|v| !row.contains(v)).expect("an apex");
+            let q = grid(t, apex);
+            let ids = [row[0], row[1], row[2], apex];
+            let inside = is_inside(&[&points[0], &points[1], &points[2], &q], &ids);
+            assert!(!inside, "{}: edge {edge:?} is not Delaunay", context());
+        }
+    }
+    if !view.corners.is_empty() {
+        for edge in wanted {
+            assert!(edges.contains(&edge), "{}: segment {edge:?} is no edge", context());
+        }
+    }
+}
+
+/// Checks the cells against those of a fresh build with the same ids.
+fn check_fresh(t: &Triangulation, context: &dyn Fn() -> String) {
+    let ids = VertexId::range(0..t.id_count());
+    let points: Vec<_> = ids.clone().map(|v| t.position(v).unwrap_or([9e4, 9e4])).collect();
+    let mut fresh = Triangulation::new(&points, Options::default()).expect("good points");
+    for v in ids.filter(|&v| !t.is_present(v)) {
+        fresh.remove_vertex(v).expect("present");
+    }
+    let segments: Vec<_> = t.segments().map(|(_, segment)| segment).collect();
+    fresh.stage_segments(&segments).expect("present");
+    fresh.commit_timestamp().expect("no conflict");
+    assert_same_cells(&cell_set(t), &cell_set(&fresh), context);
+}
+
+fn cross(a: &Grid, b: &Grid, c: &Grid) -> i128 {
+    orientation(&[a, b, c])
+}
+
+/// Whether `p` is on the line from `a` to `b` and between them.
+fn is_between(a: &Grid, b: &Grid, p: &Grid) -> bool {
+    let dot = (0..2).map(|k| i128::from(a[k] - p[k]) * i128::from(b[k] - p[k])).sum::<i128>();
+    cross(a, b, p) == 0 && dot < 0
+}
+
+/// Whether there is any conflict, by all pairs.
+fn has_conflict(t: &Triangulation, place: impl Fn(VertexId) -> Option<Grid>, segments: &[Segment]) -> bool {
+    let Some(ends) =
+        segments.iter().map(|s| Some([place(s.ends[0])?, place(s.ends[1])?])).collect::<Option<Vec<_>>>()
+    else {
+        return true;
+    };
+    let all: Vec<Grid> = VertexId::range(0..t.id_count()).filter_map(&place).collect();
+    for (k, [a, b]) in ends.iter().enumerate() {
+        if a == b || all.iter().any(|p| is_between(a, b, p)) {
+            return true;
+        }
+        for [c, d] in &ends[..k] {
+            let apart = |x: i128, y: i128| x.signum() * y.signum() < 0;
+            if apart(cross(a, b, c), cross(a, b, d)) && apart(cross(c, d, a), cross(c, d, b)) {
+                return true;
+            }
+        }
+    }
+    false
+}
+
+/// A random history: segments come and go, vertices move by little or far, come and go; what conflicts is refused.
+fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 3] {
+    let rng = &mut Rng::new(seed);
+    let n = [4, 12, 40, 120][rng.below(4)];
+    let options = Options { algorithm, ..Options::default() };
+    let mut t = Triangulation::new(&draw::<Plane>(kind, n, rng), options).expect("good points");
+    let [mut n_laid, mut n_refused, mut n_constrained] = [0; 3];
+    for step in 0..12 {
+        let context = || format!("{kind:?}, {algorithm:?}, seed {seed}, step {step}");
+        let before = (cell_set(&t), t.segments().collect::<Vec<_>>());
+        let mut goals: Vec<Option<[f64; 2]>> =
+            VertexId::range(0..t.id_count()).map(|v| t.position(v).ok()).collect();
+        let mut segments: Vec<Segment> = t.segments().map(|(_, segment)| segment).collect();
+        match rng.below(3) {
+            0 => {}
+            how => {
+                for v in VertexId::range(0..t.id_count()) {
+                    if (how == 1 || rng.one_in(8)) && t.is_present(v) {
+                        let p = t.position(v).expect("present");
+                        let far = draw_one::<Plane>(kind, n, rng);
+                        let near = if matches!(kind, Kind::Random | Kind::RoundedSphere | Kind::Clusters) {
+                            crate::common::inputs::quantized::<Plane>(
+                                p.map(|x| x + 1e-2 * (rng.unit() - 0.5)),
+                            )
+                        } else {
+                            p
+                        };
+                        let goal = if rng.one_in(20) { far } else { near };
+                        goals[v.index()] = Some(goal);
+                        t.move_vertices(&[v], &[goal]).expect("good places");
+                    }
+                }
+            }
+        }
+        if rng.one_in(3) {
+            let goal = draw_one::<Plane>(kind, n, rng);
+            t.stage_insertions(&[goal]).expect("a good place");
+            goals.push(Some(goal));
+        }
+        if rng.one_in(4) {
+            let v = VertexId::at(rng.below(before.0.len().max(1)).min(t.id_count() - 1));
+            if t.is_present(v) && t.stage_removals(&[v]).is_ok() {
+                goals[v.index()] = None;
+            }
+        }
+        for _ in 0..rng.below(4) {
+            let ends = [0; 2].map(|_| VertexId::at(rng.below(goals.len())));
+            if ends.iter().all(|v| goals[v.index()].is_some()) {
+                let segment = Segment { ends, marker: step };
+                t.stage_segments(&[segment]).expect("present");
+                segments.push(segment);
+            }
+        }
+        if rng.one_in(3)
+            && let Some(&(id, segment)) = before.1.get(rng.below(before.1.len().max(1)))
+        {
+            t.stage_segment_removals(&[id]).expect("in force");
+            let at = segments.iter().position(|other| *other == segment).expect("in force");
+            segments.remove(at);
+        }
+        let place = |v: VertexId| goals[v.index()].as_ref().map(to_grid::<Plane>);
+        let expected = has_conflict(&t, place, &segments);
+        match t.commit_timestamp() {
+            Ok(_) => {
+                assert!(!expected, "{}: a conflict was not seen", context());
+                n_laid += t.segments().count();
+                n_constrained += usize::from(t.is_constrained());
+            }
+            Err(Error::Conflict { .. }) => {
+                assert!(expected, "{}: {:?} is no conflict", context(), t.conflicts_of_segments());
+                n_refused += 1;
+                t.discard_moves();
+                assert_eq!(before, (cell_set(&t), t.segments().collect::<Vec<_>>()), "{}", context());
+            }
+            Err(error) => panic!("{}: {error}", context()),
+        }
+        check_definition(&t, &context);
+        check_fresh(&t, &context);
+    }
+    [n_laid, n_refused, n_constrained]
+}
+
+#[test]
+fn segments_are_kept_through_random_histories() {
+    let mut sums = [0; 3];
+    for seed in seeds(6) {
+        for kind in KINDS {
+            for algorithm in [
+                Algorithm::Auto,
+                Algorithm::Rebuilding,
+                Algorithm::PlacementFlips,
+                Algorithm::Tolerance,
+                Algorithm::Repair,
+            ] {
+                let counts = run(kind, algorithm, 1000 * seed + kind as u64);
+                sums.iter_mut().zip(counts).for_each(|(sum, n)| *sum += n);
+            }
+        }
+    }
+    println!("{sums:?} laid, refused, constrained");
+    assert!(sums.iter().all(|&n| n > 100), "{sums:?}");
+}
+
+/// A long segment through a lattice, beside which vertices are in cells that it crosses twice.
+#[test]
+fn conflicts_name_what_is_in_the_way() {
+    let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0], [1.0, 3.0]];
+    let mut t = Triangulation::new(&points, Options::default()).expect("good points");
+    let ids = |ends: [u32; 2]| Segment { ends: ends.map(VertexId::new), marker: 7 };
+    t.stage_segments(&[ids([0, 2]), ids([3, 1]), ids([5, 1])]).expect("present");
+    let refused = t.commit_timestamp().expect_err("there are conflicts");
+    let [first, second, third] = [0, 1, 2].map(SegmentId::new);
+    let middle = VertexId::new(4);
+    for conflict in [
+        Conflict::OnSegment { segment: first, vertex: middle },
+        Conflict::OnSegment { segment: second, vertex: middle },
+    ] {
+        assert!(t.conflicts_of_segments().contains(&conflict), "{refused}");
+    }
+    let _ = third;
+    t.discard_moves();
+    assert_eq!(t.segments().count(), 0);
+}
