@@ -1,10 +1,10 @@
 //! Constrained Delaunay triangulations of moving vertices: against the definition in exact integers, and against fresh
 //! builds, by every algorithm.
 
-use crate::common::exact::{Grid, is_inside, orientation};
-use crate::common::inputs::{KINDS, Kind, draw, draw_one, to_grid};
-use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds};
-use deldrift::motion::{Algorithm, MovingTriangulation, NO_CELL, Options, Segment};
+use crate::common::exact::{Grid, is_inside, orientation, squared_distance};
+use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};
+use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds, sorted};
+use deldrift::motion::{Algorithm, Location, MovingTriangulation, NO_CELL, Options, Segment};
 use deldrift::{CellId, Conflict, Error, Plane, SegmentId, VertexId};
 use std::collections::BTreeSet;
 
@@ -56,6 +56,74 @@ fn check_definition(t: &Triangulation, context: &dyn Fn() -> String) {
     if !view.corners.is_empty() {
         for edge in wanted {
             assert!(edges.contains(&edge), "{}: segment {edge:?} is no edge", context());
+        }
+    }
+}
+
+/// Checks what is asked about places: against brute force, and an insertion.
+fn check_places(t: &Triangulation, rng: &mut Rng, context: &dyn Fn() -> String) {
+    t.validate(deldrift::motion::Level::Delaunay)
+        .unwrap_or_else(|violation| panic!("{}: {violation:?}", context()));
+    let vertices: Vec<_> =
+        VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).map(|v| (v, grid(t, v))).collect();
+    for _ in 0..3 {
+        let q = draw_one::<Plane>(*rng.pick(&KINDS), 100, rng);
+        let at = to_grid::<Plane>(&q);
+        let mut order: Vec<_> = vertices.iter().map(|(v, p)| (squared_distance(p, &at), *v)).collect();
+        order.sort();
+        let mut found = Vec::new();
+        t.nearest_vertices(&[q], 5, |v| found.push(v)).expect("a good place");
+        let expected: Vec<_> = order.iter().map(|&(_, v)| v).chain([VertexId::NONE; 5]).take(5).collect();
+        assert_eq!(found, expected, "{}", context());
+        assert_eq!(
+            t.nearest_vertex(&q).expect("room").unwrap_or(VertexId::NONE),
+            expected[0],
+            "{}",
+            context()
+        );
+        let radius = order.get(order.len() / 3).map_or(0, |&(square, _)| square) as f64
+            * QUANTUM
+            * QUANTUM
+            * (1.0 + 1e-9);
+        let mut near: Vec<_> =
+            order.iter().filter(|&&(s, _)| s as f64 * QUANTUM * QUANTUM <= radius).map(|&(_, v)| v).collect();
+        near.sort();
+        assert_eq!(
+            t.vertices_in_ball(&q, radius).expect("a good ball"),
+            near,
+            "{} {q:?} {radius:e} {} {} {:?}",
+            context(),
+            t.is_constrained(),
+            t.cell_count(),
+            order[0]
+        );
+        match t.locate(&q).expect("room") {
+            Location::Vertex(v) => assert_eq!(grid(t, v), at, "{}", context()),
+            Location::Cell(cell) => {
+                let corners = t.cells().expect("room").corners[cell].map(|v| grid(t, v));
+                for i in 0..3 {
+                    assert!(orientation(&[&corners[i], &corners[(i + 1) % 3], &at]) >= 0, "{}", context());
+                }
+            }
+            Location::Outside(cell) => {
+                let view = t.cells().expect("room");
+                let corners = view.corners[cell].map(|v| grid(t, v));
+                let sees = |i: usize| orientation(&[&corners[(i + 1) % 3], &corners[(i + 2) % 3], &at]) < 0;
+                assert!((0..3).any(|i| view.neighbours[cell][i] == NO_CELL && sees(i)), "{}", context());
+            }
+            Location::NoCells => assert_eq!(t.cell_count(), 0, "{}", context()),
+        }
+        let rows = t.cells().expect("room").corners;
+        let mut conflicts: Vec<_> =
+            t.conflicts(&q, None).expect("a good place").iter().map(|&cell| sorted(&rows[cell])).collect();
+        conflicts.sort();
+        let mut grown = t.try_clone(None).expect("room");
+        grown.take_changes().expect("room");
+        if grown.insert_vertex(&q).is_ok() {
+            let changes = grown.take_changes().expect("room");
+            let mut removed: Vec<_> = changes.removed_corners.iter().map(|row| sorted(row)).collect();
+            removed.sort();
+            assert_eq!(conflicts, removed, "{}", context());
         }
     }
 }
@@ -184,6 +252,7 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 3] {
         }
         check_definition(&t, &context);
         check_fresh(&t, &context);
+        check_places(&t, rng, &context);
     }
     [n_laid, n_refused, n_constrained]
 }

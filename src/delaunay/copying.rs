@@ -12,6 +12,8 @@ impl<G: Dimension> Delaunay<G> {
             free_sites: memory::copy_of(&self.free_sites)?,
             parts: self.parts.copy()?,
             complex: self.complex.copied()?,
+            required: memory::copy_of(&self.required)?,
+            is_constrained: self.is_constrained,
             filter: self.filter,
             lower: self.lower,
             upper: self.upper,

@@ -96,7 +96,11 @@ impl<G: Dimension> Delaunay<G> {
         let filter = self.filter_for(q);
         let start = self.cell_towards(q, if near == Slot::NONE { self.recent } else { near });
         let mut steps = 0;
-        let cell = self.walk(&filter, q, start, &mut steps);
+        let cell = if self.is_constrained {
+            self.walk_straight(&filter, q, start)
+        } else {
+            self.walk(&filter, q, start, &mut steps)
+        };
         self.note_walk(q, cell, steps);
         match self.corner_at(cell, q) {
             Some(s) => Place::Site(s),

@@ -73,6 +73,7 @@ pub mod site;
 mod space;
 mod spheres;
 mod star;
+mod straight;
 mod successor;
 mod uncertain;
 mod undo;
@@ -123,6 +124,10 @@ pub struct Delaunay<G: Dimension> {
     free_sites: Vec<SiteId>,
     parts: Parts,
     complex: Complex<G::Corners>,
+    /// Edges that have to be there, the lower site first, sorted.
+    required: Vec<[SiteId; 2]>,
+    /// Whether the cells are constrained by these edges, and not Delaunay.
+    is_constrained: bool,
     filter: StaticFilter,
     lower: G::Point,
     upper: G::Point,
@@ -187,6 +192,8 @@ impl<G: Dimension> Delaunay<G> {
             free_sites: Vec::new(),
             parts: Parts::default(),
             complex: Complex::default(),
+            required: Vec::new(),
+            is_constrained: false,
             filter: G::filter(&origin, &origin),
             lower: origin,
             upper: origin,

@@ -357,6 +357,35 @@ impl<G: Dimension> Delaunay<G> {
             self.complex.glue(facet, other);
         }
         self.recent = made[0].1.cell();
+        self.is_constrained = true;
+    }
+
+    /// Exchanges the edges that have to be there, each with the lower site first, sorted.
+    pub(crate) fn exchange_required(&mut self, edges: &mut Vec<[SiteId; 2]>) {
+        std::mem::swap(&mut self.required, edges);
+    }
+
+    /// Whether an edge has to be there.
+    pub(crate) fn is_required(&self, [s, t]: [SiteId; 2]) -> bool {
+        self.required.binary_search(&if s < t { [s, t] } else { [t, s] }).is_ok()
+    }
+
+    /// Whether the edge opposite a corner of a cell of the plane has to be there.
+    pub(crate) fn is_facet_required(&self, cell: Slot, i: usize) -> bool {
+        !self.required.is_empty() && {
+            let corners = &self.complex.cell(cell).corners;
+            self.is_required([next_of_three(i), previous_of_three(i)].map(|k| corners[k]))
+        }
+    }
+
+    /// A change has been undone: whether some cell is not one of the Delaunay triangulation.
+    pub(crate) fn set_constrained(&mut self, is_constrained: bool) {
+        self.is_constrained = is_constrained;
+    }
+
+    /// Whether some cell is not one of the Delaunay triangulation.
+    pub(crate) fn is_constrained(&self) -> bool {
+        self.is_constrained
     }
 
     /// Puts back the cells that segments have taken the place of: then the cells are the Delaunay triangulation.
@@ -373,6 +402,7 @@ impl<G: Dimension> Delaunay<G> {
         if let Some(row) = replaced.rows.first() {
             self.recent = row.slot;
         }
+        self.is_constrained = false;
         Ok(())
     }
 }

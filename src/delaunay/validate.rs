@@ -245,7 +245,8 @@ impl<G: Dimension> Delaunay<G> {
             self.prefetch_around_cells_after(c);
             for i in 0..G::Corners::N {
                 let facet = Facet::new(c, i);
-                ensure(self.is_locally_delaunay(facet), Level::Delaunay, || {
+                let holds = self.is_facet_required(c, i) || self.is_locally_delaunay(facet);
+                ensure(holds, Level::Delaunay, || {
                     let across = self.complex.cell(c).neighbour(i);
                     let apex = self.complex.cell(across.cell()).corners[across.index()];
                     text!("vertex {} is inside the sphere of cell {}", self.site(apex).id, self.describe(c))

@@ -41,6 +41,8 @@ pub(in crate::motion) struct Segments<G: Dimension> {
     /// The sites of the ends of each segment, the lower one first, with its id; sorted.
     edges: Vec<([SiteId; 2], SegmentId)>,
     conflicts: Vec<Conflict>,
+    /// The edges that a kernel had to have before the change, while it has others.
+    before: Option<Vec<[SiteId; 2]>>,
     /// Whether the change lays what is staged: it is a commit.
     takes_staged: bool,
 }
@@ -56,6 +58,7 @@ impl<G: Dimension> Default for Segments<G> {
             crossing: Crossing::default(),
             edges: Vec::new(),
             conflicts: Vec::new(),
+            before: None,
             takes_staged: false,
         }
     }
@@ -169,10 +172,26 @@ impl<G: Dimension> Segments<G> {
         } else {
             self.look_along_line(kernel)?;
         }
+        let mut required = Vec::new();
+        memory::collect(&mut required, self.edges.iter().map(|&(edge, _)| edge))?;
+        required.dedup();
+        kernel.exchange_required(&mut required);
+        self.before = Some(required);
         match self.conflicts.first() {
             Some(&conflict) => Err(Error::Conflict { conflict, others: self.conflicts.len() - 1 }),
             None => Ok(()),
         }
+    }
+
+    /// Enters the segments that are missing in a new kernel, which takes the place of the old one if nothing conflicts.
+    pub(in crate::motion) fn lay_in_new(
+        &mut self,
+        kernel: &mut Delaunay<G>,
+        site_of: &[SiteId],
+    ) -> Result<()> {
+        let laid = self.lay(kernel, site_of);
+        self.before = None;
+        laid
     }
 
     /// Lists the edges that have to be there, and the conflicts of ends alone.
@@ -279,8 +298,17 @@ impl<G: Dimension> Segments<G> {
         Ok(())
     }
 
+    /// The change does not stay: the kernel of before has to have the edges that it had.
+    pub(in crate::motion) fn undo(&mut self, kernel: &mut Delaunay<G>) {
+        if let Some(mut before) = self.before.take() {
+            kernel.exchange_required(&mut before);
+        }
+        kernel.set_constrained(!self.replaced.is_empty());
+    }
+
     /// The change stays.
     pub(in crate::motion) fn keep(&mut self) {
+        self.before = None;
         std::mem::swap(&mut self.replaced, &mut self.next);
         self.next.clear();
     }

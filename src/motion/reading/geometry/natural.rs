@@ -72,7 +72,7 @@ impl Natural {
             let corners = kernel.complex().cell(inside).corners;
             for i in 0..G::Corners::N {
                 let across = kernel.complex().cell(inside).neighbour(i).cell();
-                let is_hull = kernel.complex().cell(across).is_ghost();
+                let is_hull = kernel.complex().cell(across).is_ghost() || kernel.is_facet_required(inside, i);
                 // Ties are broken as for a vertex of the highest id.
                 if !is_hull && kernel.is_in_conflict(across, q, VertexId::NONE) {
                     self.zone.insert(across)?;

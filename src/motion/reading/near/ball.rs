@@ -9,7 +9,7 @@ use crate::ids::{SiteId, Slot, VertexId};
 use crate::motion::reading::near::{Around, most_cells};
 use crate::motion::state::checking::{check_not_negative, check_position};
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::is_within_distance;
+use crate::predicates::{is_within_distance, squared_distance};
 
 impl<G: Dimension> MovingTriangulation<G> {
     /// The vertices whose squared distance from `centre` is at most `squared_radius`, exactly: ascending, hidden ones
@@ -34,7 +34,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         let kernel = &self.mesh.kernel;
         let is_in = |s: SiteId| is_within_distance(&q, &kernel.site(s).point, squared_radius);
         let mut found = IndexSet::new();
-        if kernel.has_cells() && self.flood_ball(&q, is_in, &mut found)? {
+        if kernel.is_constrained() {
+            // Until there is one in the ball, the nearest has to be found.
+            let mut nearest = f64::INFINITY;
+            self.for_sites_by_cells(&q, Slot::NONE, |s| {
+                nearest = nearest.min(squared_distance(&q, kernel.place(s)));
+                if is_in(s) {
+                    found.insert(s)?;
+                }
+                Ok(nearest.max(squared_radius))
+            })?;
+            self.vertices_at(found.as_slice().iter().copied())
+        } else if kernel.has_cells() && self.flood_ball(&q, is_in, &mut found)? {
             self.vertices_at(found.as_slice().iter().copied())
         } else {
             self.vertices_at(kernel.live_sites().filter(|&s| is_in(s)))

@@ -25,6 +25,9 @@ fn list_conflicts<G: Dimension>(
     while let Some(&inside) = zone.as_slice().get(next) {
         next += 1;
         for i in 0..G::Corners::N {
+            if kernel.is_facet_required(inside, i) {
+                continue;
+            }
             let across = kernel.complex().cell(inside).neighbour(i).cell();
             // Ties are broken as for a vertex of the highest id.
             if kernel.is_in_conflict_with(&filter, across, q, VertexId::NONE) {

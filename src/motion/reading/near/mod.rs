@@ -5,6 +5,7 @@
 //! | `nearest` | the nearest vertex, and the k nearest of many places |
 //! | `ball` | the vertices in a ball |
 //! | `boxes` | the vertices in a box |
+//! | `by_cells` | sites in order of distance where the cells are not Delaunay |
 //! | `conflicts` | the cells that a new vertex would remove |
 //!
 //! All is found by floods from a located cell, from neighbour to neighbour, at about the cost of what is found, and
@@ -13,6 +14,7 @@
 
 mod ball;
 mod boxes;
+mod by_cells;
 mod conflicts;
 mod nearest;
 

@@ -4,7 +4,7 @@
 //! the vertices in order of distance each is a neighbour of an earlier one, but for those that are nearest: these are
 //! on an empty sphere around the place, so they are connected by edges. Distances are compared exactly.
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use crate::complex::INFINITE;
@@ -15,7 +15,7 @@ use crate::machine::memory;
 use crate::motion::reading::near::Around;
 use crate::motion::state::checking::check_position;
 use crate::motion::triangulation::MovingTriangulation;
-use crate::predicates::compare_distance;
+use crate::predicates::{compare_distance, squared_distance};
 
 /// A search for the nearest vertex that has looked around so many others is on a long way.
 const MANY_STARS: u32 = 8;
@@ -109,7 +109,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         for q in positions {
             let mut waiting = BinaryHeap::new();
             seen.clear();
-            if self.mesh.kernel.has_cells() {
+            if self.mesh.kernel.is_constrained() {
+                near = self.enter_by_cells(q, k, near, &mut waiting)?;
+            } else if self.mesh.kernel.has_cells() {
                 let (nearest, start) = self.nearest_sites(q, near)?;
                 near = start;
                 for &s in nearest.as_slice() {
@@ -150,7 +152,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         for top in self.mesh.hidden.tops_below(vertex).into_iter().filter(|&top| top != VertexId::NONE) {
             memory::enter(waiting, Candidate { q, point, vertex: top, site })?;
         }
-        if vertex != self.mesh.kernel.site(site).id {
+        if vertex != self.mesh.kernel.site(site).id || self.mesh.kernel.is_constrained() {
             return Ok(());
         }
         for &x in around.list(&self.mesh.kernel, site)? {
@@ -163,9 +165,13 @@ impl<G: Dimension> MovingTriangulation<G> {
 
     /// All sites nearest to a place, where there are cells, and a slot near it; `near` is where to begin.
     pub(super) fn nearest_sites(&self, q: &G::Point, near: Slot) -> Result<(IndexSet<SiteId>, Slot)> {
+        let mut nearest = IndexSet::new();
+        if self.mesh.kernel.is_constrained() {
+            let start = self.list_nearest_by_cells(q, near, &mut nearest)?;
+            return Ok((nearest, start));
+        }
         let place = self.mesh.kernel.locate(q, near);
         let start = self.slot_at(place);
-        let mut nearest = IndexSet::new();
         let mut best = match place {
             Place::Site(s) => {
                 nearest.insert(s)?;
@@ -210,6 +216,46 @@ impl<G: Dimension> MovingTriangulation<G> {
             }
         }
         Ok((nearest, start))
+    }
+
+    /// Lists all sites nearest to a place by cells; returns a slot near it.
+    fn list_nearest_by_cells(
+        &self,
+        q: &G::Point,
+        near: Slot,
+        nearest: &mut IndexSet<SiteId>,
+    ) -> Result<Slot> {
+        self.for_sites_by_cells(q, near, |s| {
+            let order = nearest.as_slice().first().map_or(Ordering::Less, |&best| self.compare(q, s, best));
+            if order == Ordering::Less {
+                nearest.clear();
+            }
+            if order != Ordering::Greater {
+                nearest.insert(s)?;
+            }
+            Ok(squared_distance(q, self.mesh.kernel.place(nearest.as_slice()[0])))
+        })
+    }
+
+    /// Has the vertices at the `k` sites nearest to a place wait, by cells, and maybe others; returns a slot near it.
+    fn enter_by_cells<'t>(
+        &'t self,
+        q: &'t G::Point,
+        k: usize,
+        near: Slot,
+        waiting: &mut BinaryHeap<Candidate<'t, G::Point>>,
+    ) -> Result<Slot> {
+        // The farthest of the k nearest so far is the first.
+        let mut best: BinaryHeap<Reverse<Candidate<'t, G::Point>>> = BinaryHeap::new();
+        self.for_sites_by_cells(q, near, |s| {
+            memory::enter(waiting, self.candidate(q, s))?;
+            memory::enter(&mut best, Reverse(self.candidate(q, s)))?;
+            if best.len() > k {
+                best.pop();
+            }
+            let farthest = best.peek().filter(|_| best.len() == k);
+            Ok(farthest.map_or(f64::INFINITY, |Reverse(farthest)| squared_distance(q, farthest.point)))
+        })
     }
 
     /// A landmark that is nearer to `q` than a site, if one is known.

@@ -65,7 +65,7 @@ impl<G: Dimension> Mesh<G> {
         for s in next.live_sites() {
             hidden.for_all_at(next.site(s).id, |v| site_of[v.index()] = s);
         }
-        segments.lay(next, &site_of)
+        segments.lay_in_new(next, &site_of)
     }
 
     /// Keeps the site of a vertex before it gets one of its own, or loses it.
@@ -109,5 +109,8 @@ impl<G: Dimension> Mesh<G> {
         self.views.visibilities_mut().truncate(before.visibilities);
         self.kernel.undo();
         self.transaction.origins().put_back(&mut self.kernel, &self.site_of);
+        if let Some(segments) = &mut self.segments {
+            segments.undo(&mut self.kernel);
+        }
     }
 }

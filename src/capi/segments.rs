@@ -1,0 +1,117 @@
+//! Segments between vertices of the plane, which have to be edges.
+
+use super::handle::{Changing, Reading, deldrift_triangulation};
+use super::pointers::{Array, Buffer, Output, fill_all, given, write_all};
+use super::query::DELDRIFT_NONE;
+use super::status::{Failure, deldrift_status};
+use crate::either::AnyTriangulation;
+use crate::error::Conflict;
+use crate::ids::{SegmentId, VertexId};
+use crate::motion::Segment;
+
+/// Why a segment cannot be an edge.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum deldrift_conflict_kind {
+    /// Two segments cross at a place that is an end of neither: other is the second one, of the higher id.
+    DELDRIFT_CONFLICT_CROSSING = 0,
+    /// A vertex is on the segment, and is not one of its ends: other is the lowest id at the place.
+    DELDRIFT_CONFLICT_ON_SEGMENT = 1,
+    /// An end of the segment has been removed, or would be: other is the end.
+    DELDRIFT_CONFLICT_END_REMOVED = 2,
+    /// Both ends of the segment would be at the same place: other is DELDRIFT_NONE.
+    DELDRIFT_CONFLICT_ENDS_MEET = 3,
+}
+
+/// What is in the way of a segment.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct deldrift_conflict {
+    /// What other names.
+    pub kind: deldrift_conflict_kind,
+    /// The segment.
+    pub segment: u32,
+    /// A segment or a vertex.
+    pub other: u32,
+}
+
+impl From<&Conflict> for deldrift_conflict {
+    fn from(conflict: &Conflict) -> Self {
+        use deldrift_conflict_kind::*;
+        let (kind, segment, other) = match *conflict {
+            Conflict::Crossing { segments: [one, other] } => (DELDRIFT_CONFLICT_CROSSING, one, other.get()),
+            Conflict::OnSegment { segment, vertex } => (DELDRIFT_CONFLICT_ON_SEGMENT, segment, vertex.get()),
+            Conflict::EndRemoved { segment, vertex } => (DELDRIFT_CONFLICT_END_REMOVED, segment, vertex.get()),
+            Conflict::EndsMeet { segment } => (DELDRIFT_CONFLICT_ENDS_MEET, segment, DELDRIFT_NONE),
+        };
+        deldrift_conflict { kind, segment: segment.get(), other }
+    }
+}
+
+/// Stages segments between vertices: all of them, or none if it fails. From the next commit on, which makes them together
+/// with the staged moves, insertions and removals, each is an edge, and the cells are the constrained Delaunay
+/// triangulation of vertices and segments: the circle of a cell has no vertex inside that can be seen from the cell's
+/// inside, where segments are opaque. Ties are broken by id as everywhere, so the cells depend only on positions, ids and
+/// segments. Segments move with their ends.
+///
+/// ends: count rows of two vertex ids, in any order, of vertices that are present or whose insertion is staged. markers:
+/// count numbers, which are kept with the segments; NULL for zeros. Both are read during the call only, and may be NULL if
+/// count is 0. first_segment: receives the id of the first, which is one above the highest given so far; the others follow
+/// it in their order. It must not be NULL.
+///
+/// A segment may be given twice, and be a part of the hull; many may share a vertex. Where vertices are at the same place
+/// it goes to the one that represents them. deldrift_discard_moves forgets staged segments, too, and their ids are given
+/// again.
+///
+/// Cost: count.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_VERTEX, DELDRIFT_REMOVED_VERTEX, DELDRIFT_OUT_OF_MEMORY. Not to be called at
+/// the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_stage_segments(
+    t: *mut deldrift_triangulation,
+    ends: *const u32,
+    markers: *const i32,
+    count: usize,
+    first_segment: *mut u32,
+) -> deldrift_status {
+    let ends = ends.cast::<[u32; 2]>();
+    given!(t: Changing, ends[count]: Array, markers[count]: Array, first_segment: Output);
+    t.change(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let place = first_segment.place()?;
+        let ends = ends.get()?;
+        let markers = if markers.is_null() { None } else { Some(markers.get()?) };
+        let marker = |k: usize| markers.map_or(0, |markers| markers[k]);
+        let segments = ends
+            .iter()
+            .enumerate()
+            .map(|(k, ends)| Segment { ends: ends.map(VertexId::new), marker: marker(k) });
+        place.write(t.stage_segments(segments)?.get());
+        Ok(())
+    })
+}
+
+/// Stages the removal of segments: all of them, or none if it fails. From the next commit on they need not be edges any
+/// more. Their vertices stay.
+///
+/// segments: count ids, each at most once, read during the call only; may be NULL if count is 0.
+///
+/// Cost: count, and that of looking for each among those staged before.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_SIZE_OVERFLOW, DELDRIFT_NO_SUCH_SEGMENT for an id that is not in force, or whose removal is staged,
+/// DELDRIFT_OUT_OF_MEMORY. Not to be called at the same time as any other call on t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_stage_segment_removals(
+    t: *mut deldrift_triangulation,
+    segments: *const u32,
+    count: usize,
+) -> deldrift_status {
+    given!(t: Changing, segments[count]: Array);
+    t.change(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        Ok(t.stage_segment_removals(SegmentId::of_numbers(segments.get()?))?)
+    })
+}
