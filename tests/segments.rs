@@ -128,6 +128,42 @@ fn check_places(t: &Triangulation, rng: &mut Rng, context: &dyn Fn() -> String) 
     }
 }
 
+/// A copy, a compaction and Voronoi cells.
+fn check_others(t: &Triangulation, context: &dyn Fn() -> String) {
+    let mut copy = t.try_clone(None).expect("room");
+    let ids = copy.compact().expect("room");
+    let renamed = cell_set(t)
+        .iter()
+        .map(|cell| sorted(&cell.iter().map(|&v| ids[v.index()]).collect::<Vec<_>>()))
+        .collect();
+    assert_same_cells(&cell_set(&copy), &renamed, context);
+    assert_eq!(copy.is_constrained(), t.is_constrained(), "{}", context());
+    copy.validate(deldrift::motion::Level::Delaunay).expect("a valid copy");
+    // The next commit puts back the cells of the Delaunay triangulation, and lays the segments again.
+    if copy.id_count() > 0 {
+        let v = VertexId::new(0);
+        copy.move_vertices(&[v], &[copy.position(v).expect("present")]).expect("a good place");
+    }
+    copy.commit_timestamp().expect("no conflict");
+    assert_same_cells(&cell_set(&copy), &renamed, context);
+    let points: Vec<_> =
+        VertexId::range(0..copy.id_count()).map(|v| copy.position(v).expect("present")).collect();
+    let plain = Triangulation::new(&points, Options::default()).expect("good points");
+    let clip = Some([&[-100.0, -90.0], &[80.0, 110.0]]);
+    let volumes = copy.voronoi_volumes(clip).expect("a box");
+    for (one, other) in volumes.iter().zip(plain.voronoi_volumes(clip).expect("a box")) {
+        assert!((one - other).abs() <= 1e-6 * other.abs() + 1e-6, "{}: {one}, {other}", context());
+    }
+    let facets = copy.voronoi_facets(clip).expect("a box");
+    let edges = plain.edges().expect("room");
+    let wanted = plain.voronoi_facets(clip).expect("a box");
+    assert_eq!(facets.len(), copy.edge_count());
+    for (edge, measure) in copy.edges().expect("room").iter().zip(facets) {
+        let wanted = edges.binary_search(edge).map_or(0.0, |k| wanted[k]);
+        assert!((measure - wanted).abs() <= 1e-6 * wanted + 1e-6, "{}", context());
+    }
+}
+
 /// Checks the cells against those of a fresh build with the same ids.
 fn check_fresh(t: &Triangulation, context: &dyn Fn() -> String) {
     let ids = VertexId::range(0..t.id_count());
@@ -253,6 +289,7 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 3] {
         check_definition(&t, &context);
         check_fresh(&t, &context);
         check_places(&t, rng, &context);
+        check_others(&t, &context);
     }
     [n_laid, n_refused, n_constrained]
 }

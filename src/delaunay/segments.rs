@@ -378,6 +378,12 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Whether a facet is there only because it has to be.
+    pub(crate) fn is_facet_held(&self, cell: Slot, i: usize) -> bool {
+        let is_inner = !self.complex.cell(cell).is_ghost();
+        is_inner && self.is_facet_required(cell, i) && !self.is_locally_delaunay(Facet::new(cell, i))
+    }
+
     /// A change has been undone: whether some cell is not one of the Delaunay triangulation.
     pub(crate) fn set_constrained(&mut self, is_constrained: bool) {
         self.is_constrained = is_constrained;
@@ -386,6 +392,33 @@ impl<G: Dimension> Delaunay<G> {
     /// Whether some cell is not one of the Delaunay triangulation.
     pub(crate) fn is_constrained(&self) -> bool {
         self.is_constrained
+    }
+
+    /// The cells that segments have taken the place of, where the cells are the constrained Delaunay triangulation for the
+    /// edges that have to be there: by flips, which are undone.
+    pub(crate) fn find_replaced(&mut self) -> Result<Replaced<G>> {
+        let mut replaced = Replaced::default();
+        let (mut suspects, mut stuck) = (Vec::new(), Vec::new());
+        for slot in self.complex.finite() {
+            for i in (0..3).filter(|&i| self.is_facet_held(slot, i)) {
+                memory::push(&mut suspects, Facet::new(slot, i))?;
+            }
+        }
+        if suspects.is_empty() {
+            return Ok(replaced);
+        }
+        self.begin()?;
+        let flipped = self.flip_all(&mut suspects, &mut stuck, u64::MAX);
+        let kept = flipped.and_then(|_| {
+            memory::collect(
+                &mut replaced.rows,
+                self.complex.rows().iter().map(|row| self.complex.row(row.slot)),
+            )
+        });
+        self.undo();
+        kept?;
+        self.is_constrained = true;
+        Ok(replaced)
     }
 
     /// Puts back the cells that segments have taken the place of: then the cells are the Delaunay triangulation.

@@ -3,6 +3,7 @@
 use crate::delaunay::Dimension;
 use crate::error::Result;
 use crate::motion::options::{Monitor, Options};
+use crate::motion::state::views::Views;
 use crate::motion::triangulation::MovingTriangulation;
 
 impl<G: Dimension> MovingTriangulation<G> {
@@ -45,5 +46,17 @@ impl<G: Dimension> MovingTriangulation<G> {
             foreseen: Default::default(),
             taken: None,
         })
+    }
+
+    /// A copy without segments: the cells are the Delaunay triangulation of the vertices, which have the ids that they have
+    /// here.
+    pub(in crate::motion) fn without_segments(&self) -> Result<Self> {
+        let mut copy = self.try_clone(None)?;
+        if let Some(segments) = copy.mesh.segments.take() {
+            copy.mesh.kernel.put_back_replaced(segments.replaced())?;
+            copy.mesh.kernel.exchange_required(&mut Vec::new());
+            copy.mesh.views = Views::default();
+        }
+        Ok(copy)
     }
 }

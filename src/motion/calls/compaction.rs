@@ -46,8 +46,19 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n = self.mesh.n_present + self.staged_edits().0;
         let mut site_of = Vec::new();
         memory::reserve_exact(&mut site_of, n)?;
-        let (kernel, slots) = self.mesh.kernel.compacted(&ids)?;
+        let (mut kernel, slots) = self.mesh.kernel.compacted(&ids)?;
         let hidden = self.mesh.hidden.renumbered(&ids, n)?;
+        let segments = match &self.mesh.segments {
+            Some(segments) => {
+                let mut sites = Vec::new();
+                memory::lengthen(&mut sites, n, SiteId::NONE)?;
+                for s in kernel.live_sites() {
+                    hidden.for_all_at(kernel.site(s).id, |v| sites[v.index()] = s);
+                }
+                Some(memory::boxed(segments.renumbered(&mut kernel, &ids, &sites)?)?)
+            }
+            None => None,
+        };
         let staging = self.staging.renumbered(&ids, n)?;
         let edits = self.edits.renumbered(&ids, n)?;
         let views =
@@ -55,6 +66,7 @@ impl<G: Dimension> MovingTriangulation<G> {
         // From here on nothing fails.
         site_of.resize(n, SiteId::NONE);
         self.note_tolerances_dropped();
+        self.mesh.segments = segments;
         (self.mesh.site_of, self.staging, self.edits, self.mesh.views) = (site_of, staging, edits, views);
         let stride = kernel.mean_stride();
         self.adopt(kernel, hidden, stride);

@@ -12,7 +12,8 @@ use crate::predicates::Delimiter;
 impl<G: Dimension> MovingTriangulation<G> {
     /// Tolerance of a vertex at its current position: a certified lower bound of the distance that all vertices may
     /// move without a change of connectivity, as far as the bi-cells of this one go (report, section 2.4). 0 if it
-    /// shares its place with another, infinite while there are no cells.
+    /// shares its place with another, or is a corner of a cell at a segment that is no edge of the Delaunay triangulation;
+    /// infinite while there are no cells.
     ///
     /// ```
     /// use deldrift::{Plane, VertexId, motion::{MovingTriangulation, Options}};
@@ -32,7 +33,11 @@ impl<G: Dimension> MovingTriangulation<G> {
             return Ok(0.0);
         }
         let mut tolerance = f64::INFINITY;
-        self.mesh.kernel.for_star(s, |c, _| tolerance = tolerance_around(&self.mesh.kernel, c, tolerance))?;
+        let kernel = &self.mesh.kernel;
+        kernel.for_star(s, |c, _| {
+            let is_held = kernel.is_constrained() && (0..G::Corners::N).any(|i| kernel.is_facet_held(c, i));
+            tolerance = if is_held { 0.0 } else { tolerance_around(kernel, c, tolerance) };
+        })?;
         Ok(tolerance)
     }
 

@@ -172,9 +172,7 @@ impl<G: Dimension> Segments<G> {
         } else {
             self.look_along_line(kernel)?;
         }
-        let mut required = Vec::new();
-        memory::collect(&mut required, self.edges.iter().map(|&(edge, _)| edge))?;
-        required.dedup();
+        let mut required = self.required()?;
         kernel.exchange_required(&mut required);
         self.before = Some(required);
         match self.conflicts.first() {
@@ -324,6 +322,39 @@ impl<G: Dimension> Segments<G> {
     /// The cells have other slots now, by their old ones.
     pub(in crate::motion) fn renumber_slots(&mut self, index: &[Slot]) {
         self.replaced.renumber_slots(index);
+    }
+
+    /// A copy where vertices have other ids and the kernel is a copy with other sites and slots: it gets the edges that
+    /// have to be there. `site_of` is by the new ids.
+    pub(in crate::motion) fn renumbered(
+        &self,
+        kernel: &mut Delaunay<G>,
+        ids: &[VertexId],
+        site_of: &[SiteId],
+    ) -> Result<Self> {
+        let mut copy = self.copied()?;
+        for segment in copy.all.iter_mut().flatten() {
+            segment.ends = segment.ends.map(|v| ids[v.index()]);
+        }
+        copy.replaced = Replaced::default();
+        copy.list_edges(site_of)?;
+        let mut required = copy.required()?;
+        kernel.exchange_required(&mut required);
+        copy.replaced = kernel.find_replaced()?;
+        Ok(copy)
+    }
+
+    /// The edges that have to be there, each once.
+    fn required(&self) -> Result<Vec<[SiteId; 2]>> {
+        let mut required = Vec::new();
+        memory::collect(&mut required, self.edges.iter().map(|&(edge, _)| edge))?;
+        required.dedup();
+        Ok(required)
+    }
+
+    /// The cells of a kernel that segments have taken the place of, to be put back in a copy of it.
+    pub(in crate::motion) fn replaced(&self) -> &Replaced<G> {
+        &self.replaced
     }
 
     pub(in crate::motion) fn copied(&self) -> Result<Self> {

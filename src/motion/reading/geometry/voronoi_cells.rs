@@ -54,6 +54,9 @@ impl<G: Dimension> MovingTriangulation<G> {
         clip: Option<[&G::Point; 2]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<f64>> {
+        if self.mesh.kernel.is_constrained() {
+            return self.without_segments()?.voronoi_volumes_monitored(clip, monitor);
+        }
         let clip = clip.map(checked::<G>).transpose()?;
         let mut volumes = Vec::new();
         memory::reserve_exact(&mut volumes, self.id_count())?;
@@ -128,6 +131,18 @@ impl<G: Dimension> MovingTriangulation<G> {
         self.voronoi_facets_monitored(clip, &mut |_| true)
     }
 
+    /// For each edge the measure that it has in a list of edges with measures, in lexicographic order; 0 if it is not one
+    /// of them: the Voronoi cells of its ends do not meet.
+    fn at_own_edges(&self, edges: &[[VertexId; 2]], measures: &[f64]) -> Result<Vec<f64>> {
+        let own = self.edges()?;
+        let mut found = Vec::new();
+        memory::collect(
+            &mut found,
+            own.iter().map(|edge| edges.binary_search(edge).map_or(0.0, |k| measures[k])),
+        )?;
+        Ok(found)
+    }
+
     /// The [`voronoi_facets`](Self::voronoi_facets), with a call of `monitor` now and then, which is told the fraction
     /// done.
     ///
@@ -139,6 +154,11 @@ impl<G: Dimension> MovingTriangulation<G> {
         clip: Option<[&G::Point; 2]>,
         monitor: &mut dyn FnMut(f64) -> bool,
     ) -> Result<Vec<f64>> {
+        if self.mesh.kernel.is_constrained() {
+            let plain = self.without_segments()?;
+            let measures = plain.voronoi_facets_monitored(clip, monitor)?;
+            return self.at_own_edges(&plain.edges()?, &measures);
+        }
         let clip = clip.map(checked::<G>).transpose()?;
         let mut measures = Vec::new();
         memory::reserve_exact(&mut measures, self.edge_count())?;
