@@ -173,7 +173,7 @@ fn check_fresh(t: &Triangulation, context: &dyn Fn() -> String) {
         fresh.remove_vertex(v).expect("present");
     }
     let segments: Vec<_> = t.segments().map(|(_, segment)| segment).collect();
-    fresh.stage_segments(&segments).expect("present");
+    fresh.stage_segments(segments.into_iter()).expect("present");
     fresh.commit_timestamp().expect("no conflict");
     assert_same_cells(&cell_set(t), &cell_set(&fresh), context);
 }
@@ -259,7 +259,7 @@ fn run(kind: Kind, algorithm: Algorithm, seed: u64) -> [usize; 3] {
             let ends = [0; 2].map(|_| VertexId::at(rng.below(goals.len())));
             if ends.iter().all(|v| goals[v.index()].is_some()) {
                 let segment = Segment { ends, marker: step };
-                t.stage_segments(&[segment]).expect("present");
+                t.stage_segments([segment].into_iter()).expect("present");
                 segments.push(segment);
             }
         }
@@ -321,7 +321,7 @@ fn conflicts_name_what_is_in_the_way() {
     let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [2.0, 2.0], [1.0, 3.0]];
     let mut t = Triangulation::new(&points, Options::default()).expect("good points");
     let ids = |ends: [u32; 2]| Segment { ends: ends.map(VertexId::new), marker: 7 };
-    t.stage_segments(&[ids([0, 2]), ids([3, 1]), ids([5, 1])]).expect("present");
+    t.stage_segments([ids([0, 2]), ids([3, 1]), ids([5, 1])].into_iter()).expect("present");
     let refused = t.commit_timestamp().expect_err("there are conflicts");
     let [first, second, third] = [0, 1, 2].map(SegmentId::new);
     let middle = VertexId::new(4);

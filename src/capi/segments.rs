@@ -41,7 +41,9 @@ impl From<&Conflict> for deldrift_conflict {
         let (kind, segment, other) = match *conflict {
             Conflict::Crossing { segments: [one, other] } => (DELDRIFT_CONFLICT_CROSSING, one, other.get()),
             Conflict::OnSegment { segment, vertex } => (DELDRIFT_CONFLICT_ON_SEGMENT, segment, vertex.get()),
-            Conflict::EndRemoved { segment, vertex } => (DELDRIFT_CONFLICT_END_REMOVED, segment, vertex.get()),
+            Conflict::EndRemoved { segment, vertex } => {
+                (DELDRIFT_CONFLICT_END_REMOVED, segment, vertex.get())
+            }
             Conflict::EndsMeet { segment } => (DELDRIFT_CONFLICT_ENDS_MEET, segment, DELDRIFT_NONE),
         };
         deldrift_conflict { kind, segment: segment.get(), other }
@@ -113,5 +115,90 @@ pub unsafe extern "C" fn deldrift_stage_segment_removals(
     t.change(|t| {
         let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
         Ok(t.stage_segment_removals(SegmentId::of_numbers(segments.get()?))?)
+    })
+}
+
+/// The segments in force, ascending by id: those of the last commit, and not what is staged.
+///
+/// segments: a buffer with room for capacity ids; ends: for capacity rows of two vertex ids, as they were given; markers: for
+/// capacity numbers. One that is NULL is not filled. count: receives the number of segments, which is also written when the
+/// buffers are too small. NULL for all with capacity 0 asks for the count alone.
+///
+/// Cost: the ids of segments given so far.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_segments(
+    t: *const deldrift_triangulation,
+    segments: *mut u32,
+    ends: *mut u32,
+    markers: *mut i32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    let ends = ends.cast::<[u32; 2]>();
+    given!(t: Reading, segments[capacity]: Buffer, ends[capacity]: Buffer, markers[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let needed = t.segments().count();
+        fill_all(count, needed, capacity, [segments.offer(), ends.offer(), markers.offer()], || {
+            write_all(segments.places_if_any(needed)?, t.segments().map(|(id, _)| id.get()));
+            write_all(
+                ends.places_if_any(needed)?,
+                t.segments().map(|(_, segment)| segment.ends.map(VertexId::get)),
+            );
+            write_all(markers.places_if_any(needed)?, t.segments().map(|(_, segment)| segment.marker));
+            Ok(())
+        })
+    })
+}
+
+/// For each cell and each of its corners the segment at the edge opposite it, in the order of deldrift_cells: the lowest id
+/// if there are several, DELDRIFT_NONE if there is none.
+///
+/// segments: a buffer with room for capacity rows of 3 ids. count: receives the number of cells, which is also written when
+/// the buffer is too small. NULL with capacity 0 asks for the count alone.
+///
+/// Cost: m, and k log k for k segments. After a change the first call also does what the first deldrift_cells does.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL, DELDRIFT_OUT_OF_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_segments_of_cells(
+    t: *const deldrift_triangulation,
+    segments: *mut u32,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    let segments = segments.cast::<[u32; 3]>();
+    given!(t: Reading, segments[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        segments.fill(count, t.cell_count(), || Ok(t.segments_of_cells()?.map(|row| row.map(SegmentId::get))))
+    })
+}
+
+/// The conflicts for which a change of t was refused last: all of them, however many segments they are of.
+///
+/// conflicts: a buffer with room for capacity entries. count: receives their number, which is also written when the buffer
+/// is too small. NULL with capacity 0 asks for the count alone. A change that succeeds forgets them.
+///
+/// Cost: the number of conflicts.
+///
+/// Errors: DELDRIFT_INVALID_DIMENSION in 3D, DELDRIFT_NULL_ARGUMENT, DELDRIFT_MISALIGNED_ARGUMENT,
+/// DELDRIFT_BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deldrift_segment_conflicts(
+    t: *const deldrift_triangulation,
+    conflicts: *mut deldrift_conflict,
+    capacity: usize,
+    count: *mut usize,
+) -> deldrift_status {
+    given!(t: Reading, conflicts[capacity]: Buffer, count: Output);
+    t.read(|t| {
+        let AnyTriangulation::Plane(t) = t else { return Err(Failure::NotOfThePlane) };
+        let found = t.conflicts_of_segments();
+        conflicts.fill(count, found.len(), || Ok(found.iter().map(deldrift_conflict::from)))
     })
 }

@@ -6,7 +6,7 @@ use std::fmt;
 use super::files::FileError;
 use super::message;
 use crate::damage::Damage;
-use crate::error::Error;
+use crate::error::{Conflict, Error};
 use crate::motion::Violation;
 
 /// Outcome of a call. DELDRIFT_OK is 0, and a call that gives any other status has had no effect.
@@ -79,6 +79,16 @@ pub enum deldrift_status {
     /// The insertion of the vertex is staged, so that it is not there before the next commit; or its removal is staged,
     /// and it can be neither moved with that commit nor removed twice. The message says which.
     DELDRIFT_STAGED_VERTEX = 28,
+    /// There is no segment of this id, or its removal is staged.
+    DELDRIFT_NO_SUCH_SEGMENT = 29,
+    /// Two segments would cross, at a place that is an end of neither; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_CROSSING = 30,
+    /// A vertex would be on a segment, and not be one of its ends; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_ON_SEGMENT = 31,
+    /// An end of a segment would be removed; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_END_REMOVED = 32,
+    /// Both ends of a segment would be at the same place; deldrift_segment_conflicts tells all conflicts.
+    DELDRIFT_ENDS_MEET = 33,
 }
 
 use deldrift_status::*;
@@ -88,7 +98,7 @@ pub type StatusCode = u32;
 
 impl deldrift_status {
     /// Every status, in the order of their values.
-    const ALL: [deldrift_status; 29] = [
+    const ALL: [deldrift_status; 34] = [
         DELDRIFT_OK,
         DELDRIFT_NULL_ARGUMENT,
         DELDRIFT_MISALIGNED_ARGUMENT,
@@ -118,6 +128,11 @@ impl deldrift_status {
         DELDRIFT_IO_ERROR,
         DELDRIFT_INVALID_FIELD,
         DELDRIFT_STAGED_VERTEX,
+        DELDRIFT_NO_SUCH_SEGMENT,
+        DELDRIFT_CROSSING,
+        DELDRIFT_ON_SEGMENT,
+        DELDRIFT_END_REMOVED,
+        DELDRIFT_ENDS_MEET,
     ];
 
     fn text(self) -> &'static CStr {
@@ -151,6 +166,11 @@ impl deldrift_status {
             DELDRIFT_IO_ERROR => c"a file cannot be read or written",
             DELDRIFT_INVALID_FIELD => c"a field is invalid",
             DELDRIFT_STAGED_VERTEX => c"the insertion or removal of the vertex is staged",
+            DELDRIFT_NO_SUCH_SEGMENT => c"no segment has this id",
+            DELDRIFT_CROSSING => c"two segments would cross",
+            DELDRIFT_ON_SEGMENT => c"a vertex would be on a segment",
+            DELDRIFT_END_REMOVED => c"an end of a segment would be removed",
+            DELDRIFT_ENDS_MEET => c"both ends of a segment would be at the same place",
         }
     }
 }
@@ -250,7 +270,13 @@ impl Failure {
                 Error::RemovedVertex { .. } => DELDRIFT_REMOVED_VERTEX,
                 Error::StagedVertex { .. } => DELDRIFT_STAGED_VERTEX,
                 Error::NoSuchCell { .. } => DELDRIFT_NO_SUCH_FACET,
-                Error::NoSuchSegment { .. } | Error::Conflict { .. } => DELDRIFT_INVALID_VALUE,
+                Error::NoSuchSegment { .. } => DELDRIFT_NO_SUCH_SEGMENT,
+                Error::Conflict { conflict, .. } => match conflict {
+                    Conflict::Crossing { .. } => DELDRIFT_CROSSING,
+                    Conflict::OnSegment { .. } => DELDRIFT_ON_SEGMENT,
+                    Conflict::EndRemoved { .. } => DELDRIFT_END_REMOVED,
+                    Conflict::EndsMeet { .. } => DELDRIFT_ENDS_MEET,
+                },
                 Error::DuplicateMove { .. } => DELDRIFT_DUPLICATE_MOVE,
                 Error::WrongCount { .. } => DELDRIFT_WRONG_COUNT,
                 Error::InvalidValue { .. } => DELDRIFT_INVALID_VALUE,
