@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::error::Error;
-use crate::ids::{CellId, VertexId};
+use crate::ids::{CellId, SegmentId, VertexId};
 
 /// The first thing found wrong. Cells and their corners are numbered as in the data, from 0 on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,11 @@ pub enum Damage {
     Dimension {
         /// What the header says.
         given: u32,
+    },
+    /// A segment has not two different ends that are present, or something is on it, or it is no edge.
+    Segment {
+        /// The segment.
+        segment: SegmentId,
     },
     /// The counts in the header do not add up to the size.
     Counts,
@@ -169,6 +174,10 @@ impl fmt::Display for Damage {
             Version { given, latest } => {
                 write!(f, "the format is version {given}, and the latest known here is {latest}")
             }
+            Segment { segment } => write!(
+                f,
+                "segment {segment} has not two ends that are present and apart, is no edge, or has something on it"
+            ),
             Size { given, wanted } => write!(f, "there are {given} bytes, and the header says {wanted}"),
             Checksum { given, wanted } => {
                 write!(f, "the checksum is {given:#010x}, and that of the data is {wanted:#010x}")

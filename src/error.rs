@@ -218,6 +218,18 @@ pub enum Conflict {
     },
 }
 
+impl Conflict {
+    /// The segment, or the first of two.
+    pub(crate) fn segment(&self) -> SegmentId {
+        match *self {
+            Conflict::Crossing { segments: [segment, _] }
+            | Conflict::OnSegment { segment, .. }
+            | Conflict::EndRemoved { segment, .. }
+            | Conflict::EndsMeet { segment } => segment,
+        }
+    }
+}
+
 impl fmt::Display for Conflict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -6,7 +6,7 @@
 //! positions, but for the sort's `n log n`.
 
 use super::{Delaunay, Dimension, Failures, Site};
-use crate::complex::{Complex, Corners};
+use crate::complex::{Complex, Corners, Facet};
 use crate::damage::{Damage, LoadError};
 use crate::error::{Error, Result};
 use crate::ids::{CellId, SiteId, Slot, VertexId};
@@ -39,6 +39,8 @@ fn part_of(monitor: &mut dyn FnMut(f64) -> bool, from: f64, to: f64) -> impl FnM
 pub(crate) struct Rows<'r, G: Dimension> {
     pub(crate) corners: &'r [G::Vertices],
     pub(crate) neighbours: &'r [G::Neighbours],
+    /// Vertices that stand for their places, between which there have to be edges.
+    pub(crate) segments: &'r [[VertexId; 2]],
 }
 
 impl<G: Dimension> Delaunay<G> {
@@ -82,6 +84,7 @@ impl<G: Dimension> Delaunay<G> {
             return Ok((t, site_of));
         }
         t.enter_rows(rows, &site_of, &mut part_of(monitor, SORTED, GLUED))?;
+        t.enter_segments(rows.segments, &site_of)?;
         t.check_restored(&mut part_of(monitor, GLUED, 1.0))?;
         Ok((t, site_of))
     }
@@ -146,6 +149,18 @@ impl<G: Dimension> Delaunay<G> {
         }
     }
 
+    /// Enters the edges that have to be there.
+    fn enter_segments(&mut self, segments: &[[VertexId; 2]], site_of: &[SiteId]) -> Result<(), LoadError> {
+        memory::reserve_exact(&mut self.required, segments.len())?;
+        for ends in segments {
+            let [s, t] = ends.map(|v| site_of[v.index()]);
+            self.required.push(if s < t { [s, t] } else { [t, s] });
+        }
+        self.required.sort_unstable();
+        self.required.dedup();
+        Ok(())
+    }
+
     /// Checks that the cells, which are closed and oriented alike, are the Delaunay triangulation of the sites.
     fn check_restored(&mut self, monitor: &mut dyn FnMut(f64) -> bool) -> Result<(), LoadError> {
         let mut failures = Failures::default();
@@ -153,7 +168,8 @@ impl<G: Dimension> Delaunay<G> {
         if let Some(&c) = failures.cells.iter().min() {
             return Err(Damage::NotPositive { cell: CellId::new(c.get()) }.into());
         }
-        if let Some(facet) = failures.facets.first() {
+        let is_free = |facet: &&Facet| !self.is_facet_required(facet.cell(), facet.index());
+        if let Some(facet) = failures.facets.iter().find(is_free) {
             let cell = CellId::new(facet.cell().get());
             return Err(Damage::NotDelaunay { cell, corner: facet.index() }.into());
         }

@@ -115,6 +115,49 @@ impl<G: Dimension> Segments<G> {
         self.leaving.len()
     }
 
+    /// Those whose removal is staged.
+    pub(in crate::motion) fn leaving(&self) -> &[SegmentId] {
+        &self.leaving
+    }
+
+    /// All by id, staged ones included; `None` for those removed.
+    pub(in crate::motion) fn all(&self) -> &[Option<Segment>] {
+        &self.all
+    }
+
+    /// How many ids have been given to segments that are, or were, in force: those behind are staged.
+    pub(in crate::motion) fn n_laid(&self) -> usize {
+        self.n_laid
+    }
+
+    /// Segments as they were saved: those behind the first `n_laid` are staged.
+    pub(in crate::motion) fn of_saved(
+        all: Vec<Option<Segment>>,
+        n_laid: usize,
+        leaving: Vec<SegmentId>,
+    ) -> Self {
+        Segments { all, n_laid, leaving, ..Segments::default() }
+    }
+
+    /// A kernel has cells that were saved with these segments: it has to have them, and to be told what cells they have
+    /// taken the place of. `site_of` is by vertex id.
+    pub(in crate::motion) fn join(&mut self, kernel: &mut Delaunay<G>, site_of: &[SiteId]) -> Result<()> {
+        self.takes_staged = false;
+        self.conflicts.clear();
+        self.list_edges(site_of)?;
+        let mut required = self.required()?;
+        kernel.exchange_required(&mut required);
+        if kernel.has_cells() {
+            self.replaced = kernel.find_replaced()?;
+        } else {
+            self.look_along_line(kernel)?;
+        }
+        match self.conflicts.first() {
+            Some(&conflict) => Err(Error::Conflict { conflict, others: self.conflicts.len() - 1 }),
+            None => Ok(()),
+        }
+    }
+
     /// The ids that have been given.
     pub(in crate::motion) fn n_ids(&self) -> usize {
         self.all.len()

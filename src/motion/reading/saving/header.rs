@@ -7,8 +7,15 @@ use crate::motion::report::CommitReport;
 /// on its way.
 const MAGIC: [u8; 8] = *b"\x89DLD\r\n\x1a\n";
 
-/// The version of the format.
+/// The version of the format, without segments and with some.
 const VERSION: u32 = 1;
+const WITH_SEGMENTS: u32 = 2;
+
+/// Bytes that segments begin with: how many ids there are, how many of these are in force, and how many are to go.
+const SEGMENT_COUNTS: usize = 24;
+
+/// Bytes of a segment: its ends and its marker.
+const SEGMENT: usize = 12;
 
 /// Bytes of the header.
 pub(super) const SIZE: usize = 72 + 8 * N_SUMS;
@@ -30,6 +37,8 @@ pub(super) struct Header {
     pub(super) moves: usize,
     pub(super) insertions: usize,
     pub(super) removals: usize,
+    /// Bytes about segments, 0 without any.
+    pub(super) segment_bytes: usize,
     /// All but the number of hidden vertices.
     pub(super) statistics: CommitReport,
 }
@@ -43,6 +52,7 @@ impl Header {
         let bytes = SIZE as u128
             + 8 * d * sum(&places)
             + 4 * (sum(&numbers) + 2 * (d + 1) * self.cells as u128)
+            + self.segment_bytes as u128
             + CHECKSUM as u128;
         u64::try_from(bytes).ok()
     }
@@ -51,7 +61,8 @@ impl Header {
     pub(super) fn bytes(&self) -> [u8; SIZE] {
         let mut bytes = [0; SIZE];
         bytes[..8].copy_from_slice(&MAGIC);
-        bytes[8..12].copy_from_slice(&VERSION.to_le_bytes());
+        let version = if self.segment_bytes > 0 { WITH_SEGMENTS } else { VERSION };
+        bytes[8..12].copy_from_slice(&version.to_le_bytes());
         bytes[12..16].copy_from_slice(&self.dimension.to_le_bytes());
         let size = self.size().expect("what is in memory has a size");
         let counts = [self.ids, self.cells, self.moves, self.insertions, self.removals].map(|n| n as u64);
@@ -75,8 +86,9 @@ impl Header {
             return Err(Damage::NoHeader { given: data.len(), wanted: SIZE });
         }
         let number = |at: usize| u64::from_le_bytes(data[at..at + 8].try_into().expect("eight bytes"));
-        if word(data, 8) != VERSION {
-            return Err(Damage::Version { given: word(data, 8), latest: VERSION });
+        let version = word(data, 8);
+        if !matches!(version, VERSION | WITH_SEGMENTS) {
+            return Err(Damage::Version { given: version, latest: WITH_SEGMENTS });
         }
         if number(16) != given {
             return Err(Damage::Size { given: given as usize, wanted: number(16) });
@@ -93,9 +105,16 @@ impl Header {
             moves: count(40)?,
             insertions: count(48)?,
             removals: count(56)?,
+            segment_bytes: 0,
             statistics: CommitReport::default(),
         };
-        if header.size() != Some(number(16)) {
+        if version == WITH_SEGMENTS {
+            // All that is left is about segments; how much that has to be is told there.
+            let left = header.size().and_then(|size| number(16).checked_sub(size)).ok_or(Damage::Counts)?;
+            header.segment_bytes = usize::try_from(left).map_err(|_| Damage::Counts)?;
+        }
+        let has_counts = version == VERSION || header.segment_bytes >= SEGMENT_COUNTS;
+        if header.size() != Some(number(16)) || !has_counts {
             return Err(Damage::Counts);
         }
         let mut numbers = [0; 1 + N_SUMS];
@@ -108,6 +127,32 @@ impl Header {
         let [timestamp, sums @ ..] = numbers;
         header.statistics = of_sums(timestamp, sums);
         Ok(header)
+    }
+}
+
+/// How many segments there are in saved data: ids given, those in force among them, which are the first, and removals that
+/// are staged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct SegmentCounts {
+    pub(super) ids: usize,
+    pub(super) laid: usize,
+    pub(super) removals: usize,
+}
+
+impl SegmentCounts {
+    /// Bytes of all that is about segments.
+    pub(super) fn bytes(&self) -> usize {
+        SEGMENT_COUNTS + SEGMENT * self.ids + 4 * self.removals
+    }
+
+    /// Those of three numbers, if they take as many bytes as there are.
+    pub(super) fn of(numbers: [u64; 3], bytes: usize) -> Result<Self, Damage> {
+        let [ids, laid, removals] = numbers;
+        let wanted = u128::from(ids) * SEGMENT as u128 + 4 * u128::from(removals) + SEGMENT_COUNTS as u128;
+        if wanted != bytes as u128 || laid > ids {
+            return Err(Damage::Counts);
+        }
+        Ok(SegmentCounts { ids: ids as usize, laid: laid as usize, removals: removals as usize })
     }
 }
 

@@ -4,15 +4,16 @@ use crate::complex::Corners;
 use crate::damage::{Damage, LoadError};
 use crate::delaunay::{Delaunay, Dimension, Rows};
 use crate::error::{Error, Result};
-use crate::ids::{CellId, Id, VertexId};
+use crate::ids::{CellId, Id, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::machine::threads::Threads;
 use crate::motion::options::Options;
 use crate::motion::reading::saving::Saved;
-use crate::motion::reading::saving::header::{Header, SIZE};
+use crate::motion::reading::saving::header::{Header, SIZE, SegmentCounts};
 use crate::motion::state::cells::Cells;
 use crate::motion::state::checking::check_position;
 use crate::motion::state::hidden::Hidden;
+use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::triangulation::{MAX_VERTICES, MovingTriangulation};
 use crate::predicates::is_in_range;
 
@@ -55,6 +56,65 @@ impl<'d> Reader<'d> {
             row
         }));
         Ok(rows)
+    }
+}
+
+impl Reader<'_> {
+    /// The segments, if there are any; ends of those that are staged may be staged, too.
+    fn segments<G: Dimension>(&mut self, header: &Header) -> Result<Option<Box<Segments<G>>>, LoadError> {
+        if header.segment_bytes == 0 {
+            return Ok(None);
+        }
+        if G::D != 2 {
+            return Err(Damage::Counts.into());
+        }
+        let numbers = self.entries::<8>(3);
+        let counts = [0, 1, 2].map(|k| u64::from_le_bytes(numbers[k]));
+        let SegmentCounts { ids, laid, removals } = SegmentCounts::of(counts, header.segment_bytes)?;
+        let mut all = Vec::new();
+        memory::reserve_exact(&mut all, ids)?;
+        for (id, row) in SegmentId::range(0..ids).zip(self.entries::<4>(3 * ids).chunks_exact(3)) {
+            let [v, w] = [row[0], row[1]].map(|bytes| VertexId::new(u32::from_le_bytes(bytes)));
+            let is_there = v != VertexId::NONE;
+            let is_good = if is_there { v.index().max(w.index()) < header.ids } else { w == VertexId::NONE };
+            if !is_good || (!is_there && id.index() >= laid) {
+                return Err(Damage::Segment { segment: id }.into());
+            }
+            all.push(is_there.then_some(Segment { ends: [v, w], marker: i32::from_le_bytes(row[2]) }));
+        }
+        let leaving = self.numbers::<SegmentId>(removals)?;
+        let mut sorted = memory::copy_of(&leaving)?;
+        sorted.sort_unstable();
+        let is_bad = |&&id: &&SegmentId| id.index() >= laid || all[id.index()].is_none();
+        let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| &pair[0]);
+        if let Some(&segment) = sorted.iter().find(is_bad).or(twice) {
+            return Err(Damage::Segment { segment }.into());
+        }
+        Ok(Some(memory::boxed(Segments::of_saved(all, laid, leaving))?))
+    }
+}
+
+/// The vertices that stand for the ends of the segments in force.
+fn ends_of<G: Dimension>(
+    segments: Option<&Segments<G>>,
+    representatives: &[VertexId],
+) -> Result<Vec<[VertexId; 2]>, LoadError> {
+    let mut ends = Vec::new();
+    for (id, segment) in segments.into_iter().flat_map(|segments| segments.laid()) {
+        let shown = segment.ends.map(|v| representatives[v]);
+        if shown.contains(&VertexId::NONE) || shown[0] == shown[1] {
+            return Err(Damage::Segment { segment: id }.into());
+        }
+        memory::push(&mut ends, shown)?;
+    }
+    Ok(ends)
+}
+
+/// Why segments cannot be those of the cells: the data are wrong, or there is no memory.
+fn of_segment(error: Error) -> LoadError {
+    match error {
+        Error::Conflict { conflict, .. } => Damage::Segment { segment: conflict.segment() }.into(),
+        error => error.into(),
     }
 }
 
@@ -131,7 +191,10 @@ impl<G: Dimension> MovingTriangulation<G> {
         let n_present = check_vertices::<G>(&positions, &representatives)?;
         let corners = reader.rows::<VertexId, G::Vertices>(header.cells)?;
         let neighbours = reader.rows::<CellId, G::Neighbours>(header.cells)?;
-        let rows = Rows { corners: &corners, neighbours: &neighbours };
+        let mut later = Reader(&reader.0[4 * (header.moves + header.insertions + header.removals)..]);
+        let segments = later.segments::<G>(header)?;
+        let ends = ends_of(segments.as_deref(), &representatives)?;
+        let rows = Rows { corners: &corners, neighbours: &neighbours, segments: &ends };
         let is_site = |v: VertexId| representatives[v] == v;
         let threads = Threads::at_most(options.threads);
         let mut unmonitored = |_| true;
@@ -153,6 +216,17 @@ impl<G: Dimension> MovingTriangulation<G> {
         t.mesh.sorted_stride = t.mesh.kernel.mean_stride();
         t.mesh.reject_coincidence(t.options.coincidence)?;
         t.mesh.views.show(cells)?;
+        if let Some(mut segments) = segments {
+            let joined = segments.join(&mut t.mesh.kernel, &t.mesh.site_of);
+            joined.map_err(of_segment)?;
+            for (segment, ends) in segments.laid().map(|(id, segment)| (id, segment.ends)) {
+                let sites = ends.map(|v| t.mesh.site_of[v]);
+                if t.mesh.kernel.has_cells() && !t.mesh.kernel.is_edge(sites)? {
+                    return Err(Damage::Segment { segment }.into());
+                }
+            }
+            t.mesh.segments = Some(segments);
+        }
         t.statistics = header.statistics;
         t.statistics.coincident = t.mesh.hidden.count() as u64;
         t.stage_saved(header, &mut reader, &moved, &coming)?;

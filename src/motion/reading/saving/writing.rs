@@ -2,12 +2,35 @@
 
 use crate::delaunay::Dimension;
 use crate::error::{Error, Result};
-use crate::ids::{CellId, VertexId};
+use crate::ids::{CellId, SegmentId, VertexId};
 use crate::machine::memory;
 use crate::motion::reading::chunks::Chunks;
-use crate::motion::reading::saving::header::Header;
+use crate::motion::reading::saving::header::{Header, SegmentCounts};
+use crate::motion::state::segments::{Segment, Segments};
 use crate::motion::state::views::CellsView;
 use crate::motion::triangulation::MovingTriangulation;
+
+/// How many segments there are to be saved.
+fn counts_of<G: Dimension>(segments: &Segments<G>) -> SegmentCounts {
+    SegmentCounts { ids: segments.n_ids(), laid: segments.n_laid(), removals: segments.n_leaving() }
+}
+
+/// Writes segments: how many there are, the ends and the marker of each, and which are to go.
+fn save_segments<G: Dimension, E>(
+    segments: &Segments<G>,
+    chunks: &mut Chunks<impl FnMut(&[u8]) -> Result<(), E>>,
+) -> Result<(), E> {
+    let SegmentCounts { ids, laid, removals } = counts_of(segments);
+    for count in [ids, laid, removals] {
+        chunks.numbers(&[count as u64 as u32, (count as u64 >> 32) as u32])?;
+    }
+    for segment in segments.all() {
+        let none = Segment { ends: [VertexId::NONE; 2], marker: 0 };
+        let Segment { ends, marker } = segment.unwrap_or(none);
+        chunks.numbers(&[ends[0].get(), ends[1].get(), marker as u32])?;
+    }
+    chunks.numbers(SegmentId::numbers_of(segments.leaving()))
+}
 
 impl<G: Dimension> MovingTriangulation<G> {
     fn header(&self) -> Header {
@@ -19,6 +42,7 @@ impl<G: Dimension> MovingTriangulation<G> {
             moves: self.staged_count(),
             insertions,
             removals,
+            segment_bytes: self.mesh.segments.as_ref().map_or(0, |segments| counts_of(segments).bytes()),
             statistics: self.statistics(),
         }
     }
@@ -80,7 +104,8 @@ impl<G: Dimension> MovingTriangulation<G> {
         cells.neighbours.iter().try_for_each(|row| chunks.numbers(CellId::numbers_of(row.as_ref())))?;
         self.staged_vertices().try_for_each(|v| chunks.numbers(&[v.get()]))?;
         insertions.iter().try_for_each(|(id, _)| chunks.numbers(&[id.get()]))?;
-        chunks.numbers(VertexId::numbers_of(self.edits.removals()))
+        chunks.numbers(VertexId::numbers_of(self.edits.removals()))?;
+        self.mesh.segments.as_ref().map_or(Ok(()), |segments| save_segments(segments, chunks))
     }
 
     /// The vertices of which moves are staged, in the order of the calls.
