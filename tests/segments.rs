@@ -4,7 +4,7 @@
 use crate::common::exact::{Grid, is_inside, orientation, squared_distance};
 use crate::common::inputs::{KINDS, Kind, QUANTUM, draw, draw_one, to_grid};
 use crate::common::{Rng, assert_same_cells, cell_set, check_adjacency, seeds, sorted};
-use deldrift::motion::{Algorithm, Location, MovingTriangulation, NO_CELL, Options, Segment};
+use deldrift::motion::{Algorithm, Location, MovingTriangulation, NO_CELL, Options, Saved, Segment};
 use deldrift::{CellId, Conflict, Error, Plane, SegmentId, VertexId};
 use std::collections::BTreeSet;
 
@@ -146,6 +146,20 @@ fn check_others(t: &Triangulation, context: &dyn Fn() -> String) {
     }
     copy.commit_timestamp().expect("no conflict");
     assert_same_cells(&cell_set(&copy), &renamed, context);
+    let bytes = t.saved().expect("room");
+    let saved = Saved::of(&bytes).unwrap_or_else(|damage| panic!("{}: {damage}", context()));
+    let loaded = Triangulation::load(&saved, Options::default());
+    let mut loaded = loaded.unwrap_or_else(|error| panic!("{}: {error}", context()));
+    assert_eq!(loaded.saved().expect("room"), bytes, "{}", context());
+    assert_eq!(loaded.is_constrained(), t.is_constrained(), "{}", context());
+    for v in VertexId::range(0..loaded.id_count()) {
+        if loaded.is_present(v) {
+            let p = loaded.position(v).expect("present");
+            loaded.move_vertices(&[v], &[p]).expect("a good place");
+        }
+    }
+    loaded.commit_timestamp().expect("no conflict");
+    assert_same_cells(&cell_set(&loaded), &cell_set(t), context);
     let points: Vec<_> =
         VertexId::range(0..copy.id_count()).map(|v| copy.position(v).expect("present")).collect();
     let plain = Triangulation::new(&points, Options::default()).expect("good points");
