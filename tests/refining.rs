@@ -249,3 +249,288 @@ fn domains_get_what_is_asked_for() {
         }
     }
 }
+
+/// A random domain: a polygon around the origin, loops within, chains in between; angles of any size.
+fn random_domain(rng: &mut Rng) -> (Domain, usize) {
+    let n = 3 + rng.below(12);
+    let mut angles: Vec<f64> = (0..n).map(|k| (k as f64 + 0.9 * rng.unit()) / n as f64 * std::f64::consts::TAU).collect();
+    angles.sort_by(f64::total_cmp);
+    let ring: Vec<[f64; 2]> = angles
+        .iter()
+        .map(|angle| {
+            let radius = 1.0 + rng.unit();
+            [radius * angle.cos(), radius * angle.sin()]
+        })
+        .collect();
+    let mut domain = Domain::default().with_ring(&ring);
+    if rng.one_in(2) {
+        let n = 3 + rng.below(6);
+        domain = domain.with_ring(&circle([0.1 * rng.unit(), 0.1 * rng.unit()], 0.05 + 0.1 * rng.unit(), n));
+    }
+    let n_loops = domain.edges.len();
+    // Spokes from a corner towards the middle, which make small angles with its edges.
+    for _ in 0..rng.below(3) {
+        let corner = rng.below(n);
+        let [x, y] = domain.points[corner];
+        let share = 0.9 + 0.05 * rng.unit();
+        domain.points.push([x * share, y * share]);
+        domain.edges.push([corner, domain.points.len() - 1]);
+    }
+    (domain, n_loops)
+}
+
+/// Random domains, qualities and options; each is checked, is refined again without effect, and by the same calls gets the
+/// same cells.
+#[test]
+fn random_domains_are_refined() {
+    let mut counts = [0; 4];
+    for seed in seeds(150) {
+        let rng = &mut Rng::new(seed);
+        let (domain, n_loops) = random_domain(rng);
+        let context = || format!("seed {seed}, {domain:?}");
+        let mut t = Triangulation::new(&domain.points, Options::default()).expect("good points");
+        let segment = |k: usize| Segment { ends: domain.edges[k].map(VertexId::at), marker: k as i32 };
+        t.stage_segments((0..domain.edges.len()).map(segment)).expect("present");
+        if t.commit_timestamp().is_err() {
+            continue;
+        }
+        let is_loop = |marker: i32| (marker as usize) < n_loops;
+        let selected = mask(&t, is_loop);
+        let quality = Quality {
+            least_angle: *rng.pick(&[0.0, 20.0, 25.0, 30.0]),
+            greatest_area: *rng.pick(&[0.0, 0.1, 0.01]),
+            ..Quality::default()
+        };
+        let keeps = *rng.pick(&[Kept::None, Kept::None, Kept::Outer, Kept::All]);
+        let options = RefineOptions { keeps, limit: if rng.one_in(4) { rng.below(60) } else { 100_000 } };
+        let before: BTreeSet<Vec<VertexId>> = cells_of(&t, &selected, 0);
+        let ends: BTreeSet<SegmentId> = t.segments().map(|(id, _)| id).collect();
+        let mut twin = t.try_clone(None).expect("room");
+        let report = refine(&mut t, &quality, &options, &selected);
+        assert_eq!(refine(&mut twin, &quality, &options, &selected), report, "{}", context());
+        assert_eq!(cell_set(&twin), cell_set(&t), "{}", context());
+        check_fresh(&t, &context);
+        check_chains(&t, &domain, &context);
+        assert!(report.inserted <= options.limit, "{}", context());
+        let after = mask(&t, is_loop);
+        assert_eq!(bad_cells(&t, &after, &quality).len() > report.bad_cells, false, "{}", context());
+        if keeps == Kept::All {
+            assert_eq!(ends, t.segments().map(|(id, _)| id).collect(), "{}", context());
+            assert_eq!(before, cells_of(&t, &after, 0), "{}: cells that are not selected", context());
+        }
+        if keeps == Kept::Outer {
+            let of_loops = |id: &SegmentId| id.index() < n_loops;
+            let kept = t.segments().map(|(id, _)| id).filter(of_loops).count();
+            assert_eq!(kept, n_loops, "{}", context());
+            assert_eq!(before, cells_of(&t, &after, 0), "{}: cells that are not selected", context());
+        }
+        if !report.is_cut_short {
+            let again = refine(&mut t, &quality, &options, &after);
+            if keeps == Kept::None && report.bad_cells == 0 {
+                assert_eq!(again.inserted, 0, "{}", context());
+            }
+            counts[0] += 1;
+        } else {
+            assert_eq!(report.inserted, options.limit, "{}", context());
+            counts[1] += 1;
+        }
+        counts[2] += usize::from(report.bad_cells > 0);
+        counts[3] += report.inserted;
+        if rng.one_in(4) {
+            println!("seed {seed}: {quality:?}, {keeps:?}, {report:?}");
+        }
+    }
+    println!("{counts:?} finished, cut short, with bad cells; inserted");
+    assert!(counts[0] > 60 && counts[1] > 5 && counts[3] > 5_000, "{counts:?}");
+}
+
+/// The cells of a mask with this number.
+fn cells_of(t: &Triangulation, mask: &[u8], number: u8) -> BTreeSet<Vec<VertexId>> {
+    let rows = t.cells().expect("room").corners.iter().zip(mask).filter(|&(_, &m)| m == number);
+    rows.map(|(row, _)| crate::common::sorted(row)).collect()
+}
+
+/// Areas by label, lengths by vertex, and what a callback says.
+#[test]
+fn sizes_are_those_asked_for() {
+    let middle = [[0.5, 0.0], [0.5, 1.0]];
+    let mut domain = Domain::default().with_ring(&[
+        [0.0, 0.0],
+        middle[0],
+        [1.0, 0.0],
+        [1.0, 1.0],
+        middle[1],
+        [0.0, 1.0],
+    ]);
+    domain.edges.push([1, 4]);
+    let context = || "two halves".to_owned();
+    let is_left = |points: [[f64; 2]; 3]| points.iter().map(|p| p[0]).sum::<f64>() < 1.5;
+    let places = |t: &Triangulation| -> Vec<[[f64; 2]; 3]> {
+        let rows = t.cells().expect("room").corners.iter();
+        rows.map(|row| row.map(|v| t.position(v).expect("present"))).collect()
+    };
+    let mut t = domain.build();
+    let labels: Vec<u32> = places(&t).into_iter().map(|points| u32::from(is_left(points))).collect();
+    let areas = [0.1, 0.001];
+    let quality = Quality { least_angle: 25.0, labels: Some(&labels), areas: &areas, ..Quality::default() };
+    let all = vec![1; t.cell_count()];
+    refine(&mut t, &quality, &RefineOptions::default(), &all);
+    check_fresh(&t, &context);
+    check_chains(&t, &domain, &context);
+    let mut n = [0; 2];
+    for points in places(&t) {
+        let label = usize::from(is_left(points));
+        assert!(!has_large_area(points.each_ref(), areas[label]), "{points:?}");
+        n[label] += 1;
+    }
+    assert!(n[1] > 500 && n[0] < n[1] / 2, "{n:?}");
+
+    // One label and no other cell.
+    let mut t = domain.build();
+    let left: Vec<u8> = places(&t).into_iter().map(|points| u8::from(is_left(points))).collect();
+    let quality = Quality { least_angle: 25.0, greatest_area: 0.001, ..Quality::default() };
+    refine(&mut t, &quality, &RefineOptions::default(), &left);
+    let right = places(&t).into_iter().filter(|&points| !is_left(points)).count();
+    check_fresh(&t, &context);
+    assert!(t.cell_count() > 500 && right < 60, "{right} of {}", t.cell_count());
+
+    // Lengths at vertices.
+    let mut t = domain.build();
+    let sizes: Vec<f64> = domain.points.iter().map(|p| 0.02 + 0.1 * p[0]).collect();
+    let quality = Quality { least_angle: 28.0, sizes: Some(&sizes), ..Quality::default() };
+    let all = vec![1; t.cell_count()];
+    let report = refine(&mut t, &quality, &RefineOptions::default(), &all);
+    assert_eq!(report.bad_cells, 0);
+    check_fresh(&t, &context);
+    for points in places(&t) {
+        let longest = (0..3).map(|i| {
+            let (p, q) = (points[i], points[(i + 1) % 3]);
+            ((p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2)).sqrt()
+        });
+        // The sizes given are linear, and so are those between.
+        let mean = points.iter().map(|p| 0.02 + 0.1 * p[0]).sum::<f64>() / 3.0;
+        let longest = longest.fold(0.0, f64::max);
+        assert!(longest <= mean * (1.0 + 1e-9), "{points:?}: {longest}, {mean}");
+    }
+
+    // A callback.
+    let mut t = domain.build();
+    let is_too_large = |points: [[f64; 2]; 3]| {
+        let x = points.iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
+        let width = points.iter().map(|p| p[0]).fold(f64::NEG_INFINITY, f64::max) - x;
+        width > 0.05 + 0.2 * x
+    };
+    let quality = Quality { least_angle: 28.0, is_too_large: Some(&is_too_large), ..Quality::default() };
+    let all = vec![1; t.cell_count()];
+    refine(&mut t, &quality, &RefineOptions::default(), &all);
+    check_fresh(&t, &context);
+    assert!(t.cell_count() > 50 && places(&t).into_iter().all(|points| !is_too_large(points)));
+}
+
+/// Segments that have hardly any numbers between their ends are not split where nothing fits, and a mask that does not end
+/// at segments, bad numbers and staged edits are refused without effect.
+#[test]
+fn what_cannot_be_is_told() {
+    let (_, domain) = domains().swap_remove(1);
+    let mut t = domain.build();
+    let before = (cell_set(&t), t.timestamp());
+    let selected = mask(&t, |_| true);
+    let all = vec![1; t.cell_count()];
+    let good = Quality { least_angle: 25.0, greatest_area: 0.01, ..Quality::default() };
+    let refused = |t: &mut Triangulation, quality: &Quality, mask: &[u8]| {
+        let error = t.refine(quality, &RefineOptions::default(), mask).expect_err("it is refused");
+        assert_eq!(t.coarsen(quality, &CoarsenOptions::default(), mask).is_err(), !matches!(error, Error::InvalidValue { argument: "mask", .. }));
+        error.to_string()
+    };
+    for least_angle in [f64::NAN, -1.0, 34.5, 90.0] {
+        let error = refused(&mut t, &Quality { least_angle, ..good }, &selected);
+        assert!(error.contains("least_angle[0] is"), "{error}");
+    }
+    for greatest_area in [f64::NAN, -1.0] {
+        let error = refused(&mut t, &Quality { greatest_area, ..good }, &selected);
+        assert!(error.contains("greatest_area[0] is"), "{error}");
+    }
+    let error = refused(&mut t, &Quality { areas: &[1.0, -2.0], ..good }, &selected);
+    assert!(error.contains("areas[1] is -2"), "{error}");
+    let mut sizes = vec![0.1; t.id_count()];
+    sizes[3] = 0.0;
+    let error = refused(&mut t, &Quality { sizes: Some(&sizes), ..good }, &selected);
+    assert!(error.contains("sizes[3] is 0"), "{error}");
+    let error = refused(&mut t, &Quality { sizes: Some(&sizes[1..]), ..good }, &selected);
+    assert!(error.contains("sizes is 7, but must be 8"), "{error}");
+    let error = refused(&mut t, &good, &selected[1..]);
+    assert!(error.contains("mask is"), "{error}");
+    // One cell of the domain alone ends at an edge that is no segment.
+    let mut one = vec![0; all.len()];
+    one[selected.iter().position(|&m| m == 1).expect("a cell")] = 1;
+    let error = refused(&mut t, &good, &one);
+    assert!(error.contains("mask[") && error.contains("no segment"), "{error}");
+    t.stage_removals(&[VertexId::new(0)]).expect("present");
+    let error = refused(&mut t, &good, &selected);
+    assert!(error.contains("1 insertions and removals"), "{error}");
+    t.discard_moves();
+    assert_eq!((cell_set(&t), t.timestamp()), before);
+    refine(&mut t, &good, &RefineOptions::default(), &selected);
+
+    // A square of four last bits.
+    let ulp = f64::EPSILON;
+    let small = Domain::default().with_ring(&rectangle([1.0, 1.0], [1.0 + 4.0 * ulp, 1.0 + 4.0 * ulp]));
+    let mut t = small.build();
+    let quality = Quality { greatest_area: 0.1 * ulp * ulp, ..Quality::default() };
+    let report = refine(&mut t, &quality, &RefineOptions::default(), &[1, 1]);
+    check_fresh(&t, &|| "four bits".to_owned());
+    assert!(report.bad_cells > 0 && report.inserted <= 21, "{report:?}");
+}
+
+/// A rectangle with a hole is stretched and squeezed: vertices come and go, and their number stays near that of a mesh made
+/// anew.
+#[test]
+fn a_domain_that_is_squeezed_keeps_its_number_of_vertices() {
+    for joins in [Some(1e-9), None] {
+        let domain = Domain::default()
+            .with_ring(&rectangle([-1.0, -0.5], [1.0, 0.5]))
+            .with_ring(&circle([0.0; 2], 0.2, 12));
+        let quality = Quality { least_angle: 25.0, greatest_area: 0.01, ..Quality::default() };
+        let coarsening = CoarsenOptions { joins, ..CoarsenOptions::default() };
+        let mut t = domain.build();
+        let (mut worst, mut n_removed, mut n_inserted) = (0.0, 0, 0);
+        let width = |step: usize| 2f64.powf((step as f64 * 0.05).sin());
+        for step in 0..2_000 {
+            let context = || format!("step {step}, joins {joins:?}");
+            let factor = width(step + 1) / width(step);
+            let ids: Vec<_> = VertexId::range(0..t.id_count()).filter(|&v| t.is_present(v)).collect();
+            let goals: Vec<_> = ids
+                .iter()
+                .map(|&v| {
+                    let p = t.position(v).expect("present");
+                    [p[0] * factor, p[1]]
+                })
+                .collect();
+            t.move_vertices(&ids, &goals).expect("good places");
+            t.commit_timestamp().expect("no conflict");
+            let selected = mask(&t, |_| true);
+            n_removed += t.coarsen(&quality, &coarsening, &selected).expect("a domain").removed;
+            let selected = mask(&t, |_| true);
+            let report = refine(&mut t, &quality, &RefineOptions::default(), &selected);
+            n_inserted += report.inserted;
+            assert_eq!(report.bad_cells, 0, "{}", context());
+            if step % 100 == 99 {
+                check_fresh(&t, &context);
+                let selected = mask(&t, |_| true);
+                assert_eq!(bad_cells(&t, &selected, &quality), Vec::<[VertexId; 3]>::new(), "{}", context());
+                let mut anew = domain.clone();
+                anew.points.iter_mut().enumerate().for_each(|(v, p)| *p = t.position(VertexId::at(v)).expect("present"));
+                let mut anew = anew.build();
+                let selected = mask(&anew, |_| true);
+                refine(&mut anew, &quality, &RefineOptions::default(), &selected);
+                let share = t.vertex_count() as f64 / anew.vertex_count() as f64;
+                println!("{}: {} vertices, anew {}", context(), t.vertex_count(), anew.vertex_count());
+                worst = f64::max(worst, share);
+                let ids = t.compact().expect("room");
+                assert!(ids.len() < 100_000);
+            }
+        }
+        println!("joins {joins:?}: {n_inserted} inserted, {n_removed} removed, {worst} x anew");
+        assert!(n_removed > 500 && worst < 1.3, "{n_removed} {worst}");
+    }
+}
