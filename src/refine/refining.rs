@@ -212,11 +212,7 @@ impl Refinement<'_> {
         if one == NONE || other == NONE || one == other {
             return false;
         }
-        let originals = [one, other].map(|original| self.origins.ends[original as usize]);
-        let Some(apex) = originals[0].into_iter().find(|v| originals[1].contains(v)) else { return false };
-        if self.mesh.at.get(apex.index()).is_none_or(|&t| t == NONE) {
-            return false;
-        }
+        let Some(apex) = self.common_end(one, other) else { return false };
         let [d, e] = ends.map(|v| {
             let u = minus::<f64, 2>(self.mesh.point(v), self.mesh.point(apex));
             dot(&u, &u)
@@ -319,24 +315,23 @@ impl Refinement<'_> {
         Ok(())
     }
 
-    /// Splits a piece: in the middle, or, at a small angle with another segment, at a power of two from its apex, so that
+    /// Splits a piece: in the middle, or, at a small angle with another segment, at a round distance from its apex, so that
     /// what is on both is on common shells.
     fn split(&mut self, piece: u32) -> Result<()> {
         if !self.may_split(piece) {
             return Ok(());
         }
-        let [a, b] = self.mesh.pieces[piece as usize].ends;
-        let are_sharp = [0, 1].map(|end| self.is_sharp(piece, end));
-        if are_sharp == [false; 2] {
-            self.clear_circle(piece)?;
-        }
-        let [p, q] = [a, b].map(|v| *self.mesh.point(v));
-        let share = if are_sharp == [false; 2] {
-            0.5
-        } else {
-            let length = distance(&p, &q);
-            let share = power_of_two_below(length / 1.5) / length;
-            if are_sharp[1] { 1.0 - share } else { share }
+        let ends = self.mesh.pieces[piece as usize].ends;
+        let [p, q] = ends.map(|v| *self.mesh.point(v));
+        let share = match self.apex_of_shells(piece) {
+            None => {
+                self.clear_circle(piece)?;
+                0.5
+            }
+            Some(apex) => {
+                let [d, e] = [p, q].map(|p| distance(self.mesh.point(apex), &p));
+                (round_between(d.min(e), d.max(e)) - d) / (e - d)
+            }
         };
         let middle = [0, 1].map(|axis| {
             let x = p[axis] + share * (q[axis] - p[axis]);
@@ -351,6 +346,38 @@ impl Refinement<'_> {
         self.add(middle, NONE, Some(piece))
     }
 
+    /// Where a piece makes a small angle with another segment: at one of its ends, with a triangle in between, or further
+    /// along the segments, where a vertex of the other one encroaches it.
+    fn apex_of_shells(&self, piece: u32) -> Option<VertexId> {
+        let Piece { ends, segment, .. } = self.mesh.pieces[piece as usize];
+        if let Some(end) = [1, 0].into_iter().find(|&end| self.is_sharp(piece, end)) {
+            return Some(ends[end]);
+        }
+        let own = self.origins.of_segments[segment as usize];
+        let of_other = self.selected_sides(piece).filter(|&side| self.is_in_lens(side)).map(|side| self.mesh.apex(side));
+        of_other.filter(|&v| self.on[v] != NONE && self.on[v] != own).find_map(|v| {
+            let apex = self.common_end(own, self.on[v])?;
+            let [d, e] = ends.map(|v| distance(self.mesh.point(apex), self.mesh.point(v)));
+            // One of pieces that have moved may go around its apex.
+            let is_outward = (d - e).abs() > 0.5 * distance(self.mesh.point(ends[0]), self.mesh.point(ends[1]));
+            (is_outward && self.is_acute(apex, [ends[1], v])).then_some(apex)
+        })
+    }
+
+    /// The vertex at which two originals meet.
+    fn common_end(&self, one: u32, other: u32) -> Option<VertexId> {
+        let [one, other] = [one, other].map(|original| self.origins.ends[original as usize]);
+        let is_there = |v: &VertexId| self.mesh.at.get(v.index()).is_some_and(|&t| t != NONE);
+        one.into_iter().find(|v| other.contains(v)).filter(is_there)
+    }
+
+    /// Whether two vertices are seen from a third one under less than 60 degrees.
+    fn is_acute(&self, apex: VertexId, others: [VertexId; 2]) -> bool {
+        let [u, v] = others.map(|v| minus::<f64, 2>(self.mesh.point(v), self.mesh.point(apex)));
+        let cosine = dot(&u, &v);
+        cosine > 0.0 && cosine * cosine > SHARP * (dot(&u, &u) * dot(&v, &v))
+    }
+
     /// Whether a piece makes a small angle at one of its ends with another one, with a triangle in between.
     fn is_sharp(&self, piece: u32, end: usize) -> bool {
         let Piece { ends, .. } = self.mesh.pieces[piece as usize];
@@ -361,10 +388,7 @@ impl Refinement<'_> {
             if triangle.pieces[other] == NONE {
                 return false;
             }
-            let [o, p, q] = [ends[end], ends[1 - end], triangle.corners[side.index()]].map(|v| self.mesh.point(v));
-            let (u, v) = (minus::<f64, 2>(p, o), minus::<f64, 2>(q, o));
-            let cosine = dot(&u, &v);
-            cosine > 0.0 && cosine * cosine > SHARP * (dot(&u, &u) * dot(&v, &v))
+            self.is_acute(ends[end], [ends[1 - end], triangle.corners[side.index()]])
         })
     }
 
@@ -438,6 +462,23 @@ impl Refinement<'_> {
 fn distance(p: &[f64; 2], q: &[f64; 2]) -> f64 {
     let u = minus::<f64, 2>(p, q);
     dot(&u, &u).sqrt()
+}
+
+/// The number between two others, away from both by a quarter of their difference, that is a multiple of the greatest
+/// power of two.
+fn round_between(low: f64, high: f64) -> f64 {
+    let quarter = 0.25 * (high - low);
+    let (low, high) = (low + quarter, high - quarter);
+    let mut step = power_of_two_below(high);
+    // Halves of steps soon fit, unless there is no number between.
+    for _ in 0..128 {
+        let round = (low / step).ceil() * step;
+        if round <= high {
+            return round;
+        }
+        step *= 0.5;
+    }
+    0.5 * (low + high)
 }
 
 /// The greatest power of two that is not above `x`, which is a normal number.
