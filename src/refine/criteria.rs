@@ -44,6 +44,8 @@ pub(crate) struct Tests<'a> {
     criteria: Criteria<'a>,
     /// Squared cosine of the least angle, or a bit less.
     pub(super) squared_cosine: f64,
+    /// Tangent of the least angle.
+    tangent: f64,
     /// Squared cosine of twice the least angle.
     lens: f64,
     /// Distance of an off-centre from its edge, by the edge's length.
@@ -70,6 +72,7 @@ impl<'a> Tests<'a> {
         Tests {
             criteria,
             squared_cosine: if angle > 0.0 { cosine * cosine - ROUNDING } else { 2.0 },
+            tangent: angle.tan(),
             lens: (2.0 * cosine * cosine - 1.0).powi(2),
             off: OFF_CENTRE * ((1.0 + cosine) / (1.0 - cosine)).sqrt(),
             scale: if extent > 0.0 { power_of_two_below(1.0 / extent) } else { 1.0 },
@@ -123,8 +126,8 @@ impl<'a> Tests<'a> {
         size: impl Fn(usize) -> f64,
         share: f64,
     ) -> bool {
-        let Criteria { greatest_area, areas, sizes, is_too_large, .. } = &self.criteria;
-        let bound = greatest_area.min(areas.get(label as usize).copied().unwrap_or(f64::INFINITY));
+        let Criteria { sizes, is_too_large, .. } = &self.criteria;
+        let bound = self.greatest_area(label);
         if bound < f64::INFINITY {
             let [u, v, _] = edges;
             let (one, other) = (u[0] * v[1], u[1] * v[0]);
@@ -155,6 +158,25 @@ impl<'a> Tests<'a> {
         let [u, v] = ends.map(|end| minus::<f64, 2>(end, p).map(|x| x * self.scale));
         let cosine = dot(&u, &v);
         cosine < 0.0 && cosine * cosine > self.lens * (dot(&u, &u) * dot(&v, &v))
+    }
+
+    /// Whether a piece is so long that each triangle at it with the least angle is too large, even one with that angle at
+    /// both ends: L² tan(angle) / 4. Such pieces are split before anything else is looked at, as triangles beside them
+    /// would be made in vain.
+    #[inline(always)]
+    pub(super) fn is_too_long(&self, ends: [&[f64; 2]; 2], label: u32) -> bool {
+        let bound = self.greatest_area(label);
+        if self.tangent == 0.0 || bound == f64::INFINITY {
+            return false;
+        }
+        let u = minus::<f64, 2>(ends[0], ends[1]);
+        0.25 * self.tangent * dot(&u, &u) > bound
+    }
+
+    #[inline(always)]
+    fn greatest_area(&self, label: u32) -> f64 {
+        let Criteria { greatest_area, areas, .. } = &self.criteria;
+        greatest_area.min(areas.get(label as usize).copied().unwrap_or(f64::INFINITY))
     }
 
     /// Whether there is no criterion.

@@ -151,8 +151,12 @@ impl Refinement<'_> {
         }
         for i in 0..3 {
             let piece = triangle.pieces[i];
-            if piece != NONE && self.is_in_lens(Side::new(t, i)) && self.may_split(piece) {
-                self.enter(piece, false)?;
+            if piece == NONE {
+                continue;
+            }
+            let is_too_long = self.tests.is_too_long(triangle.ends(i).map(|v| self.mesh.point(v)), triangle.label);
+            if (is_too_long || self.is_in_lens(Side::new(t, i))) && self.may_split(piece) {
+                self.enter(piece, is_too_long)?;
             }
         }
         let measured = self.measure(t);
